@@ -1,0 +1,159 @@
+"""What every peer script shares: its command line, its stopwatch and its JSON.
+
+A peer script is run by the interpreter of its own environment, never imported by the benchmark:
+`python genjax_tutorial.py --case raster --repeats 5 --json`. It offers *cases*; a case is a function
+that prepares a sampler and returns a `Ready`: something that can be advanced by a few sweeps and that
+waits until the result is there. Everything before the first advance (tracing, compilation) is timed
+apart, so that the seconds per sweep are those of a running chain.
+
+Standard library and NumPy only: this file runs in every peer's environment.
+"""
+
+import argparse
+import contextlib
+import json
+import os
+import platform
+import statistics
+import sys
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+SCHEMA_VERSION = 1
+TUTORIAL_DATA = Path(__file__).with_name("tutorial.npz")
+"""The true map and the readings of the tutorial (key 0), as GenJAX 0.10.3 draws them."""
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A sampler that has been set up for timing.
+
+    Attributes:
+        advance: runs `sweeps` sweeps from the state it last reached; returns when they are done.
+        sweeps: sweeps (or, for importance sampling, runs) in one call of `advance`.
+        walls_in_last_state: how many walls the state has now, to see that the chain does something.
+    """
+
+    advance: Callable[[], None]
+    sweeps: int
+    walls_in_last_state: Callable[[], int]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One thing that a peer can be timed on: how to set it up, for which prior, and what one unit is."""
+
+    prepare: Callable[[float], Ready]
+    prior: float
+    what: str
+
+
+def load_tutorial_data() -> tuple[np.ndarray, np.ndarray]:
+    """The true walls, (21, 21) bool, and the noisy readings in metres, (100,) float32."""
+    with np.load(TUTORIAL_DATA) as data:
+        return data["walls"], data["readings_m"]
+
+
+def available_cores() -> int:
+    """Cores that this process may run on (a scheduler mask counts, where the system has one)."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def time_case(peer: str, name: str, case: Case, prior: float, repeats: int) -> dict[str, object]:
+    """Set the case up, run it once to compile and warm up, then time `repeats` calls."""
+    before = time.perf_counter()
+    ready = case.prepare(prior)
+    ready.advance()
+    set_up = time.perf_counter() - before
+    seconds, cpu_per_wall = [], []
+    for _ in range(repeats):
+        wall, cpu = time.perf_counter(), time.process_time()
+        ready.advance()
+        wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+        seconds.append(wall / ready.sweeps)
+        cpu_per_wall.append(cpu / wall)
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "peer": peer,
+        "case": name,
+        "what": case.what,
+        "prior": prior,
+        "sweeps_per_repeat": ready.sweeps,
+        "seconds_per_sweep": seconds,
+        "median_seconds": statistics.median(seconds),
+        "set_up_seconds": set_up,
+        "cores": available_cores(),
+        "cpu_per_wall": statistics.median(cpu_per_wall),
+        "walls_in_last_state": ready.walls_in_last_state(),
+    }
+
+
+def main(
+    peer: str,
+    description: str,
+    cases: Mapping[str, Case],
+    packages: tuple[str, ...],
+    log_joint_of_truth: Callable[[float], float],
+    check: Callable[[], Mapping[str, object]],
+    dump_data: Callable[[Path], None] | None = None,
+) -> None:
+    """The command line of a peer script: exactly one JSON document, or a few lines of text, on stdout.
+
+    Args:
+        peer: the name under which the results are reported.
+        description: the first line of the help.
+        cases: what can be timed.
+        packages: distributions whose versions belong in the report.
+        log_joint_of_truth: log p(true walls, readings) for a prior: equal in all systems that run the
+            same problem, so the benchmark can refuse a comparison of two different ones.
+        check: compares the script's answers with known ones; returns them, with a boolean under "passed".
+        dump_data: writes the tutorial's walls and readings, for the one peer that defines them.
+    """
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--case", choices=sorted(cases))
+    parser.add_argument("--repeats", type=int, default=5, help="timed calls after the warm-up (default 5)")
+    parser.add_argument("--prior", type=float, help="prior wall probability (default: the case's own)")
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_argument("--check", action="store_true", help="compare with known answers instead of timing")
+    if dump_data is not None:
+        parser.add_argument("--dump-data", type=Path, metavar="NPZ", help="write the true map and readings")
+    options = parser.parse_args()
+    if options.repeats < 1:
+        parser.error(f"--repeats is {options.repeats}; it must be at least 1")
+    if options.prior is not None and not 0.0 < options.prior < 1.0:
+        parser.error(f"--prior is {options.prior}; it must lie between 0 and 1, both excluded")
+
+    if dump_data is not None and options.dump_data is not None:
+        dump_data(options.dump_data)
+        print(f"wrote {options.dump_data}", file=sys.stderr)
+        if options.case is None and not options.check:
+            return
+    # Libraries may print; standard output is for the document alone.
+    with contextlib.redirect_stdout(sys.stderr):
+        if options.check:
+            report = {"peer": peer, **check()}
+        elif options.case is not None:
+            case = cases[options.case]
+            prior = case.prior if options.prior is None else options.prior
+            report = time_case(peer, options.case, case, prior, options.repeats)
+            report["log_joint_of_truth"] = log_joint_of_truth(prior)
+        else:
+            parser.error("give --case, --check" + (" or --dump-data" if dump_data else ""))
+    report["versions"] = {
+        "python": platform.python_version(),
+        **{package: version(package) for package in packages},
+    }
+    if options.json:
+        print(json.dumps(report, indent=2))
+    else:
+        for key, value in report.items():
+            print(f"{key}: {value}")
+    if options.check and not report["passed"]:
+        sys.exit(1)

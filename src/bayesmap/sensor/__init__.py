@@ -1,0 +1,1 @@
+"""Sensor models, and the beam table that they fill."""

@@ -1,0 +1,178 @@
+"""Range scans: poses, beam angles, and readings of four kinds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+
+
+class Reading(IntEnum):
+    """What a beam reported (REP-117)."""
+
+    HIT = 0
+    """A finite range: something was hit there."""
+    NO_RETURN = 1
+    """+inf: nothing came back within the sensor's range. An observation, with its own likelihood."""
+    TOO_CLOSE = 2
+    """-inf: something nearer than the sensor can measure."""
+    INVALID = 3
+    """NaN: an erroneous reading; it says nothing about the map."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scans:
+    """Range scans of one sensor, taken from known poses.
+
+    Attributes:
+        poses: sensor poses in the world frame, shape (S, 3): x in metres, y in metres, yaw in radians,
+            counter-clockwise from +x. A single pose of shape (3,) is taken as one scan.
+        angles_rad: beam angles in the sensor frame, shape (A,).
+        ranges_m: readings, shape (S, A) (or (A,) for one scan), coded as in REP-117: +inf is no return,
+            -inf too close, NaN invalid; every finite number is a hit. Additive noise may carry a short
+            reading below zero, so negative numbers are not refused here: the log readers do that.
+        max_range_m: the sensor's largest range.
+        min_range_m: the sensor's smallest range.
+        stamps_s: time of each scan in seconds, shape (S,), or None.
+
+    Raises:
+        BadInput: shapes that do not fit together, poses or angles that are not finite, or a range limit that
+            is not positive. The message names the array, the scan and the beam.
+    """
+
+    poses: NDArray[np.float64]
+    angles_rad: NDArray[np.float64]
+    ranges_m: NDArray[np.float64]
+    max_range_m: float
+    min_range_m: float = 0.0
+    stamps_s: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        poses = as_poses(self.poses)
+        angles = as_angles(self.angles_rad)
+        ranges = np.atleast_2d(_as_floats(self.ranges_m, "ranges_m"))
+        if ranges.shape != (len(poses), len(angles)):
+            raise BadInput(
+                f"scans: ranges_m has shape {ranges.shape}, but {len(poses)} poses and {len(angles)} angles "
+                f"need ({len(poses)}, {len(angles)})"
+            )
+        if not (math.isfinite(self.max_range_m) and self.max_range_m > 0):
+            raise BadInput(
+                f"scans: max_range_m must be a positive number of metres, got {self.max_range_m!r}"
+            )
+        if not (math.isfinite(self.min_range_m) and 0 <= self.min_range_m < self.max_range_m):
+            raise BadInput(
+                f"scans: min_range_m must lie in [0, max_range_m = {self.max_range_m:g}), got {self.min_range_m!r}"
+            )
+        object.__setattr__(self, "poses", poses)
+        object.__setattr__(self, "angles_rad", angles)
+        object.__setattr__(self, "ranges_m", ranges)
+        object.__setattr__(self, "max_range_m", float(self.max_range_m))
+        object.__setattr__(self, "min_range_m", float(self.min_range_m))
+        if self.stamps_s is not None:
+            stamps = _as_floats(self.stamps_s, "stamps_s")
+            if stamps.shape != (len(poses),):
+                raise BadInput(f"scans: stamps_s has shape {stamps.shape}, expected ({len(poses)},)")
+            object.__setattr__(self, "stamps_s", stamps)
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    @property
+    def n_beams(self) -> int:
+        """Number of beams, over all scans."""
+        return int(self.ranges_m.size)
+
+    @property
+    def readings(self) -> NDArray[np.uint8]:
+        """The kind of every reading, as `Reading`, shape (S, A)."""
+        kinds = np.full(self.ranges_m.shape, Reading.HIT, dtype=np.uint8)
+        kinds[np.isposinf(self.ranges_m)] = Reading.NO_RETURN
+        kinds[np.isneginf(self.ranges_m)] = Reading.TOO_CLOSE
+        kinds[np.isnan(self.ranges_m)] = Reading.INVALID
+        return kinds
+
+    def counts(self) -> dict[str, int]:
+        """How many readings there are of each kind."""
+        tally = np.bincount(self.readings.ravel(), minlength=len(Reading))
+        return {kind.name.lower(): int(tally[kind]) for kind in Reading}
+
+    def beam_angles_world(self) -> NDArray[np.float64]:
+        """Direction of every beam in the world frame, radians, shape (S, A)."""
+        return np.asarray(self.poses[:, 2:3] + self.angles_rad[None, :])
+
+    def hit_points_world(self) -> NDArray[np.float64]:
+        """End points of the beams that hit something, metres, shape (H, 2)."""
+        angles = self.beam_angles_world()
+        hit = np.isfinite(self.ranges_m)
+        ranges = self.ranges_m[hit]
+        scan = np.nonzero(hit)[0]
+        ends = np.stack([np.cos(angles[hit]), np.sin(angles[hit])], axis=-1) * ranges[:, None]
+        return np.asarray(self.poses[scan, :2] + ends)
+
+    def select(self, scans: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Scans:
+        """The scans at the given indices, or where the mask is true, or in the slice."""
+        stamps = None if self.stamps_s is None else self.stamps_s[scans]
+        return replace(self, poses=self.poses[scans], ranges_m=self.ranges_m[scans], stamps_s=stamps)
+
+    def holdout(self, every: int) -> tuple[Scans, Scans]:
+        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
+
+        Raises:
+            BadInput: ``every`` below 2, or more than there are scans to hold one out.
+        """
+        if every < 2:
+            raise BadInput(f"holdout: hold out every n-th scan with n >= 2, got {every}")
+        held = np.arange(len(self)) % every == every // 2
+        if not held.any():
+            raise BadInput(f"holdout: {len(self)} scans are too few to hold out every {every}-th")
+        return self.select(~held), self.select(held)
+
+    def limited(self, max_range_m: float) -> Scans:
+        """The same scans from a sensor that sees no further: longer hits become no return."""
+        if not (math.isfinite(max_range_m) and max_range_m > self.min_range_m):
+            raise BadInput(f"scans: max_range_m must exceed min_range_m, got {max_range_m!r}")
+        ranges = np.where(self.ranges_m > max_range_m, np.inf, self.ranges_m)
+        return replace(self, ranges_m=ranges, max_range_m=max_range_m)
+
+
+def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
+    """Poses as an (S, 3) array.
+
+    Raises:
+        BadInput: another shape, or a number that is not finite.
+    """
+    array = np.atleast_2d(_as_floats(poses, "poses"))
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise BadInput(f"scans: poses has shape {array.shape}, expected (S, 3): x, y, yaw")
+    if not np.isfinite(array).all():
+        scan = int(np.nonzero(~np.isfinite(array).all(axis=1))[0][0])
+        raise BadInput(f"scans: pose of scan {scan} is not finite: {array[scan].tolist()}")
+    return array
+
+
+def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
+    """Beam angles as an (A,) array.
+
+    Raises:
+        BadInput: another shape, no angle at all, or one that is not finite.
+    """
+    array = np.atleast_1d(_as_floats(angles_rad, "angles_rad"))
+    if array.ndim != 1 or len(array) == 0:
+        raise BadInput(f"scans: angles_rad has shape {array.shape}, expected (A,) with at least one beam")
+    if not np.isfinite(array).all():
+        beam = int(np.nonzero(~np.isfinite(array))[0][0])
+        raise BadInput(f"scans: angle of beam {beam} is not finite: {array[beam]}")
+    return array
+
+
+def _as_floats(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"scans: {name} must be an array of numbers: {error}") from None
