@@ -1,0 +1,72 @@
+"""Walls as text: the tutorial's drawings, one character a cell."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+
+FREE = "."
+WALLS = "X#"
+"""Both characters are walls; `to_text` writes the first."""
+
+
+def from_text(text: str) -> NDArray[np.bool_]:
+    """Walls from a text drawing: ``.`` is free, ``X`` or ``#`` is a wall.
+
+    The text is read as the tutorial reads it: lines are the *first* index, so ``walls[i, j]`` is line ``i``,
+    column ``j``. On a map, where arrays are indexed ``[x, y]``, the first line is therefore the column of
+    cells furthest left, read from the bottom up: the drawing appears turned a quarter anticlockwise. Use
+    `from_image` for a picture that should appear as it is drawn.
+
+    Blank lines around the drawing, blanks at the ends of lines, and an indentation common to all lines are
+    ignored.
+
+    Args:
+        text: the drawing.
+
+    Returns:
+        Walls, shape (lines, columns).
+
+    Raises:
+        BadInput: no lines, lines of different lengths, or an unknown character; the message names the line
+            (counted from 1 in the whole text) and the column.
+    """
+    numbered = [(number, line.rstrip()) for number, line in enumerate(text.splitlines(), start=1)]
+    while numbered and not numbered[0][1]:
+        numbered.pop(0)
+    while numbered and not numbered[-1][1]:
+        numbered.pop()
+    if not numbered:
+        raise BadInput("drawing: the text has no lines; draw free cells as '.' and walls as 'X' or '#'")
+    indent = min(len(line) - len(line.lstrip()) for _, line in numbered)
+    first, width = numbered[0][0], len(numbered[0][1]) - indent
+    for number, line in numbered:
+        for column, character in enumerate(line[indent:], start=indent + 1):
+            if character not in FREE + WALLS:
+                raise BadInput(
+                    f"drawing: line {number}, column {column}: unknown character {character!r}; "
+                    "use '.' for a free cell, 'X' or '#' for a wall"
+                )
+        if len(line) - indent != width:
+            raise BadInput(
+                f"drawing: line {number} has {len(line) - indent} cells, but line {first} has {width}; "
+                "all lines must be equally long"
+            )
+    return np.array([[character in WALLS for character in line[indent:]] for _, line in numbered])
+
+
+def to_text(walls: ArrayLike) -> str:
+    """The drawing that `from_text` reads back as these walls.
+
+    Args:
+        walls: boolean walls, shape (lines, columns), with at least one cell.
+
+    Raises:
+        BadInput: an array that is not two-dimensional, or that is empty.
+    """
+    array = np.asarray(walls).astype(bool)
+    if array.ndim != 2 or array.size == 0:
+        raise BadInput(f"drawing: walls must have shape (lines, columns), got {array.shape}")
+    return "\n".join("".join(WALLS[0] if wall else FREE for wall in line) for line in array) + "\n"
