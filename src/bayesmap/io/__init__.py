@@ -1,0 +1,1 @@
+"""Files: laser logs in, maps out."""

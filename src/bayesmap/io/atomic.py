@@ -1,0 +1,46 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+from collections.abc import Iterator
+from pathlib import Path
+
+
+@contextlib.contextmanager
+def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give a temporary path; when the block ends well, what was written there becomes ``path``.
+
+    The temporary file lies in the same folder (a rename within a file system is atomic) and keeps the suffix
+    of ``path`` (some libraries choose a format by it). It is flushed to disk before the rename, so that after
+    a crash or a kill ``path`` holds all of the old content or all of the new. A symbolic link is followed:
+    the file that it points to is replaced.
+
+    If the block raises, the temporary file is removed and ``path`` is as it was.
+
+    Raises:
+        OSError: the folder does not exist, or cannot be written.
+    """
+    target = Path(os.path.realpath(path))
+    temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
+    # Made here, not by the block: the usual permissions apply, and a missing folder is noticed at once.
+    os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    try:
+        yield temporary
+        if target.exists():
+            temporary.chmod(target.stat().st_mode & 0o777)
+        _flush(temporary)
+        os.replace(temporary, target)
+        _flush(target.parent)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _flush(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,316 @@
+"""CARMEN logs: one message a line, as the robots of the 2000s wrote them.
+
+    FLASER n r_1 .. r_n  x y theta  odom_x odom_y odom_theta  ipc_timestamp host logger_timestamp
+    ROBOTLASER1 type start_angle fov resolution maximum_range accuracy remission_mode
+        n r_1 .. r_n  m s_1 .. s_m  laser_x laser_y laser_theta  robot_x robot_y robot_theta
+        tv rv forward_safety side_safety turn_axis  ipc_timestamp host logger_timestamp
+    ODOM x y theta tv rv accel  ipc_timestamp host logger_timestamp
+
+RLASER and ROBOTLASER2 are the rear laser's, in the same two formats. Lines of other kinds are counted and
+left alone. Scans are put in the order of their ipc_timestamp (the time of measurement); logs are not always
+written in that order.
+
+**Angles.** FLASER lines do not say them. The first beam is at -90 degrees, and beams are 1 degree apart if
+there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number spreads over 180
+degrees. This is CARMEN's own rule. (It puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree
+mode looked from -50 to +50.) ROBOTLASER1 lines state their first angle and the step.
+
+**Maximum range.** If it is not given: the largest hit, rounded up to a whole metre; further than this the
+sensor is not known to see. For no return see `bayesmap.io.returns`.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.lines import DamagedFile, read_lines
+from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.returns import NoReturn, decode
+from bayesmap.world.scans import Scans
+
+IMPLICIT = ("FLASER", "RLASER")
+EXPLICIT = ("ROBOTLASER1", "ROBOTLASER2")
+LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
+"""Messages that hold a scan with its pose, in order of preference where several are equally frequent."""
+
+OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "RAWLASER1", "RAWLASER2", "LASER3", "LASER4", "MARKER")
+"""Other messages by which a CARMEN log is recognised."""
+
+KNOWN = LASERS + OTHERS
+MAX_BEAMS = 100_000
+
+_NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
+_STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
+
+
+def read_carmen(
+    path: str | os.PathLike[str],
+    *,
+    no_return: float | None = None,
+    skip_bad_lines: bool = False,
+    max_range_m: float | None = None,
+) -> LogReading:
+    """Read the scans of a CARMEN log, plain or gzipped.
+
+    If the log holds several lasers or kinds of message, the one with most scans is read, and a note says so.
+
+    Args:
+        path: the log.
+        no_return: the number, in metres, that this log writes for "no return" (readings of it and above);
+            ``inf`` if it has none. Found by `bayesmap.io.returns` if not given.
+        skip_bad_lines: leave out malformed lines, and list them in the result.
+        max_range_m: the sensor's maximum range; longer readings become no return.
+
+    Raises:
+        BadInput: a file that cannot be read, holds no scans, or has a malformed line (without
+            ``skip_bad_lines``); the message names the file, the line and the remedy.
+    """
+    name = os.fspath(path)
+    lasers = {kind: _Laser() for kind in LASERS}
+    messages: Counter[str] = Counter()
+    skipped: list[SkippedLine] = []
+
+    def bad(line: int, reason: str) -> None:
+        if not skip_bad_lines:
+            raise BadInput(f"{name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
+        skipped.append(SkippedLine(line, reason))
+
+    number = 0
+    try:
+        for number, line in read_lines(path):
+            try:
+                kind = _message_name(line)
+                messages[kind] += 1
+                if kind in lasers:
+                    lasers[kind].add(number, _parse_scan(kind, line.split()))
+                elif kind == "ODOM":
+                    _check_odometry(line.split())
+            except _Malformed as problem:
+                bad(number, str(problem))
+    except DamagedFile as problem:
+        if not skip_bad_lines:
+            raise
+        skipped.append(SkippedLine(number + 1, str(problem)))
+    del messages[""]
+
+    kind = max(LASERS, key=lambda kind: len(lasers[kind].scans))
+    laser = lasers[kind]
+    if not laser.scans:
+        raise BadInput(f"{name}: {_why_no_scans(number, messages, skipped)}")
+    layout = laser.commonest_layout()
+    for line_number, scan in zip(laser.lines, laser.scans, strict=True):
+        if scan.layout != layout:
+            bad(line_number, f"{kind} has {scan.layout}, but most scans of this log have {layout}")
+    skipped.sort(key=lambda skip: skip.line)
+
+    scans = [scan for scan in laser.scans if scan.layout == layout]
+    laser_poses = np.array([scan.numbers[:3] for scan in scans])
+    robot_poses = np.array([scan.numbers[3:6] for scan in scans])
+    stamps = np.array([scan.numbers[6] for scan in scans])
+    order = np.argsort(stamps, kind="stable")
+    stated_max_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
+    ranges, coded = decode(np.array([scan.readings_m for scan in scans]), no_return, stated_max_m)
+    result = Scans(
+        poses=laser_poses[order],
+        angles_rad=layout.angles_rad(),
+        ranges_m=ranges[order],
+        max_range_m=_largest_range_m(name, ranges, coded),
+        stamps_s=stamps[order],
+    )
+    return LogReading(
+        path=name,
+        format="carmen",
+        message=kind,
+        scans=result if max_range_m is None else result.limited(max_range_m),
+        messages=dict(messages),
+        skipped=tuple(skipped),
+        no_return=coded,
+        max_range_origin="readings" if max_range_m is None else "given",
+        laser_offset=_offset(laser_poses, robot_poses),
+        reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
+        notes=tuple(_notes(kind, lasers, layout)),
+    )
+
+
+class _Malformed(Exception):
+    """A line that does not follow its format; the text is the reason."""
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """Where the beams of a scan point: equal layouts can share one `Scans`."""
+
+    beams: int
+    first_rad: float
+    step_rad: float
+
+    def angles_rad(self) -> NDArray[np.float64]:
+        return np.asarray(self.first_rad + self.step_rad * np.arange(self.beams))
+
+    def __str__(self) -> str:
+        first, step = math.degrees(self.first_rad), math.degrees(self.step_rad)
+        return f"{self.beams} beams {step:.4g} degrees apart from {first:.4g}"
+
+
+@dataclass(frozen=True)
+class _Scan:
+    layout: _Layout
+    readings_m: NDArray[np.float64]
+    numbers: NDArray[np.float64]
+    """Laser pose, robot pose, time: shape (7,), all finite."""
+    max_range_m: float | None
+
+
+@dataclass
+class _Laser:
+    """The scans of one kind of message, as they come."""
+
+    lines: list[int] = field(default_factory=list)
+    scans: list[_Scan] = field(default_factory=list)
+
+    def add(self, line: int, scan: _Scan) -> None:
+        self.lines.append(line)
+        self.scans.append(scan)
+
+    def commonest_layout(self) -> _Layout:
+        return Counter(scan.layout for scan in self.scans).most_common(1)[0][0]
+
+
+def _message_name(line: bytes) -> str:
+    """The line's first word; empty for comments and blank lines."""
+    if b"\0" in line:
+        raise _Malformed("binary data; a log is text")
+    words = line.split(None, 1)
+    if not words or words[0].startswith((b"#", b"//")):
+        return ""
+    word = words[0]
+    if len(word) > 64 or not _NAME.fullmatch(word):
+        start = word[:20].decode("ascii", "backslashreplace")
+        raise _Malformed(f"starts with '{start}', which is not the name of a message")
+    name = word.decode("ascii")
+    if name not in KNOWN and any(known.startswith(name) for known in KNOWN):
+        raise _Malformed(f"starts with '{name}': a message cut short")
+    return name
+
+
+def _parse_scan(kind: str, words: list[bytes]) -> _Scan:
+    count_at = 1 if kind in IMPLICIT else 8
+    beams = _count(kind, words, count_at, "readings")
+    readings_end = count_at + 1 + beams
+    if kind in IMPLICIT:
+        poses_at, total = readings_end, readings_end + 9
+    else:
+        poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions", least=0)
+        total = poses_at + 14
+    if len(words) != total:
+        raise _Malformed(
+            f"{kind} with {beams} readings has {len(words)} fields where {total} are needed "
+            "(is the line cut short, or joined with another?)"
+        )
+    readings = _floats(kind, words[count_at + 1 : readings_end], count_at + 1)
+    # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
+    numbers = _floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
+    numbers = np.append(numbers[:6], numbers[-2])
+    if not np.isfinite(numbers).all():
+        raise _Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
+    if kind in IMPLICIT:
+        return _Scan(_implicit_layout(kind, beams), readings, numbers, None)
+    first, _, step, max_range = _floats(kind, words[2:6], 2)
+    if not (math.isfinite(first) and math.isfinite(step) and step > 0):
+        raise _Malformed(f"{kind} has start angle {first:g} and angular resolution {step:g}")
+    stated = float(max_range) if math.isfinite(max_range) and max_range > 0 else None
+    return _Scan(_Layout(beams, float(first), float(step)), readings, numbers, stated)
+
+
+def _implicit_layout(kind: str, beams: int) -> _Layout:
+    if beams < 2:
+        raise _Malformed(f"{kind} with a single reading: its angle is not known")
+    step = math.radians(_STEP_DEG[beams]) if beams in _STEP_DEG else math.pi / (beams - 1)
+    return _Layout(beams, -math.pi / 2, step)
+
+
+def _check_odometry(words: list[bytes]) -> None:
+    if len(words) != 10:
+        raise _Malformed(f"ODOM has {len(words)} fields where 10 are needed")
+    if not all(map(math.isfinite, _floats("ODOM", [*words[1:8], words[9]], 1))):
+        raise _Malformed("ODOM has a number that is not finite")
+
+
+def _count(kind: str, words: list[bytes], at: int, what: str, least: int = 1) -> int:
+    if at >= len(words):
+        raise _Malformed(f"{kind} ends after {len(words)} fields, before its number of {what}")
+    word = words[at]
+    if not word.isdigit() or not least <= int(word[:9]) <= MAX_BEAMS:
+        shown = word[:20].decode("ascii", "backslashreplace")
+        raise _Malformed(f"{kind} says '{shown}' for its number of {what}")
+    return int(word)
+
+
+def _floats(kind: str, words: list[bytes], at: int) -> NDArray[np.float64]:
+    try:
+        # Python would read 1_0 as ten; no logger writes that.
+        if b"_" not in b"".join(words):
+            return np.array(words, dtype=np.float64)
+    except ValueError:
+        pass
+    for position, word in enumerate(words, start=at + 1):
+        try:
+            if b"_" not in word:
+                float(word)
+                continue
+        except ValueError:
+            pass
+        shown = word[:20].decode("ascii", "backslashreplace")
+        raise _Malformed(f"{kind} has '{shown}' for a number, in field {position}")
+    raise AssertionError("numpy refused numbers that Python reads")
+
+
+def _largest_range_m(name: str, ranges: NDArray[np.float64], coded: NoReturn) -> float:
+    """The largest hit, rounded up to a whole metre, but no more than the no-return code."""
+    hits = ranges[np.isfinite(ranges)]
+    code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
+    largest = min(math.ceil(hits.max()) if hits.size else math.inf, code)
+    if math.isinf(largest):
+        raise BadInput(f"{name}: no reading of {ranges.size} is a range; give the sensor's --max-range")
+    return float(largest)
+
+
+def _offset(laser_poses: NDArray[np.float64], robot_poses: NDArray[np.float64]) -> tuple[float, float, float]:
+    dx, dy, dyaw = (laser_poses - robot_poses).T
+    cos, sin = np.cos(robot_poses[:, 2]), np.sin(robot_poses[:, 2])
+    yaw = np.arctan2(np.sin(dyaw), np.cos(dyaw))
+    x, y, turn = (float(np.median(v)) for v in (cos * dx + sin * dy, cos * dy - sin * dx, yaw))
+    return x, y, turn
+
+
+def _notes(kind: str, lasers: dict[str, _Laser], layout: _Layout) -> list[str]:
+    notes = [
+        f"the log also holds {len(other.scans)} {name} scans, which were not used: {kind} has more or as many"
+        for name, other in lasers.items()
+        if other.scans and name != kind
+    ]
+    if kind in IMPLICIT and layout.beams not in _STEP_DEG:
+        notes.append(f"the log does not say its beams' angles; taken as {layout} (180 degrees in all)")
+    if kind in IMPLICIT and layout.beams in (400, 401):
+        notes.append(f"the log does not say its beams' angles; taken as {layout}, by CARMEN's rule")
+    return notes
+
+
+def _why_no_scans(lines: int, messages: Counter[str], skipped: list[SkippedLine]) -> str:
+    if lines == 0:
+        return "the file is empty"
+    held = ", ".join(f"{count} {name}" for name, count in messages.most_common(5)) or "no message at all"
+    reason = f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {held}"
+    if any(name.startswith("RAWLASER") for name in messages):
+        reason += " (RAWLASER lines have no pose)"
+    if skipped:
+        reason += f"; {len(skipped)} lines were malformed, first line {skipped[0].line}: {skipped[0].reason}"
+    return reason
