@@ -1,0 +1,222 @@
+"""A chain as a moving picture: one frame per draw, GIF or WebP, written by Pillow.
+
+Frames are images of palette indices, enlarged by a whole number: a hundred frames of the tutorial's map take
+a fraction of a second, where matplotlib's writer takes several seconds.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from bayesmap.errors import BadInput
+from bayesmap.viz import palette
+from bayesmap.viz.cells import ROUNDING, as_mask, as_observed
+from bayesmap.viz.writing import need_ending, write_whole
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import as_poses
+
+LEVELS = 128
+"""Steps of probability in a frame: finer ones cannot be told apart, and fewer colours pack better."""
+
+BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, TEXT = range(LEVELS, LEVELS + 6)
+"""Palette indices after the levels of probability."""
+
+TARGET_PX = 560
+"""Cells are enlarged by the least whole number that makes the longest side so long."""
+
+MARGIN_PX = 10
+HATCH_PITCH_PX = 7
+LAST_FRAME_MS = 1500
+"""The last frame stays longer, so that the eye can rest on the result before the film starts again."""
+
+
+def write_animation(
+    path: str | os.PathLike[str],
+    grid: Grid,
+    draws: ArrayLike,
+    *,
+    running_mean: bool = False,
+    observed: ArrayLike | None = None,
+    truth: ArrayLike | None = None,
+    poses: ArrayLike | None = None,
+    sweeps: Sequence[int] | None = None,
+    frames_per_second: float = 10.0,
+) -> None:
+    """Write a chain as an animation that repeats for ever, whole or not at all.
+
+    Args:
+        path: its ending, .gif or .webp, chooses the format.
+        grid: where the cells are.
+        draws: of one chain, shape (n, nx, ny): walls, or probabilities in [0, 1].
+        running_mean: show the mean of all draws so far in place of the draws.
+        observed: true where some beam reached, shape (nx, ny); the rest is hatched. None for everywhere.
+        truth: the true walls, shape (nx, ny), outlined.
+        poses: the sensor's, x, y, yaw, shape (S, 3) or (3,): a dot each.
+        sweeps: the number to write under each frame; None for 1 to n.
+        frames_per_second: at most 50, since viewers slow down faster films.
+
+    Raises:
+        BadInput: another ending, a folder that does not exist, no draw, shapes that differ from the grid's,
+            numbers outside [0, 1], or a rate out of bounds.
+        OSError: the disk refuses.
+    """
+    target, ending = need_ending(path, ("gif", "webp"), "animation")
+    if not 0.0 < frames_per_second <= 50.0:
+        raise BadInput(f"animation: frames_per_second must lie in (0, 50], got {frames_per_second!r}")
+    frames = render_frames(
+        grid, draws, running_mean=running_mean, observed=observed, truth=truth, poses=poses, sweeps=sweeps
+    )
+    # GIF counts in hundredths of a second; anything else would be rounded by some viewers and not by others.
+    step_ms = 10 * max(2, round(100.0 / frames_per_second))
+    first = next(frames)
+    n = len(np.asarray(draws))
+    durations = [step_ms] * (n - 1) + [max(step_ms, LAST_FRAME_MS)]
+    film: dict[str, Any] = {"save_all": True, "duration": durations, "loop": 0}
+    buffer = io.BytesIO()
+    if ending == "gif":
+        first.save(buffer, "GIF", append_images=frames, optimize=False, disposal=1, **film)
+    else:
+        colors = (frame.convert("RGB") for frame in frames)
+        # Lossless keeps the edges of cells sharp; the least effort is three times faster and hardly larger.
+        effort = {"lossless": True, "method": 0, "quality": 0}
+        first.convert("RGB").save(buffer, "WEBP", append_images=colors, **effort, **film)
+    write_whole(target, buffer.getvalue())
+
+
+def render_frames(
+    grid: Grid,
+    draws: ArrayLike,
+    *,
+    running_mean: bool = False,
+    observed: ArrayLike | None = None,
+    truth: ArrayLike | None = None,
+    poses: ArrayLike | None = None,
+    sweeps: Sequence[int] | None = None,
+) -> Iterator[Image.Image]:
+    """Check everything at once, then render the frames one by one, as images of mode "P".
+
+    Arguments and errors are those of `write_animation`.
+    """
+    chain = _as_chain(grid, draws)
+    labels = list(range(1, len(chain) + 1)) if sweeps is None else [int(sweep) for sweep in sweeps]
+    if len(labels) != len(chain):
+        raise BadInput(f"animation: {len(labels)} sweep numbers for {len(chain)} draws; give one for each")
+    canvas = _Canvas(grid, as_observed(grid, observed), truth, poses)
+    return _render(canvas, chain, labels, running_mean=running_mean)
+
+
+def _render(
+    canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_mean: bool
+) -> Iterator[Image.Image]:
+    total = np.zeros(chain.shape[1:])
+    for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
+        if running_mean:
+            total += draw
+        shown = total / count if running_mean else draw
+        text = f"mean of {count} draws, to sweep {label}" if running_mean else f"sweep {label}"
+        yield canvas.frame(shown, text)
+
+
+class _Canvas:
+    """What all frames share: the size, the colours, and the marks over the map."""
+
+    def __init__(
+        self, grid: Grid, observed: NDArray[np.bool_], truth: ArrayLike | None, poses: ArrayLike | None
+    ) -> None:
+        self.scale = math.ceil(TARGET_PX / max(grid.shape))
+        width, height = (n * self.scale for n in grid.shape)
+        self.font = ImageFont.load_default(size=15)
+        self.caption_px = 30
+        self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + self.caption_px)
+        self.colors = _palette_bytes()
+        # The marks cover the map where they are not zero (no mark has the index 0, which is "surely free").
+        self.marks = np.zeros((height + 2 * MARGIN_PX, width + 2 * MARGIN_PX), dtype=np.uint8)
+        self.inside = (slice(MARGIN_PX, -MARGIN_PX), slice(MARGIN_PX, -MARGIN_PX))
+        self.marks[:] = BACKGROUND
+        self.marks[self.inside] = self._enlarge(np.where(observed, 0, UNOBSERVED).astype(np.uint8))
+        row, column = np.indices(self.marks.shape)
+        self.marks[(self.marks == UNOBSERVED) & ((row + column) % HATCH_PITCH_PX == 0)] = HATCH
+        if truth is not None:
+            self._outline(as_mask(grid, truth, "truth"))
+        if poses is not None:
+            self._dots(grid, as_poses(poses))
+        self.visible = self.marks == 0
+
+    def frame(self, probability: NDArray[Any], text: str) -> Image.Image:
+        levels = self._enlarge(np.rint(np.clip(probability, 0.0, 1.0) * (LEVELS - 1)).astype(np.uint8))
+        pixels = np.full((self.size[1], self.size[0]), BACKGROUND, dtype=np.uint8)
+        area = pixels[: self.marks.shape[0]]
+        area[...] = self.marks
+        np.copyto(area[self.inside], levels, where=self.visible[self.inside])
+        image = Image.fromarray(pixels)
+        image.putpalette(self.colors)
+        draw = ImageDraw.Draw(image)
+        draw.fontmode = "1"  # no blending: indices between two colours are other colours
+        baseline = self.marks.shape[0] + self.caption_px // 2 - 4
+        draw.text((MARGIN_PX, baseline), text, fill=TEXT, font=self.font, anchor="lm")
+        return image
+
+    def _enlarge(self, cells: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """From cells [x, y] to pixels [row, column], the first row on top."""
+        return cells.T[::-1].repeat(self.scale, axis=0).repeat(self.scale, axis=1)
+
+    def _outline(self, walls: NDArray[np.bool_]) -> None:
+        """A line around the walls, on the outside, so that it does not hide them."""
+        solid = np.zeros(self.marks.shape, dtype=np.bool_)
+        solid[self.inside] = self._enlarge(walls.astype(np.uint8)) == 1
+        thick = max(1, self.scale // 12)
+        grown = solid.copy()
+        for _ in range(thick):
+            step = grown.copy()
+            step[1:] |= grown[:-1]
+            step[:-1] |= grown[1:]
+            grown = step.copy()
+            grown[:, 1:] |= step[:, :-1]
+            grown[:, :-1] |= step[:, 1:]
+        self.marks[grown & ~solid] = TRUTH
+
+    def _dots(self, grid: Grid, poses: NDArray[np.float64]) -> None:
+        radius = float(np.clip(0.3 * self.scale, 2.0, 6.0))
+        image = Image.fromarray(self.marks)
+        draw = ImageDraw.Draw(image)
+        for u, v in grid.to_cells(poses[:, :2]) * self.scale:
+            x, y = MARGIN_PX + u, self.marks.shape[0] - MARGIN_PX - v
+            for reach, color in ((radius + 1.5, BACKGROUND), (radius, SENSOR)):
+                draw.ellipse((x - reach, y - reach, x + reach, y + reach), fill=color)
+        self.marks = np.asarray(image)
+
+
+def _palette_bytes() -> bytes:
+    unobserved = [palette.UNOBSERVED, palette.UNOBSERVED_HATCH]
+    marks = ["#FFFFFF", *unobserved, palette.TRUTH, palette.SENSOR, palette.TEXT]
+    colors = np.concatenate([palette.probability_colors(LEVELS), [to_rgb(mark) for mark in marks]])
+    return np.rint(255.0 * colors).astype(np.uint8).tobytes()
+
+
+def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:
+    """The draws as they came: a long chain of a large map is bits, and as floats it would not fit."""
+    chain = np.asarray(draws)
+    if chain.dtype.kind not in "buif":
+        raise BadInput(f"animation: draws must be an array of numbers, not of {chain.dtype}")
+    if chain.ndim != 3 or chain.shape[1:] != grid.shape:
+        raise BadInput(
+            f"animation: draws has shape {chain.shape}, but a chain on this grid is (n, {grid.shape[0]}, "
+            f"{grid.shape[1]}); choose one chain, as run.draws[0]"
+        )
+    if len(chain) == 0:
+        raise BadInput("animation: the chain is empty; an animation needs at least one draw")
+    for number, draw in enumerate(chain):
+        if not (draw.min() >= -ROUNDING and draw.max() <= 1.0 + ROUNDING):  # written so that NaN fails too
+            raise BadInput(
+                f"animation: draw {number} has a number outside [0, 1]; give walls (0 or 1) or probabilities"
+            )
+    return chain

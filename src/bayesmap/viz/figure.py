@@ -1,0 +1,200 @@
+"""The composed figure of a posterior: the mean, the entropy, the readings, and one draw."""
+
+from __future__ import annotations
+
+import io
+import os
+import threading
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import PathCollection
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.patches import Patch
+from numpy.typing import ArrayLike
+
+from bayesmap.viz import maps, overlays, palette
+from bayesmap.viz.cells import as_observed
+from bayesmap.viz.layout import Layout, lay_out
+from bayesmap.viz.writing import need_ending, write_whole
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+FONT_PT = 9.0
+COARSE_CELLS = 100
+"""In maps of at most so many cells a side a cell is large enough that an outline does not hide it."""
+
+_rc_lock = threading.Lock()
+
+
+def posterior_figure(
+    grid: Grid,
+    occupancy: ArrayLike,
+    observed: ArrayLike | None = None,
+    *,
+    draw: ArrayLike | None = None,
+    truth: ArrayLike | None = None,
+    scans: Scans | None = None,
+    title: str | None = None,
+) -> Figure:
+    """The posterior at a glance: the probability of wall, its entropy in bits, the readings, and one draw.
+
+    The panels stand in a row, four in a square, or stacked if the map is long.
+
+    Args:
+        grid: where the cells are.
+        occupancy: posterior probability of wall per cell, shape (nx, ny).
+        observed: true where some beam reached, shape (nx, ny); the rest is hatched. None for everywhere.
+        draw: one map from the posterior, shape (nx, ny); without it its panel is left out.
+        truth: the true walls, shape (nx, ny): outlined over the readings; over mean and draw too if cells are
+            large enough that an outline does not hide them, or if there are no readings.
+        scans: rays, readings and poses; without them their panel is left out.
+        title: a line over the figure.
+
+    Returns:
+        A figure with its own Agg canvas, outside pyplot's global state; write it with `write_figure`.
+
+    Raises:
+        BadInput: an array whose shape differs from the grid's, probabilities outside [0, 1], or a draw or a
+            truth that is not 0 or 1.
+    """
+    seen = as_observed(grid, observed)
+    scans = scans if scans is not None and len(scans) else None
+    shown = ["mean", "entropy"] + ["data"] * (scans is not None) + ["draw"] * (draw is not None)
+    layout = lay_out(grid, len(shown), bars=2, titled=title is not None)
+    size_in = layout.figure[0] / layout.dpi, layout.figure[1] / layout.dpi
+    figure = Figure(figsize=size_in, dpi=layout.dpi, facecolor="white")
+    FigureCanvasAgg(figure)
+    panels = {
+        name: figure.add_axes(layout.fractions(*corner, *layout.panel), label=name)
+        for name, corner in zip(shown, layout.corners, strict=True)
+    }
+
+    mean = maps.draw_probability(panels["mean"], grid, occupancy, seen)
+    entropy = maps.draw_entropy(panels["entropy"], grid, occupancy, seen)
+    images = [mean, entropy]
+    if "data" in panels:
+        images.append(maps.draw_sample(panels["data"], grid, np.zeros(grid.shape, dtype=np.bool_), seen))
+    if "draw" in panels:
+        assert draw is not None
+        images.append(maps.draw_sample(panels["draw"], grid, draw, seen))
+    for image in images:
+        image.set_interpolation("nearest" if layout.exact else "auto")
+    keys = _draw_overlays(panels, grid, truth, scans)
+
+    titles = {"data": "readings", "mean": "posterior mean", "entropy": "uncertainty", "draw": "one draw"}
+    for position, (name, panel) in enumerate(panels.items()):
+        _letter(panel, titles[name], leftmost=position % layout.columns == 0)
+    ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
+    _color_bar(figure, layout, layout.corners[0], mean, "probability of wall", ticks)
+    _color_bar(figure, layout, layout.corners[1], entropy, "entropy [bits]", ticks)
+    _legend(figure, keys, walls="draw" in panels, unobserved=not seen.all())
+    if title is not None:
+        top = 1.0 - 0.12 * layout.dpi / layout.figure[1]
+        figure.text(0.5, top, title, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
+    return figure
+
+
+def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
+    """Write a figure as PNG, PDF or SVG, whole or not at all; the same figure gives the same bytes.
+
+    Args:
+        figure: what to write; PNG has the figure's own resolution.
+        path: its ending chooses the format.
+
+    Raises:
+        BadInput: another ending than .png, .pdf or .svg, or a folder that does not exist.
+        OSError: the disk refuses.
+    """
+    target, ending = need_ending(path, ("png", "pdf", "svg"), "figure")
+    # No date and no random identifiers: a picture that did not change does not show up in a diff.
+    undated = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[ending]
+    buffer = io.BytesIO()
+    # The settings that matplotlib takes from nowhere else are global, hence the lock.
+    with _rc_lock, rc_context({"svg.hashsalt": "bayesmap", "pdf.fonttype": 42}):
+        figure.savefig(buffer, format=ending, dpi="figure", metadata=undated)
+    write_whole(target, buffer.getvalue())
+
+
+def _draw_overlays(
+    panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None
+) -> list[Artist]:
+    """Draw the truth, the rays and the sensor where they inform and do not hide; one legend key of each."""
+    coarse = max(grid.shape) <= COARSE_CELLS
+    keys: list[Artist] = []
+    if truth is not None:
+        over = [name for name in panels if name != "entropy"]
+        if "data" in panels and not coarse:
+            over = ["data"]
+        outlines = [overlays.draw_truth_outline(panels[name], grid, truth) for name in over]
+        keys.append(outlines[0])
+    if scans is not None:
+        keys += overlays.draw_rays(panels["data"], scans)
+        over = [name for name in panels if name == "data" or len(scans) <= overlays.MAX_ARROWS]
+        marks = [overlays.draw_sensor(panels[name], scans.poses) for name in over]
+        keys.append(marks[0][0])
+    return keys
+
+
+def _letter(panel: Axes, title: str, *, leftmost: bool) -> None:
+    """Set the panel's type, and label the y axis, which all panels share, only at the left."""
+    panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
+    panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
+    panel.yaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
+    panel.tick_params(labelsize=FONT_PT - 0.5, labelleft=leftmost)
+    if not leftmost:
+        panel.set_ylabel("")
+
+
+def _color_bar(
+    figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str, ticks: list[float]
+) -> None:
+    """A thin horizontal bar under the panel's x label, never too narrow to read."""
+    width = max(0.7 * layout.panel[0], 1.5 * layout.dpi)
+    left = corner[0] + (layout.panel[0] - width) / 2.0
+    box = layout.fractions(left, corner[1] - 0.58 * layout.dpi, width, 0.09 * layout.dpi)
+    bar = figure.colorbar(image, cax=figure.add_axes(box, label=label), orientation="horizontal", ticks=ticks)
+    bar.set_label(label, labelpad=2.0, fontsize=FONT_PT, color=palette.TEXT)
+    bar.ax.tick_params(length=2.0, width=0.6, pad=1.5, labelsize=FONT_PT - 1.5, colors=palette.TEXT)
+    bar.ax.xaxis.set_major_formatter("{x:g}")
+    bar.outline.set(edgecolor=palette.FRAME, linewidth=0.6)
+
+
+def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool) -> None:
+    free, wall = (tuple(color) for color in palette.probability_colors(2).tolist())
+    handles: list[Artist] = []
+    if walls:
+        handles.append(Patch(facecolor=free, edgecolor=palette.FRAME, linewidth=0.6, label="free"))
+        handles.append(Patch(facecolor=wall, edgecolor=palette.FRAME, linewidth=0.6, label="wall"))
+    if unobserved:
+        hatched = maps.hatch_patch()
+        hatched.set_label("unobserved")
+        handles.append(hatched)
+    handles += keys
+    if not handles:
+        return
+    # Two rows where one would be wider than the figure: a key takes about 0.95 inch.
+    per_row = max(1, int(figure.get_figwidth() / 0.95))
+    legend = figure.legend(
+        handles=handles,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 0.0),
+        ncols=-(-len(handles) // -(-len(handles) // per_row)),
+        frameon=False,
+        fontsize=FONT_PT,
+        labelcolor=palette.TEXT,
+        handlelength=1.6,
+        handletextpad=0.6,
+        columnspacing=1.4,
+        borderaxespad=0.5,
+    )
+    # On the map many marks are faint and small; their keys have to be legible alone.
+    for key in legend.legend_handles:
+        if key is not None:
+            key.set_alpha(1.0)
+        if isinstance(key, PathCollection):
+            key.set_sizes([9.0])

@@ -1,0 +1,171 @@
+"""One panel each: functions that draw a map of cells onto a matplotlib Axes.
+
+All arrays are indexed ``[x, y]`` with shape ``(nx, ny)``; the panel shows metres of the world frame, x to the
+right and y up, at equal scale. What lies over a map (outlines, rays, sensors) is in `bayesmap.viz.overlays`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap
+from matplotlib.image import AxesImage
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.viz import palette
+from bayesmap.viz.cells import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
+from bayesmap.viz.edges import boxes
+from bayesmap.world.grid import Grid
+
+
+def draw_probability(
+    ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None
+) -> AxesImage:
+    """Posterior probability of wall: free is light, wall is dark, unobserved is hatched.
+
+    Args:
+        ax: where to draw.
+        grid: where the cells are.
+        occupancy: probability per cell, shape (nx, ny).
+        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+
+    Returns:
+        The image, from 0 to 1, for a colour bar.
+
+    Raises:
+        BadInput: shapes that differ from the grid's, or probabilities outside [0, 1].
+    """
+    probability = as_probabilities(grid, occupancy, "occupancy")
+    return _show(ax, grid, probability, as_observed(grid, observed), palette.probability_colormap(), 1.0)
+
+
+def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
+
+    Args:
+        ax: where to draw.
+        grid: where the cells are.
+        occupancy: probability of wall per cell, shape (nx, ny).
+        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+
+    Returns:
+        The image, from 0 to 1 bit, for a colour bar.
+
+    Raises:
+        BadInput: shapes that differ from the grid's, or probabilities outside [0, 1].
+    """
+    bits = entropy_bits(as_probabilities(grid, occupancy, "occupancy"))
+    return _show(ax, grid, bits, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
+
+
+def draw_deviation(
+    ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None
+) -> AxesImage:
+    """Posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest that there is.
+
+    Args:
+        ax: where to draw.
+        grid: where the cells are.
+        deviation: standard deviation per cell, shape (nx, ny).
+        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+
+    Returns:
+        The image, from 0 to 0.5, for a colour bar.
+
+    Raises:
+        BadInput: shapes that differ from the grid's, or a number outside [0, 0.5].
+    """
+    spread = as_numbers(grid, deviation, "deviation")
+    if spread.min() < -ROUNDING or spread.max() > 0.5 + ROUNDING:
+        raise BadInput(
+            f"picture: deviation runs from {spread.min():g} to {spread.max():g}, and the standard deviation "
+            "of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
+        )
+    return _show(ax, grid, spread, as_observed(grid, observed), palette.uncertainty_colormap(), 0.5)
+
+
+def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """One map drawn from the posterior; where no beam reached it is the prior's, and shown faded.
+
+    Args:
+        ax: where to draw.
+        grid: where the cells are.
+        walls: true or 1 for wall, shape (nx, ny).
+        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+
+    Returns:
+        The image, in the colours of `palette.draw_colormap`.
+
+    Raises:
+        BadInput: shapes that differ from the grid's, or other numbers than 0 and 1.
+    """
+    seen = as_observed(grid, observed)
+    kind = np.where(seen, 0, 2) + as_mask(grid, walls, "walls")
+    return _show(ax, grid, kind.astype(np.float64), seen, palette.draw_colormap(), 3.0, hide=False)
+
+
+def entropy_bits(probability: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Entropy in bits of a yes-or-no variable with this probability; same shape."""
+    p = np.asarray(probability, dtype=np.float64)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bits = -p * np.log2(p) - (1.0 - p) * np.log2(1.0 - p)
+    return np.where((p > 0.0) & (p < 1.0), bits, 0.0)
+
+
+def frame_axes(ax: Axes, grid: Grid) -> None:
+    """Set the panel to the grid's extent in metres, x right and y up, at equal scale, with labelled axes."""
+    x0, x1, y0, y1 = grid.extent_m
+    ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x [m]", ylabel="y [m]")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+    ax.tick_params(colors=palette.TEXT, color=palette.FRAME, length=3.0, width=0.6)
+    ax.spines[:].set(edgecolor=palette.FRAME, linewidth=0.6)
+
+
+def hatch_patch(path: Path | None = None) -> PathPatch:
+    """The mark of unobserved cells, over them or (with its own colour beneath) as a legend's key."""
+    square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
+    patch = PathPatch(
+        square if path is None else path,
+        facecolor=palette.UNOBSERVED if path is None else "none",
+        edgecolor=palette.UNOBSERVED_HATCH,
+        linewidth=0.0,
+        hatch=palette.HATCH,
+    )
+    patch.set_hatch_linewidth(palette.HATCH_WIDTH_PT)
+    return patch
+
+
+def _show(
+    ax: Axes,
+    grid: Grid,
+    values: NDArray[np.float64],
+    observed: NDArray[np.bool_],
+    colors: Colormap,
+    top: float,
+    *,
+    hide: bool = True,
+) -> AxesImage:
+    """An image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
+    image = ax.imshow(
+        np.ma.array(values, mask=~observed & hide).T,
+        cmap=colors,
+        vmin=0.0,
+        vmax=top,
+        extent=grid.extent_m,
+        origin="lower",
+        # Cells stay crisp squares when enlarged; when there are more cells than pixels they are averaged,
+        # in colours, so that a thin wall fades instead of vanishing.
+        interpolation="auto",
+        interpolation_stage="auto",
+    )
+    frame_axes(ax, grid)
+    if not observed.all():
+        outlines = boxes(grid, ~observed)
+        codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(outlines))
+        ax.add_patch(hatch_patch(Path(outlines.reshape(-1, 2), codes)))
+    return image

@@ -1,0 +1,170 @@
+"""What lies over a map: the true walls' outline, rays and readings, and the sensor."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.lines import Line2D
+from matplotlib.markers import MarkerStyle
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.viz import palette
+from bayesmap.viz.cells import as_mask
+from bayesmap.viz.edges import boundary_segments
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Reading, Scans, as_poses
+
+MAX_ARROWS = 12
+"""Up to so many poses each get an arrow; more are a trajectory, with one arrow where it ends."""
+
+
+def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
+    """The outline of the true walls.
+
+    Args:
+        ax: where to draw.
+        grid: where the cells are.
+        true_walls: true or 1 for wall, shape (nx, ny).
+
+    Returns:
+        The lines, labelled "true walls".
+
+    Raises:
+        BadInput: a shape that differs from the grid's, or other numbers than 0 and 1.
+    """
+    lines = LineCollection(
+        list(boundary_segments(grid, as_mask(grid, true_walls, "true_walls"))),
+        colors=palette.TRUTH,
+        linewidths=1.2 if max(grid.shape) <= 100 else 0.5,
+        capstyle="projecting",
+        label="true walls",
+        zorder=3.0,
+    )
+    ax.add_collection(lines)
+    ax.autoscale_view()
+    return lines
+
+
+def draw_rays(
+    ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000
+) -> list[LineCollection | PathCollection]:
+    """Beams, the end points of those that hit something, and those with no return, dashed to their limit.
+
+    Readings that are too close or invalid have no end point and are left out. Of more beams than the limits
+    evenly spaced ones are drawn, the same ones every time. Points bury less than lines do, so their limit is
+    higher: the readings of a whole log show the building before any inference.
+
+    Args:
+        ax: where to draw.
+        scans: the scans.
+        max_beams: the largest number of rays to draw.
+        max_readings: the largest number of end points to draw.
+
+    Returns:
+        What was drawn, labelled "beam", "reading" and "no return", in this order, without those missing.
+
+    Raises:
+        BadInput: ``max_beams`` or ``max_readings`` below 1.
+    """
+    if max_beams < 1 or max_readings < 1:
+        raise BadInput(f"picture: draw at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
+    kinds = scans.readings.ravel()
+    beams = _spread(np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN)), max_beams)
+    hit, lost = beams[kinds[beams] == Reading.HIT], beams[kinds[beams] == Reading.NO_RETURN]
+    points = _spread(np.flatnonzero(kinds == Reading.HIT), max_readings)
+    # Many rays must not bury the map: each is fainter as they become more.
+    alpha = float(np.clip(60.0 / max(len(beams), 1), 0.12, 0.55))
+    drawn: list[LineCollection | PathCollection] = []
+    if len(hit):
+        rays = list(_rays(scans, hit))
+        drawn.append(
+            LineCollection(rays, colors=palette.RAY, linewidths=0.6, alpha=alpha, label="beam", zorder=3.2)
+        )
+        ax.add_collection(drawn[-1])
+    if len(points):
+        ends = _rays(scans, points)[:, 1]
+        area_pt2 = float(np.clip(1000.0 / len(points), 0.5, 7.0))
+        drawn.append(
+            ax.scatter(
+                ends[:, 0],
+                ends[:, 1],
+                s=area_pt2,
+                color=palette.READING,
+                linewidths=0.0,
+                label="reading",
+                zorder=3.4,
+            )
+        )
+    if len(lost):
+        dashed = LineCollection(
+            list(_rays(scans, lost)),
+            colors=palette.NO_RETURN,
+            linewidths=0.7,
+            linestyles=[(0.0, (4.0, 3.0))],
+            alpha=min(1.0, 1.5 * alpha),
+            label="no return",
+            zorder=3.1,
+        )
+        drawn.append(dashed)
+        ax.add_collection(dashed)
+    ax.autoscale_view()
+    return drawn
+
+
+def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
+    """The sensor, as an arrow along its yaw; many poses are drawn as a trajectory that ends in an arrow.
+
+    Args:
+        ax: where to draw.
+        poses: x in metres, y in metres, yaw in radians: shape (S, 3), or (3,).
+
+    Returns:
+        The marks; the first is labelled "sensor" or "trajectory".
+
+    Raises:
+        BadInput: another shape, no pose, or a number that is not finite.
+    """
+    where = as_poses(poses)
+    if len(where) == 0:
+        raise BadInput("picture: there is no pose to draw the sensor at; pass at least one (x, y, yaw)")
+    drawn: list[Line2D] = []
+    many = len(where) > MAX_ARROWS
+    if many:
+        drawn += ax.plot(
+            where[:, 0], where[:, 1], color=palette.SENSOR, linewidth=0.9, solid_joinstyle="round", zorder=3.5
+        )
+    for x, y, yaw in where[-1:] if many else where:
+        drawn += ax.plot(
+            x, y, marker=_arrow(yaw), markersize=9.5, markerfacecolor=palette.SENSOR,
+            markeredgecolor="white", markeredgewidth=0.7, linestyle="none", zorder=3.6, clip_on=True,
+        )  # fmt: skip
+    drawn[0].set_label("trajectory" if many else "sensor")
+    return drawn
+
+
+def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
+    """At most so many of the beams, evenly spaced, first and last among them."""
+    if len(beams) <= most:
+        return beams
+    return beams[np.linspace(0, len(beams) - 1, most).astype(np.intp)]
+
+
+def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Start and end in metres of the beams of these flat indices, (n, 2, 2); no return reaches the limit."""
+    scan = beams // scans.ranges_m.shape[1]
+    angles = scans.beam_angles_world().ravel()[beams]
+    ranges = scans.ranges_m.ravel()[beams]
+    ranges = np.where(np.isposinf(ranges), scans.max_range_m, ranges)
+    starts = scans.poses[scan, :2]
+    ends = starts + ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    return np.stack([starts, ends], axis=1)
+
+
+def _arrow(yaw_rad: float) -> MarkerStyle:
+    """A navigator's arrowhead that points along the yaw."""
+    outline = np.array([(1.0, 0.0), (-0.75, 0.7), (-0.4, 0.0), (-0.75, -0.7), (1.0, 0.0)])
+    return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))

@@ -1,0 +1,87 @@
+"""Every colour that a picture of bayesmap uses, and why it was chosen.
+
+- **Probability of wall** runs from paper to ink along one straight line in CIELAB, so equal steps in
+  probability look equally large, its lightness falls all the way (it survives grey printing), and no
+  kind of colour blindness confuses two of its colours.
+- **Uncertainty** (entropy, standard deviation) is cividis, made to look alike with and without a
+  red-green deficiency; bright is uncertain.
+- **Unobserved** is a warm paper colour under a hatch. Both maps above are cool where they are light or
+  grey, so "nobody looked here" is never taken for "free", nor for "as likely as not".
+- **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008), which stay apart for all
+  common kinds of colour vision.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import Colormap, ListedColormap
+from numpy.typing import NDArray
+
+PAPER_LAB: Final = (98.0, 0.0, 1.0)
+INK_LAB: Final = (14.0, 6.0, -24.0)
+"""Ends of the probability colours in CIELAB (D65): nearly white, and a blue so dark that it reads as ink."""
+
+UNOBSERVED: Final = "#EFE7D8"
+UNOBSERVED_HATCH: Final = "#BFAE92"
+UNOBSERVED_WALL: Final = "#C9BDA8"
+"""A draw's wall where no beam reached: there it is the prior that speaks, so it is shown faded."""
+
+TRUTH: Final = "#D55E00"
+RAY: Final = "#0072B2"
+READING: Final = "#0072B2"
+NO_RETURN: Final = "#CC79A7"
+SENSOR: Final = "#009E73"
+TEXT: Final = "#2B2F36"
+FRAME: Final = "#6B7078"
+
+CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Lines of separate chains, in order; more chains than colours start again."""
+
+HATCH: Final = "//////"
+HATCH_WIDTH_PT: Final = 0.6
+
+
+def lab_to_srgb(lab: NDArray[np.float64]) -> NDArray[np.float64]:
+    """CIELAB under D65, shape (n, 3), to sRGB in [0, 1], shape (n, 3) (IEC 61966-2-1)."""
+    fy = (lab[:, 0] + 16.0) / 116.0
+    f = np.stack([fy + lab[:, 1] / 500.0, fy, fy - lab[:, 2] / 200.0], axis=1)
+    ratio = np.where(f > 6.0 / 29.0, f**3, 3.0 * (6.0 / 29.0) ** 2 * (f - 4.0 / 29.0))
+    xyz = ratio * np.array([0.95047, 1.0, 1.08883])
+    to_rgb = np.array(
+        [
+            [3.2404542, -1.5371385, -0.4985314],
+            [-0.9692660, 1.8760108, 0.0415560],
+            [0.0556434, -0.2040259, 1.0572252],
+        ]
+    )
+    linear = np.clip(xyz @ to_rgb.T, 0.0, 1.0)
+    gamma = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1.0 / 2.4) - 0.055)
+    return np.asarray(gamma)
+
+
+def probability_colors(n: int = 256) -> NDArray[np.float64]:
+    """The colours of wall probability 0 to 1 in ``n`` equal steps, sRGB in [0, 1], shape (n, 3)."""
+    steps = np.linspace(0.0, 1.0, n)[:, None]
+    return lab_to_srgb((1.0 - steps) * np.array(PAPER_LAB) + steps * np.array(INK_LAB))
+
+
+def probability_colormap() -> Colormap:
+    """Free is light, wall is dark, unobserved (masked) is `UNOBSERVED`."""
+    return ListedColormap(probability_colors().tolist(), name="bayesmap.probability").with_extremes(
+        bad=UNOBSERVED
+    )
+
+
+def uncertainty_colormap() -> Colormap:
+    """Certain is dark, uncertain is bright, unobserved (masked) is `UNOBSERVED`."""
+    cividis = colormaps["cividis"](np.linspace(0.0, 1.0, 256))
+    return ListedColormap(cividis.tolist(), name="bayesmap.uncertainty").with_extremes(bad=UNOBSERVED)
+
+
+def draw_colormap() -> ListedColormap:
+    """Of the four kinds of cell in one draw: free, wall, unobserved and free, unobserved and wall."""
+    free, wall = (tuple(color) for color in probability_colors(2).tolist())
+    return ListedColormap([free, wall, UNOBSERVED, UNOBSERVED_WALL], name="bayesmap.draw")
