@@ -139,6 +139,7 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
     check_thresholds(occupied, free)
     grey, opaque = _read_image(path.parent / _entry(path, entries, "image"), with_alpha=mode == "trinary")
     occ = grey if negate else 1 - grey
+    cells: NDArray[np.float64]
     if mode == "trinary":
         cells = np.full(occ.shape, np.nan)
         cells[occ > occupied] = 100
