@@ -94,7 +94,7 @@ def building(
     if not 0 <= clutter <= 2:
         raise BadInput(f"building: clutter must be 0 (none) to 2 (crowded), got {clutter!r}")
     long, short = max(size_m), min(size_m)
-    if not (math.isfinite(long) and long >= SMALLEST_M[0] and short >= SMALLEST_M[1]):
+    if not all(map(math.isfinite, size_m)) or long < SMALLEST_M[0] or short < SMALLEST_M[1]:
         raise BadInput(f"building: size_m must be at least {SMALLEST_M} metres, got {size_m!r}")
     if long / resolution * short / resolution > 50_000_000:
         raise BadInput(f"building: {size_m!r} metres at {resolution} m is too many cells; use a coarser one")

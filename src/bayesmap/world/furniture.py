@@ -71,7 +71,7 @@ class RoomFloor:
         return float(self._room_to_pass(opacity).sum()) * self.resolution**2
 
     def _reachable(self, opacity: NDArray[np.float64]) -> float:
-        """Area in square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
+        """Square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
         labels, _ = ndimage.label(self._room_to_pass(opacity))
         doors = np.unique(labels[self.keep])
         doors = doors[doors > 0]
