@@ -95,10 +95,10 @@ def read_carmen(
                     _check_odometry(line.split())
             except _Malformed as problem:
                 bad(number, str(problem))
-    except DamagedFile as problem:
+    except DamagedFile:
         if not skip_bad_lines:
             raise
-        skipped.append(SkippedLine(number + 1, str(problem)))
+        skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
     del messages[""]
 
     kind = max(LASERS, key=lambda kind: len(lasers[kind].scans))
@@ -118,18 +118,13 @@ def read_carmen(
     order = np.argsort(stamps, kind="stable")
     stated_max_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
     ranges, coded = decode(np.array([scan.readings_m for scan in scans]), no_return, stated_max_m)
-    result = Scans(
-        poses=laser_poses[order],
-        angles_rad=layout.angles_rad(),
-        ranges_m=ranges[order],
-        max_range_m=_largest_range_m(name, ranges, coded),
-        stamps_s=stamps[order],
-    )
+    limit_m = _largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
+    result = Scans(laser_poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
     return LogReading(
         path=name,
         format="carmen",
         message=kind,
-        scans=result if max_range_m is None else result.limited(max_range_m),
+        scans=result.limited(limit_m),
         messages=dict(messages),
         skipped=tuple(skipped),
         no_return=coded,

@@ -35,6 +35,7 @@ OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
 TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
 """Occupied and free thresholds by which nav2 tells the three greys apart."""
 
+_QUOTED_VALUE = re.compile(r"""[^:#]*:\s*("([^"\\]|\\.)*"|'([^']|'')*')\s*(#[^'"]*)?""")
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_./-]*")
 
 
@@ -209,7 +210,9 @@ def _read_flat_yaml(path: Path) -> dict[str, str]:
     entries: dict[str, str] = {}
     key = ""
     for number, raw in enumerate(lines, start=1):
-        line = re.sub(r"(^|\s)#.*", "", raw).strip()
+        line = raw.strip()
+        if not _QUOTED_VALUE.fullmatch(line):
+            line = re.sub(r"(^|\s)#.*", "", line).strip()
         if not line or line == "---":
             continue
         if line.startswith("- ") and key:
@@ -223,7 +226,9 @@ def _read_flat_yaml(path: Path) -> dict[str, str]:
 
 
 def _unquoted(value: str) -> str:
-    if len(value) >= 2 and value[0] == value[-1] == "'":
+    if value[:1] in ("'", '"'):
+        value = value[: value.rindex(value[0]) + 1]  # what follows is a comment
+    if len(value) >= 2 and value[0] == "'":
         return value[1:-1].replace("''", "'")
     if value.startswith('"'):
         try:

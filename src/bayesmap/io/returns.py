@@ -5,7 +5,7 @@ Logs older than ROS have no infinity: a sensor that saw nothing wrote a number o
 
 **The rule at the top.** Nothing is further than nothing: a code is the largest number in the log, or nearly
 so, and it stands out by being repeated. Among the distinct readings within 20 % of the largest, take the
-smallest value v that
+smallest value v, with at most 8 different values above it, that
 
 - was reported at least 10 times, and 10 times as often as an average value of those in [0.8 v, v); or
 - was reported (or exceeded) at least 3 times, and is at least twice any smaller reading (for short logs);
@@ -32,6 +32,7 @@ TOP_SHARE = 0.8
 MIN_REPEATS = 10
 MIN_BEAMS = 3
 ISOLATION = 2.0
+MAX_CODES = 8
 PRINT_PRECISION_M = 1e-3
 """A code given as 81.83 is also met when the log says 81.8299."""
 
@@ -107,7 +108,7 @@ def _code_at_top(readings_m: NDArray[np.float64]) -> float | None:
         return None
     values, counts = np.unique(positive, return_counts=True)
     before = np.concatenate([[0], np.cumsum(counts)])  # readings below values[i]
-    candidates = np.nonzero(values >= TOP_SHARE * values[-1])[0]
+    candidates = np.nonzero(values >= TOP_SHARE * values[-1])[0][-1 - MAX_CODES :]
     window = np.searchsorted(values, TOP_SHARE * values[candidates])  # start of [0.8 v, v)
     usual = (before[candidates] - before[window]) / np.maximum(candidates - window, 1)
     repeated = counts[candidates] >= MIN_REPEATS * np.maximum(usual, 1.0)

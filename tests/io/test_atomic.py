@@ -1,0 +1,96 @@
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+import bayesmap
+from bayesmap.io.atomic import write_whole
+
+
+def test_what_the_block_wrote_becomes_the_file(tmp_path):
+    path = tmp_path / "run.nc"
+    with write_whole(path) as temporary:
+        assert temporary.parent == tmp_path
+        assert temporary.suffix == ".nc"
+        temporary.write_text("whole")
+        assert not path.exists()
+    assert path.read_text() == "whole"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "map.yaml"
+    path.write_text("old")
+
+    def write_half():
+        with write_whole(path) as temporary:
+            temporary.write_text("half")
+            raise RuntimeError("half-way")
+
+    with pytest.raises(RuntimeError, match="half-way"):
+        write_half()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_temporary_file_may_be_replaced_by_the_block(tmp_path):
+    with write_whole(tmp_path / "a") as temporary:  # as libraries do that delete and create
+        temporary.unlink()
+        temporary.write_text("new")
+    assert (tmp_path / "a").read_text() == "new"
+
+
+def test_permissions_are_the_old_files_or_the_usual_ones(tmp_path):
+    old, new, usual = tmp_path / "old", tmp_path / "new", tmp_path / "usual"
+    old.write_text("")
+    old.chmod(0o640)
+    usual.write_text("")
+    for path in (old, new):
+        with write_whole(path) as temporary:
+            temporary.write_text("x")
+    assert old.stat().st_mode & 0o777 == 0o640
+    assert new.stat().st_mode == usual.stat().st_mode
+
+
+def test_a_link_keeps_pointing_to_the_file_that_is_replaced(tmp_path):
+    (tmp_path / "there").mkdir()
+    link, target = tmp_path / "link", tmp_path / "there" / "file"
+    link.symlink_to(target)
+    with write_whole(link) as temporary:
+        temporary.write_text("x")
+    assert link.is_symlink()
+    assert target.read_text() == "x"
+
+
+def test_a_missing_folder_is_noticed_before_the_work_is_done(tmp_path):
+    with pytest.raises(FileNotFoundError), write_whole(tmp_path / "absent" / "file"):
+        pytest.fail("the block must not run")
+
+
+def test_killed_at_any_moment_the_file_is_old_or_new(tmp_path):
+    path = tmp_path / "chain"
+    path.write_text("0" * 100_000)
+    endless = (
+        "import sys, itertools\n"
+        "from bayesmap.io.atomic import write_whole\n"
+        "print('ready', flush=True)\n"
+        "for k in itertools.count():\n"
+        "    with write_whole(sys.argv[1]) as temporary:\n"
+        "        temporary.write_text(str(k % 10) * 100_000)\n"
+    )
+    source = os.path.dirname(os.path.dirname(bayesmap.__file__))
+    for _ in range(5):
+        child = subprocess.Popen(
+            [sys.executable, "-c", endless, str(path)],
+            stdout=subprocess.PIPE,
+            env={**os.environ, "PYTHONPATH": source},
+        )
+        assert child.stdout.readline() == b"ready\n"
+        child.send_signal(signal.SIGKILL)
+        child.wait()
+        child.stdout.close()
+        text = path.read_text()
+        assert len(text) == 100_000
+        assert len(set(text)) == 1

@@ -1,0 +1,181 @@
+import gzip
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bayesmap.errors import BadInput
+from bayesmap.io.carmen import read_carmen
+
+numbers = st.floats(-1e4, 1e4).map(lambda v: round(v, 6))
+ranges = st.floats(0.01, 80).map(lambda v: round(v, 4))
+
+
+def flaser(readings, pose=(0.0, 0.0, 0.0), robot=None, t=0.0, kind="FLASER"):
+    words = [kind, len(readings), *readings, *pose, *(pose if robot is None else robot), t, "host", t]
+    return " ".join(map(str, words)) + "\n"
+
+
+def robotlaser(readings, pose=(0.0, 0.0, 0.0), t=0.0, first=-1.0, step=0.5, max_range=80.0, remissions=()):
+    fov = step * (len(readings) - 1)
+    words = ["ROBOTLASER1", 0, first, fov, step, max_range, 0.01, 0, len(readings), *readings]
+    words += [len(remissions), *remissions, *pose, *pose, 0, 0, 0.3, 0.2, 0, t, "host", t]
+    return " ".join(map(str, words)) + "\n"
+
+
+@pytest.fixture(scope="module")
+def read(tmp_path_factory):
+    path = tmp_path_factory.mktemp("carmen") / "robot.log"
+
+    def write_and_read(text, **options):
+        path.write_text(text)
+        return read_carmen(path, **options)
+
+    return write_and_read
+
+
+@st.composite
+def logs(draw):
+    """(ranges, poses, times) of a log, times distinct."""
+    n, beams = draw(st.integers(1, 6)), draw(st.integers(2, 8))
+    times = draw(st.lists(numbers, min_size=n, max_size=n, unique=True))
+    readings = draw(st.lists(st.lists(ranges, min_size=beams, max_size=beams), min_size=n, max_size=n))
+    poses = draw(st.lists(st.tuples(numbers, numbers, numbers), min_size=n, max_size=n))
+    return readings, poses, times
+
+
+@given(logs(), st.booleans())
+def test_what_is_written_is_read_back_in_order_of_time(read, log, explicit):
+    readings, poses, times = log
+    write = robotlaser if explicit else flaser
+    text = "".join(write(r, p, t=t) for r, p, t in zip(readings, poses, times, strict=True))
+    scans = read(text, no_return=np.inf).scans
+    order = np.argsort(times)
+    np.testing.assert_array_equal(scans.stamps_s, np.array(times)[order])
+    np.testing.assert_array_equal(scans.ranges_m, np.array(readings)[order])
+    np.testing.assert_array_equal(scans.poses, np.array(poses)[order])
+
+
+@given(logs(), st.data())
+def test_the_order_of_lines_does_not_matter(read, log, data):
+    lines = [flaser(r, p, t=t) for r, p, t in zip(*log, strict=True)]
+    lines += ["ODOM 0 0 0 0 0 0 1 host 1\n", "# a comment\n", "NEFF 3\n", "PARAM laser_on yes\n", "\n"]
+    shuffled = data.draw(st.permutations(lines))
+    a, b = read("".join(lines)), read("".join(shuffled))
+    np.testing.assert_array_equal(a.scans.ranges_m, b.scans.ranges_m)
+    np.testing.assert_array_equal(a.scans.poses, b.scans.poses)
+    assert a.no_return == b.no_return
+    assert a.messages == b.messages
+
+
+@given(
+    logs(),
+    st.lists(st.text(alphabet="FLASERODM .0123456789-\t", min_size=1, max_size=30), max_size=4),
+    st.data(),
+)
+def test_bad_lines_among_good_ones_change_nothing_but_the_account(read, log, junk, data):
+    good = [flaser(r, p, t=t) for r, p, t in zip(*log, strict=True)]
+    bad = [f"FLASER 3 {line}x\n" for line in junk]  # never a whole message
+    mixed = data.draw(st.permutations(good + bad))
+    clean, reading = read("".join(good)), read("".join(mixed), skip_bad_lines=True)
+    np.testing.assert_array_equal(reading.scans.ranges_m, clean.scans.ranges_m)
+    assert [skip.line for skip in reading.skipped] == [k for k, line in enumerate(mixed, 1) if line in bad]
+    if bad:
+        first = 1 + min(mixed.index(line) for line in bad)
+        with pytest.raises(BadInput, match=rf"robot\.log: line {first}: .*--skip-bad-lines"):
+            read("".join(mixed))
+
+
+@pytest.mark.parametrize(
+    ("beams", "last_deg", "step_deg"),
+    [
+        (180, 89, 1),
+        (181, 90, 1),
+        (360, 89.5, 0.5),
+        (361, 90, 0.5),
+        (400, 9.75, 0.25),
+        (401, 10, 0.25),
+        (7, 90, 30),
+    ],
+)
+def test_angles_of_flaser_follow_from_the_number_of_beams(read, beams, last_deg, step_deg):
+    angles = np.degrees(read(flaser([1.0] * beams)).scans.angles_rad)
+    assert len(angles) == beams
+    np.testing.assert_allclose(angles[[0, -1]], [-90, last_deg], atol=1e-9)
+    np.testing.assert_allclose(np.diff(angles), step_deg, atol=1e-9)
+
+
+def test_angles_that_the_log_does_not_say_are_noted(read):
+    assert read(flaser([1.0] * 180)).notes == ()
+    assert "7 beams 30 degrees apart from -90" in read(flaser([1.0] * 7)).notes[0]
+
+
+def test_robotlaser_states_its_angles_and_may_hold_remissions(read):
+    reading = read(robotlaser([1.0, 2.0, 3.0], (1.0, 2.0, 0.5), first=-0.2, step=0.2, remissions=(7, 8)))
+    np.testing.assert_allclose(reading.scans.angles_rad, [-0.2, 0.0, 0.2], atol=1e-12)
+    np.testing.assert_array_equal(reading.scans.poses, [[1.0, 2.0, 0.5]])
+    assert reading.message == "ROBOTLASER1"
+
+
+def test_robotlaser_readings_at_the_stated_maximum_are_no_return(read):
+    reading = read(robotlaser([1.0, 50.0, 51.2], max_range=50.0))
+    np.testing.assert_array_equal(reading.scans.ranges_m, [[1.0, np.inf, np.inf]])
+    assert reading.no_return.origin == "message"
+    assert reading.no_return_m == 50.0
+
+
+def test_the_pose_is_the_lasers_and_its_offset_is_reported(read):
+    robot, offset = np.array([2.0, 1.0, np.pi / 2]), 0.3
+    laser = (2.0, 1.0 + offset, np.pi / 2)  # 0.3 m ahead of a robot that looks along +y
+    reading = read(flaser([1.0, 2.0], laser, robot))
+    np.testing.assert_array_equal(reading.scans.poses, [laser])
+    np.testing.assert_allclose(reading.laser_offset, [offset, 0, 0], atol=1e-12)
+
+
+def test_of_two_lasers_the_one_with_more_scans_is_read_and_the_other_noted(read):
+    front = [flaser([1.0, 2.0], t=t) for t in range(2)]
+    rear = [flaser([3.0, 4.0], t=t, kind="RLASER") for t in range(3)]
+    reading = read("".join(front + rear))
+    assert (reading.message, len(reading.scans)) == ("RLASER", 3)
+    assert reading.notes[0].startswith("the log also holds 2 FLASER scans, which were not used")
+    assert read("".join(front + rear[:2])).message == "FLASER"
+
+
+def test_gzip_is_recognised_by_content_whatever_the_name(tmp_path):
+    text = "".join(flaser([1.0, 2.0], t=t) for t in range(3)).encode()
+    for name in ("a.log", "b.gz", "c"):
+        (tmp_path / name).write_bytes(gzip.compress(text))
+        assert len(read_carmen(tmp_path / name).scans) == 3
+    (tmp_path / "plain.gz").write_bytes(text)
+    assert len(read_carmen(tmp_path / "plain.gz").scans) == 3
+    (tmp_path / "joined.gz").write_bytes(gzip.compress(text) + gzip.compress(text))
+    assert len(read_carmen(tmp_path / "joined.gz").scans) == 6
+
+
+def test_ros_codes_keep_their_meaning(read):
+    scans = read(flaser(["nan", "inf", "-inf", 1.0])).scans
+    assert scans.counts() == {"hit": 1, "no_return": 1, "too_close": 1, "invalid": 1}
+
+
+def test_the_maximum_range_is_the_largest_hit_rounded_up_unless_given(read):
+    text = flaser([3.2, 7.01, 5.0])
+    assert (read(text).scans.max_range_m, read(text).max_range_origin) == (8.0, "readings")
+    limited = read(text, max_range_m=6.0)
+    np.testing.assert_array_equal(limited.scans.ranges_m, [[3.2, np.inf, 5.0]])
+    assert (limited.scans.max_range_m, limited.max_range_origin) == (6.0, "given")
+
+
+def test_a_given_no_return_code_is_used(read):
+    reading = read(flaser([3.0, 9.0, 10.0]), no_return=9.0)
+    np.testing.assert_array_equal(reading.scans.ranges_m, [[3.0, np.inf, np.inf]])
+    assert (reading.no_return.origin, reading.no_return_m) == ("given", 9.0)
+
+
+def test_lines_that_are_too_long_are_refused(read):
+    with pytest.raises(BadInput, match="line 2 is over 1,048,576 bytes"):
+        read(flaser([1.0, 2.0]) + "X" * 3_000_000)
+
+
+def test_scans_out_of_order_are_counted(read):
+    assert read("".join(flaser([1.0, 2.0], t=t) for t in (1, 3, 2, 4))).reordered == 1

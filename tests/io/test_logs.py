@@ -1,0 +1,87 @@
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data import intel_log
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bayesmap.errors import BadInput
+from bayesmap.io.logs import describe_log, read_log
+
+CORPUS = Path(__file__).with_name("corpus")
+EXPECTED = tomllib.loads((CORPUS / "expected.toml").read_text())
+
+
+def test_every_log_of_the_corpus_has_an_expectation():
+    assert {path.name for path in CORPUS.iterdir()} == {*EXPECTED, "expected.toml"}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_a_broken_log_is_refused_with_its_place_and_a_reason(name):
+    with pytest.raises(BadInput) as error:
+        read_log(CORPUS / name)
+    assert str(error.value).startswith(str(CORPUS / name))
+    assert EXPECTED[name]["error"] in str(error.value)
+    if "skipped" in EXPECTED[name]:
+        assert "--skip-bad-lines" in str(error.value)
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_bad_lines_are_left_out_on_request_and_listed(name):
+    if "skipped" not in EXPECTED[name]:
+        with pytest.raises(BadInput):
+            describe_log(CORPUS / name, skip_bad_lines=True)
+        return
+    reading = describe_log(CORPUS / name, skip_bad_lines=True)
+    assert [skip.line for skip in reading.skipped] == EXPECTED[name]["skipped"]
+    assert len(reading.scans) == EXPECTED[name]["scans"]
+    assert reading.summary()["skipped_lines"] == len(EXPECTED[name]["skipped"])
+
+
+@given(st.binary(max_size=400), st.booleans())
+def test_whatever_a_file_holds_it_is_read_or_refused(tmp_path_factory, content, skip):
+    path = tmp_path_factory.mktemp("junk") / "junk.log"
+    for start in (b"", b"FLASER 2 ", b"ODOM 1 2 3\n", b"\x1f\x8b"):
+        path.write_bytes(start + content)
+        try:
+            scans = read_log(path, skip_bad_lines=skip)
+        except BadInput as refusal:
+            message = str(refusal)
+            assert "junk.log" in message
+        else:
+            assert len(scans) > 0
+
+
+def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
+    with pytest.raises(BadInput, match=r"absent\.log: cannot be read: No such file"):
+        read_log(tmp_path / "absent.log")
+    with pytest.raises(BadInput, match="cannot be read: Is a directory"):
+        read_log(tmp_path)
+
+
+def test_the_intel_log_is_read_as_its_description_says():
+    reading = describe_log(intel_log("intel-corrected.log.gz"))
+    scans = reading.scans
+    assert scans.ranges_m.shape == (910, 180)
+    assert reading.messages == {"FLASER": 910, "ODOM": 14541, "NEFF": 910}
+    assert reading.no_return_m == 81.83
+    assert reading.no_return.origin == "found"
+    assert scans.counts() == {"hit": 159628, "no_return": 4172, "too_close": 0, "invalid": 0}
+    assert scans.max_range_m == 26.0
+    assert scans.ranges_m.min() == 0.23
+    np.testing.assert_allclose(np.degrees(scans.angles_rad), np.arange(-90, 90), atol=1e-9)
+    assert reading.reordered > 0
+    assert (np.diff(scans.stamps_s) >= 0).all()
+    assert reading.laser_offset == (0.0, 0.0, 0.0)
+    assert reading.skipped == ()
+
+
+def test_both_intel_logs_hold_the_same_readings():
+    corrected = read_log(intel_log("intel-corrected.log.gz"))
+    odometry = read_log(intel_log("intel-odometry.log.gz"))
+    # The corrected log prints its times with six digits, so scans close in time may change places.
+    same = (corrected.ranges_m == odometry.ranges_m).all(axis=1)
+    assert same.mean() > 0.99
+    assert not np.allclose(corrected.poses, odometry.poses)

@@ -1,0 +1,181 @@
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+from PIL import Image
+
+from bayesmap.errors import BadInput
+from bayesmap.io.map_server import read_map, write_map
+from bayesmap.world.grid import Grid
+
+shapes = hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=8)
+probabilities = hnp.arrays(np.float64, shapes, elements=st.floats(0, 1))
+resolutions = st.floats(1e-6, 10.0)
+corners = st.tuples(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5))
+
+
+def nav2_reads(path_yaml):
+    """OccupancyGrid data, shape (height, width), row 0 the bottom: nav2's rules, written again."""
+    entries = dict(line.split(": ", 1) for line in path_yaml.read_text().splitlines())
+    image = Image.open(path_yaml.parent / entries["image"])
+    occupied, free = float(entries["occupied_thresh"]), float(entries["free_thresh"])
+    has_alpha = "A" in image.getbands()
+    data = np.empty((image.height, image.width), dtype=int)
+    for y in range(image.height):
+        for x in range(image.width):
+            red, green, blue, alpha = image.convert("RGBA").getpixel((x, y))
+            channels = [red, green, blue]
+            if entries["mode"] == "trinary" and has_alpha:
+                channels.append(alpha)
+            shade = sum(channels) / len(channels) / 255
+            occ = shade if int(entries["negate"]) else 1 - shade
+            if entries["mode"] == "scale" and has_alpha and alpha != 255:
+                cell = -1
+            elif occupied < occ:
+                cell = 100
+            elif occ < free:
+                cell = 0
+            elif entries["mode"] == "trinary":
+                cell = -1
+            else:
+                cell = round((occ - free) / (occupied - free) * 100)
+            data[image.height - y - 1, x] = cell
+    resolution = float(entries["resolution"])
+    origin = [float(v) for v in re.fullmatch(r"\[(.*)\]", entries["origin"])[1].split(",")]
+    return data, resolution, origin
+
+
+@given(probabilities, resolutions, corners, st.data())
+def test_nav2_reads_a_trinary_map_as_occupied_free_unknown(
+    tmp_path_factory, occupancy, resolution, origin, data
+):
+    observed = data.draw(hnp.arrays(bool, occupancy.shape))
+    grid = Grid(occupancy.shape, resolution, origin)
+    yaml, image = write_map(tmp_path_factory.mktemp("map") / "map.yaml", occupancy, grid, observed)
+    cells, read_resolution, read_origin = nav2_reads(yaml)
+    expected = np.where(occupancy > 0.65, 100, np.where(occupancy < 0.25, 0, -1))
+    np.testing.assert_array_equal(cells.T, np.where(observed, expected, -1))
+    assert read_resolution == grid.resolution
+    assert read_origin == [*grid.origin, 0.0]
+    assert image.suffix == ".pgm"
+
+
+@given(probabilities, st.data())
+def test_nav2_reads_a_scaled_map_as_the_probability_in_per_cent(tmp_path_factory, occupancy, data):
+    observed = data.draw(hnp.arrays(bool, occupancy.shape))
+    grid = Grid(occupancy.shape, 0.1, (0.0, 0.0))
+    yaml, image = write_map(
+        tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode="scale"
+    )
+    cells, _, _ = nav2_reads(yaml)
+    np.testing.assert_array_equal(cells.T == -1, ~observed)
+    # One step of a grey is 0.4 %, and nav2 rounds to a whole per cent.
+    assert (np.abs(cells.T - 100 * occupancy)[observed] <= 0.5 + 100 * 0.5 / 255 + 1e-9).all()
+    assert image.suffix == (".pgm" if observed.all() else ".png")
+
+
+def test_nav2_saturates_a_scaled_map_beyond_given_thresholds(tmp_path):
+    occupancy = np.array([[0.1, 0.2, 0.5, 0.8, 0.9]])
+    grid = Grid((1, 5))
+    yaml, _ = write_map(
+        tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25
+    )
+    np.testing.assert_array_equal(nav2_reads(yaml)[0].T, [[0, 0, 50, 100, 100]])
+
+
+@pytest.mark.parametrize("mode", ["trinary", "scale"])
+@given(occupancy=probabilities, data=st.data())
+def test_what_is_written_is_read_back_as_nav2_reads_it(tmp_path_factory, mode, occupancy, data):
+    observed = data.draw(hnp.arrays(bool, occupancy.shape))
+    grid = Grid(occupancy.shape, 0.05, (-1.5, 2.25))
+    yaml, _ = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode=mode)
+    cells, read_grid = read_map(yaml)
+    as_nav2 = nav2_reads(yaml)[0].T
+    np.testing.assert_array_equal(cells, np.where(as_nav2 == -1, np.nan, as_nav2 / 100))
+    assert read_grid == grid
+
+
+def test_the_first_row_of_the_image_is_the_top_of_the_map(tmp_path):
+    occupancy = np.zeros((3, 2))
+    occupancy[0, 1] = 1.0  # low x, high y
+    _, image = write_map(tmp_path / "m.yaml", occupancy, Grid((3, 2)))
+    pixels = np.asarray(Image.open(image))
+    np.testing.assert_array_equal(pixels, [[0, 254, 254], [254, 254, 254]])
+    assert image.read_bytes().startswith(b"P5")
+
+
+def test_unknown_cells_are_grey_205_and_not_free_for_nav2(tmp_path):
+    occupancy = np.array([[0.1, np.nan, 0.5]])
+    yaml, image = write_map(tmp_path / "m.yaml", occupancy, Grid((1, 3)))
+    np.testing.assert_array_equal(np.asarray(Image.open(image))[::-1, 0], [254, 205, 205])
+    np.testing.assert_array_equal(nav2_reads(yaml)[0][:, 0], [0, -1, -1])
+
+
+@pytest.mark.parametrize(
+    "name", ["plain.yaml", "two words.yaml", "colon: and # hash.yaml", "día.yml", "0.yaml"]
+)
+def test_any_file_name_finds_its_image(tmp_path, name):
+    grid = Grid((2, 2))
+    write_map(tmp_path / name, np.eye(2), grid)
+    np.testing.assert_array_equal(read_map(tmp_path / name)[0], np.eye(2))
+
+
+def test_maps_of_other_programs_are_read(tmp_path):
+    Image.fromarray(np.array([[254, 0], [205, 254]], dtype=np.uint8)).save(tmp_path / "floor 1.pgm")
+    (tmp_path / "map.yaml").write_text(
+        "---\n# made by map_saver\nimage: 'floor 1.pgm'  # relative\nresolution: 0.050000\n"
+        "origin:\n- -1.5\n- 2\n- 0.0\nnegate: false\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+    )
+    cells, grid = read_map(tmp_path / "map.yaml")
+    np.testing.assert_array_equal(cells, [[np.nan, 0.0], [0.0, 1.0]])
+    assert grid == Grid((2, 2), 0.05, (-1.5, 2.0))
+
+
+def test_raw_and_negated_maps_are_read(tmp_path):
+    Image.fromarray(np.array([[0, 37, 100, 101, 255]], dtype=np.uint8)).save(tmp_path / "m.pgm")
+    head = "image: m.pgm\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+    (tmp_path / "raw.yaml").write_text(head + "mode: raw\nnegate: 0\n")
+    np.testing.assert_array_equal(read_map(tmp_path / "raw.yaml")[0][:, 0], [0, 0.37, 1, np.nan, np.nan])
+    (tmp_path / "negated.yaml").write_text(head + "negate: 1\n")
+    np.testing.assert_array_equal(read_map(tmp_path / "negated.yaml")[0][:, 0], [0, 0, np.nan, np.nan, 1])
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("resolution: 0.1\norigin: [0, 0, 0]\n", "has no 'image:'"),
+        ("image: absent.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", r"absent\.pgm: cannot be read"),
+        ("image: m.pgm\nresolution: fine\norigin: [0, 0, 0]\n", "resolution must be a number, got 'fine'"),
+        ("image: m.pgm\nresolution: 0.1\norigin: [0, 0]\n", r"origin must be \[x, y, yaw\]"),
+        ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0.5]\n", "turned by 0.5 rad"),
+        ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nmode: fuzzy\n", "mode 'fuzzy' is not known"),
+        ("image: m.pgm\nnonsense\n", "line 2: expected 'key: value'"),
+    ],
+)
+def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):
+    Image.fromarray(np.zeros((2, 2), dtype=np.uint8)).save(tmp_path / "m.pgm")
+    (tmp_path / "m.yaml").write_text(text)
+    with pytest.raises(BadInput, match=says):
+        read_map(tmp_path / "m.yaml")
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"occupancy": np.full((2, 3), 1.5)}, r"cell \(0, 0\) is 1.5"),
+        ({"occupancy": np.zeros((3, 2))}, "occupancy has shape"),
+        ({"observed": np.ones((3, 2))}, "observed has shape"),
+        ({"mode": "raw"}, "mode 'raw' is not known"),
+        ({"occupied_thresh": 0.1}, "free_thresh < occupied_thresh"),
+        ({"path_yaml": "map.png"}, r"must end in \.yaml"),
+    ],
+)
+def test_a_map_that_cannot_be_written_leaves_no_file(tmp_path, change, says):
+    arguments = {"path_yaml": "m.yaml", "occupancy": np.zeros((2, 3)), "grid": Grid((2, 3)), **change}
+    arguments["path_yaml"] = tmp_path / arguments["path_yaml"]
+    with pytest.raises(BadInput, match=says):
+        write_map(**arguments)
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,134 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bayesmap.errors import BadInput
+from bayesmap.io.returns import decode
+
+SENSOR_CODES = [81.83, 81.91, 50.0, 51.15, 32.76]
+
+
+def a_log(code, share, largest_m, scans=60, beams=90, seed=0):
+    """Readings in centimetres up to largest_m, a share of them replaced by a code; and where."""
+    rng = np.random.default_rng(seed)
+    ranges = np.round(0.2 + (largest_m - 0.2) * rng.beta(1.5, 4.0, (scans, beams)), 2)
+    coded = rng.random(ranges.shape) < share
+    return np.where(coded, code, ranges), coded
+
+
+@pytest.mark.parametrize("code", SENSOR_CODES)
+@pytest.mark.parametrize("share", [0.005, 0.05, 0.6])
+def test_codes_of_real_sensors_are_found(code, share):
+    readings, coded = a_log(code, share, largest_m=25.0)
+    ranges, found = decode(readings)
+    assert (found.code_m, found.origin, found.values_m) == (code, "found", (code,))
+    np.testing.assert_array_equal(np.isposinf(ranges), coded)
+    np.testing.assert_array_equal(ranges[~coded], readings[~coded])
+
+
+@pytest.mark.parametrize("code", SENSOR_CODES)
+def test_a_code_is_found_though_ranges_reach_up_to_it(code):
+    readings, coded = a_log(code, 0.05, largest_m=code - 0.01)
+    readings[0] = np.round(np.linspace(code - 3, code - 0.01, 90), 2)
+    coded[0] = False
+    ranges, found = decode(readings)
+    assert found.code_m == code
+    np.testing.assert_array_equal(np.isposinf(ranges), coded)
+
+
+def test_rarer_codes_above_the_usual_one_are_no_return_too():
+    readings, _ = a_log(81.83, 0.05, largest_m=25.0)
+    readings[3, 4], readings[5, 6] = 81.91, 81.87
+    ranges, found = decode(readings)
+    assert found.code_m == 81.83
+    assert found.values_m == (81.83, 81.87, 81.91)
+    assert np.isposinf(ranges[[3, 5], [4, 6]]).all()
+
+
+@given(st.integers(0, 10_000), st.floats(2.0, 60.0))
+def test_a_log_without_a_code_keeps_all_its_ranges(seed, largest_m):
+    readings, _ = a_log(0.0, 0.0, largest_m, seed=seed)
+    ranges, found = decode(readings)
+    assert (found.code_m, found.origin) == (None, "none")
+    np.testing.assert_array_equal(ranges, readings)
+
+
+def test_a_distance_met_again_and_again_is_no_code_while_others_are_longer():
+    readings, _ = a_log(0.0, 0.0, largest_m=20.0)
+    readings[:, 40:50] = 0.9 * readings.max()
+    _, found = decode(readings)
+    assert found.code_m is None
+
+
+def test_two_codes_equally_frequent_are_both_no_return():
+    readings, coded = a_log(81.83, 0.1, largest_m=25.0)
+    readings[::2][coded[::2]] = 81.91
+    ranges, found = decode(readings)
+    assert found.values_m == (81.83, 81.91)
+    np.testing.assert_array_equal(np.isposinf(ranges), coded)
+
+
+def test_a_robot_standing_still_before_a_far_wall_makes_no_code():
+    scan = np.round(np.random.default_rng(0).uniform(1, 5, 180), 2)
+    scan[90:92] = 23.5  # seen through a door, by the same two beams in every scan
+    _, found = decode(np.tile(scan, (200, 1)))
+    assert found.code_m is None
+
+
+def test_a_single_scan_shows_its_code_if_it_is_far_above_the_rest():
+    scan = np.round(np.random.default_rng(0).uniform(1, 9, (1, 180)), 2)
+    scan[0, [3, 70, 120]] = 81.83
+    ranges, found = decode(scan)
+    assert found.code_m == 81.83
+    assert np.isposinf(ranges).sum() == 3
+
+
+@pytest.mark.parametrize("code", [0.0, -1.0])
+def test_zero_and_minus_one_are_codes_if_repeated_and_none_is_at_the_top(code):
+    readings, coded = a_log(code, 0.02, largest_m=9.0)
+    ranges, found = decode(readings)
+    assert (found.code_m, found.origin) == (code, "found")
+    np.testing.assert_array_equal(np.isposinf(ranges), coded)
+
+
+def test_beside_a_code_at_the_top_zeros_are_invalid():
+    readings, coded = a_log(81.83, 0.02, largest_m=9.0)
+    readings[0, :20] = 0.0
+    ranges, found = decode(readings)
+    assert found.code_m == 81.83
+    assert np.isnan(ranges[0, :20]).all()
+    assert np.isposinf(ranges).sum() == coded[1:].sum() + coded[0, 20:].sum()
+
+
+def test_a_stray_zero_is_invalid():
+    readings, _ = a_log(0.0, 0.0, largest_m=9.0)
+    readings[3, 3] = 0.0
+    ranges, found = decode(readings)
+    assert found.code_m is None
+    assert np.isnan(ranges[3, 3])
+    assert np.isfinite(ranges).sum() == ranges.size - 1
+
+
+def test_a_given_code_is_met_within_the_precision_of_print():
+    ranges, found = decode(np.array([[5.0, 81.8299, 81.83, 81.91, 81.8]]), given=81.83)
+    np.testing.assert_array_equal(ranges, [[5.0, np.inf, np.inf, np.inf, 81.8]])
+    assert (found.code_m, found.origin) == (81.83, "given")
+
+
+def test_given_minus_one_means_all_numbers_that_are_no_range():
+    ranges, _ = decode(np.array([[5.0, -1.0, 0.0]]), given=-1.0)
+    np.testing.assert_array_equal(ranges, [[5.0, np.inf, np.inf]])
+
+
+def test_given_infinity_means_that_the_log_has_no_code():
+    readings, _ = a_log(81.83, 0.1, largest_m=25.0)
+    ranges, found = decode(readings, given=np.inf)
+    assert found.code_m is None
+    np.testing.assert_array_equal(ranges, readings)
+
+
+@pytest.mark.parametrize("given_code", [np.nan, -np.inf])
+def test_a_given_code_must_be_a_number(given_code):
+    with pytest.raises(BadInput, match="--no-return"):
+        decode(np.ones((1, 3)), given=given_code)
