@@ -27,13 +27,14 @@ from bayesmap.world.scans import as_poses
 LEVELS = 128
 """Steps of probability in a frame: finer ones cannot be told apart, and fewer colours pack better."""
 
-BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, TEXT = range(LEVELS, LEVELS + 6)
+BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, FRAME = range(LEVELS, LEVELS + 6)
 """Palette indices after the levels of probability."""
 
 TARGET_PX = 560
 """Cells are enlarged by the least whole number that makes the longest side so long."""
 
 MARGIN_PX = 10
+CAPTION_PX = 30
 HATCH_PITCH_PX = 7
 LAST_FRAME_MS = 1500
 """The last frame stays longer, so that the eye can rest on the result before the film starts again."""
@@ -135,13 +136,14 @@ class _Canvas:
         self.scale = math.ceil(TARGET_PX / max(grid.shape))
         width, height = (n * self.scale for n in grid.shape)
         self.font = ImageFont.load_default(size=15)
-        self.caption_px = 30
-        self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + self.caption_px)
+        self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + CAPTION_PX)
         self.colors = _palette_bytes()
         # The marks cover the map where they are not zero (no mark has the index 0, which is "surely free").
         self.marks = np.zeros((height + 2 * MARGIN_PX, width + 2 * MARGIN_PX), dtype=np.uint8)
         self.inside = (slice(MARGIN_PX, -MARGIN_PX), slice(MARGIN_PX, -MARGIN_PX))
         self.marks[:] = BACKGROUND
+        edge = slice(MARGIN_PX - 1, 1 - MARGIN_PX)
+        self.marks[edge, edge] = FRAME
         self.marks[self.inside] = self._enlarge(np.where(observed, 0, UNOBSERVED).astype(np.uint8))
         row, column = np.indices(self.marks.shape)
         self.marks[(self.marks == UNOBSERVED) & ((row + column) % HATCH_PITCH_PX == 0)] = HATCH
@@ -157,13 +159,18 @@ class _Canvas:
         area = pixels[: self.marks.shape[0]]
         area[...] = self.marks
         np.copyto(area[self.inside], levels, where=self.visible[self.inside])
+        pixels[self.marks.shape[0] :] = self._caption(text)
         image = Image.fromarray(pixels)
         image.putpalette(self.colors)
-        draw = ImageDraw.Draw(image)
-        draw.fontmode = "1"  # no blending: indices between two colours are other colours
-        baseline = self.marks.shape[0] + self.caption_px // 2 - 4
-        draw.text((MARGIN_PX, baseline), text, fill=TEXT, font=self.font, anchor="lm")
         return image
+
+    def _caption(self, text: str) -> NDArray[np.uint8]:
+        """The strip under the map: smooth type, whose shades are those of probability, from paper to ink."""
+        strip = Image.new("L", (self.size[0], CAPTION_PX), 0)
+        place = (MARGIN_PX, CAPTION_PX // 2 - 4)
+        ImageDraw.Draw(strip).text(place, text, fill=LEVELS - 1, font=self.font, anchor="lm")
+        shades = np.asarray(strip)
+        return np.where(shades > 0, shades, BACKGROUND).astype(np.uint8)
 
     def _enlarge(self, cells: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """From cells [x, y] to pixels [row, column], the first row on top."""
@@ -197,7 +204,7 @@ class _Canvas:
 
 def _palette_bytes() -> bytes:
     unobserved = [palette.UNOBSERVED, palette.UNOBSERVED_HATCH]
-    marks = ["#FFFFFF", *unobserved, palette.TRUTH, palette.SENSOR, palette.TEXT]
+    marks = ["#FFFFFF", *unobserved, palette.TRUTH, palette.SENSOR, palette.FRAME]
     colors = np.concatenate([palette.probability_colors(LEVELS), [to_rgb(mark) for mark in marks]])
     return np.rint(255.0 * colors).astype(np.uint8).tobytes()
 

@@ -58,9 +58,7 @@ def as_mask(grid: Grid, values: ArrayLike, name: str) -> NDArray[np.bool_]:
         return array
     numbers = as_array(values, name)
     if not np.isin(numbers, (0.0, 1.0)).all():
-        raise BadInput(
-            f"picture: {name} must be true or false in every cell; threshold it first, as {name} > 0.5"
-        )
+        raise BadInput(f"picture: {name} must be true or false in every cell; threshold it first, as {name} > 0.5")
     return np.asarray(numbers == 1.0)
 
 

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from bayesmap.viz import maps, overlays, palette
 from bayesmap.viz.cells import as_observed
-from bayesmap.viz.layout import Layout, lay_out
+from bayesmap.viz.layout import Layout, lay_out, tick_locator
 from bayesmap.viz.writing import need_ending, write_whole
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
@@ -88,7 +88,7 @@ def posterior_figure(
 
     titles = {"data": "readings", "mean": "posterior mean", "entropy": "uncertainty", "draw": "one draw"}
     for position, (name, panel) in enumerate(panels.items()):
-        _letter(panel, titles[name], leftmost=position % layout.columns == 0)
+        _letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
     ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
     _color_bar(figure, layout, layout.corners[0], mean, "probability of wall", ticks)
     _color_bar(figure, layout, layout.corners[1], entropy, "entropy [bits]", ticks)
@@ -140,11 +140,13 @@ def _draw_overlays(
     return keys
 
 
-def _letter(panel: Axes, title: str, *, leftmost: bool) -> None:
+def _letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
     """Set the panel's type, and label the y axis, which all panels share, only at the left."""
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
     panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
     panel.yaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
+    panel.xaxis.set_major_locator(tick_locator(most_ticks[0]))
+    panel.yaxis.set_major_locator(tick_locator(most_ticks[1]))
     panel.tick_params(labelsize=FONT_PT - 0.5, labelleft=leftmost)
     if not leftmost:
         panel.set_ylabel("")

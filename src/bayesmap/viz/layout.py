@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
+
 from bayesmap.world.grid import Grid
 
 PANEL_IN = 3.4
@@ -19,9 +21,11 @@ WIDE_IN = 7.0
 """Width of a panel when panels are stacked, as those of a long map are."""
 LEAST_SLOT_IN = 1.9
 """No panel's slot is narrower: its title and its colour bar need the room."""
+LETTER_IN, LINE_IN = 0.075, 0.2
+"""Width of a digit, and height of a line with its lead, in the tick labels' type."""
 LEAST_DPI, MOST_DPI = 160.0, 320.0
 
-LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.62, 0.2, 0.32, 0.25
+LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25
 TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36
 """Room for the figure's title, the x axis' labels, the colour bar beneath them, and the legend."""
 
@@ -37,6 +41,7 @@ class Layout:
         corners: lower-left corner of each panel, pixels from the figure's, in reading order.
         exact: whether a cell is a whole number of pixels; not so in maps too large for it.
         columns: number of panels in a row.
+        most_ticks: the largest number of intervals between ticks on x and on y whose labels fit.
     """
 
     dpi: float
@@ -45,6 +50,7 @@ class Layout:
     corners: list[tuple[int, int]]
     exact: bool
     columns: int
+    most_ticks: tuple[int, int]
 
     def fractions(
         self, left: float, bottom: float, width: float, height: float
@@ -79,13 +85,20 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
         dpi, cell = MOST_DPI, MOST_DPI * longest_in / longest
     panel = (max(1, round(nx * cell)), max(1, round(ny * cell)))
 
-    left, right, top, gap, title, label, bar, legend, least_slot = (
-        round(inches * dpi)
-        for inches in (
-            LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN, LEAST_SLOT_IN
-        )
-    )  # fmt: skip
-    pitch = max(panel[0], least_slot) + gap
+    x0, x1, y0, y1 = grid.extent_m
+    x_letters, y_letters = _tick_letters(x0, x1), _tick_letters(y0, y1)
+    most_ticks = (
+        max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN)))),
+        max(1, min(6, int(panel[1] / dpi / LINE_IN))),
+    )
+
+    left_in = LEFT_IN + y_letters * LETTER_IN
+    gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
+    left, right, gap, slot = (round(dpi * inches) for inches in (left_in, RIGHT_IN, gap_in, LEAST_SLOT_IN))
+    top, title, label, bar, legend = (
+        round(dpi * inches) for inches in (TOP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN)
+    )
+    pitch = max(panel[0], slot) + gap
     inset = (pitch - gap - panel[0]) // 2
     below = [label + (bar if row * columns < bars else 0) for row in range(rows)]
     row_heights = [top + panel[1] + room for room in below]
@@ -95,4 +108,17 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
         for column in range(columns)
     ]
     figure = (left + columns * pitch - gap + right, legend + sum(row_heights) + (title if titled else 0))
-    return Layout(dpi, figure, panel, corners, exact, columns)
+    return Layout(dpi, figure, panel, corners, exact, columns, most_ticks)
+
+
+def tick_locator(most: int) -> MaxNLocator:
+    """Ticks at 1, 2 or 5 times a power of ten, with so many intervals at most."""
+    return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
+
+
+def _tick_letters(low: float, high: float) -> int:
+    """Length of the longest tick label on an axis from low to high, as the widest choice of ticks has it."""
+    formatter = ScalarFormatter(useOffset=False)
+    formatter.create_dummy_axis()
+    ticks = [float(tick) for tick in tick_locator(6).tick_values(low, high)]
+    return max(len(label) for label in formatter.format_ticks(ticks))

@@ -12,19 +12,18 @@ from matplotlib.colors import Colormap
 from matplotlib.image import AxesImage
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.viz import palette
 from bayesmap.viz.cells import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.viz.edges import boxes
+from bayesmap.viz.layout import tick_locator
 from bayesmap.world.grid import Grid
 
 
-def draw_probability(
-    ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None
-) -> AxesImage:
+def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Posterior probability of wall: free is light, wall is dark, unobserved is hatched.
 
     Args:
@@ -62,9 +61,7 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
     return _show(ax, grid, bits, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
 
 
-def draw_deviation(
-    ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None
-) -> AxesImage:
+def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest that there is.
 
     Args:
@@ -121,7 +118,8 @@ def frame_axes(ax: Axes, grid: Grid) -> None:
     x0, x1, y0, y1 = grid.extent_m
     ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x [m]", ylabel="y [m]")
     for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
+        axis.set_major_locator(tick_locator(6))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False))
     ax.tick_params(colors=palette.TEXT, color=palette.FRAME, length=3.0, width=0.6)
     ax.spines[:].set(edgecolor=palette.FRAME, linewidth=0.6)
 
@@ -167,5 +165,6 @@ def _show(
     if not observed.all():
         outlines = boxes(grid, ~observed)
         codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(outlines))
-        ax.add_patch(hatch_patch(Path(outlines.reshape(-1, 2), codes)))
+        # Not add_patch: it walks the path in Python to find limits, which the panel has already.
+        ax.add_artist(hatch_patch(Path(outlines.reshape(-1, 2), codes)))
     return image

@@ -139,8 +139,8 @@ def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
         )
     for x, y, yaw in where[-1:] if many else where:
         drawn += ax.plot(
-            x, y, marker=_arrow(yaw), markersize=9.5, markerfacecolor=palette.SENSOR,
-            markeredgecolor="white", markeredgewidth=0.7, linestyle="none", zorder=3.6, clip_on=True,
+            x, y, marker=_arrow(yaw), markersize=10.5, markerfacecolor=palette.SENSOR,
+            markeredgecolor="white", markeredgewidth=0.6, linestyle="none", zorder=3.6, clip_on=True,
         )  # fmt: skip
     drawn[0].set_label("trajectory" if many else "sensor")
     return drawn

@@ -70,9 +70,7 @@ def probability_colors(n: int = 256) -> NDArray[np.float64]:
 
 def probability_colormap() -> Colormap:
     """Free is light, wall is dark, unobserved (masked) is `UNOBSERVED`."""
-    return ListedColormap(probability_colors().tolist(), name="bayesmap.probability").with_extremes(
-        bad=UNOBSERVED
-    )
+    return ListedColormap(probability_colors().tolist(), name="bayesmap.probability").with_extremes(bad=UNOBSERVED)
 
 
 def uncertainty_colormap() -> Colormap:

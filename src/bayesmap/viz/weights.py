@@ -43,10 +43,11 @@ def draw_weights(
     ax.stairs(counts, edges, fill=True, color=palette.RAY, alpha=0.85)
     ax.set_yscale("log")
     ax.set(xlim=(low - 0.01 * (high - low), high + 0.025 * (high - low)))
-    ax.set(ylim=(0.5, max(10.0, 3.0 * float(counts.max()))))
+    ax.set(ylim=(0.5, 20.0 * max(1.0, float(counts.max()))))
     ax.set_xlabel("normalised log weight [nats]")
     ax.set_ylabel("samples")
-    ax.set_title(f"{len(logs):,} samples, effective sample size {effective_sample_size(logs):,.1f}")
+    size = effective_sample_size(logs)
+    ax.set_title(f"{len(logs):,} samples, effective sample size {size:,.{1 if size < 100 else 0}f}")
 
     largest = float(logs.max())
     if largest >= low:
@@ -55,7 +56,7 @@ def draw_weights(
         ax.axvline(largest, color=palette.TRUTH, linewidth=1.2, label="largest")
         ax.annotate(
             note,
-            (largest, 0.9),
+            (largest, 0.93),
             xycoords=("data", "axes fraction"),
             xytext=(-6.0 if near_right else 6.0, 0.0),
             textcoords="offset points",
@@ -65,9 +66,7 @@ def draw_weights(
         )
     below = int(np.count_nonzero(logs < low))
     if below:
-        ax.text(
-            0.02, 0.9, f"{below:,} below {low:g}", transform=ax.transAxes, va="center", color=palette.TEXT
-        )
+        ax.text(0.02, 0.93, f"{below:,} below {low:,g}", transform=ax.transAxes, va="center", color=palette.TEXT)
     ax.spines[["top", "right"]].set_visible(False)
     return np.asarray(counts)
 
@@ -94,9 +93,7 @@ def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
     wrong = np.isnan(logs) | np.isposinf(logs)
     if wrong.any():
         sample = int(np.argmax(wrong))
-        raise BadInput(
-            f"weights: log weight of sample {sample} is {logs[sample]}; it must be a number or -inf"
-        )
+        raise BadInput(f"weights: log weight of sample {sample} is {logs[sample]}; it must be a number or -inf")
     largest = logs.max()
     if np.isneginf(largest):
         raise BadInput("weights: every sample has weight zero; draw more samples, or allow for more noise")
