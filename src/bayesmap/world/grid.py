@@ -68,9 +68,10 @@ class Grid:
 
     def centers_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """World x of the cell columns, shape (nx,), and world y of the cell rows, shape (ny,)."""
+        (x0, y0), (nx, ny) = self.origin, self.shape
         return (
-            self.origin[0] + self.resolution * (np.arange(self.shape[0]) + 0.5),
-            self.origin[1] + self.resolution * (np.arange(self.shape[1]) + 0.5),
+            np.asarray(x0 + self.resolution * (np.arange(nx) + 0.5), dtype=np.float64),
+            np.asarray(y0 + self.resolution * (np.arange(ny) + 0.5), dtype=np.float64),
         )
 
     def to_cells(self, points_world: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -67,7 +67,7 @@ class Scans:
             )
         if not (math.isfinite(self.min_range_m) and 0 <= self.min_range_m < self.max_range_m):
             raise BadInput(
-                f"scans: min_range_m must lie in [0, max_range_m = {self.max_range_m:g}), got {self.min_range_m!r}"
+                f"scans: min_range_m must lie in [0, {self.max_range_m:g} m), got {self.min_range_m!r}"
             )
         object.__setattr__(self, "poses", poses)
         object.__setattr__(self, "angles_rad", angles)

@@ -1,0 +1,1 @@
+"""Inference: one file a method, and one runner for all chains."""

@@ -1,0 +1,1 @@
+"""Warp kernels: the only room that imports warp, and one source for CPU and CUDA."""

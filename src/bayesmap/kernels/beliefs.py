@@ -1,0 +1,54 @@
+"""Rounds of belief propagation on the host's behalf: owns the messages, runs the kernels of `propagate`."""
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.propagate import beam_messages, cell_beliefs, relative_likelihood
+from bayesmap.sensor.table import BeamTable
+
+CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
+GPU_PARTS = 256
+
+
+class Beliefs:
+    """Messages and beliefs of one problem. Memory: 12 bytes for each incidence of the table."""
+
+    def __init__(self, table: BeamTable, logit: NDArray[np.float64], device: str) -> None:
+        cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
+        parts = min(CPU_PARTS if device == "cpu" else GPU_PARTS, max(1, beams))
+        bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
+        bounds[0], bounds[-1] = 0, beams
+        self._device, self._beams, self._cells, self._parts = device, beams, cells, parts
+        self._bounds = devices.to_device(bounds.astype(np.int32), wp.int32, device)
+        self._offsets = devices.to_device(table.offsets, wp.int32, device)
+        self._table_cells = devices.to_device(table.cells, wp.int32, device)
+        self._relative = wp.empty(incidences, dtype=wp.float32, device=device)
+        self._beyond = wp.empty(beams, dtype=wp.float32, device=device)
+        self._ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
+        self._behind = wp.empty(incidences, dtype=wp.float32, device=device)
+        self._logit = devices.to_device(np.clip(logit, -60.0, 60.0), wp.float64, device)
+        self._product = wp.empty((parts, cells), dtype=wp.float32, device=device)
+        self._received = wp.zeros((parts, cells), dtype=wp.float32, device=device)
+        self._odds = wp.empty(cells, dtype=wp.float32, device=device)
+        self._belief = wp.empty(cells, dtype=wp.float32, device=device)
+        inputs = [self._offsets]
+        inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.beyond)]
+        launch(relative_likelihood, beams, [*inputs, self._relative, self._beyond], device)
+        self._gather()
+
+    def round(self, damping: float, threads: int | None = None) -> None:
+        """All beams send messages, computed from the beliefs of the last round; then all cells gather them."""
+        inputs = [self._bounds, self._offsets, self._table_cells, self._relative, self._beyond, self._odds]
+        inputs += [wp.float32(damping), self._ratio, self._behind, self._product, self._received]
+        launch(beam_messages, self._parts, inputs, self._device, threads)
+        self._gather()
+
+    def log_odds(self) -> NDArray[np.float32]:
+        """Log-odds of a wall in every cell, flat, shape (N,)."""
+        return np.array(self._belief.numpy())
+
+    def _gather(self) -> None:
+        launch(cell_beliefs, self._cells, [self._logit, self._received, self._odds, self._belief], self._device)

@@ -1,0 +1,79 @@
+"""Chains on a device, and running their sweeps."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.shuffle import feistel_half_bits
+from bayesmap.kernels.state import derive_state
+
+wp.set_module_options({"enable_backward": False})
+
+
+class WallChains:
+    """The states of several chains, each following from its walls (see `bayesmap.kernels.state`).
+
+    Attributes:
+        walls: (chains, N), uint8.
+        first, current: (chains, B), the entry of each beam's first wall, and its log-likelihood.
+        reached: (chains, N), how many beams reach each cell.
+        keys: (chains,), one key of random numbers each.
+    """
+
+    def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
+        chains, cells = walls.shape
+        beams = table.beyond.shape[0]
+        self.device = device
+        self.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
+        self.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
+        self.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
+        self.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
+        self.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
+        launch(derive_state, chains, [table, *self.arrays], device)
+
+    @property
+    def arrays(self) -> list[Any]:
+        """What the sweep kernels take, in their order."""
+        return [self.walls, self.first, self.current, self.reached]
+
+    def host_walls(self) -> NDArray[np.uint8]:
+        """A copy of the maps in main memory, shape (chains, N)."""
+        return np.array(self.walls.numpy())
+
+
+def run_sweeps(
+    kernel: Any,
+    tables: Sequence[Any],
+    prior: Any,
+    log_all_free: float,
+    order: NDArray[np.int32],
+    shuffle: bool,
+    chains: WallChains,
+    *,
+    sweep_0: int,
+    sweeps: int,
+    thin: int,
+    keep: bool,
+    threads: int | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    """Advance the chains in place by some sweeps of a kernel, one chain a thread.
+
+    Returns:
+        log-likelihoods and log priors after each sweep, (chains, sweeps), and the maps after every ``thin``-th sweep
+        where ``keep``, (chains, kept, N).
+    """
+    n, cells = chains.walls.shape
+    device = chains.device
+    log_likelihoods, log_priors = (wp.empty((n, sweeps), dtype=wp.float64, device=device) for _ in range(2))
+    draws = wp.empty((n, sweeps // thin if keep else 0, cells), dtype=wp.uint8, device=device)
+    half_bits = feistel_half_bits(len(order)) if shuffle else 0
+    inputs = [*tables, prior, wp.float64(log_all_free), chains.keys]
+    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(half_bits), sweep_0, sweeps]
+    inputs += [*chains.arrays, thin, draws, log_likelihoods, log_priors]
+    launch(kernel, n, inputs, device, threads=threads)
+    return log_likelihoods.numpy(), log_priors.numpy(), draws.numpy()

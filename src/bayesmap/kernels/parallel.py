@@ -1,0 +1,45 @@
+"""Launching one kernel over many beams on all cores.
+
+Warp runs a CPU launch on the calling thread and releases the GIL, so a launch is split into slices, one a
+thread. Kernels launched here take the index of their first element as their first argument and write only to
+their own elements, so the result does not depend on how many threads there are.
+"""
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from typing import Any
+
+import warp as wp
+
+
+def available_cores() -> int:
+    """Cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # macOS
+        return os.cpu_count() or 1
+
+
+@cache
+def thread_pool(threads: int) -> ThreadPoolExecutor:
+    """One pool for each width, kept for the life of the process."""
+    return ThreadPoolExecutor(threads, thread_name_prefix="bayesmap")
+
+
+def launch(kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None) -> None:
+    """Run ``kernel(first, *inputs)`` over ``size`` elements: on the CPU in one slice a thread."""
+    if size == 0:
+        return
+    threads = min(threads or available_cores(), size) if device == "cpu" else 1
+    if threads == 1:
+        wp.launch(kernel, dim=size, inputs=[0, *inputs], device=device)
+        return
+    kernel.module.load(wp.get_device(device))  # once, before the threads would all try
+    edges = [size * i // threads for i in range(threads + 1)]
+
+    def run(i: int) -> None:
+        wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *inputs], device=device)
+
+    list(thread_pool(threads).map(run, range(threads)))

@@ -1,0 +1,127 @@
+"""Belief propagation with ray potentials: all messages of a beam in one pass back and one forth.
+
+For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a first hit on cell i and l_out beyond
+(all relative to the beam's largest),
+
+    S_i = p_{i+1} l_{i+1} + (1 - p_{i+1}) S_{i+1},  S_n = l_out       expected likelihood if cells up to i are free
+    T_i = prod_{j<i} (1 - p_j)                                        chance that all cells before i are free
+    A_i = sum_{j<i} T_j p_j l_j                                       expected likelihood of a hit before i
+
+    message_i(wall) / message_i(free) = (A_i + T_i l_i) / (A_i + T_i S_i)
+
+(Ulusoy, Geiger and Black, *Towards probabilistic volumetric reconstruction using ray potentials*, 3DV 2015.)
+Messages are kept as ratios: then no logarithm and no exponential is needed along a beam, and damping by a half is
+a square root. A cell's belief is its prior log-odds plus the logarithms of the messages that it receives.
+"""
+
+import warp as wp
+
+wp.set_module_options({"enable_backward": False})
+
+TINY = wp.constant(wp.float32(1.0e-30))
+LARGEST_RATIO = wp.constant(wp.float32(1.0e6))
+LARGEST_PRODUCT = wp.constant(wp.float32(1.0e30))
+LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
+
+
+@wp.kernel
+def relative_likelihood(
+    first: int,
+    offsets: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    beyond: wp.array(dtype=wp.float32),
+    relative: wp.array(dtype=wp.float32),
+    relative_beyond: wp.array(dtype=wp.float32),
+):
+    """One thread a beam: likelihoods relative to the beam's largest."""
+    b = first + wp.tid()
+    most = beyond[b]
+    for k in range(offsets[b], offsets[b + 1]):
+        most = wp.max(most, loglik[k])
+    last = wp.float32(1.0)
+    value = wp.float32(1.0)
+    for k in range(offsets[b], offsets[b + 1]):
+        now = loglik[k] - most
+        if now != last:  # long stretches of a beam share one value
+            value = wp.max(wp.exp(now), TINY)
+            last = now
+        relative[k] = value
+    relative_beyond[b] = wp.max(wp.exp(beyond[b] - most), TINY)
+
+
+@wp.kernel
+def beam_messages(
+    part_0: int,
+    bounds: wp.array(dtype=wp.int32),
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    relative: wp.array(dtype=wp.float32),
+    relative_beyond: wp.array(dtype=wp.float32),
+    odds: wp.array(dtype=wp.float32),
+    damping: wp.float32,
+    ratio: wp.array(dtype=wp.float32),
+    behind: wp.array(dtype=wp.float32),
+    product_of: wp.array2d(dtype=wp.float32),
+    received_of: wp.array2d(dtype=wp.float32),
+):
+    """One thread a part of the beams: new messages to their cells, and their logarithms summed by cell.
+
+    ``behind`` is room for S. Each part has its own sums, so their order never depends on the threads.
+    """
+    part = part_0 + wp.tid()
+    received = received_of[part]
+    product = product_of[part]
+    one = wp.float32(1.0)
+    for c in range(received.shape[0]):
+        received[c] = wp.float32(0.0)
+        product[c] = one
+    for b in range(bounds[part], bounds[part + 1]):
+        start = offsets[b]
+        end = offsets[b + 1]
+        s = relative_beyond[b]
+        for i in range(end - start):
+            k = end - 1 - i
+            behind[k] = s
+            o = odds[cells[k]]
+            p = o / (o + ratio[k])  # the cavity: the belief without this beam's own message
+            s += p * (relative[k] - s)
+        free = wp.float32(1.0)
+        before = wp.float32(0.0)
+        for k in range(start, end):
+            c = cells[k]
+            o = odds[c]
+            old = ratio[k]
+            p = o / (o + old)
+            new = (before + free * relative[k] + TINY) / (before + free * behind[k] + TINY)
+            new = wp.clamp(new, one / LARGEST_RATIO, LARGEST_RATIO)
+            before += free * p * relative[k]
+            free *= one - p
+            if damping == wp.float32(0.5):
+                new = wp.sqrt(old * new)
+            else:
+                new = wp.pow(old, damping) * wp.pow(new, one - damping)
+            ratio[k] = new
+            m = product[c] * new
+            if m > LARGEST_PRODUCT or m < one / LARGEST_PRODUCT:
+                received[c] = received[c] + wp.log(m)
+                m = one
+            product[c] = m
+    for c in range(received.shape[0]):
+        received[c] = received[c] + wp.log(product[c])
+
+
+@wp.kernel
+def cell_beliefs(
+    first: int,
+    logit: wp.array(dtype=wp.float64),
+    received: wp.array2d(dtype=wp.float32),
+    odds: wp.array(dtype=wp.float32),
+    belief: wp.array(dtype=wp.float32),
+):
+    """One thread a cell: prior log-odds plus all messages."""
+    c = first + wp.tid()
+    total = wp.float32(logit[c])
+    for part in range(received.shape[0]):
+        total += received[part, c]
+    belief[c] = total
+    odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))

@@ -1,0 +1,201 @@
+"""What a chain on binary walls keeps up to date, and the moves that keep it so.
+
+For every beam: the table entry of its first wall (`first`, the end of the beam's entries if there is none) and that
+entry's log-likelihood (`current`). For every cell: how many beams reach it at present (`reached_by`), that is, have
+no wall before it. All three follow from the walls alone, so a chain is stored as its walls.
+"""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.sensor.table import BeamTable, CellIndex
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.struct
+class Table:
+    """The beam table and its index by cells, on a device."""
+
+    offsets: wp.array(dtype=wp.int32)
+    cells: wp.array(dtype=wp.int32)
+    loglik: wp.array(dtype=wp.float32)
+    beyond: wp.array(dtype=wp.float32)
+    cell_offsets: wp.array(dtype=wp.int32)
+    cell_entry: wp.array(dtype=wp.int32)
+    cell_beam: wp.array(dtype=wp.int32)
+    cell_loglik: wp.array(dtype=wp.float32)
+    cell_gain: wp.array(dtype=wp.float32)
+
+
+@wp.struct
+class Prior:
+    """Independent wall probabilities, cell by cell, and their log-odds.
+
+    ``gain`` is what a wall adds to the log prior: the log-odds, but 0 in cells that the prior fixes.
+    """
+
+    probability: wp.array(dtype=wp.float64)
+    logit: wp.array(dtype=wp.float64)
+    gain: wp.array(dtype=wp.float64)
+    uniform: int
+
+
+@wp.func
+def next_wall(t: Table, walls: wp.array(dtype=wp.uint8), start: int, end: int) -> int:
+    """The first entry in [start, end) whose cell is a wall, or end."""
+    k = start
+    while k < end:
+        if walls[t.cells[k]] != wp.uint8(0):
+            return k
+        k += 1
+    return k
+
+
+@wp.func
+def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
+    """What beam b's reading is worth when entry k is its first wall."""
+    if k < end:
+        return t.loglik[k]
+    return t.beyond[b]
+
+
+@wp.func
+def add_reach(t: Table, reached_by: wp.array(dtype=wp.int32), start: int, last: int, end: int, change: int):
+    """Cells of the entries from start to last, both included, are reached by one beam more or less."""
+    for k in range(start, wp.min(last + 1, end)):
+        c = t.cells[k]
+        reached_by[c] = reached_by[c] + change
+
+
+@wp.kernel
+def derive_state(
+    chain_0: int,
+    t: Table,
+    walls_of: wp.array2d(dtype=wp.uint8),
+    first_of: wp.array2d(dtype=wp.int32),
+    current_of: wp.array2d(dtype=wp.float32),
+    reached_of: wp.array2d(dtype=wp.int32),
+):
+    """One thread a chain: everything that follows from its walls."""
+    chain = chain_0 + wp.tid()
+    walls = walls_of[chain]
+    first = first_of[chain]
+    current = current_of[chain]
+    reached = reached_of[chain]
+    for c in range(reached.shape[0]):
+        reached[c] = 0
+    for b in range(t.beyond.shape[0]):
+        start = t.offsets[b]
+        end = t.offsets[b + 1]
+        k = next_wall(t, walls, start, end)
+        first[b] = k
+        current[b] = entry_loglik(t, b, k, end)
+        add_reach(t, reached, start, k, end, 1)
+
+
+@wp.func
+def put_wall(
+    t: Table,
+    walls: wp.array(dtype=wp.uint8),
+    first: wp.array(dtype=wp.int32),
+    current: wp.array(dtype=wp.float32),
+    reached: wp.array(dtype=wp.int32),
+    c: int,
+):
+    """Make a free cell a wall: the beams that passed through it now end there."""
+    walls[c] = wp.uint8(1)
+    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        b = t.cell_beam[i]
+        e = t.cell_entry[i]
+        f = first[b]
+        if f > e:
+            add_reach(t, reached, e + 1, f, t.offsets[b + 1], -1)
+            first[b] = e
+            current[b] = t.cell_loglik[i]
+
+
+@wp.func
+def remove_wall(
+    t: Table,
+    walls: wp.array(dtype=wp.uint8),
+    first: wp.array(dtype=wp.int32),
+    current: wp.array(dtype=wp.float32),
+    reached: wp.array(dtype=wp.int32),
+    c: int,
+):
+    """Make a wall a free cell: the beams that ended there go on to their next wall."""
+    walls[c] = wp.uint8(0)
+    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        b = t.cell_beam[i]
+        e = t.cell_entry[i]
+        if first[b] == e:
+            end = t.offsets[b + 1]
+            k = next_wall(t, walls, e + 1, end)
+            add_reach(t, reached, e + 1, k, end, 1)
+            first[b] = k
+            current[b] = entry_loglik(t, b, k, end)
+
+
+@wp.func
+def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
+    """A Bernoulli draw by inversion: u < 1 / (1 + exp(-log_odds))."""
+    if log_odds > wp.float64(40.0):
+        return True
+    if log_odds < wp.float64(-40.0):
+        return False
+    return u * (wp.float64(1.0) + wp.exp(-log_odds)) < wp.float64(1.0)
+
+
+@wp.func
+def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8), log_all_free: wp.float64) -> wp.float64:
+    """Log p(walls)."""
+    total = wp.float64(log_all_free)
+    if prior.uniform != 0:
+        n = 0
+        for c in range(walls.shape[0]):
+            n += int(walls[c])
+        return total + wp.float64(n) * prior.gain[0]
+    for c in range(walls.shape[0]):
+        if walls[c] != wp.uint8(0):
+            total += prior.gain[c]
+    return total
+
+
+@wp.func
+def log_likelihood(current: wp.array(dtype=wp.float32)) -> wp.float64:
+    """Log p(readings | walls): always summed in the same order, so that a resumed chain repeats it exactly."""
+    total = wp.float64(0.0)
+    for b in range(current.shape[0]):
+        total += wp.float64(current[b])
+    return total
+
+
+def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
+    """Table and index on a device; on the CPU they share the arrays' memory."""
+    on = Table()
+    on.offsets = devices.to_device(table.offsets, wp.int32, device)
+    on.cells = devices.to_device(table.cells, wp.int32, device)
+    on.loglik = devices.to_device(table.loglik, wp.float32, device)
+    on.beyond = devices.to_device(table.beyond, wp.float32, device)
+    on.cell_offsets = devices.to_device(index.offsets, wp.int32, device)
+    on.cell_entry = devices.to_device(index.entry, wp.int32, device)
+    on.cell_beam = devices.to_device(index.beam, wp.int32, device)
+    on.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
+    on.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
+    return on
+
+
+def put_prior(p_wall: NDArray[np.float64], logit: NDArray[np.float64], device: str) -> Any:
+    """A prior on a device."""
+    on = Prior()
+    on.probability = devices.to_device(p_wall, wp.float64, device)
+    on.logit = devices.to_device(logit, wp.float64, device)
+    fixed = (p_wall == 0) | (p_wall == 1)
+    on.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
+    on.uniform = int((p_wall == p_wall[0]).all())
+    return on

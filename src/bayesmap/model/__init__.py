@@ -1,0 +1,1 @@
+"""Priors over maps, and the forward model from a map to scans."""
