@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 ROBOT_CLEARANCE_M = 0.25
 """No pose of a simulated robot is nearer to a wall than this."""
@@ -17,6 +16,8 @@ LATTICE_M = 0.1
 
 def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
     """Distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
+    from scipy import ndimage  # half a second to import: only those who simulate buildings pay for it
+
     if not walls.any():
         return np.full(walls.shape, np.inf)
     return np.asarray(ndimage.distance_transform_edt(~walls, sampling=resolution))

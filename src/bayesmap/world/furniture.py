@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from bayesmap.world.clearance import passage_m, wall_distance_m
 
@@ -72,6 +71,8 @@ class RoomFloor:
 
     def _reachable(self, opacity: NDArray[np.float64]) -> float:
         """Square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
+        from scipy import ndimage
+
         labels, _ = ndimage.label(self._room_to_pass(opacity))
         doors = np.unique(labels[self.keep])
         doors = doors[doors > 0]
@@ -123,9 +124,7 @@ def _chair(room: RoomFloor, x: float, y: float) -> None:
 
 def _four_legs(x: float, y: float, width: float, depth: float) -> list[Rectangle]:
     size = 0.08
-    return [
-        (x + dx * (width - size), y + dy * (depth - size), size, size, LEG) for dx in (0, 1) for dy in (0, 1)
-    ]
+    return [(x + dx * (width - size), y + dy * (depth - size), size, size, LEG) for dx in (0, 1) for dy in (0, 1)]
 
 
 def _table(room: RoomFloor, clutter: float) -> None:

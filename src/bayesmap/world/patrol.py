@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, sparse
-from scipy.sparse import csgraph
 
 from bayesmap.errors import BadInput
 from bayesmap.world.building import Building
 from bayesmap.world.clearance import lattice_stride, passage_m, wall_distance_m
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 WALL_DISLIKE = 4.0
 """How many times dearer a path is close to the walls than in the open: robots keep to the middle."""
@@ -63,6 +66,8 @@ class _Lattice:
     """Every k-th cell where a robot fits, linked to its eight neighbours: the largest connected part."""
 
     def __init__(self, building: Building) -> None:
+        from scipy import ndimage
+
         self.building, self.resolution = building, building.grid.resolution
         stride = lattice_stride(self.resolution)
         self.clearance_m = wall_distance_m(building.walls, self.resolution)
@@ -82,6 +87,8 @@ class _Lattice:
         self.graph = self._links(fits.shape, stride * self.resolution)
 
     def _links(self, shape: tuple[int, ...], spacing_m: float) -> sparse.csr_array:
+        from scipy import sparse
+
         number = np.full(shape, -1)
         number[tuple(self.nodes.T)] = np.arange(len(self.nodes))
         padded = np.pad(number, 1, constant_values=-1)
@@ -113,6 +120,8 @@ class _Lattice:
 
     def tour(self, stops: list[int]) -> NDArray[np.float64]:
         """Points of a path through all stops, from the first: always to the nearest that is left."""
+        from scipy.sparse import csgraph
+
         if not stops:
             return self.points_m[:1]
         cost, before = csgraph.dijkstra(self.graph, directed=False, indices=stops, return_predecessors=True)
@@ -131,6 +140,8 @@ class _Lattice:
 
 def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Lattice points that the ground around the building does not reach."""
+    from scipy import ndimage
+
     labels, _ = ndimage.label(~building.walls)
     cells = [
         np.floor((v - o) / building.grid.resolution).astype(int)
@@ -141,6 +152,8 @@ def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) 
 
 def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float64]:
     """The path with the lattice's corners rounded, wherever that keeps it as clear of the walls."""
+    from scipy import ndimage
+
     spacing = lattice_stride(lattice.resolution) * lattice.resolution
     if len(path_m) < 3:
         return path_m
