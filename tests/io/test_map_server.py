@@ -49,9 +49,7 @@ def nav2_reads(path_yaml):
 
 
 @given(probabilities, resolutions, corners, st.data())
-def test_nav2_reads_a_trinary_map_as_occupied_free_unknown(
-    tmp_path_factory, occupancy, resolution, origin, data
-):
+def test_nav2_reads_a_trinary_map_as_occupied_free_unknown(tmp_path_factory, occupancy, resolution, origin, data):
     observed = data.draw(hnp.arrays(bool, occupancy.shape))
     grid = Grid(occupancy.shape, resolution, origin)
     yaml, image = write_map(tmp_path_factory.mktemp("map") / "map.yaml", occupancy, grid, observed)
@@ -67,9 +65,7 @@ def test_nav2_reads_a_trinary_map_as_occupied_free_unknown(
 def test_nav2_reads_a_scaled_map_as_the_probability_in_per_cent(tmp_path_factory, occupancy, data):
     observed = data.draw(hnp.arrays(bool, occupancy.shape))
     grid = Grid(occupancy.shape, 0.1, (0.0, 0.0))
-    yaml, image = write_map(
-        tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode="scale"
-    )
+    yaml, image = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode="scale")
     cells, _, _ = nav2_reads(yaml)
     np.testing.assert_array_equal(cells.T == -1, ~observed)
     # One step of a grey is 0.4 %, and nav2 rounds to a whole per cent.
@@ -80,9 +76,7 @@ def test_nav2_reads_a_scaled_map_as_the_probability_in_per_cent(tmp_path_factory
 def test_nav2_saturates_a_scaled_map_beyond_given_thresholds(tmp_path):
     occupancy = np.array([[0.1, 0.2, 0.5, 0.8, 0.9]])
     grid = Grid((1, 5))
-    yaml, _ = write_map(
-        tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25
-    )
+    yaml, _ = write_map(tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25)
     np.testing.assert_array_equal(nav2_reads(yaml)[0].T, [[0, 0, 50, 100, 100]])
 
 
@@ -114,9 +108,7 @@ def test_unknown_cells_are_grey_205_and_not_free_for_nav2(tmp_path):
     np.testing.assert_array_equal(nav2_reads(yaml)[0][:, 0], [0, -1, -1])
 
 
-@pytest.mark.parametrize(
-    "name", ["plain.yaml", "two words.yaml", "colon: and # hash.yaml", "día.yml", "0.yaml"]
-)
+@pytest.mark.parametrize("name", ["plain.yaml", "two words.yaml", "colon: and # hash.yaml", "día.yml", "0.yaml"])
 def test_any_file_name_finds_its_image(tmp_path, name):
     grid = Grid((2, 2))
     write_map(tmp_path / name, np.eye(2), grid)

@@ -34,9 +34,7 @@ def read_log(
     Raises:
         BadInput: a file that cannot be read, an unknown format, no scans, or a malformed line.
     """
-    return describe_log(
-        path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m
-    ).scans
+    return describe_log(path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m).scans
 
 
 def describe_log(

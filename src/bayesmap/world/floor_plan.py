@@ -71,9 +71,7 @@ class _Band:
     is_corridor: bool
 
 
-def lay_out(
-    rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolution: float
-) -> tuple[Space, ...]:
+def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolution: float) -> tuple[Space, ...]:
     """Corridors and rooms that fill a rectangle of cells, one inner wall apart.
 
     Args:
@@ -101,9 +99,7 @@ def lay_out(
         sides = (-1,) * below + (1,) * above
         facade = band.y0 == y0 or band.y1 == y1
         in_core = core[0] <= band.y0 and band.y1 <= core[1]
-        cuts = [
-            gap for gap, far in zip(cross, through, strict=True) if in_core or (far and band.y0 >= core[1])
-        ]
+        cuts = [gap for gap, far in zip(cross, through, strict=True) if in_core or (far and band.y0 >= core[1])]
         for a, b in _between(x0, x1, cuts, wall):
             for left, right in _split(rng, a, b, resolution):
                 spaces.append(Space("office", left, right, band.y0, band.y1, sides, facade))
@@ -190,9 +186,7 @@ def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float
         kind = space.kind
         if kind != "corridor":
             kind = "lobby" if k == lobby else _kind(rng, space.width * resolution, space.facade)
-        named.append(
-            Space(kind, space.x0, space.x1, space.y0, space.y1, space.corridors, facade=space.facade)
-        )
+        named.append(Space(kind, space.x0, space.x1, space.y0, space.y1, space.corridors, facade=space.facade))
     return tuple(named)
 
 
@@ -203,6 +197,4 @@ def _kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
         return "meeting" if rng.random() < 0.6 else "office"
     if facade:
         return "office" if rng.random() < 0.9 else "meeting"
-    return str(
-        rng.choice(["store", "washroom", "kitchen", "server", "office"], p=[0.3, 0.25, 0.15, 0.15, 0.15])
-    )
+    return str(rng.choice(["store", "washroom", "kitchen", "server", "office"], p=[0.3, 0.25, 0.15, 0.15, 0.15]))

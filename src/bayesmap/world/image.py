@@ -188,8 +188,7 @@ def _brightness_of_array(image: ArrayLike) -> NDArray[np.float64]:
     values = array.astype(np.float64) / top
     if not (math.isfinite(float(values.sum())) and values.min() >= 0 and values.max() <= 1):
         raise BadInput(
-            f"image: pixels from {array.min()} to {array.max()}; "
-            "expected whole numbers 0..255, or floats 0..1"
+            f"image: pixels from {array.min()} to {array.max()}; expected whole numbers 0..255, or floats 0..1"
         )
     if values.ndim == 2:
         return values
