@@ -115,9 +115,7 @@ def render_frames(
     return _render(canvas, chain, labels, running_mean=running_mean)
 
 
-def _render(
-    canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_mean: bool
-) -> Iterator[Image.Image]:
+def _render(canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_mean: bool) -> Iterator[Image.Image]:
     total = np.zeros(chain.shape[1:])
     for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
         if running_mean:

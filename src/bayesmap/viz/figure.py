@@ -120,9 +120,7 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     write_whole(target, buffer.getvalue())
 
 
-def _draw_overlays(
-    panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None
-) -> list[Artist]:
+def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None) -> list[Artist]:
     """Draw the truth, the rays and the sensor where they inform and do not hide; one legend key of each."""
     coarse = max(grid.shape) <= COARSE_CELLS
     keys: list[Artist] = []

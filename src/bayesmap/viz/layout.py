@@ -52,9 +52,7 @@ class Layout:
     columns: int
     most_ticks: tuple[int, int]
 
-    def fractions(
-        self, left: float, bottom: float, width: float, height: float
-    ) -> tuple[float, float, float, float]:
+    def fractions(self, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
         """A box in pixels as fractions of the figure, as `Figure.add_axes` takes it."""
         wide, high = self.figure
         return left / wide, bottom / high, width / wide, height / high
@@ -94,10 +92,9 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
 
     left_in = LEFT_IN + y_letters * LETTER_IN
     gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
-    left, right, gap, slot = (round(dpi * inches) for inches in (left_in, RIGHT_IN, gap_in, LEAST_SLOT_IN))
-    top, title, label, bar, legend = (
-        round(dpi * inches) for inches in (TOP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN)
-    )
+    right_in = max(RIGHT_IN, (x_letters / 2 + 1) * LETTER_IN)
+    left, right, gap, slot = (round(dpi * inches) for inches in (left_in, right_in, gap_in, LEAST_SLOT_IN))
+    top, title, label, bar, legend = (round(dpi * inches) for inches in (TOP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN))
     pitch = max(panel[0], slot) + gap
     inset = (pitch - gap - panel[0]) // 2
     below = [label + (bar if row * columns < bars else 0) for row in range(rows)]

@@ -81,9 +81,7 @@ def draw_rays(
     drawn: list[LineCollection | PathCollection] = []
     if len(hit):
         rays = list(_rays(scans, hit))
-        drawn.append(
-            LineCollection(rays, colors=palette.RAY, linewidths=0.6, alpha=alpha, label="beam", zorder=3.2)
-        )
+        drawn.append(LineCollection(rays, colors=palette.RAY, linewidths=0.6, alpha=alpha, label="beam", zorder=3.2))
         ax.add_collection(drawn[-1])
     if len(points):
         ends = _rays(scans, points)[:, 1]

@@ -87,9 +87,7 @@ def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
     """
     logs = as_array(log_weights, "log_weights")
     if logs.ndim != 1 or len(logs) == 0:
-        raise BadInput(
-            f"weights: log_weights has shape {logs.shape}; give one number per sample, shape (n,), n >= 1"
-        )
+        raise BadInput(f"weights: log_weights has shape {logs.shape}; give one number per sample, shape (n,), n >= 1")
     wrong = np.isnan(logs) | np.isposinf(logs)
     if wrong.any():
         sample = int(np.argmax(wrong))

@@ -1,0 +1,154 @@
+import time
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from PIL import Image
+from viz_case import CORNER, GRID, HIDDEN, observed, occupancy
+
+from bayesmap.errors import BadInput
+from bayesmap.viz import palette, render_frames, write_animation
+from bayesmap.viz.animation import CAPTION_PX, MARGIN_PX
+from bayesmap.world.grid import Grid
+
+FREE, WALL = palette.probability_colors(2)
+
+
+def chain(n=5):
+    draws = np.zeros((n, *GRID.shape), dtype=bool)
+    draws[:, CORNER[0], CORNER[1]] = True
+    draws[::2, 0, 0] = True
+    return draws
+
+
+def film(path):
+    """RGB of every frame, (n, rows, columns, 3), and the duration of each in milliseconds."""
+    frames, durations = [], []
+    with Image.open(path) as image:
+        for k in range(image.n_frames):
+            image.seek(k)
+            frames.append(np.asarray(image.convert("RGB")) / 255.0)
+            durations.append(image.info["duration"])
+        loop = image.info["loop"]
+    return np.array(frames), durations, loop
+
+
+def cell(frame, i, j):
+    scale = (frame.shape[1] - 2 * MARGIN_PX) // GRID.shape[0]
+    top, left = MARGIN_PX + scale * (GRID.shape[1] - 1 - j), MARGIN_PX + scale * i
+    return frame[top + scale // 4 : top + 3 * scale // 4, left + scale // 4 : left + 3 * scale // 4].mean(axis=(0, 1))
+
+
+@pytest.mark.parametrize("ending", ["gif", "webp"])
+def test_every_draw_is_a_frame_the_right_way_up(ending, tmp_path):
+    path = tmp_path / f"chain.{ending}"
+    write_animation(path, GRID, chain(5), frames_per_second=20)
+    frames, durations, loop = film(path)
+    assert len(frames) == 5
+    assert durations[:-1] == [50] * 4
+    assert durations[-1] > 1000
+    assert loop == 0  # for ever
+    for k, frame in enumerate(frames):
+        np.testing.assert_allclose(cell(frame, *CORNER), WALL, atol=0.01)
+        np.testing.assert_allclose(cell(frame, 0, 0), WALL if k % 2 == 0 else FREE, atol=0.01)
+        np.testing.assert_allclose(cell(frame, 0, 3), FREE, atol=0.01)
+        np.testing.assert_allclose(cell(frame, 5, 0), FREE, atol=0.01)
+
+
+def test_cells_are_squares_of_whole_pixels(tmp_path):
+    frame = next(render_frames(GRID, chain()))
+    scale, rest = divmod(frame.size[0] - 2 * MARGIN_PX, GRID.shape[0])
+    assert rest == 0
+    assert frame.size[1] == scale * GRID.shape[1] + 2 * MARGIN_PX + CAPTION_PX
+    assert frame.mode == "P"
+
+
+def test_running_mean(tmp_path):
+    path = tmp_path / "mean.gif"
+    write_animation(path, GRID, chain(2), running_mean=True)
+    frames, _, _ = film(path)
+    half = palette.probability_colors(3)[1]
+    np.testing.assert_allclose(cell(frames[0], 0, 0), WALL, atol=0.01)
+    np.testing.assert_allclose(cell(frames[1], 0, 0), half, atol=0.02)
+
+
+def test_the_counter_changes_and_equal_draws_are_still_separate_frames(tmp_path):
+    path = tmp_path / "same.gif"
+    write_animation(path, GRID, np.zeros((7, *GRID.shape)), sweeps=range(100, 800, 100))
+    frames, _, _ = film(path)
+    assert len(frames) == 7
+    map_rows = frames.shape[1] - CAPTION_PX
+    assert (frames[:, :map_rows] == frames[0, :map_rows]).all()
+    assert all((a[map_rows:] != b[map_rows:]).any() for a, b in pairwise(frames))
+
+
+def test_marks(tmp_path):
+    path = tmp_path / "marks.gif"
+    center = (GRID.origin[0] + 2.5 * GRID.resolution, GRID.origin[1] + 1.5 * GRID.resolution)
+    write_animation(path, GRID, chain(1), observed=observed(), truth=occupancy() == 1.0, poses=[*center, 0.0])
+    frame = film(path)[0][0]
+    hidden = cell(frame, *HIDDEN)
+    assert np.abs(hidden - FREE).max() > 0.08
+    assert hidden[0] > hidden[2] + 0.05
+    np.testing.assert_allclose(cell(frame, *CORNER), WALL, atol=0.01)
+    scale = (frame.shape[1] - 2 * MARGIN_PX) // GRID.shape[0]
+    outline = np.argwhere(np.abs(frame - to_rgb(palette.TRUTH)).max(axis=2) < 0.02)
+    assert outline[:, 0].max() < MARGIN_PX + scale + 10
+    assert outline[:, 1].min() >= MARGIN_PX + 5 * scale - 10
+    sensor = np.argwhere(np.abs(frame - to_rgb(palette.SENSOR)).max(axis=2) < 0.02).mean(axis=0)
+    np.testing.assert_allclose(sensor, (MARGIN_PX + 2.5 * scale, MARGIN_PX + 2.5 * scale), atol=1.0)
+
+
+@pytest.mark.parametrize(("shape", "seconds"), [((21, 21), 1.0), ((400, 300), 4.0)])
+def test_a_hundred_frames_take_little_time(shape, seconds, tmp_path):
+    draws = np.random.default_rng(0).random((100, *shape)) < 0.1
+    start = time.process_time()
+    write_animation(tmp_path / "chain.gif", Grid(shape=shape), draws)
+    assert time.process_time() - start < seconds
+    with Image.open(tmp_path / "chain.gif") as image:
+        assert image.n_frames == 100
+
+
+@pytest.mark.parametrize(
+    ("draws", "message"),
+    [
+        (np.zeros((0, 6, 4)), "chain is empty"),
+        (np.zeros((6, 4)), r"shape \(6, 4\).*one chain"),
+        (np.zeros((3, 4, 6)), r"shape \(3, 4, 6\)"),
+        (np.full((3, 6, 4), 2), r"draw 0 has a number outside \[0, 1\]"),
+        (np.full((3, 6, 4), np.nan), "draw 0"),
+        (np.full((3, 6, 4), "x"), "array of numbers"),
+    ],
+)
+def test_bad_chains_leave_no_file(draws, message, tmp_path):
+    with pytest.raises(BadInput, match=message):
+        write_animation(tmp_path / "a.gif", GRID, draws)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_bad_requests(tmp_path):
+    with pytest.raises(BadInput, match=r"\.gif, \.webp"):
+        write_animation(tmp_path / "a.mp4", GRID, chain())
+    with pytest.raises(BadInput, match="frames_per_second"):
+        write_animation(tmp_path / "a.gif", GRID, chain(), frames_per_second=0.0)
+    with pytest.raises(BadInput, match="2 sweep numbers for 5 draws"):
+        write_animation(tmp_path / "a.gif", GRID, chain(), sweeps=[1, 2])
+    with pytest.raises(BadInput, match=r"truth has shape"):
+        write_animation(tmp_path / "a.gif", GRID, chain(), truth=np.zeros((2, 2)))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_in_the_middle_leaves_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "a.gif"
+    path.write_bytes(b"old")
+
+    def frames(*_, **__):
+        yield next(render_frames(GRID, chain()))
+        raise MemoryError
+
+    monkeypatch.setattr("bayesmap.viz.animation.render_frames", frames)
+    with pytest.raises(MemoryError):
+        write_animation(path, GRID, chain())
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.gif"]

@@ -1,0 +1,237 @@
+import os
+import subprocess
+import sys
+import threading
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.text import Text
+from PIL import Image
+from viz_case import CORNER, GRID, observed, occupancy, scans
+
+from bayesmap.errors import BadInput
+from bayesmap.viz import palette, posterior_figure, write_figure
+from bayesmap.viz.layout import lay_out
+from bayesmap.world.grid import Grid
+
+FREE, WALL = palette.probability_colors(2)
+
+
+def full(grid=GRID, **changes):
+    arguments = {"draw": occupancy() == 1.0, "truth": occupancy() == 1.0, "scans": scans(), "title": "Title"}
+    return posterior_figure(grid, occupancy(), observed(), **{**arguments, **changes})
+
+
+def names(figure):
+    return [ax.get_label() for ax in figure.axes]
+
+
+def picture(figure, tmp_path):
+    write_figure(figure, tmp_path / "figure.png")
+    with Image.open(tmp_path / "figure.png") as image:
+        return np.asarray(image.convert("RGB")) / 255.0
+
+
+def test_panels_follow_what_is_given():
+    bars = ["probability of wall", "entropy [bits]"]
+    assert names(full()) == ["mean", "entropy", "data", "draw", *bars]
+    assert names(full(draw=None)) == ["mean", "entropy", "data", *bars]
+    assert names(posterior_figure(GRID, occupancy())) == ["mean", "entropy", *bars]
+
+
+@pytest.mark.parametrize("shape", [(21, 21), (400, 300), (97, 61), (333, 100), (40, 250)])
+def test_every_cell_is_the_same_whole_number_of_pixels(shape, tmp_path):
+    walls = np.random.default_rng(0).random(shape) < 0.5
+    figure = posterior_figure(Grid(shape=shape, resolution=0.1, origin=(3.3, -7.7)), walls.astype(float))
+    rgb = picture(figure, tmp_path)
+    layout = lay_out(Grid(shape=shape, resolution=0.1, origin=(3.3, -7.7)), 2, bars=2, titled=False)
+    assert rgb.shape[:2] == layout.figure[::-1]
+    assert layout.exact
+    size = layout.panel[0] // shape[0]
+    assert layout.panel == (size * shape[0], size * shape[1])
+    left, bottom = layout.corners[0]
+    panel = rgb[len(rgb) - bottom - layout.panel[1] : len(rgb) - bottom, left : left + layout.panel[0]]
+    dark = panel[::-1].transpose(1, 0, 2).mean(axis=2) < 0.5  # [x, y] from the lower left
+    expected = walls.repeat(size, axis=0).repeat(size, axis=1)
+    inner = (slice(3, -3), slice(3, -3))  # the frame covers the border
+    np.testing.assert_array_equal(dark[inner], expected[inner])
+
+
+def test_the_wall_of_the_draw_is_in_the_upper_right(tmp_path):
+    rgb = picture(full(truth=None, scans=None), tmp_path)
+    layout = lay_out(GRID, 3, bars=2, titled=True)
+    left, bottom = layout.corners[2]
+    size = layout.panel[0] // GRID.shape[0]
+    for i in range(GRID.shape[0]):
+        for j in range(GRID.shape[1]):
+            row, column = len(rgb) - bottom - int((j + 0.5) * size), left + int((i + 0.5) * size)
+            center = rgb[row - size // 4 : row + size // 4, column - size // 4 : column + size // 4]
+            assert (center.mean() < 0.3) == ((i, j) == CORNER)
+
+
+def test_nothing_is_cut_off_and_no_texts_overlap():
+    for shape, origin in (((21, 21), (-0.5, -0.5)), ((400, 300), (-1234.5, 98765.25)), ((300, 60), (0, 0))):
+        grid = Grid(shape=shape, resolution=0.1, origin=origin)
+        seen = np.ones(shape, dtype=bool)
+        seen[0] = False
+        half = np.full(shape, 0.5)
+        figure = posterior_figure(grid, half, seen, draw=half > 0, truth=half > 0, scans=scans(), title="Title")
+        renderer = figure.canvas.get_renderer()
+        figure.draw(renderer)
+        texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text()]
+        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in texts]
+        labels = [(words, box) for words, box in boxes if box.width and not _out_of_view(words, box, figure)]
+        for words, box in labels:
+            assert box.x0 >= 0, words
+            assert box.y0 >= 0, words
+            assert box.x1 <= figure.bbox.width, words
+            assert box.y1 <= figure.bbox.height, words
+        for k, (words, box) in enumerate(labels):
+            for other_words, other in labels[k + 1 :]:
+                assert not box.overlaps(other) or words == other_words, (words, other_words)
+
+
+def _out_of_view(words, box, figure):
+    """Matplotlib keeps tick labels beyond the limits, and does not draw them."""
+    for ax in figure.axes:
+        for axis in (ax.xaxis, ax.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            margin = 1e-9 * (high - low)
+            for tick in axis.get_major_ticks():
+                outside = not low - margin <= tick.get_loc() <= high + margin
+                same = tick.label1.get_text() == words and tick.label1.get_window_extent().bounds == box.bounds
+                if outside and same:
+                    return True
+    return False
+
+
+def test_legend_names_what_is_drawn_and_nothing_else():
+    (legend,) = full().legends
+    expected = ["free", "wall", "unobserved", "true walls", "beam", "reading", "no return", "sensor"]
+    assert [text.get_text() for text in legend.get_texts()] == expected
+    assert posterior_figure(GRID, occupancy()).legends == []
+    (legend,) = posterior_figure(GRID, occupancy(), observed()).legends
+    assert [text.get_text() for text in legend.get_texts()] == ["unobserved"]
+
+
+def test_truth_does_not_bury_the_posterior_of_a_fine_map():
+    def outlined(figure):
+        return {ax.get_label() for ax in figure.axes for c in ax.collections if c.get_label() == "true walls"}
+
+    assert outlined(full()) == {"mean", "data", "draw"}
+    grid = Grid(shape=(300, 200))
+    half = np.full(grid.shape, 0.5)
+    assert outlined(posterior_figure(grid, half, truth=half > 0, scans=scans())) == {"data"}
+    assert outlined(posterior_figure(grid, half, truth=half > 0)) == {"mean"}
+
+
+def test_arrangement_follows_the_shape():
+    def columns(shape, panels):
+        return lay_out(Grid(shape=shape), panels, bars=2, titled=False).columns
+
+    assert columns((21, 21), 3) == 3
+    assert columns((21, 21), 4) == 2
+    assert columns((400, 100), 3) == 1
+    assert columns((100, 400), 4) == 4
+
+
+def test_a_huge_map_stays_a_picture_of_sensible_size():
+    layout = lay_out(Grid(shape=(8000, 6000)), 4, bars=2, titled=True)
+    assert not layout.exact
+    assert max(layout.figure) < 4000
+
+
+def test_metres_and_colour_bars():
+    figure = full()
+    panels = {ax.get_label(): ax for ax in figure.axes}
+    assert panels["mean"].get_xlabel() == "x [m]"
+    assert panels["mean"].get_ylabel() == "y [m]"
+    assert panels["entropy"].get_ylabel() == ""
+    assert panels["entropy [bits]"].get_xlabel() == "entropy [bits]"
+    assert panels["probability of wall"].get_xlim() == (0.0, 1.0)
+
+
+def test_readings_without_truth_or_draw(tmp_path):
+    rgb = picture(posterior_figure(GRID, occupancy(), scans=scans()), tmp_path)
+    sensor = np.abs(rgb - to_rgb(palette.SENSOR)).max(axis=2) < 0.02
+    assert sensor.any()
+
+
+@pytest.mark.parametrize(
+    ("ending", "magic"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml"), ("PNG", b"\x89PNG")]
+)
+def test_formats_and_equal_bytes(ending, magic, tmp_path):
+    one, two = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
+    write_figure(full(), one)
+    write_figure(full(), two)
+    assert one.read_bytes().startswith(magic)
+    assert one.read_bytes() == two.read_bytes()
+    assert sorted(p.name for p in tmp_path.iterdir()) == sorted([one.name, two.name])
+
+
+def test_permissions_are_those_of_any_new_file(tmp_path):
+    (tmp_path / "plain").write_text("")
+    write_figure(full(), tmp_path / "a.png")
+    assert (tmp_path / "a.png").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path, monkeypatch):
+    target = tmp_path / "a.png"
+    target.write_bytes(b"old")
+
+    def full_disk(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full_disk)
+    with pytest.raises(OSError, match="No space"):
+        write_figure(full(), target)
+    assert target.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.png"]
+
+
+@pytest.mark.parametrize("name", ["map.jpg", "map", "map.gif"])
+def test_unknown_ending(name, tmp_path):
+    with pytest.raises(BadInput, match=r"\.png, \.pdf, \.svg"):
+        write_figure(full(), tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_missing_folder(tmp_path):
+    with pytest.raises(BadInput, match="does not exist; make it"):
+        write_figure(full(), tmp_path / "no" / "map.png")
+
+
+@pytest.mark.parametrize("name", ["draw", "truth"])
+def test_arrays_that_do_not_fit(name):
+    with pytest.raises(BadInput, match=r"shape \(4, 6\).*transpose"):
+        full(**{name: np.zeros((4, 6))})
+
+
+def test_figures_in_threads_leave_the_settings_alone(tmp_path):
+    before = dict(matplotlib.rcParams)
+    results = []
+
+    def work(k):
+        write_figure(full(), tmp_path / f"{k}.svg")
+        results.append((tmp_path / f"{k}.svg").read_bytes())
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 4
+    assert len(set(results)) == 1
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_pyplot_and_its_global_figures_are_never_loaded(tmp_path):
+    program = (
+        "import sys, numpy as np; from bayesmap import viz; from bayesmap.world.grid import Grid;"
+        "viz.write_figure(viz.posterior_figure(Grid((3, 3)), np.eye(3)), sys.argv[1]);"
+        "viz.write_figure(viz.trace_figure(np.eye(3)), sys.argv[1]);"
+        "assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", program, str(tmp_path / "a.png")], check=True)

@@ -1,0 +1,66 @@
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from bayesmap.errors import BadInput
+from bayesmap.viz import draw_weights, weights_figure
+from bayesmap.viz.weights import effective_sample_size, normalized
+
+
+def texts(ax):
+    return " | ".join([ax.get_title(), *(text.get_text() for text in ax.texts)])
+
+
+def test_collapse_shows_as_one_sample_at_the_right():
+    logs = np.linspace(-20_000, -5_000, 1000)
+    logs[123] = -700.0
+    ax = Figure().add_subplot()
+    counts = draw_weights(ax, logs)
+    assert counts[-1] == 1
+    assert counts[60:-1].sum() == 0
+    assert "1,000 samples, effective sample size 1.0" in texts(ax)
+    assert "largest weight: 1 of the total" in texts(ax)
+    below = int((logs + 700 < -10_000).sum())
+    assert f"{below:,} below -10,000" in texts(ax)
+    assert counts.sum() + below == 1000
+    (line,) = ax.lines
+    np.testing.assert_allclose(line.get_xdata(), 0.0, atol=1e-9)
+
+
+def test_equal_weights_have_full_size():
+    logs = normalized(np.full(250, -12_345.0))
+    np.testing.assert_allclose(logs, -np.log(250))
+    assert effective_sample_size(logs) == pytest.approx(250)
+
+
+def test_normalising_neither_overflows_nor_minds_zero_weights():
+    logs = normalized([-np.inf, 1e6, 1e6 + np.log(3)])
+    np.testing.assert_allclose(np.exp(logs), [0.0, 0.25, 0.75])
+    weights_figure([-np.inf, 0.0])
+
+
+def test_axes():
+    ax = weights_figure(np.zeros(10), range_nats=(-5.0, 0.0)).axes[0]
+    assert ax.get_xlabel() == "normalised log weight [nats]"
+    assert ax.get_yscale() == "log"
+
+
+@pytest.mark.parametrize(
+    ("logs", "message"),
+    [
+        ([], r"shape \(0,\)"),
+        ([[0.0]], r"shape \(1, 1\)"),
+        ([0.0, np.nan], "sample 1 is nan"),
+        ([np.inf], "sample 0 is inf"),
+        ([-np.inf, -np.inf], "every sample has weight zero"),
+        (["a"], "array of numbers"),
+    ],
+)
+def test_bad_weights(logs, message):
+    with pytest.raises(BadInput, match=message):
+        weights_figure(logs)
+
+
+def test_bad_range():
+    with pytest.raises(BadInput, match="range_nats"):
+        weights_figure([0.0], range_nats=(0.0, -1.0))
