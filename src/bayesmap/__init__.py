@@ -1,0 +1,62 @@
+"""bayesmap: given noisy range scans, where are the walls, and how sure are we?
+
+The public names are loaded on first use, so that importing this package costs nothing: neither JAX nor Warp nor
+matplotlib is loaded until something needs it.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from bayesmap.version import __version__ as __version__
+
+if TYPE_CHECKING:
+    from bayesmap.api import infer as infer
+    from bayesmap.errors import BadInput as BadInput
+    from bayesmap.io.logs import read_log as read_log
+    from bayesmap.model.forward import ranges as ranges
+    from bayesmap.model.forward import simulate as simulate
+    from bayesmap.model.priors import Independent as Independent
+    from bayesmap.run import Run as Run
+    from bayesmap.run import load as load
+    from bayesmap.sensor.mixture import BeamMixture as BeamMixture
+    from bayesmap.sensor.model import SensorModel as SensorModel
+    from bayesmap.sensor.noise import Gaussian as Gaussian
+    from bayesmap.sensor.noise import StudentT as StudentT
+    from bayesmap.world import worlds as worlds
+    from bayesmap.world.grid import Grid as Grid
+    from bayesmap.world.scans import Reading as Reading
+    from bayesmap.world.scans import Scans as Scans
+
+_HOME = {
+    "BadInput": "bayesmap.errors",
+    "BeamMixture": "bayesmap.sensor.mixture",
+    "Gaussian": "bayesmap.sensor.noise",
+    "Grid": "bayesmap.world.grid",
+    "Independent": "bayesmap.model.priors",
+    "Reading": "bayesmap.world.scans",
+    "Run": "bayesmap.run",
+    "Scans": "bayesmap.world.scans",
+    "SensorModel": "bayesmap.sensor.model",
+    "StudentT": "bayesmap.sensor.noise",
+    "infer": "bayesmap.api",
+    "load": "bayesmap.run",
+    "ranges": "bayesmap.model.forward",
+    "read_log": "bayesmap.io.logs",
+    "simulate": "bayesmap.model.forward",
+    "worlds": "bayesmap.world.worlds",
+}
+
+__all__ = ["__version__", *_HOME]  # noqa: PLE0604 -- the strings are in _HOME
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'bayesmap' has no attribute {name!r}")
+    module = importlib.import_module(_HOME[name])
+    return module if name == "worlds" else getattr(module, name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -27,7 +27,7 @@ from bayesmap.kernels.state import (
 )
 from bayesmap.sensor.table import BeamTable
 
-wp.set_module_options({"enable_backward": False})
+wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
 LOOK_BACK = wp.constant(8)  # a beam's cells in one block lie close together, even where it runs along a line
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))
@@ -84,7 +84,7 @@ def list_block_beams(
                     x = cx - dx
                     y = cy - dy
                     if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < rows:
-                        seen = 0
+                        seen = int(0)
                         for j in range(wp.max(table_offsets[b], k - LOOK_BACK), k):
                             if place_in_block(cells[j], x, y, ny) >= 0:
                                 seen = 1
@@ -163,7 +163,7 @@ def block_weights(
                         break
                     out += 1
                 l_out = entry_loglik(t, b, out, end)
-            free = 0
+            free = int(0)
             for e in range(k, wp.min(last + 1, out)):
                 j = place_in_block(t.cells[e], x, y, blocks.ny)
                 if j >= 0:
@@ -205,7 +205,7 @@ def cell_of_block(blocks: Blocks, x: int, y: int, j: int) -> int:
 @wp.func
 def beams_reaching(blocks: Blocks, reached: wp.array(dtype=wp.int32), x: int, y: int) -> int:
     """How many beams reach the block's cells, counted cell by cell."""
-    total = 0
+    total = int(0)
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
         if c >= 0:

@@ -57,3 +57,8 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
     """Put a NumPy array where kernels read it; on the CPU this shares memory when dtype and layout fit."""
     flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(dtype))
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
+
+
+def load_kernels(kernel: Any, device: str) -> None:
+    """Compile the kernel's module for a device, or fetch it from Warp's cache, now rather than at its first launch."""
+    kernel.module.load(wp.get_device(device))

@@ -47,9 +47,7 @@ def wall_gain(
 
 
 @wp.func
-def free_gain(
-    t: Table, first: wp.array(dtype=wp.int32), current: wp.array(dtype=wp.float32), c: int
-) -> wp.float64:
+def free_gain(t: Table, first: wp.array(dtype=wp.int32), current: wp.array(dtype=wp.float32), c: int) -> wp.float64:
     """What a wall in a free cell would add to the log-likelihood."""
     gain = wp.float64(0.0)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):

@@ -34,9 +34,7 @@ def sensor_parameters(model: KernelParameters, limits: RangeLimits) -> SensorPar
     packed.sigma_m, packed.sigma_per_m, packed.dof = model.sigma_m, model.sigma_per_m, model.dof
     if model.dof > 0:
         half = 0.5 * (model.dof + 1)
-        packed.log_constant = (
-            math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
-        )
+        packed.log_constant = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
     else:
         packed.log_constant = -0.5 * math.log(2 * math.pi)
     packed.robust = int(model.robust)

@@ -28,7 +28,7 @@ def first_hit_ranges(
     ny = walls.shape[1]
     w = walk_begin(start_x[b], start_y[b], wp.cos(angle_rad[b]), wp.sin(angle_rad[b]), nx, ny, longest)
     first = wp.float64(longest)
-    n = 0
+    n = int(0)
     while w.distance <= w.end:
         if is_inside(w, nx, ny):
             n += 1

@@ -156,7 +156,7 @@ def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8), log_all_free: wp.fl
     """Log p(walls)."""
     total = wp.float64(log_all_free)
     if prior.uniform != 0:
-        n = 0
+        n = int(0)
         for c in range(walls.shape[0]):
             n += int(walls[c])
         return total + wp.float64(n) * prior.gain[0]

@@ -35,7 +35,7 @@ def count_cells(
 ):
     """One thread a beam: how many cells does it touch?"""
     b = first + wp.tid()
-    n = 0
+    n = int(0)
     w = walk_begin(start_x[b], start_y[b], wp.cos(angle_rad[b]), wp.sin(angle_rad[b]), nx, ny, longest[b])
     while w.distance <= w.end:
         if is_inside(w, nx, ny):
@@ -77,9 +77,7 @@ def fill_cells(
         w = walk_next(w)
 
 
-def trace(
-    scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu"
-) -> BeamTable:
+def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
     """Build the beam table of some scans.
 
     Args:
@@ -152,9 +150,7 @@ def _fill_by_model(
         stop = max(start + 1, int(np.searchsorted(ends, done + SLICE, side="right")))
         some = beams[start:stop]
         beam = np.repeat(some, lengths[start:stop])
-        within = np.arange(len(beam)) - np.repeat(
-            ends[start:stop] - lengths[start:stop] - done, lengths[start:stop]
-        )
+        within = np.arange(len(beam)) - np.repeat(ends[start:stop] - lengths[start:stop] - done, lengths[start:stop])
         entries = offsets[beam] + within
         loglik[entries] = sensor.log_likelihood(ranges[beam], loglik[entries].astype(np.float64), limits)
         start = stop

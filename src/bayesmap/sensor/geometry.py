@@ -17,9 +17,7 @@ CLOSED = 1e-9
 """Edges are closed: their end points belong to them, rounding included (in units of cells)."""
 
 
-def ranges_by_edges(
-    walls: NDArray[np.bool_], start_cells: Floats, angles_rad: Floats, longest_cells: float
-) -> Floats:
+def ranges_by_edges(walls: NDArray[np.bool_], start_cells: Floats, angles_rad: Floats, longest_cells: float) -> Floats:
     """Distance from one start to the nearest edge of any wall cell, for each angle, capped.
 
     Solves ``start + s (cos, sin) = corner + t edge`` for each of a wall's four edges and keeps the least s >= 0

@@ -96,7 +96,7 @@ class BeamMixture(SensorModel):
             by_kind = np.select(
                 [finite, np.isposinf(z), np.isneginf(z)], [np.log(hit), np.log(none), np.log(close)], 0.0
             )
-        return np.maximum(by_kind, LOG_IMPOSSIBLE)
+        return np.asarray(np.maximum(by_kind, LOG_IMPOSSIBLE))
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
         """A finite reading is flat where the wall's noise has sunk under `FLAT_NATS` of the random floor."""

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.infer.problem import Problem
-from bayesmap.infer.propagate import Marginals
-from bayesmap.infer.sampler import STREAM_START
+from bayesmap.inference.problem import Problem
+from bayesmap.inference.propagate import Marginals
+from bayesmap.inference.sampler import STREAM_START
 
 Start = Literal["prior", "zeros", "ones", "propagate"]
 

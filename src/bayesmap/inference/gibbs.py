@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.infer.sampler import WallSampler, radial_distance
+from bayesmap.inference.sampler import WallSampler, radial_distance
 
 
 class Gibbs(WallSampler):
@@ -30,6 +30,8 @@ class Gibbs(WallSampler):
 
     @cached_property
     def _kernel(self) -> tuple[Any, list[Any]]:
+        from bayesmap.kernels.device import load_kernels
         from bayesmap.kernels.gibbs import gibbs_sweeps
 
+        load_kernels(gibbs_sweeps, self.problem.device)
         return gibbs_sweeps, [self.problem.device_table]

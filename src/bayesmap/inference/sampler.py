@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.infer.problem import Problem
+from bayesmap.inference.problem import Problem
 
 if TYPE_CHECKING:
     from bayesmap.kernels.chains import WallChains
@@ -76,6 +76,7 @@ class WallSampler(ABC):
         from bayesmap.kernels.chains import WallChains
         from bayesmap.kernels.random import mix
 
+        self.kernel()  # whatever is built on first use is built now, not in the first sweep
         problem = self.problem
         maps = np.stack([problem.admit(w) for w in walls]).reshape(len(walls), -1)
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in range(len(walls))]

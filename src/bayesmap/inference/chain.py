@@ -13,9 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.infer.sampler import Info, State, WallSampler
+from bayesmap.inference.sampler import Info, State, WallSampler
 
 STEP_SECONDS = 0.25
+SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step
 BUFFER_BYTES = 64 << 20  # draws of one step, before they are packed
 
 
@@ -112,7 +113,7 @@ def run_chains(
         record = _Record.resumed(resume, schedule)
 
     saved_at = time.monotonic()
-    per_sweep = 0.0
+    per_sweep = SECONDS_PER_INCIDENCE * sampler.problem.table.n_incidences
     while state.sweep < schedule.sweeps and not should_stop():
         warming = state.sweep < schedule.warmup
         left = (schedule.warmup if warming else schedule.sweeps) - state.sweep

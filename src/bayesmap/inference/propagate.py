@@ -1,4 +1,4 @@
-"""Belief propagation with ray potentials: approximate marginals in a few rounds (the kernel's file has the messages)."""
+"""Belief propagation with ray potentials: approximate marginals in a few rounds (messages: see its kernel)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
-from bayesmap.infer.problem import Problem, check_count
+from bayesmap.inference.problem import Problem, check_count
 
 DAMPING = 0.5
 ROUNDS = 20

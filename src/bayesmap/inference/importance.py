@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.infer.problem import Problem, check_count
-from bayesmap.infer.sampler import STREAM_PARTICLES
+from bayesmap.inference.problem import Problem, check_count
+from bayesmap.inference.sampler import STREAM_PARTICLES
 
 BATCH = 4096
 NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.infer.sampler import WallSampler, radial_distance
+from bayesmap.inference.sampler import WallSampler, radial_distance
 
 
 class BlockGibbs(WallSampler):
@@ -34,6 +34,8 @@ class BlockGibbs(WallSampler):
     @cached_property
     def _kernel(self) -> tuple[Any, list[Any]]:
         from bayesmap.kernels.block import block_sweeps, list_blocks
+        from bayesmap.kernels.device import load_kernels
 
+        load_kernels(block_sweeps, self.problem.device)
         blocks = list_blocks(self.problem.table, self.problem.device)
         return block_sweeps, [self.problem.device_table, blocks]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
-from bayesmap.infer.problem import Problem
+from bayesmap.inference.problem import Problem
 
 MAX_UNKNOWN = 16
 

@@ -1,0 +1,337 @@
+"""The public `infer`: from scans to a posterior, by any of the methods."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.inference.block import BlockGibbs
+from bayesmap.inference.chain import Chains, Progress, Schedule, run_chains
+from bayesmap.inference.exact import enumerate_maps
+from bayesmap.inference.gibbs import Gibbs
+from bayesmap.inference.importance import sample_importance
+from bayesmap.inference.interrupt import stop_on_interrupt
+from bayesmap.inference.problem import Problem, check_count
+from bayesmap.inference.propagate import ROUNDS, Marginals, propagate
+from bayesmap.inference.sampler import STREAM_START, Order
+from bayesmap.inference.start import Start, default_start, start_maps
+from bayesmap.model.priors import Independent
+from bayesmap.posterior.packing import pack
+from bayesmap.posterior.posterior import Posterior, mean_of_draws
+from bayesmap.run import Run
+from bayesmap.sensor.describe import describe
+from bayesmap.sensor.model import SensorModel
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+Method = Literal["exact", "importance", "gibbs", "block", "propagate"]
+Stage = Literal["propagate", "warm-up", "draws", "particles"]
+
+
+@dataclass(frozen=True)
+class Event:
+    """Progress of a run: ``done`` of ``total`` sweeps, rounds or particles, and the mean log joint where known."""
+
+    stage: Stage
+    done: int
+    total: int
+    log_joint: float | None = None
+
+
+def infer(
+    scans: Scans,
+    grid: Grid,
+    *,
+    prior: Independent,
+    sensor: SensorModel,
+    method: Method = "gibbs",
+    order: Order = "radial",
+    chains: int = 4,
+    warmup: int = 100,
+    draws: int | None = None,
+    thin: int = 1,
+    seed: int = 0,
+    start: Start | NDArray[np.bool_] | None = None,
+    particles: int = 100_000,
+    rounds: int = ROUNDS,
+    hit_depth: float = 0.0,
+    threads: int | None = None,
+    device: str = "cpu",
+    resume: Run | None = None,
+    on_progress: Callable[[Event], None] | None = None,
+    on_checkpoint: Callable[[Run], None] | None = None,
+    checkpoint_every_s: float = 30.0,
+) -> Run:
+    """Infer the walls from scans.
+
+    The result depends on the arguments up to ``hit_depth`` alone: neither on the number of threads nor on how often
+    the run was stopped and resumed.
+
+    Args:
+        scans: what the sensor reported, and from where.
+        grid: the map to infer.
+        prior: of the walls.
+        sensor: the law of the readings.
+        method: "gibbs" (single cells), "block" (overlapping 2 x 2 blocks: use it where walls are rare),
+            "propagate" (belief propagation: approximate, at once), "importance" (from the prior: for teaching),
+            or "exact" (at most 16 unknown cells).
+        order: of the cells or blocks in a sweep: "radial", "raster" or "random".
+        chains: how many Markov chains; the other methods give ``chains * draws`` independent draws.
+        warmup: sweeps of each chain that are not kept.
+        draws: maps that each chain keeps; by default 1000, but none for "propagate", whose answer is the marginals.
+        thin: sweeps from one kept map to the next.
+        seed: of all random numbers.
+        start: "prior", "zeros", "ones", "propagate", or a map; by default "propagate" on maps of more than 10 000
+            cells and "prior" on others.
+        particles: of "importance".
+        rounds: of belief propagation, at most.
+        hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
+        threads: CPU threads; all cores if None.
+        device: "cpu" or a CUDA device such as "cuda:0".
+        resume: a run with the same arguments that was stopped early: go on where it stopped.
+        on_progress: told how far the run is, about four times a second.
+        on_checkpoint: given the run so far at the end of warm-up and every ``checkpoint_every_s`` seconds.
+        checkpoint_every_s: see above.
+
+    Returns:
+        The run. Ctrl-C stops at the end of the current sweeps and returns what there is, with ``finished`` false.
+
+    Raises:
+        BadInput: arguments that do not make sense, or a run to resume that was made with others.
+    """
+    if method not in get_args(Method):
+        raise BadInput(f"infer: method must be one of {', '.join(get_args(Method))}, got {method!r}")
+    if draws is None:
+        draws = 0 if method == "propagate" else 1000
+    schedule = Schedule(check_count("warmup", warmup, 0), check_count("draws", draws, 0), check_count("thin", thin, 1))
+    chains = check_count("chains", chains, 1)
+    if not 0.0 <= hit_depth <= 1.0:
+        raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
+    began = time.perf_counter()
+    problem = _build(scans, grid, prior, sensor, hit_depth, device)
+    start = default_start(problem) if start is None else start
+    settings: dict[str, Any] = {
+        "method": method, "order": order, "chains": chains, "warmup": schedule.warmup, "draws": schedule.draws,
+        "thin": schedule.thin, "seed": seed, "start": start if isinstance(start, str) else "given map",
+        "particles": particles, "rounds": rounds, "hit_depth": hit_depth, "prior": prior.describe(),
+        "sensor": describe(sensor),
+    }  # fmt: skip
+    settings["fingerprint"] = _fingerprint(settings, scans, grid, problem, start)
+    if resume is not None and resume.posterior.settings["fingerprint"] != settings["fingerprint"]:
+        raise BadInput(f"resume: the saved run was made with other {_difference(resume.posterior.settings, settings)}")
+    common = _Common(problem, scans, sensor, settings, began, time.perf_counter() - began)
+    with stop_on_interrupt() as should_stop:
+        if method == "exact":
+            return common.exact()
+        if method == "importance":
+            return common.importance(on_progress, should_stop)
+        if method == "propagate":
+            return common.marginals(_warm(problem, rounds, threads, on_progress, should_stop))
+        sampler = Gibbs(problem, order) if method == "gibbs" else BlockGibbs(problem, order)
+        warm = None
+        if start == "propagate" and resume is None:
+            warm = _warm(problem, rounds, threads, on_progress, should_stop)
+
+        def tell(progress: Progress) -> None:
+            if on_progress is not None:
+                stage: Stage = "warm-up" if progress.warming_up else "draws"
+                on_progress(Event(stage, progress.done, progress.total, float(progress.log_joint.mean())))
+
+        def checkpoint(so_far: Chains) -> None:
+            if on_checkpoint is not None:
+                on_checkpoint(common.chains(so_far, warm, threads))
+
+        result = run_chains(
+            sampler,
+            start_maps(problem, start, chains, seed, warm) if resume is None else np.empty((0, *grid.shape), bool),
+            schedule,
+            seed,
+            threads=threads,
+            resume=None if resume is None else _chains_of(resume.posterior),
+            on_progress=tell,
+            on_checkpoint=checkpoint if on_checkpoint is not None else None,
+            checkpoint_every_s=checkpoint_every_s,
+            should_stop=should_stop,
+        )
+        return common.chains(result, warm, threads)
+
+
+def _build(scans: Scans, grid: Grid, prior: Independent, sensor: SensorModel, hit_depth: float, device: str) -> Problem:
+    from bayesmap.kernels.device import resolve
+    from bayesmap.kernels.trace import trace
+
+    device = resolve(device)
+    prior.probabilities(grid)  # shapes are checked before the long work
+    table = trace(scans, grid, sensor, hit_depth=hit_depth, device=device)
+    return Problem(table=table, prior=prior, poses=scans.poses, device=device)
+
+
+def _warm(
+    problem: Problem,
+    rounds: int,
+    threads: int | None,
+    on_progress: Callable[[Event], None] | None,
+    should_stop: Callable[[], bool],
+) -> Marginals:
+    def tell(done: int, total: int, change: float) -> None:
+        if on_progress is not None:
+            on_progress(Event("propagate", done, total))
+
+    return propagate(problem, rounds=rounds, threads=threads, on_round=tell, should_stop=should_stop)
+
+
+@dataclass(frozen=True, eq=False)
+class _Common:
+    """What the result of every method shares."""
+
+    problem: Problem
+    scans: Scans
+    sensor: SensorModel
+    settings: dict[str, Any]
+    began: float
+    trace_seconds: float
+
+    def exact(self) -> Run:
+        """Enumerate, and draw from the result."""
+        whole = enumerate_maps(self.problem)
+        walls = self._independent(whole.sample)
+        return self._run(walls, occupancy=whole.marginals(), log_evidence=whole.log_evidence)
+
+    def importance(self, on_progress: Callable[[Event], None] | None, should_stop: Callable[[], bool]) -> Run:
+        """Weigh particles, and resample."""
+
+        def tell(done: int, total: int) -> None:
+            if on_progress is not None:
+                on_progress(Event("particles", done, total))
+
+        found = sample_importance(
+            self.problem, self.settings["particles"], self.settings["seed"], on_progress=tell, should_stop=should_stop
+        )
+        walls = self._independent(lambda rng, count: found.maps(found.resample(rng, count)))
+        return self._run(
+            walls,
+            occupancy=found.occupancy(),
+            log_weights=found.log_weights,
+            log_evidence=found.log_evidence,
+            sampling=found.seconds,
+            finished=found.finished,
+        )
+
+    def marginals(self, found: Marginals) -> Run:
+        """Beliefs, with draws that are independent from cell to cell: marginals are all that there is."""
+        walls = self._independent(lambda rng, count: rng.random((count, *found.p_wall.shape)) < found.p_wall)
+        return self._run(walls, occupancy=found.p_wall, belief_changes=found.changes, sampling=found.seconds)
+
+    def chains(self, chains: Chains, warm: Marginals | None, threads: int | None) -> Run:
+        """Chains, finished or not."""
+        from bayesmap.kernels.parallel import available_cores
+
+        used = min(threads or available_cores(), len(chains.walls)) if self.problem.device == "cpu" else 1
+        return self._run(
+            None,
+            occupancy=mean_of_draws(chains.packed, self.problem.table.grid),
+            chains=chains,
+            belief_changes=None if warm is None else warm.changes,
+            warm_start=0.0 if warm is None else warm.seconds,
+            sampling=chains.seconds,
+            finished=chains.finished,
+            threads_used=used,
+        )
+
+    def _independent(self, draw: Callable[[np.random.Generator, int], NDArray[np.bool_]]) -> list[NDArray[np.bool_]]:
+        seed, chains, draws = (self.settings[key] for key in ("seed", "chains", "draws"))
+        return [draw(np.random.default_rng([seed, chain, STREAM_START]), draws) for chain in range(chains)]
+
+    def _run(
+        self,
+        walls: list[NDArray[np.bool_]] | None,
+        *,
+        occupancy: NDArray[np.float64],
+        chains: Chains | None = None,
+        warm_start: float = 0.0,
+        sampling: float = 0.0,
+        finished: bool = True,
+        threads_used: int = 1,
+        **extra: Any,
+    ) -> Run:
+        from bayesmap.kernels.score import log_likelihoods
+
+        table = self.problem.table
+        if chains is None:
+            assert walls is not None
+            packed = pack(np.stack(walls))
+            chains = Chains(
+                packed=packed,
+                log_likelihood=np.stack([log_likelihoods(table, chain, self.problem.device) for chain in packed]),
+                log_prior=np.array([[self.problem.prior.log_prob(w, table.grid) for w in chain] for chain in walls]),
+                warmup_log_joint=np.zeros((len(walls), 0)),
+                walls=np.zeros((len(walls), table.grid.n_cells), dtype=np.uint8),
+                sweep=0,
+                seconds=sampling,
+                finished=finished,
+            )
+        settings = {**self.settings, "threads_used": threads_used}
+        total = time.perf_counter() - self.began
+        seconds = {"trace": self.trace_seconds, "warm_start": warm_start, "sampling": sampling, "total": total}
+        return Run(
+            Posterior(
+                grid=table.grid,
+                scans=self.scans,
+                sensor=self.sensor,
+                settings=settings,
+                occupancy=occupancy,
+                observed=table.observed(),
+                packed=chains.packed,
+                log_likelihood=chains.log_likelihood,
+                log_prior=chains.log_prior,
+                warmup_log_joint=chains.warmup_log_joint,
+                walls=chains.walls,
+                sweep=chains.sweep,
+                finished=finished,
+                seconds=seconds,
+                counts={"scans": len(self.scans), "beams": self.scans.n_beams, "incidences": table.n_incidences},
+                **extra,
+            )
+        )
+
+
+def _chains_of(posterior: Posterior) -> Chains:
+    return Chains(
+        packed=posterior.packed,
+        log_likelihood=posterior.log_likelihood,
+        log_prior=posterior.log_prior,
+        warmup_log_joint=posterior.warmup_log_joint,
+        walls=posterior.walls,
+        sweep=posterior.sweep,
+        seconds=posterior.seconds["sampling"],
+        finished=posterior.finished,
+    )
+
+
+def _fingerprint(
+    settings: dict[str, Any], scans: Scans, grid: Grid, problem: Problem, start: Start | NDArray[np.bool_]
+) -> str:
+    """What a run is determined by: settings, data, prior and start."""
+    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
+    digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
+    for array in (scans.poses, scans.angles_rad, scans.ranges_m, problem.p_wall):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    if not isinstance(start, str):
+        digest.update(np.ascontiguousarray(start, dtype=np.bool_).tobytes())
+    return digest.hexdigest()[:16]
+
+
+def _difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str:
+    """Which settings differ, in words."""
+    names = [name for name in wanted if name != "fingerprint" and saved.get(name) != wanted[name]]
+    if not names:
+        return "scans or on another grid"
+    return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names)

@@ -1,0 +1,203 @@
+"""The saved posterior: one netCDF-4 file in the arviz layout, that opens in arviz and xarray anywhere.
+
+Groups: ``posterior`` (walls by chain, draw, x, y), ``sample_stats`` (log joint and its parts), ``observed_data``
+(ranges), ``constant_data`` (poses, angles, marginals, where the chains stand), ``warmup_sample_stats``. Settings, grid
+and timings are attributes of the root, as JSON. Draws are stored as deflated bytes, 0 or 1, so that any reader sees
+plain arrays; a checksum over all of it tells a damaged file from a whole one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.atomic import write_whole
+from bayesmap.posterior.packing import pack, unpack
+from bayesmap.posterior.posterior import Posterior
+from bayesmap.sensor.describe import from_description
+from bayesmap.version import __version__
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+FORMAT = "bayesmap run"
+FORMAT_VERSION = 1
+DRAWS_AT_ONCE = 64
+
+
+def save(posterior: Posterior, path: str | os.PathLike[str]) -> None:
+    """Write a posterior, whole or not at all.
+
+    Raises:
+        BadInput: the folder cannot be written to.
+    """
+    with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+        _write(posterior, file)
+
+
+def _write(posterior: Posterior, file: Any) -> None:
+    grid, scans = posterior.grid, posterior.scans
+    chains, draws, _ = posterior.packed.shape
+    nx, ny = grid.shape
+    x, y = grid.centers_m()
+    header = {
+        "settings": posterior.settings,
+        "grid": {"shape": grid.shape, "resolution": grid.resolution, "origin": grid.origin},
+        "limits": [scans.min_range_m, scans.max_range_m],
+        "seconds": posterior.seconds,
+        "counts": posterior.counts,
+        "sweep": posterior.sweep,
+        "finished": posterior.finished,
+        "log_evidence": posterior.log_evidence,
+        "notes": posterior.notes,
+    }
+    file.setncatts(
+        {
+            "format": FORMAT,
+            "format_version": FORMAT_VERSION,
+            "inference_library": "bayesmap",
+            "inference_library_version": __version__,
+            "bayesmap": json.dumps(header),
+            "checksum": _checksum(posterior, header),
+        }
+    )
+    group = file.createGroup("posterior")
+    sizes = {"chain": chains, "draw": draws, "x": nx, "y": ny}
+    for name, size in sizes.items():
+        group.createDimension(name, size)
+    for name, values in (("chain", np.arange(chains)), ("draw", np.arange(draws)), ("x", x), ("y", y)):
+        group.createVariable(name, values.dtype, (name,))[:] = values
+    walls = group.createVariable(
+        "walls", "i1", tuple(sizes), zlib=True, complevel=1, shuffle=False,
+        chunksizes=(1, max(1, min(draws, DRAWS_AT_ONCE)), nx, ny),
+    )  # fmt: skip
+    walls.setncatts({"dtype": "bool", "long_name": "wall in this cell"})
+    for chain in range(chains):
+        for i in range(0, draws, DRAWS_AT_ONCE):
+            some = unpack(posterior.packed[chain, i : i + DRAWS_AT_ONCE], grid.shape)
+            walls[chain, i : i + DRAWS_AT_ONCE] = some.view(np.int8)
+
+    _arrays(
+        file.createGroup("sample_stats"),
+        ("chain", "draw"),
+        lp=posterior.log_likelihood + posterior.log_prior,
+        log_likelihood=posterior.log_likelihood,
+        log_prior=posterior.log_prior,
+    )
+    _arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
+    _arrays(file.createGroup("observed_data"), ("scan", "beam"), range_m=scans.ranges_m)
+    constant = file.createGroup("constant_data")
+    _arrays(constant, ("scan", "pose_part"), pose_world=scans.poses)
+    _arrays(constant, ("beam",), angle_rad=scans.angles_rad)
+    if scans.stamps_s is not None:
+        _arrays(constant, ("scan",), stamp_s=scans.stamps_s)
+    _arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
+    _arrays(constant, ("chain", "cell"), state=posterior.walls)
+    if posterior.log_weights is not None:
+        _arrays(constant, ("particle",), log_weight=posterior.log_weights)
+    if posterior.belief_changes is not None:
+        _arrays(constant, ("round",), belief_change=posterior.belief_changes)
+
+
+def _arrays(group: Any, dimensions: tuple[str, ...], **arrays: NDArray[Any]) -> None:
+    for name, values in arrays.items():
+        for dimension, size in zip(dimensions, values.shape, strict=True):
+            if dimension not in group.dimensions:
+                group.createDimension(dimension, size)
+        group.createVariable(name, values.dtype, dimensions, zlib=True, complevel=1)[:] = values
+
+
+def load_posterior(path: str | os.PathLike[str]) -> Posterior:
+    """Read a posterior back.
+
+    Raises:
+        BadInput: no such file; not netCDF, or not a run of bayesmap's; a newer format; or damaged.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise BadInput(f"{path}: no such file")
+    try:
+        with netCDF4.Dataset(path, "r") as file:
+            file.set_auto_mask(False)
+            attributes = {name: file.getncattr(name) for name in file.ncattrs()}
+            if attributes.get("format") != FORMAT:
+                raise BadInput(f"{path}: a netCDF file, but not a saved run of bayesmap's")
+            if int(attributes["format_version"]) > FORMAT_VERSION:
+                raise BadInput(
+                    f"{path}: saved by bayesmap {attributes.get('inference_library_version')}, in a newer format "
+                    f"({attributes['format_version']}) than this version reads ({FORMAT_VERSION}); update bayesmap"
+                )
+            header = json.loads(attributes["bayesmap"])
+            posterior = _read(file, header)
+            whole = _checksum(posterior, header) == attributes["checksum"]
+    except (OSError, RuntimeError, KeyError, IndexError, ValueError, AttributeError) as error:
+        if isinstance(error, BadInput):
+            raise
+        raise BadInput(f"{path}: not a readable saved run (damaged or truncated?): {error}") from None
+    if not whole:
+        raise BadInput(f"{path}: the saved run is damaged (its checksum does not match); use a backup or run again")
+    return posterior
+
+
+def _read(file: Any, header: dict[str, Any]) -> Posterior:
+    grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
+    walls = file["posterior"]["walls"]
+    chains, draws = walls.shape[:2]
+    packed = np.zeros((chains, draws, (grid.n_cells + 7) // 8), dtype=np.uint8)
+    for chain in range(chains):
+        for i in range(0, draws, DRAWS_AT_ONCE):
+            packed[chain, i : i + DRAWS_AT_ONCE] = pack(walls[chain, i : i + DRAWS_AT_ONCE] != 0)
+    stats, constant = file["sample_stats"], file["constant_data"]
+
+    def optional(name: str) -> NDArray[np.float64] | None:
+        return constant[name][:] if name in constant.variables else None
+
+    scans = Scans(
+        poses=constant["pose_world"][:],
+        angles_rad=constant["angle_rad"][:],
+        ranges_m=file["observed_data"]["range_m"][:],
+        min_range_m=header["limits"][0],
+        max_range_m=header["limits"][1],
+        stamps_s=optional("stamp_s"),
+    )
+    return Posterior(
+        grid=grid,
+        scans=scans,
+        sensor=from_description(header["settings"]["sensor"]),
+        settings=header["settings"],
+        occupancy=constant["occupancy"][:],
+        observed=constant["observed"][:] != 0,
+        packed=packed,
+        log_likelihood=stats["log_likelihood"][:],
+        log_prior=stats["log_prior"][:],
+        warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
+        walls=constant["state"][:],
+        sweep=header["sweep"],
+        finished=header["finished"],
+        seconds=header["seconds"],
+        counts=header["counts"],
+        log_weights=optional("log_weight"),
+        belief_changes=optional("belief_change"),
+        log_evidence=header["log_evidence"],
+        notes=tuple(header["notes"]),
+    )
+
+
+def _checksum(posterior: Posterior, header: dict[str, Any]) -> str:
+    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
+    scans = posterior.scans
+    for array in (
+        posterior.packed, posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.walls,
+        posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m,
+        posterior.log_weights, posterior.belief_changes, scans.stamps_s,
+    ):  # fmt: skip
+        if array is not None:
+            digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()

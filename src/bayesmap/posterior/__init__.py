@@ -1,0 +1,1 @@
+"""What inference found: the posterior as plain data, its summaries, diagnostics and scores."""

@@ -1,0 +1,95 @@
+"""Is the run fit for use? Convergence, sizes and timings in one place."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
+from bayesmap.posterior.posterior import Posterior
+
+RHAT_LIMIT = 1.05
+ESS_LIMIT = 100.0
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Diagnostics of a run. Numbers that the method does not have are NaN.
+
+    Attributes:
+        rhat_log_joint, rhat_log_likelihood: rank-normalised split R-hat over the chains. The likelihood's is the
+            sharper test where many cells are unobserved, whose prior draws drown slow changes of the joint.
+        ess_log_joint_bulk, ess_log_joint_tail: effective sample sizes of the log joint.
+        rhat_max, ess_min: worst over all cells that changed.
+        unchanged_cells: cells with one value in all draws; they have no R-hat and are counted apart.
+        disagreeing_cells: cells that never changed within a chain but differ between chains.
+        effective_sample_size: of the weights, for importance sampling.
+        microseconds_per_sweep: of one chain on one core.
+        finished: false if stopped early.
+    """
+
+    rhat_log_joint: float
+    rhat_log_likelihood: float
+    ess_log_joint_bulk: float
+    ess_log_joint_tail: float
+    rhat_max: float
+    ess_min: float
+    unchanged_cells: int
+    disagreeing_cells: int
+    effective_sample_size: float
+    microseconds_per_sweep: float
+    finished: bool
+
+    def as_json(self) -> dict[str, Any]:
+        """The same as JSON values: NaN and infinity become null."""
+        return {
+            name: None if isinstance(value, float) and not math.isfinite(value) else value
+            for name, value in asdict(self).items()
+        }
+
+    def problems(self) -> list[str]:
+        """Reasons not to trust the run, in words; empty where there are none."""
+        found = []
+        if not self.finished:
+            found.append("the run was stopped before it had finished")
+        for name, value in (("log joint", self.rhat_log_joint), ("log likelihood", self.rhat_log_likelihood)):
+            if value > RHAT_LIMIT:
+                found.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}")
+        if self.rhat_max > RHAT_LIMIT:
+            found.append(f"R-hat of some cell is {self.rhat_max:.3f}, over {RHAT_LIMIT}")
+        if self.disagreeing_cells:
+            found.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
+        if self.ess_min < ESS_LIMIT:
+            found.append(f"effective sample size of some cell is {self.ess_min:.0f}, under {ESS_LIMIT:.0f}")
+        if self.effective_sample_size < ESS_LIMIT:
+            found.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
+        return found
+
+
+def summarise(posterior: Posterior) -> Summary:
+    """Compute the diagnostics of a run."""
+    nan = float("nan")
+    markov = posterior.settings["method"] in ("gibbs", "block")
+    log_joint = posterior.log_likelihood + posterior.log_prior
+    draws = log_joint.shape[1]
+    enough = markov and draws >= 4
+    cells = diagnose_cells(posterior.packed, posterior.grid.shape) if markov else None
+    weights = posterior.log_weights
+    sweeps = posterior.sweep * max(1, posterior.packed.shape[0])
+    threads = int(posterior.settings.get("threads_used", 1))
+    return Summary(
+        rhat_log_joint=rhat(log_joint) if enough else nan,
+        rhat_log_likelihood=rhat(posterior.log_likelihood) if enough else nan,
+        ess_log_joint_bulk=bulk_ess(log_joint) if enough else nan,
+        ess_log_joint_tail=tail_ess(log_joint) if enough else nan,
+        rhat_max=cells.rhat_max if cells else nan,
+        ess_min=cells.ess_min if cells else nan,
+        unchanged_cells=cells.unchanged if cells else 0,
+        disagreeing_cells=cells.disagreeing if cells else 0,
+        effective_sample_size=float(1.0 / np.exp(2 * weights).sum()) if weights is not None else nan,
+        microseconds_per_sweep=1e6 * posterior.seconds["sampling"] * threads / sweeps if markov and sweeps else nan,
+        finished=posterior.finished,
+    )

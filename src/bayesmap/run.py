@@ -1,0 +1,124 @@
+"""The result that users hold: a posterior, with everything one does with it a method away."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.posterior.packing import unpack
+from bayesmap.posterior.posterior import Posterior, entropy_bits
+from bayesmap.posterior.score import log_score
+from bayesmap.posterior.summary import Summary, summarise
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """The posterior over walls that a call of `bayesmap.infer` found."""
+
+    posterior: Posterior
+
+    @property
+    def grid(self) -> Grid:
+        """Where the cells are."""
+        return self.posterior.grid
+
+    @property
+    def finished(self) -> bool:
+        """False if the run was stopped before all draws were there; `infer(..., resume=run)` goes on."""
+        return self.posterior.finished
+
+    @property
+    def occupancy(self) -> NDArray[np.float64]:
+        """Posterior wall probability of every cell, (nx, ny)."""
+        return self.posterior.occupancy
+
+    @property
+    def entropy(self) -> NDArray[np.float64]:
+        """Entropy of every cell's marginal in bits, (nx, ny)."""
+        return entropy_bits(self.posterior.occupancy)
+
+    @property
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that at least one beam touches, (nx, ny)."""
+        return self.posterior.observed
+
+    @cached_property
+    def draws(self) -> NDArray[np.bool_]:
+        """All kept maps, (chain, draw, nx, ny); unpacked on first use, one byte a cell."""
+        return unpack(self.posterior.packed, self.posterior.grid.shape)
+
+    @property
+    def log_joint(self) -> NDArray[np.float64]:
+        """Log p(walls, readings) of every draw, (chain, draw)."""
+        return self.posterior.log_likelihood + self.posterior.log_prior
+
+    @property
+    def log_weights(self) -> NDArray[np.float64]:
+        """Normalised log weights of all particles of importance sampling, (particles,).
+
+        Raises:
+            BadInput: another method.
+        """
+        if self.posterior.log_weights is None:
+            raise BadInput(f"run: method {self.posterior.settings['method']!r} has no importance weights")
+        return self.posterior.log_weights
+
+    def summary(self) -> Summary:
+        """R-hat, effective sample sizes, cells that never changed, timings."""
+        return self._summary
+
+    @cached_property
+    def _summary(self) -> Summary:
+        return summarise(self.posterior)
+
+    def log_score(self, heldout_scans: Scans) -> float:
+        """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws."""
+        return log_score(self.posterior, heldout_scans)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to one netCDF file, whole or not at all."""
+        from bayesmap.io.saved import save
+
+        save(self.posterior, path)
+
+    def plot(self, **options: Any) -> Figure:
+        """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`."""
+        from bayesmap.viz.figure import posterior_figure
+
+        posterior = self.posterior
+        if posterior.packed.shape[1] and "draw" not in options:
+            options["draw"] = unpack(posterior.packed[0, -1], posterior.grid.shape)
+        options.setdefault("scans", posterior.scans)
+        return posterior_figure(posterior.grid, posterior.occupancy, posterior.observed, **options)
+
+    def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, Any]:
+        """Write the occupancy as a map_server YAML and image; options as in `bayesmap.io.map_server.write_map`.
+
+        Returns:
+            The paths of the two files.
+        """
+        from bayesmap.io.map_server import write_map
+
+        return write_map(path, self.posterior.occupancy, self.posterior.grid, self.posterior.observed, **options)
+
+
+def load(path: str | os.PathLike[str]) -> Run:
+    """Read a saved run.
+
+    Raises:
+        BadInput: no such file, or one that is damaged or not a run of bayesmap's.
+    """
+    from bayesmap.io.saved import load_posterior
+
+    return Run(load_posterior(path))
