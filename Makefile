@@ -1,0 +1,38 @@
+# Two commands on a machine that has only Python 3.11 or later and make: `make demo` and `make test`.
+# Each sets up what it needs in .venv, with the versions of constraints.txt.
+
+PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11,\
+	$(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
+BIN := .venv/bin
+export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+.PHONY: demo test lint bench clean
+.DEFAULT_GOAL := demo
+
+.venv/core: pyproject.toml constraints.txt
+	@test -n "$(PYTHON)" || { echo "bayesmap needs Python 3.11 or later; name one with make PYTHON=..."; exit 1; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --editable .
+	@touch $@
+
+.venv/dev: .venv/core
+	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $@
+
+demo: .venv/core          ## infer the tutorial's map; pictures, the saved run and the JSON land in runs/demo
+	$(BIN)/bayesmap demo --output runs/demo --force
+
+test: .venv/dev           ## all tests, on all cores
+	$(BIN)/python -m pytest -n auto
+
+lint: .venv/dev           ## style and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+bench: .venv/dev          ## speed against peers and against the committed baseline; DEVICE=cuda:0 for a GPU
+	$(BIN)/python -m benchmarks.run --device $(or $(DEVICE),cpu) $(BENCH)
+
+clean:                    ## remove what the commands above made
+	rm -rf .venv .bench runs build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
