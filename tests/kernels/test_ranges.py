@@ -1,0 +1,138 @@
+"""Ray casting equals the tutorial's formula.
+
+Distances jump where a beam grazes a corner, so a beam is judged only where the formula itself is sure: where it gives
+the same with edges that are 1e-11 and 1e-7 cells longer than the cell's side. Beams that touch a corner exactly are
+sure: rounding moves them by less than 1e-11.
+"""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from oracle.formula import distances
+
+from bayesmap.kernels.ranges import cast
+from bayesmap.sensor.geometry import ranges_by_edges
+
+LONGEST = 60.0
+CELLS = 1e-9  # rounding over a few dozen cells is a thousand times smaller
+
+seeds = st.integers(0, 2**32 - 1)
+shapes = st.tuples(st.integers(1, 12), st.integers(1, 12))
+densities = st.sampled_from([0.05, 0.3, 0.7, 1.0])
+halves = st.integers(-8, 40).map(lambda n: n / 2)  # on lines, on corners, in cells' middles, in and out of the grid
+anywhere = st.floats(-5, 17, allow_nan=False)
+slopes = st.tuples(st.integers(-9, 9), st.integers(-9, 9)).filter(lambda s: s != (0, 0))
+
+
+def random_walls(seed, shape, density):
+    return np.random.default_rng(seed).random(shape) < density
+
+
+def assert_equal_to_the_formula(walls, starts, angles):
+    """Returns how many beams the formula was sure of."""
+    expected = distances(walls, starts, angles, longest=LONGEST)
+    sure = np.abs(expected - distances(walls, starts, angles, longest=LONGEST, slack=1e-7)) < CELLS
+    found, _ = cast(walls, starts, angles, LONGEST)
+    np.testing.assert_allclose(found[sure], expected[sure], atol=CELLS, rtol=0)
+    return sure.sum()
+
+
+@given(seeds, shapes, densities)
+def test_from_anywhere_at_any_angle(seed, shape, density):
+    rng = np.random.default_rng(seed)
+    starts = rng.uniform(-3, np.array(shape) + 3, (40, 2))
+    sure = assert_equal_to_the_formula(random_walls(seed, shape, density), starts, rng.uniform(-7, 7, 40))
+    assert sure >= 39
+
+
+@given(seeds, shapes, densities, halves, halves, slopes)
+def test_through_corners_and_along_lines_at_rational_slopes(seed, shape, density, x, y, slope):
+    walls = random_walls(seed, shape, density)
+    assert assert_equal_to_the_formula(walls, np.array([[x, y]]), np.array([np.arctan2(*slope)])) == 1
+
+
+@given(seeds, shapes, densities, halves, halves, st.integers(-16, 16))
+def test_at_multiples_of_45_degrees_from_lines_and_corners(seed, shape, density, x, y, eighths):
+    walls = random_walls(seed, shape, density)
+    assert assert_equal_to_the_formula(walls, np.array([[x, y]]), np.array([eighths * np.pi / 4])) == 1
+
+
+@given(seeds, shapes, halves, halves, st.floats(-7, 7))
+def test_from_lines_and_corners_at_any_angle(seed, shape, x, y, angle):
+    assert_equal_to_the_formula(random_walls(seed, shape, 0.4), np.array([[x, y]]), np.array([angle]))
+
+
+@given(seeds, shapes, anywhere, halves, st.sampled_from([0.0, np.pi / 2, np.pi, -np.pi / 2]))
+def test_along_the_axes_from_anywhere(seed, shape, x, y, angle):
+    walls = random_walls(seed, shape, 0.4)
+    assert_equal_to_the_formula(walls, np.array([[x, y], [y, x]]), np.array([angle, angle]))
+
+
+@given(st.integers(-6, 6), st.integers(-6, 6), st.floats(1e-12, 1e-6), st.sampled_from([-1, 1]))
+def test_beams_a_hair_off_an_axis(x, y, tilt, sign):
+    """Around the angle where a direction starts to count as parallel to an edge."""
+    angle = np.array([0, 1, 2, 3]) * np.pi / 2 + sign * tilt
+    starts = np.tile([x + 0.5, y + 0.25], (4, 1))
+    assert_equal_to_the_formula(random_walls(1, (7, 7), 0.3), starts, angle)
+
+
+def test_a_beam_through_a_corner_hits_each_cell_that_meets_there():
+    for i, j in ((1, 1), (2, 2), (1, 2), (2, 1)):
+        walls = np.zeros((4, 4), dtype=bool)
+        walls[i, j] = True
+        if (i, j) == (1, 1):
+            continue  # the beam enters this one earlier
+        found, _ = cast(walls, np.array([[0.5, 0.5]]), np.array([np.pi / 4]), LONGEST)
+        assert found[0] == pytest.approx(1.5 * np.sqrt(2), abs=CELLS)
+
+
+def test_a_beam_along_a_line_hits_the_cells_on_both_sides():
+    for side in (0, 1):
+        walls = np.zeros((5, 2), dtype=bool)
+        walls[3, side] = True
+        found, _ = cast(walls, np.array([[0.5, 1.0]]), np.array([0.0]), LONGEST)
+        assert found[0] == pytest.approx(2.5, abs=CELLS)
+
+
+def test_from_inside_a_wall_the_range_is_to_the_exit():
+    walls = np.ones((3, 3), dtype=bool)
+    found, _ = cast(walls, np.array([[1.25, 1.5]]), np.array([0.0]), LONGEST)
+    assert found[0] == pytest.approx(0.75, abs=CELLS)
+
+
+def test_long_beams_keep_their_precision():
+    """Two thousand grid lines, stepped over one by one, add up to less than 1e-9 cells of error."""
+    walls = np.zeros((2000, 2000), dtype=bool)
+    walls[-1, :] = walls[:, -1] = True
+    rng = np.random.default_rng(5)
+    starts, angles = rng.uniform(0, 3, (200, 2)), rng.uniform(0.001, np.pi / 2 - 0.001, 200)
+    found, _ = cast(walls, starts, angles, 1e4)
+    to_x, to_y = (1999 - starts[:, 0]) / np.cos(angles), (1999 - starts[:, 1]) / np.sin(angles)
+    np.testing.assert_allclose(found, np.minimum(to_x, to_y), atol=CELLS, rtol=0)
+
+
+def test_from_far_outside_the_grid():
+    walls = random_walls(2, (8, 8), 0.3)
+    rng = np.random.default_rng(6)
+    aim, angles = rng.uniform(0, 8, (300, 2)), rng.uniform(-np.pi, np.pi, 300)
+    starts = aim - 1e4 * np.column_stack([np.cos(angles), np.sin(angles)])
+    expected = distances(walls, starts, angles, longest=3e4)
+    sure = expected == distances(walls, starts, angles, longest=3e4, slack=1e-6)
+    found, _ = cast(walls, starts, angles, 3e4)
+    assert sure.sum() > 290
+    np.testing.assert_allclose(found[sure], expected[sure], atol=1e-6, rtol=0)  # 1e4 cells away, 1e-12 of them round
+
+
+def test_a_beam_looks_no_further_than_its_hit():
+    walls = np.zeros((100, 1), dtype=bool)
+    walls[10] = True
+    _, visits = cast(walls, np.array([[0.5, 0.5]]), np.array([0.0]), 1000.0)
+    assert visits[0] <= 11
+
+
+@given(seeds, shapes, densities, halves, halves, slopes)
+def test_the_package_s_plain_reference_says_the_same_as_the_oracle(seed, shape, density, x, y, slope):
+    walls, angle = random_walls(seed, shape, density), np.array([np.arctan2(*slope)])
+    expected = distances(walls, [[x, y]], angle, longest=LONGEST)
+    np.testing.assert_allclose(ranges_by_edges(walls, np.array([x, y]), angle, LONGEST), expected, atol=CELLS, rtol=0)

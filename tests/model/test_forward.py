@@ -1,0 +1,129 @@
+"""`bm.ranges` and `bm.simulate`: the forward model in metres, from poses in the world."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from oracle.formula import beams, distances
+
+import bayesmap as bm
+
+ANGLES = np.linspace(0, 2 * np.pi, 36, endpoint=False)
+
+
+def random_map(seed, shape=(9, 7)):
+    return np.random.default_rng(seed).random(shape) < 0.25
+
+
+def by_the_oracle(walls, grid, poses, angles, max_range_m):
+    starts, directions = beams(poses, angles, grid)
+    found = distances(walls, starts, directions, longest=max_range_m / grid.resolution) * grid.resolution
+    sure = found == distances(walls, starts, directions, longest=max_range_m / grid.resolution, slack=1e-7) * (
+        grid.resolution
+    )
+    shape = (len(np.atleast_2d(poses)), len(angles))
+    return found.reshape(shape), sure.reshape(shape)
+
+
+@given(
+    st.integers(0, 2**32 - 1),
+    st.sampled_from([0.05, 0.1, 0.5, 1.0, 3.0]),
+    st.tuples(st.floats(-50, 50), st.floats(-50, 50)),
+)
+def test_ranges_in_metres_from_several_poses(seed, resolution, origin):
+    rng = np.random.default_rng(seed)
+    walls, grid = random_map(seed), bm.Grid((9, 7), resolution, origin)
+    xy = np.array(grid.origin) + rng.uniform(-0.2, 1.2, (3, 2)) * np.array([9, 7]) * resolution
+    poses = np.column_stack([xy, rng.uniform(-7, 7, 3)])
+    expected, sure = by_the_oracle(walls, grid, poses, ANGLES, 8 * resolution)
+    found = bm.ranges(walls, grid, poses, ANGLES, 8 * resolution)
+    assert found.shape == (3, 36)
+    assert sure.mean() > 0.95
+    np.testing.assert_allclose(found[sure], expected[sure], atol=1e-9 * resolution, rtol=0)
+
+
+def test_the_tutorial_s_ranges_are_those_of_its_formula():
+    walls, pose = bm.worlds.tutorial()
+    angles = np.arange(0, 1, 1 / 100) * 2 * np.pi
+    expected, sure = by_the_oracle(walls, bm.worlds.TUTORIAL_GRID, pose, angles, 42.0)
+    assert sure.all()
+    found = bm.ranges(walls, bm.worlds.TUTORIAL_GRID, pose, angles, 42.0)
+    np.testing.assert_allclose(found, expected[0], atol=1e-9, rtol=0)
+
+
+def test_one_pose_gives_one_row_and_many_give_many():
+    walls, grid = random_map(1), bm.Grid((9, 7))
+    pose = np.array([4.2, 3.3, 0.1])
+    row = bm.ranges(walls, grid, pose, ANGLES, 20.0)
+    assert row.shape == (36,)
+    np.testing.assert_array_equal(bm.ranges(walls, grid, [pose, pose], ANGLES, 20.0), [row, row])
+
+
+@pytest.mark.parametrize("away", [2.0**10, 2.0**20, -(2.0**24)])
+def test_ranges_do_not_depend_on_where_in_the_world_the_grid_lies(away):
+    """Shifts by powers of two of a map whose coordinates are multiples of 1/256 are free of rounding."""
+    rng = np.random.default_rng(3)
+    walls = random_map(3)
+    poses = np.column_stack([rng.integers(0, 7 * 64, (4, 2)) / 64, rng.uniform(-3, 3, 4)])
+    here = bm.ranges(walls, bm.Grid((9, 7)), poses, ANGLES, 20.0)
+    poses[:, :2] += away
+    np.testing.assert_array_equal(bm.ranges(walls, bm.Grid((9, 7), origin=(away, away)), poses, ANGLES, 20.0), here)
+
+
+def test_yaw_turns_the_beams():
+    walls, grid = random_map(4), bm.Grid((9, 7))
+    turned = bm.ranges(walls, grid, [4.3, 3.1, 0.7], ANGLES, 20.0)
+    np.testing.assert_allclose(bm.ranges(walls, grid, [4.3, 3.1, 0.0], ANGLES + 0.7, 20.0), turned, atol=1e-12)
+
+
+def test_an_empty_map_returns_the_cap_everywhere():
+    assert (bm.ranges(np.zeros((3, 3)), bm.Grid((3, 3)), [1.0, 1.0, 0.0], ANGLES, 5.0) == 5.0).all()
+
+
+def test_more_walls_never_lengthen_a_beam():
+    rng = np.random.default_rng(5)
+    grid, poses = bm.Grid((9, 7)), [[4.3, 3.1, 0.7], [0.0, 0.0, 0.0]]
+    walls = random_map(5)
+    more = walls | (rng.random(walls.shape) < 0.1)
+    assert (bm.ranges(more, grid, poses, ANGLES, 20.0) <= bm.ranges(walls, grid, poses, ANGLES, 20.0)).all()
+
+
+def test_simulated_scans_are_distances_plus_noise():
+    """Mean and spread of 40 000 standardised readings, within 5 standard errors."""
+    walls, pose = bm.worlds.tutorial()
+    grid, angles = bm.worlds.TUTORIAL_GRID, np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    poses = np.tile(pose, (100, 1))
+    scans = bm.simulate(walls, grid, poses, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=1)
+    standard = (scans.ranges_m - bm.ranges(walls, grid, poses, angles, 42.0)) / 0.2
+    assert abs(standard.mean()) < 5 / 200
+    assert abs(standard.std() - 1) < 5 / np.sqrt(2 * 40_000)
+
+
+def test_simulate_repeats_itself_by_its_seed_alone():
+    walls, pose = bm.worlds.tutorial()
+    options = {"sensor": bm.BeamMixture(), "max_range_m": 20.0}
+    first, again, other = (
+        bm.simulate(walls, bm.worlds.TUTORIAL_GRID, pose, ANGLES, seed=seed, **options).ranges_m for seed in (1, 1, 2)
+    )
+    np.testing.assert_array_equal(first, again)
+    assert (first != other).any()
+
+
+def test_glass_lets_through_as_many_beams_as_its_opacity_says():
+    """A pane of opacity 0.3 before a wall: binomial, 2000 scans, within 5 standard errors."""
+    walls = np.zeros((6, 1), dtype=bool)
+    walls[3] = walls[5] = True
+    opacity = np.ones((6, 1))
+    opacity[3] = 0.3
+    poses = np.tile([0.5, 0.5, 0.0], (2000, 1))
+    scans = bm.simulate(
+        walls, bm.Grid((6, 1)), poses, [0.0], sensor=bm.Gaussian(1e-3), max_range_m=9.0, opacity=opacity, seed=3
+    )
+    stopped = (scans.ranges_m < 3.5).mean()
+    assert abs(stopped - 0.3) < 5 * np.sqrt(0.3 * 0.7 / 2000)
+
+
+def test_a_pose_inside_a_wall_cannot_be_simulated():
+    walls = np.ones((2, 2), dtype=bool)
+    with pytest.raises(bm.BadInput, match=r"pose 1 at \(1\.5, 0\.5\) m stands in the occupied cell \(1, 0\)"):
+        bm.simulate(walls, bm.Grid((2, 2)), [[5, 5, 0], [1.5, 0.5, 0]], [0.0], sensor=bm.Gaussian(0.1), max_range_m=5.0)

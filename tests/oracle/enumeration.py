@@ -1,0 +1,67 @@
+"""The posterior of tiny maps by brute force: every map, its prior, its likelihood by the tutorial's formula."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from oracle.formula import beams, touches
+
+
+def all_maps(n):
+    """Every map of n cells, shape (2^n, n); bit c of a map's number is its cell c."""
+    return (np.arange(1 << n)[:, None] >> np.arange(n)) & 1 == 1
+
+
+def number_of(maps):
+    """The numbers of maps, shape (..., n) to (...)."""
+    maps = np.asarray(maps)
+    return (maps.astype(np.int64) << np.arange(maps.shape[-1])).sum(axis=-1)
+
+
+@dataclass(frozen=True)
+class Exact:
+    """log p(map, readings) and p(map | readings) of all 2^n maps."""
+
+    n: int
+    log_joint: np.ndarray
+
+    @property
+    def log_evidence(self):
+        top = self.log_joint.max()
+        return float(top + np.log(np.exp(self.log_joint - top).sum()))
+
+    @property
+    def p(self):
+        p = np.exp(self.log_joint - self.log_joint.max())
+        return p / p.sum()
+
+
+def enumerate_posterior(scans, grid, p_wall, log_likelihood):
+    """Enumerate. ``log_likelihood(z, d)`` scores one reading at an array of distances in metres (inf: no wall)."""
+    n = grid.shape[0] * grid.shape[1]
+    maps = all_maps(n)
+    p_wall = np.broadcast_to(p_wall, grid.shape).ravel()
+    with np.errstate(divide="ignore"):
+        log_joint = np.where(maps, np.log(p_wall), np.log1p(-p_wall)).sum(axis=1)
+    starts, angles = beams(scans.poses, scans.angles_rad, grid)
+    metres = touches(starts, angles, grid.shape) * grid.resolution
+    for z, to_cell in zip(scans.ranges_m.ravel(), metres, strict=True):
+        if np.isnan(z):
+            continue
+        d = np.full(len(maps), np.inf)
+        for c in np.argsort(to_cell)[::-1]:  # the nearest is written last
+            if np.isfinite(to_cell[c]):
+                d[maps[:, c]] = to_cell[c]
+        which, back = np.unique(d, return_inverse=True)
+        log_joint = log_joint + log_likelihood(z, which)[back]
+    return Exact(n, log_joint)
+
+
+def marginals(p, n):
+    """P(cell is a wall), shape (n,)."""
+    return p @ all_maps(n).astype(float)
+
+
+def pairs(p, n):
+    """P(both cells are walls), shape (n, n)."""
+    maps = all_maps(n).astype(float)
+    return (maps * p[:, None]).T @ maps

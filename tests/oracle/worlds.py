@@ -1,0 +1,90 @@
+"""Random little problems: a grid, a prior, a sensor, and scans drawn from the model itself."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from oracle import density
+from oracle.enumeration import Exact, enumerate_posterior
+from oracle.formula import beams, distances
+
+import bayesmap as bm
+from bayesmap.inference.problem import Problem
+from bayesmap.kernels.trace import trace
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A problem for the package, and everything that the oracle says about it."""
+
+    grid: bm.Grid
+    scans: bm.Scans
+    prior: bm.Independent
+    sensor: bm.SensorModel
+    walls: np.ndarray  # from which the scans were drawn
+    exact: Exact
+
+    @property
+    def n(self):
+        return self.grid.n_cells
+
+    def problem(self):
+        table = trace(self.scans, self.grid, self.sensor)
+        return Problem(table=table, prior=self.prior, poses=self.scans.poses)
+
+
+def scorer(sensor, limits):
+    """The oracle's log-likelihood of one reading at an array of distances, for the two sensors used here."""
+    low, high = limits
+    if isinstance(sensor, bm.Gaussian):
+        return lambda z, d: density.gaussian(np.clip(z, low, high) if np.isinf(z) else z, d, sigma=sensor.sigma_m,
+                                             per_m=sensor.sigma_per_m, max_m=high)  # fmt: skip
+    return lambda z, d: np.array(
+        [
+            density.mixture(
+                z, one, sigma=sensor.noise.sigma_m, per_m=sensor.noise.sigma_per_m, min_m=low, max_m=high,
+                p_random=sensor.p_random, p_no_return=sensor.p_no_return, p_short=sensor.p_short,
+                rate=sensor.rate_short_per_m,
+            )
+            for one in d
+        ]
+    )  # fmt: skip
+
+
+def random_prior(rng, kind, shape):
+    """A number, or "cells": a probability for each cell, some of them 0 and 1."""
+    if kind != "cells":
+        return kind
+    p = rng.uniform(0.05, 0.95, shape)
+    flat = p.ravel()
+    if flat.size > 3:
+        fixed = rng.choice(flat.size, 3, replace=False)
+        flat[fixed] = [0.0, 1.0, 0.0]
+    return p
+
+
+def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_per_pose=9, max_range_m=None):
+    """Draw a map from the prior and scans from the map; the poses stand anywhere, in walls and outside too."""
+    rng = np.random.default_rng(seed)
+    sensor = bm.Gaussian(0.5) if sensor is None else sensor
+    grid = bm.Grid(shape, resolution=0.5, origin=(-1.0, 2.0))
+    size = np.array(shape) * grid.resolution
+    xy = np.array(grid.origin) + rng.uniform(-0.1, 1.1, (n_poses, 2)) * size
+    poses = np.column_stack([xy, rng.uniform(-np.pi, np.pi, n_poses)])
+    angles = np.linspace(0, 2 * np.pi, beams_per_pose, endpoint=False)
+    limits = (0.1, 3.0 if max_range_m is None else max_range_m)
+    p_wall = random_prior(rng, prior, shape)
+    walls = rng.random(shape) < p_wall
+    starts, directions = beams(poses, angles, grid)
+    metres = distances(walls, starts, directions) * grid.resolution
+    readings = sensor.sample(rng, metres, bm_limits(*limits)).reshape(n_poses, -1)
+    readings[rng.random(readings.shape) < 0.05] = np.nan
+    scans = bm.Scans(poses, angles, readings, max_range_m=limits[1], min_range_m=limits[0])
+    exact = enumerate_posterior(scans, grid, p_wall, scorer(sensor, limits))
+    return Case(grid, scans, bm.Independent(p_wall), sensor, walls, exact)
+
+
+def bm_limits(low, high):
+    """`RangeLimits`, which is not a public name."""
+    from bayesmap.sensor.model import RangeLimits
+
+    return RangeLimits(low, high)
