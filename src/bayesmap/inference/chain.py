@@ -135,7 +135,7 @@ def run_chains(
 
 def _step_sweeps(left: int, per_sweep_s: float, multiple: int, state: State) -> int:
     """Sweeps of the next step: about `STEP_SECONDS`, within the buffer, a multiple of the thinning."""
-    chains, cells = state.chains.walls.shape
+    chains, cells = state.chains.shape
     wanted = STEP_SECONDS / per_sweep_s if per_sweep_s > 0 else 1
     room = BUFFER_BYTES / (chains * cells) * multiple
     step = int(max(1, min(wanted, room)))

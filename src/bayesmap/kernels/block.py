@@ -17,8 +17,11 @@ from bayesmap.kernels.parallel import available_cores, launch
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.shuffle import shuffled
 from bayesmap.kernels.state import (
+    Chain,
+    Chains,
     Prior,
     Table,
+    chain_of,
     entry_loglik,
     log_likelihood,
     log_prior,
@@ -137,9 +140,7 @@ def list_blocks(table: BeamTable, device: str) -> Blocks:
 def block_weights(
     t: Table,
     blocks: Blocks,
-    walls: wp.array(dtype=wp.uint8),
-    first: wp.array(dtype=wp.int32),
-    current: wp.array(dtype=wp.float32),
+    chain: Chain,
     block: int,
     x: int,
     y: int,
@@ -148,18 +149,18 @@ def block_weights(
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
         b = blocks.beam[i]
-        f = first[b]
+        f = chain.first[b]
         k = blocks.first[i]
         if f >= k:  # else a wall stands before the block
             last = blocks.last[i]
             end = t.offsets[b + 1]
             out = f
-            l_out = current[b]
+            l_out = chain.current[b]
             if f <= last and place_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
                 out = f + 1
                 while out < end:
                     c = t.cells[out]
-                    if walls[c] != wp.uint8(0) and place_in_block(c, x, y, blocks.ny) < 0:
+                    if chain.walls[c] != wp.uint8(0) and place_in_block(c, x, y, blocks.ny) < 0:
                         break
                     out += 1
                 l_out = entry_loglik(t, b, out, end)
@@ -258,26 +259,20 @@ def block_sweeps(
     half_bits: wp.uint32,
     sweep_0: int,
     sweeps: int,
-    walls_of: wp.array2d(dtype=wp.uint8),
-    first_of: wp.array2d(dtype=wp.int32),
-    current_of: wp.array2d(dtype=wp.float32),
-    reached_of: wp.array2d(dtype=wp.int32),
+    chains: Chains,
     thin: int,
     draws: wp.array3d(dtype=wp.uint8),
     log_likelihoods: wp.array2d(dtype=wp.float64),
     log_priors: wp.array2d(dtype=wp.float64),
 ):
     """One thread a chain: several sweeps, each over all block positions; as `gibbs.gibbs_sweeps` otherwise."""
-    chain = chain_0 + wp.tid()
-    walls = walls_of[chain]
-    first = first_of[chain]
-    current = current_of[chain]
-    reached = reached_of[chain]
+    n = chain_0 + wp.tid()
+    chain = chain_of(chains, n)
     size = order.shape[0]
     for s in range(sweeps):
         sweep = sweep_0 + s
         base = wp.uint64(sweep) * wp.uint64(size) * wp.uint64(4)
-        shuffle_key = random_bits(keys[chain], ~wp.uint64(sweep))
+        shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
         for i in range(size):
             place = i
             if half_bits > wp.uint32(0):
@@ -286,22 +281,21 @@ def block_sweeps(
             x = block // blocks.rows
             y = block % blocks.rows
             counter = base + wp.uint64(4 * block)
-            if beams_reaching(blocks, reached, x, y) == 0:
-                draw_from_prior(blocks, prior, walls, x, y, keys[chain], counter)
+            if beams_reaching(blocks, chain.reached, x, y) == 0:
+                draw_from_prior(blocks, prior, chain.walls, x, y, keys[n], counter)
             else:
-                weights = block_weights(t, blocks, walls, first, current, block, x, y)
+                weights = block_weights(t, blocks, chain, block, x, y)
                 weights = weights + prior_weights(blocks, prior, x, y)
-                state = draw_state(weights, to_uniform(random_bits(keys[chain], counter)))
+                state = draw_state(weights, to_uniform(random_bits(keys[n], counter)))
                 for j in range(4):
                     c = cell_of_block(blocks, x, y, j)
                     if c >= 0:
-                        if ((state >> j) & 1) != 0 and walls[c] == wp.uint8(0):
-                            put_wall(t, walls, first, current, reached, c)
-                        if ((state >> j) & 1) == 0 and walls[c] != wp.uint8(0):
-                            remove_wall(t, walls, first, current, reached, c)
-        log_likelihoods[chain, s] = log_likelihood(current)
-        log_priors[chain, s] = log_prior(prior, walls, log_all_free)
-        if draws.shape[1] > 0:
-            if (s + 1) % thin == 0:
-                for c in range(walls.shape[0]):
-                    draws[chain, s // thin, c] = walls[c]
+                        if ((state >> j) & 1) != 0 and chain.walls[c] == wp.uint8(0):
+                            put_wall(t, chain, c)
+                        if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
+                            remove_wall(t, chain, c)
+        log_likelihoods[n, s] = log_likelihood(chain.current)
+        log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
+        if draws.shape[1] > 0 and (s + 1) % thin == 0:
+            for c in range(chain.walls.shape[0]):
+                draws[n, s // thin, c] = chain.walls[c]

@@ -10,40 +10,37 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.shuffle import feistel_half_bits
-from bayesmap.kernels.state import derive_state
+from bayesmap.kernels.state import Chains, derive_state
 
 wp.set_module_options({"enable_backward": False})
 
 
 class WallChains:
-    """The states of several chains, each following from its walls (see `bayesmap.kernels.state`).
+    """The states of several chains on a device, each following from its walls (see `bayesmap.kernels.state`).
 
     Attributes:
-        walls: (chains, N), uint8.
-        first, current: (chains, B), the entry of each beam's first wall, and its log-likelihood.
-        reached: (chains, N), how many beams reach each cell.
+        states: the arrays, one row a chain.
         keys: (chains,), one key of random numbers each.
     """
 
     def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
-        chains, cells = walls.shape
-        beams = table.beyond.shape[0]
         self.device = device
-        self.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
-        self.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
-        self.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
-        self.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
+        self.shape = chains, cells = walls.shape
+        beams = table.beyond.shape[0]
+        states = Chains()
+        states.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
+        states.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
+        states.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
+        states.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
+        states.gain = wp.empty((chains, cells), dtype=wp.float32, device=device)
+        states.known = wp.empty((chains, cells), dtype=wp.uint8, device=device)
+        self.states = states
         self.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
-        launch(derive_state, chains, [table, *self.arrays], device)
-
-    @property
-    def arrays(self) -> list[Any]:
-        """What the sweep kernels take, in their order."""
-        return [self.walls, self.first, self.current, self.reached]
+        launch(derive_state, chains, [table, states], device)
 
     def host_walls(self) -> NDArray[np.uint8]:
         """A copy of the maps in main memory, shape (chains, N)."""
-        return np.array(self.walls.numpy())
+        return np.array(self.states.walls.numpy())
 
 
 def run_sweeps(
@@ -67,13 +64,13 @@ def run_sweeps(
         log-likelihoods and log priors after each sweep, (chains, sweeps), and the maps after every ``thin``-th sweep
         where ``keep``, (chains, kept, N).
     """
-    n, cells = chains.walls.shape
+    n, cells = chains.shape
     device = chains.device
     log_likelihoods, log_priors = (wp.empty((n, sweeps), dtype=wp.float64, device=device) for _ in range(2))
     draws = wp.empty((n, sweeps // thin if keep else 0, cells), dtype=wp.uint8, device=device)
     half_bits = feistel_half_bits(len(order)) if shuffle else 0
     inputs = [*tables, prior, wp.float64(log_all_free), chains.keys]
     inputs += [devices.to_device(order, wp.int32, device), wp.uint32(half_bits), sweep_0, sweeps]
-    inputs += [*chains.arrays, thin, draws, log_likelihoods, log_priors]
+    inputs += [chains.states, thin, draws, log_likelihoods, log_priors]
     launch(kernel, n, inputs, device, threads=threads)
     return log_likelihoods.numpy(), log_priors.numpy(), draws.numpy()

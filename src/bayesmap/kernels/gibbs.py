@@ -1,9 +1,11 @@
 """Single-site Gibbs sweeps on binary walls.
 
 The conditional of a cell is Bernoulli on its prior log-odds plus the sum, over the beams that reach it, of what a wall
-there would add to their log-likelihood. Beams that never reach the cell say nothing, and a cell that no beam reaches
-takes a prior draw without its beams being looked at. The uniform number is drawn before the beams are visited, so
-the sum may stop as soon as no remaining beam can change the outcome (`CellIndex.gain_bound`): the draw is the same.
+there would add to their log-likelihood. Three things keep a sweep from visiting every incidence, and none changes a
+draw: a cell that no beam reaches takes a prior draw without its beams being looked at; a free cell's sum is kept until
+one of its beams moves; and where a bound already makes the cell's state certain up to a chance of e^-20 it serves
+instead of the sum (`CellIndex.gain_bound` for free cells, `CellIndex.lead` for walls, which need not then look for the
+walls behind them), unless the uniform number turns out to be smaller than that.
 """
 
 import warp as wp
@@ -11,8 +13,14 @@ import warp as wp
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.shuffle import shuffled
 from bayesmap.kernels.state import (
+    BOUND,
+    EXACT,
+    UNKNOWN,
+    Chain,
+    Chains,
     Prior,
     Table,
+    chain_of,
     draw_wall,
     entry_loglik,
     log_likelihood,
@@ -24,52 +32,73 @@ from bayesmap.kernels.state import (
 
 wp.set_module_options({"enable_backward": False})
 
-LONG = wp.constant(24)  # cells with fewer incidences than this are summed without asking to stop
+CERTAIN = wp.constant(wp.float64(20.0))  # log-odds
+FEW = wp.constant(16)  # beams of a wall that are looked at one by one without a bound first
+NO_BOUND = wp.constant(wp.float64(-1.0e300))
 
 
 @wp.func
-def wall_gain(
-    t: Table,
-    walls: wp.array(dtype=wp.uint8),
-    first: wp.array(dtype=wp.int32),
-    c: int,
-) -> wp.float64:
+def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
     """What the wall in a cell adds to the log-likelihood over free space there."""
     gain = wp.float64(0.0)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
         b = t.cell_beam[i]
         e = t.cell_entry[i]
-        if first[b] == e:
+        if chain.first[b] == e:
             end = t.offsets[b + 1]
-            k = next_wall(t, walls, e + 1, end)
+            k = next_wall(t, chain.walls, e + 1, end)
             gain += wp.float64(t.cell_loglik[i] - entry_loglik(t, b, k, end))
     return gain
 
 
 @wp.func
-def free_gain(t: Table, first: wp.array(dtype=wp.int32), current: wp.array(dtype=wp.float32), c: int) -> wp.float64:
-    """What a wall in a free cell would add to the log-likelihood."""
+def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
+    """Sum what a wall in a free cell would add; stop, with a bound, once it is sure to stay below ``enough``."""
     gain = wp.float64(0.0)
+    known = EXACT
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        bound = gain + wp.float64(t.cell_gain[i])
+        if bound < enough:
+            gain = bound
+            known = BOUND
+            break
         b = t.cell_beam[i]
-        if first[b] > t.cell_entry[i]:
-            gain += wp.float64(t.cell_loglik[i] - current[b])
-    return gain
+        if chain.first[b] > t.cell_entry[i]:
+            gain += wp.float64(t.cell_loglik[i] - chain.current[b])
+    chain.gain[c] = wp.float32(gain)
+    chain.known[c] = known
 
 
 @wp.func
-def free_gain_until(
-    t: Table, first: wp.array(dtype=wp.int32), current: wp.array(dtype=wp.float32), c: int, enough: wp.float64
-) -> wp.float64:
-    """The same, stopping once no remaining beam can lift the sum to ``enough``."""
-    gain = wp.float64(0.0)
-    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        if gain + wp.float64(t.cell_gain[i]) < enough:
-            return gain + wp.float64(t.cell_gain[i])
-        b = t.cell_beam[i]
-        if first[b] > t.cell_entry[i]:
-            gain += wp.float64(t.cell_loglik[i] - current[b])
-    return gain
+def draw_free_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) -> bool:
+    """Whether a free cell that beams reach becomes a wall."""
+    logit = prior.logit[c]
+    if chain.known[c] == UNKNOWN:
+        sum_gain(t, chain, c, -CERTAIN - logit)
+    if not draw_wall(logit + wp.float64(chain.gain[c]), u):
+        return False
+    if chain.known[c] == EXACT:
+        return True
+    sum_gain(t, chain, c, NO_BOUND)
+    return draw_wall(logit + wp.float64(chain.gain[c]), u)
+
+
+@wp.func
+def draw_wall_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) -> bool:
+    """Whether a wall that beams reach stays one."""
+    logit = prior.logit[c]
+    if chain.known[c] == UNKNOWN and t.cell_offsets[c + 1] - t.cell_offsets[c] > FEW:
+        least = wp.float64(0.0)
+        for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+            if chain.first[t.cell_beam[i]] == t.cell_entry[i]:
+                least += wp.float64(t.cell_lead[i])
+        chain.gain[c] = wp.float32(least)
+        chain.known[c] = BOUND
+    if chain.known[c] == BOUND:
+        least = logit + wp.float64(chain.gain[c])
+        if least > CERTAIN and draw_wall(least, u):
+            return True
+    return draw_wall(logit + wall_gain(t, chain, c), u)
 
 
 @wp.kernel
@@ -83,10 +112,7 @@ def gibbs_sweeps(
     half_bits: wp.uint32,
     sweep_0: int,
     sweeps: int,
-    walls_of: wp.array2d(dtype=wp.uint8),
-    first_of: wp.array2d(dtype=wp.int32),
-    current_of: wp.array2d(dtype=wp.float32),
-    reached_of: wp.array2d(dtype=wp.int32),
+    chains: Chains,
     thin: int,
     draws: wp.array3d(dtype=wp.uint8),
     log_likelihoods: wp.array2d(dtype=wp.float64),
@@ -97,41 +123,28 @@ def gibbs_sweeps(
     With ``half_bits`` positive the order is shuffled afresh in every sweep. Every ``thin``-th sweep is copied to
     ``draws`` if that has room.
     """
-    chain = chain_0 + wp.tid()
-    walls = walls_of[chain]
-    first = first_of[chain]
-    current = current_of[chain]
-    reached = reached_of[chain]
+    n = chain_0 + wp.tid()
+    chain = chain_of(chains, n)
     size = order.shape[0]
     for s in range(sweeps):
         sweep = sweep_0 + s
         base = wp.uint64(sweep) * wp.uint64(size)
-        shuffle_key = random_bits(keys[chain], ~wp.uint64(sweep))
+        shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
         for i in range(size):
             place = i
             if half_bits > wp.uint32(0):
                 place = int(shuffled(wp.uint32(i), wp.uint32(size), half_bits, shuffle_key))
             c = order[place]
-            u = to_uniform(random_bits(keys[chain], base + wp.uint64(c)))
-            is_wall = walls[c] != wp.uint8(0)
-            if reached[c] == 0:
-                walls[c] = wp.uint8(wp.where(u < prior.probability[c], 1, 0))
-            elif is_wall:
-                gain = wall_gain(t, walls, first, c)
-                if not draw_wall(prior.logit[c] + gain, u):
-                    remove_wall(t, walls, first, current, reached, c)
-            else:
-                gain = wp.float64(0.0)
-                if t.cell_offsets[c + 1] - t.cell_offsets[c] < LONG:
-                    gain = free_gain(t, first, current, c)
-                else:
-                    logit_u = wp.log(u) - wp.log(wp.float64(1.0) - u)
-                    gain = free_gain_until(t, first, current, c, logit_u - prior.logit[c])
-                if draw_wall(prior.logit[c] + gain, u):
-                    put_wall(t, walls, first, current, reached, c)
-        log_likelihoods[chain, s] = log_likelihood(current)
-        log_priors[chain, s] = log_prior(prior, walls, log_all_free)
-        if draws.shape[1] > 0:
-            if (s + 1) % thin == 0:
-                for c in range(size):
-                    draws[chain, s // thin, c] = walls[c]
+            u = to_uniform(random_bits(keys[n], base + wp.uint64(c)))
+            if chain.reached[c] == 0:
+                chain.walls[c] = wp.uint8(wp.where(u < prior.probability[c], 1, 0))
+            elif chain.walls[c] != wp.uint8(0):
+                if not draw_wall_cell(t, prior, chain, c, u):
+                    remove_wall(t, chain, c)
+            elif draw_free_cell(t, prior, chain, c, u):
+                put_wall(t, chain, c)
+        log_likelihoods[n, s] = log_likelihood(chain.current)
+        log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
+        if draws.shape[1] > 0 and (s + 1) % thin == 0:
+            for c in range(size):
+                draws[n, s // thin, c] = chain.walls[c]

@@ -1,8 +1,10 @@
 """What a chain on binary walls keeps up to date, and the moves that keep it so.
 
 For every beam: the table entry of its first wall (`first`, the end of the beam's entries if there is none) and that
-entry's log-likelihood (`current`). For every cell: how many beams reach it at present (`reached_by`), that is, have
-no wall before it. All three follow from the walls alone, so a chain is stored as its walls.
+entry's log-likelihood (`current`). For every cell: how many beams reach it at present (`reached`), that is, have no
+wall before it; and what a wall there adds to the log-likelihood (`gain`), as far as it is `known`: a beam that moves
+its first wall makes it unknown in the cells that it reached or now reaches. All of it follows from the walls alone, so
+a chain is stored as its walls.
 """
 
 from typing import Any
@@ -30,6 +32,49 @@ class Table:
     cell_beam: wp.array(dtype=wp.int32)
     cell_loglik: wp.array(dtype=wp.float32)
     cell_gain: wp.array(dtype=wp.float32)
+    cell_lead: wp.array(dtype=wp.float32)
+
+
+UNKNOWN = wp.constant(wp.uint8(0))  # `gain` has to be summed again
+BOUND = wp.constant(wp.uint8(1))  # the sum is at most `gain` for a free cell, at least `gain` for a wall
+EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
+
+
+@wp.struct
+class Chain:
+    """One chain's state, as described above."""
+
+    walls: wp.array(dtype=wp.uint8)
+    first: wp.array(dtype=wp.int32)
+    current: wp.array(dtype=wp.float32)
+    reached: wp.array(dtype=wp.int32)
+    gain: wp.array(dtype=wp.float32)
+    known: wp.array(dtype=wp.uint8)
+
+
+@wp.struct
+class Chains:
+    """The states of several chains, one a row."""
+
+    walls: wp.array2d(dtype=wp.uint8)
+    first: wp.array2d(dtype=wp.int32)
+    current: wp.array2d(dtype=wp.float32)
+    reached: wp.array2d(dtype=wp.int32)
+    gain: wp.array2d(dtype=wp.float32)
+    known: wp.array2d(dtype=wp.uint8)
+
+
+@wp.func
+def chain_of(chains: Chains, i: int) -> Chain:
+    """The i-th chain; its arrays are views."""
+    chain = Chain()
+    chain.walls = chains.walls[i]
+    chain.first = chains.first[i]
+    chain.current = chains.current[i]
+    chain.reached = chains.reached[i]
+    chain.gain = chains.gain[i]
+    chain.known = chains.known[i]
+    return chain
 
 
 @wp.struct
@@ -65,80 +110,59 @@ def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
 
 
 @wp.func
-def add_reach(t: Table, reached_by: wp.array(dtype=wp.int32), start: int, last: int, end: int, change: int):
-    """Cells of the entries from start to last, both included, are reached by one beam more or less."""
-    for k in range(start, wp.min(last + 1, end)):
-        c = t.cells[k]
-        reached_by[c] = reached_by[c] + change
+def move_first_wall(t: Table, chain: Chain, b: int, k: int):
+    """Beam b now ends at entry k: put its numbers right, and those of the cells that it reached or now reaches."""
+    start = t.offsets[b]
+    end = t.offsets[b + 1]
+    f = chain.first[b]
+    chain.first[b] = k
+    chain.current[b] = entry_loglik(t, b, k, end)
+    nearer = wp.min(f, k)
+    for j in range(start, wp.min(nearer + 1, end)):
+        chain.known[t.cells[j]] = UNKNOWN
+    change = wp.where(k > f, 1, -1)
+    for j in range(nearer + 1, wp.min(wp.max(f, k) + 1, end)):
+        c = t.cells[j]
+        chain.known[c] = UNKNOWN
+        chain.reached[c] = chain.reached[c] + change
 
 
 @wp.kernel
-def derive_state(
-    chain_0: int,
-    t: Table,
-    walls_of: wp.array2d(dtype=wp.uint8),
-    first_of: wp.array2d(dtype=wp.int32),
-    current_of: wp.array2d(dtype=wp.float32),
-    reached_of: wp.array2d(dtype=wp.int32),
-):
+def derive_state(chain_0: int, t: Table, chains: Chains):
     """One thread a chain: everything that follows from its walls."""
-    chain = chain_0 + wp.tid()
-    walls = walls_of[chain]
-    first = first_of[chain]
-    current = current_of[chain]
-    reached = reached_of[chain]
-    for c in range(reached.shape[0]):
-        reached[c] = 0
+    chain = chain_of(chains, chain_0 + wp.tid())
+    for c in range(chain.reached.shape[0]):
+        chain.reached[c] = 0
+        chain.known[c] = UNKNOWN
     for b in range(t.beyond.shape[0]):
         start = t.offsets[b]
         end = t.offsets[b + 1]
-        k = next_wall(t, walls, start, end)
-        first[b] = k
-        current[b] = entry_loglik(t, b, k, end)
-        add_reach(t, reached, start, k, end, 1)
+        k = next_wall(t, chain.walls, start, end)
+        chain.first[b] = k
+        chain.current[b] = entry_loglik(t, b, k, end)
+        for j in range(start, wp.min(k + 1, end)):
+            c = t.cells[j]
+            chain.reached[c] = chain.reached[c] + 1
 
 
 @wp.func
-def put_wall(
-    t: Table,
-    walls: wp.array(dtype=wp.uint8),
-    first: wp.array(dtype=wp.int32),
-    current: wp.array(dtype=wp.float32),
-    reached: wp.array(dtype=wp.int32),
-    c: int,
-):
+def put_wall(t: Table, chain: Chain, c: int):
     """Make a free cell a wall: the beams that passed through it now end there."""
-    walls[c] = wp.uint8(1)
+    chain.walls[c] = wp.uint8(1)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        b = t.cell_beam[i]
-        e = t.cell_entry[i]
-        f = first[b]
-        if f > e:
-            add_reach(t, reached, e + 1, f, t.offsets[b + 1], -1)
-            first[b] = e
-            current[b] = t.cell_loglik[i]
+        if chain.first[t.cell_beam[i]] > t.cell_entry[i]:
+            move_first_wall(t, chain, t.cell_beam[i], t.cell_entry[i])
 
 
 @wp.func
-def remove_wall(
-    t: Table,
-    walls: wp.array(dtype=wp.uint8),
-    first: wp.array(dtype=wp.int32),
-    current: wp.array(dtype=wp.float32),
-    reached: wp.array(dtype=wp.int32),
-    c: int,
-):
+def remove_wall(t: Table, chain: Chain, c: int):
     """Make a wall a free cell: the beams that ended there go on to their next wall."""
-    walls[c] = wp.uint8(0)
+    chain.walls[c] = wp.uint8(0)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
         b = t.cell_beam[i]
         e = t.cell_entry[i]
-        if first[b] == e:
-            end = t.offsets[b + 1]
-            k = next_wall(t, walls, e + 1, end)
-            add_reach(t, reached, e + 1, k, end, 1)
-            first[b] = k
-            current[b] = entry_loglik(t, b, k, end)
+        if chain.first[b] == e:
+            move_first_wall(t, chain, b, next_wall(t, chain.walls, e + 1, t.offsets[b + 1]))
 
 
 @wp.func
@@ -187,6 +211,7 @@ def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
     on.cell_beam = devices.to_device(index.beam, wp.int32, device)
     on.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
     on.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
+    on.cell_lead = devices.to_device(index.lead, wp.float32, device)
     return on
 
 

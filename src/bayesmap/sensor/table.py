@@ -7,7 +7,7 @@ the sensor model no longer cares. With ``first_hit(map, beam)`` the position of 
     log p(z | map) = sum over beams of  loglik[beam, first_hit(map, beam)]
 
 Every sensor model, however rich, only fills in the table; every sampler only reads it. Memory: 8 bytes for each
-beam-cell incidence here, and 16 more in the index by cells that the Gibbs samplers walk (`CellIndex`).
+beam-cell incidence here, and 20 more in the index by cells that the Gibbs samplers walk (`CellIndex`).
 """
 
 from __future__ import annotations
@@ -108,6 +108,8 @@ class CellIndex:
         gain_bound: the most that this incidence and those after it in the cell could together add to the
             log-odds of a wall, whatever the rest of the map, shape (K,), float32. Incidences that could gain
             come first, so that a sampler can stop as soon as the outcome is certain.
+        lead: how much likelier a first hit here is than the likeliest outcome behind it, shape (K,), float32: the
+            least that a wall which the beam hits is worth to it.
     """
 
     offsets: NDArray[np.int32]
@@ -115,3 +117,4 @@ class CellIndex:
     beam: NDArray[np.int32]
     loglik: NDArray[np.float32]
     gain_bound: NDArray[np.float32]
+    lead: NDArray[np.float32]
