@@ -1,0 +1,1 @@
+"""The command line: parses, calls, prints. Nothing here is loaded by `import bayesmap`."""

@@ -1,0 +1,93 @@
+"""What all commands have in common: the options of a section, and those of how to talk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import click
+from click.core import ParameterSource
+
+from bayesmap.cli.keys import SECTIONS, Key, Value
+from bayesmap.cli.settings import Settings, layered, read_file, read_pairs
+from bayesmap.cli.talk import Talk
+
+FAILURE, BAD_INPUT, PROBLEMS, INTERRUPTED = 1, 3, 4, 130
+"""Exit codes, beside click's own 2 for usage."""
+
+VERBOSE = "bayesmap.verbose"
+"""Key of the click context under which a command says that it is verbose, for whoever prints its failure."""
+
+COMMON = (
+    click.Option(["-c", "--config"], metavar="FILE", help="TOML file with settings, as printed by bayesmap config."),
+    click.Option(["--set", "pairs"], metavar="KEY=VALUE", multiple=True, help="One setting; wins over the file."),
+    click.Option(["--json", "as_json"], is_flag=True, help="One JSON document on standard output."),
+    click.Option(["-q", "--quiet"], is_flag=True, help="Only errors and warnings."),
+    click.Option(["-v", "--verbose"], is_flag=True, help="Details, and the traceback of a failure."),
+    click.Option(["--no-progress"], is_flag=True, help="No progress bar."),
+)
+
+
+@dataclass(frozen=True)
+class Call:
+    """One call of a command.
+
+    Attributes:
+        talk: where its words go.
+        section: its table of settings.
+        layers: what the user set: in the file, by ``--set``, by flags.
+    """
+
+    talk: Talk
+    section: str | None
+    layers: tuple[Settings, Settings, Settings]
+
+    def settings(self, under: Settings | None = None) -> Settings:
+        """All settings; ``under`` lies between the defaults and what the user set."""
+        return layered(under or {}, *self.layers)
+
+    def values(self, under: Settings | None = None) -> dict[str, Any]:
+        """The settings of the command's own section."""
+        assert self.section is not None
+        return dict(self.settings(under)[self.section])
+
+
+def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
+    """Make a function a command: it is given a `Call`, and its own arguments by name.
+
+    Args:
+        section: whose settings become flags; None for a command without.
+    """
+
+    def decorate(run: Callable[..., None]) -> click.Command:
+        keys = SECTIONS[section] if section is not None else ()
+
+        @click.pass_context
+        def callback(context: click.Context, /, **given: Any) -> None:
+            flags: dict[str, Value] = {}
+            for key in keys:
+                value = given.pop(key.name)
+                if context.get_parameter_source(key.name) is ParameterSource.COMMANDLINE:
+                    flags[key.name] = value
+            config, pairs = given.pop("config"), given.pop("pairs")
+            quiet, verbose = given.pop("quiet"), given.pop("verbose")
+            context.meta[VERBOSE] = verbose
+            talk = Talk(quiet=quiet, verbose=verbose, as_json=given.pop("as_json"), bar=not given.pop("no_progress"))
+            by_file = read_file(config) if config is not None else {}
+            by_flags = {section: flags} if section is not None else {}
+            run(Call(talk, section, (by_file, read_pairs(pairs, section), by_flags)), **given)
+
+        made = click.command(help=run.__doc__)(callback)
+        made.params = list(getattr(run, "__click_params__", []))[::-1]
+        made.params += [_option(key) for key in keys] + list(COMMON)
+        return made
+
+    return decorate
+
+
+def _option(key: Key) -> click.Option:
+    shown = key.unset if key.default is None else f"{key.default}"
+    if key.kind is bool:
+        return click.Option([key.flag, key.name], is_flag=True, help=key.help)
+    return click.Option([key.flag, key.name], type=key.type, metavar=key.metavar, help=f"{key.help} [default: {shown}]")

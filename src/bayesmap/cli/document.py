@@ -1,0 +1,65 @@
+"""A run as a JSON document: the same keys from `infer` and `demo`."""
+
+from __future__ import annotations
+
+import math
+import resource
+import sys
+from typing import TYPE_CHECKING, Any
+
+from bayesmap.version import __version__
+
+if TYPE_CHECKING:
+    from bayesmap.run import Run
+
+
+def run_document(run: Run) -> dict[str, Any]:
+    """What a run was asked, what it found, how long it took, and whether to trust it."""
+    posterior, summary = run.posterior, run.summary()
+    settings, grid = posterior.settings, run.grid
+    joint = run.log_joint
+    diagnostics = summary.as_json()
+    return {
+        "version": __version__,
+        "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
+        "scans": posterior.counts["scans"],
+        "beams": posterior.counts["beams"],
+        "incidences": posterior.counts["incidences"],
+        "method": settings["method"],
+        "order": settings["order"],
+        "prior": settings["prior"],
+        "sensor": settings["sensor"],
+        "hit_depth": settings["hit_depth"],
+        "start": settings["start"],
+        "seed": settings["seed"],
+        "chains": settings["chains"],
+        "warmup": settings["warmup"],
+        "draws": int(joint.shape[1]),
+        "thin": settings["thin"],
+        "sweeps": posterior.sweep,
+        "finished": run.finished,
+        "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
+        "microseconds_per_sweep": diagnostics["microseconds_per_sweep"],
+        "log_joint": {
+            "last": finite(joint[:, -1].mean()) if joint.size else None,
+            "mean": finite(joint.mean()) if joint.size else None,
+        },
+        "log_evidence": finite(posterior.log_evidence),
+        "rhat_max": diagnostics["rhat_max"],
+        "ess_min": diagnostics["ess_min"],
+        "unchanged_cells": diagnostics["unchanged_cells"],
+        "diagnostics": diagnostics,
+        "problems": summary.problems(),
+        "peak_memory_mb": peak_memory_mb(),
+    }
+
+
+def finite(value: Any) -> float | None:
+    """A JSON number, or None."""
+    return None if value is None or not math.isfinite(value) else float(value)
+
+
+def peak_memory_mb() -> float:
+    """The most memory that this process has held, in megabytes."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return round(peak / (1e6 if sys.platform == "darwin" else 1e6 / 1024), 1)

@@ -1,0 +1,211 @@
+"""``bayesmap infer``: from a log to a posterior, a picture and a map."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from bayesmap.cli import sensors
+from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
+from bayesmap.cli.folder import Folder
+from bayesmap.cli.settings import Settings, as_toml, read_file
+from bayesmap.cli.talk import Talk
+from bayesmap.errors import BadInput
+
+if TYPE_CHECKING:
+    from bayesmap.io.log_reading import LogReading
+    from bayesmap.run import Run
+    from bayesmap.world.scans import Scans
+
+
+@takes("infer")
+@click.argument("log")
+@click.option("-o", "--output", metavar="DIR", help="Folder of the run. [default: runs/NAME-OF-LOG]")
+@click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
+@click.option("--force", is_flag=True, help="Replace the run in DIR.")
+def command(call: Call, log: str, output: str | None, resume: bool, force: bool) -> None:
+    """Infer the walls from LOG, a CARMEN log of range scans, plain or gzipped.
+
+    Leaves in DIR the saved run (run.nc), a picture (posterior.png), the map for nav2 (map.yaml), the JSON document
+    (summary.json) and the settings (config.toml). The run is saved at the end of warm-up, every 30 seconds, and on
+    Ctrl-C; --resume goes on.
+
+    {sensors}
+    """
+    if resume and force:
+        raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
+    if not Path(log).is_file():
+        raise BadInput(f"{log}: no such file; give a CARMEN log, plain or gzipped")
+    folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk)
+    before = _settings_of(folder) if resume else {}
+    values = call.values(before)
+    sensor = sensors.sensor_of(values["sensor"])
+    folder.open(force=force, resume=resume)
+
+    reading = _read(call.talk, log, values)
+    train, heldout = _split(reading.scans, values["holdout"])
+    saved = _saved(call.talk, folder) if resume else None
+    if saved is None:
+        folder.write_config(as_toml({"infer": values}))
+    run = _infer(call.talk, folder, reading.scans, train, values, sensor, saved)
+    go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"])
+    if not run.finished:
+        _leave(call, folder, run, reading, go_on)
+
+    folder.save(run)
+    outputs = folder.write_products(run)
+    score = _score(call.talk, run, heldout, values["holdout"])
+    document = _document(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
+    folder.write_document(document)
+    _report(call.talk, document)
+    call.talk.result(document, document["outputs"].values())
+    if values["strict"] and document["problems"]:
+        click.get_current_context().exit(PROBLEMS)
+
+
+def _stem(log: str) -> str:
+    name = os.path.basename(log)
+    for ending in (".gz", ".log", ".clf", ".txt"):
+        name = name.removesuffix(ending)
+    return name or "log"
+
+
+def _settings_of(folder: Folder) -> Settings:
+    """What the run in the folder was started with."""
+    return {k: v for k, v in read_file(folder.config).items() if k == "infer"} if folder.config.exists() else {}
+
+
+def _saved(talk: Talk, folder: Folder) -> Run | None:
+    """The run to go on with; None if it had not come to its first checkpoint."""
+    from bayesmap.run import load
+
+    if not folder.run.exists():
+        talk.say(f"{folder.run}: no run to resume; starting from the beginning")
+        return None
+    run = load(folder.run)
+    talk.say(f"resuming {folder.run} after {run.posterior.sweep:,} sweeps")
+    return run
+
+
+def _read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
+    from bayesmap.io.logs import describe_log
+
+    reading = describe_log(
+        log,
+        no_return=values["no_return"],
+        skip_bad_lines=values["skip_bad_lines"],
+        max_range_m=values["max_range"],
+    )
+    scans, counts = reading.scans, reading.scans.counts()
+    code = reading.no_return_m
+    coded = "no code for no return" if code is None else f"{code:g} m is no return ({reading.no_return.origin})"
+    talk.say(
+        f"{log}: {len(scans):,} scans, {scans.n_beams:,} beams, "
+        f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {coded}"
+    )
+    for skip in reading.skipped[: 10 if not talk.verbose else None]:
+        talk.say(f"{log}: line {skip.line} left out: {skip.reason}")
+    if len(reading.skipped) > 10 and not talk.verbose:
+        talk.say(f"{log}: {len(reading.skipped) - 10:,} more lines left out; -v lists them")
+    for note in reading.notes:
+        talk.say(f"{log}: {note}")
+    return reading
+
+
+def _split(scans: Scans, every: int) -> tuple[Scans, Scans | None]:
+    return scans.holdout(every) if every else (scans, None)
+
+
+def _infer(
+    talk: Talk, folder: Folder, scans: Scans, train: Scans, values: dict[str, Any], sensor: Any, saved: Run | None
+) -> Run:
+    # The grid holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.
+    from bayesmap.cli.progress import progress
+    from bayesmap.model.defaults import default_sensor
+    from bayesmap.model.priors import Independent
+    from bayesmap.world.grid import Grid
+
+    grid = Grid.covering(scans, values["resolution"])
+    talk.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
+    prior = Independent(values["prior"])
+    model = sensor if sensor is not None else default_sensor(grid.resolution)
+    with progress(talk, "tracing beams") as tell:
+        from bayesmap.api import infer
+
+        return infer(
+            train,
+            grid,
+            prior=prior,
+            sensor=model,
+            method=values["method"],
+            order=values["order"],
+            chains=values["chains"],
+            warmup=values["warmup"],
+            draws=values["draws"],
+            thin=values["thin"],
+            seed=values["seed"],
+            start=values["start"],
+            particles=values["particles"],
+            rounds=values["rounds"],
+            hit_depth=values["hit_depth"],
+            threads=values["threads"],
+            device=values["device"],
+            resume=saved,
+            on_progress=tell,
+            on_checkpoint=folder.checkpoint,
+            checkpoint_every_s=values["checkpoint_every"],
+        )
+
+
+def _leave(call: Call, folder: Folder, run: Run, reading: LogReading, go_on: str) -> None:
+    """Interrupted: keep the chains so far, say how to go on, and go."""
+    kept: list[Path] = []
+    # Chains that were stopped before their first sweep may have half a warm start: better none than that.
+    if run.posterior.sweep > 0:
+        folder.save(run)
+        kept = [folder.run]
+        call.talk.say(f"interrupted after {run.posterior.sweep:,} sweeps, which are saved; go on with:\n  {go_on}")
+    else:
+        call.talk.say(f"interrupted before the first sweep; start again with:\n  {go_on}")
+    call.talk.result(_document(run, reading, None, kept), kept)
+    click.get_current_context().exit(INTERRUPTED)
+
+
+def _score(talk: Talk, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
+    if heldout is None:
+        return None
+    valid = heldout.n_beams - heldout.counts()["invalid"]
+    return {"every": every, "beams": valid, "nats_per_beam": run.log_score(heldout)}
+
+
+def _document(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
+    from bayesmap.cli.document import run_document
+
+    return {
+        **run_document(run),
+        "heldout": score,
+        "log": reading.summary(),
+        "outputs": {path.name: str(path) for path in outputs},
+    }
+
+
+def _report(talk: Talk, document: dict[str, Any]) -> None:
+    seconds, joint = document["seconds"], document["log_joint"]
+    talk.say(
+        f"{document['method']}: {document['chains']} chains of {document['sweeps']:,} sweeps over "
+        f"{document['incidences']:,} incidences in {seconds['total']:.1f} s"
+    )
+    if joint["mean"] is not None:
+        talk.say(f"log joint {joint['mean']:,.1f} on average, {joint['last']:,.1f} at the end")
+    if document["heldout"]:
+        score = document["heldout"]
+        talk.say(f"held out: {score['nats_per_beam']:.4f} nats per beam over {score['beams']:,} beams")
+    for problem in document["problems"]:
+        talk.warn(problem)
+
+
+command.help = (command.help or "").format(sensors=sensors.HELP)

@@ -1,0 +1,133 @@
+"""Every setting that a user can make, once: flags, TOML keys, ``--set`` and their help are all made from this table.
+
+Choices are written out here because the modules that define them load NumPy and SciPy, which ``--help`` must not
+wait for; a test holds the two equal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import click
+
+Value = bool | int | float | str | None
+
+METHODS = ("gibbs", "block", "propagate", "importance", "exact")
+ORDERS = ("radial", "raster", "random")
+STARTS = ("prior", "zeros", "ones", "propagate")
+
+
+@dataclass(frozen=True)
+class Key:
+    """One setting.
+
+    Attributes:
+        name: in TOML and for ``--set``; the flag is the same with dashes.
+        kind: a click type, or ``bool`` for a switch.
+        default: its value unless the user says otherwise; None means what ``unset`` says.
+        help: one sentence.
+        unset: what happens where there is no value.
+        metavar: how the value is called in the help.
+    """
+
+    name: str
+    kind: Any
+    default: Value
+    help: str
+    unset: str = ""
+    metavar: str | None = None
+
+    @property
+    def flag(self) -> str:
+        """Such as ``--max-range``."""
+        return "--" + self.name.replace("_", "-")
+
+    @property
+    def type(self) -> click.ParamType[Any]:
+        """The click type that reads and checks a value."""
+        reader: click.ParamType[Any] = click.types.convert_type(self.kind)
+        return reader
+
+
+SEED = Key("seed", int, 0, "Of all random numbers.")
+
+INFER = (
+    Key("resolution", float, 0.1, "Edge of a cell in metres."),
+    Key("max_range", float, None, "Longer readings are no return.", "the longest hit of the log", "METRES"),
+    Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
+    Key("skip_bad_lines", bool, False, "Leave out malformed lines instead of refusing the log."),
+    Key("method", click.Choice(METHODS), "gibbs", "Sampler; block suits rare walls, propagate is instant but rough."),
+    Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
+    Key("chains", int, 4, "Markov chains."),
+    Key("warmup", int, 50, "Sweeps of each chain that are not kept."),
+    Key("draws", int, 100, "Maps that each chain keeps."),
+    Key("thin", int, 1, "Sweeps from one kept map to the next."),
+    Key("particles", int, 100_000, "Of the method importance."),
+    Key("rounds", int, 20, "Of belief propagation, at most."),
+    SEED,
+    Key("prior", float, 0.2, "Wall probability of a cell before any reading."),
+    Key("sensor", str, "default", "Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL"),
+    Key("hit_depth", float, 0.25, "Where in a cell a beam stops, from 0 (its near edge) to 1."),
+    Key("start", click.Choice(STARTS), None, "Where chains start.", "propagate over 10 000 cells, else prior"),
+    Key("holdout", int, 0, "Hold out every n-th scan, and score it; 0: none.", metavar="N"),
+    Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
+    Key("device", str, "cpu", "cpu, or a CUDA device such as cuda:0.", metavar="NAME"),
+    Key("checkpoint_every", float, 30.0, "Seconds from one checkpoint to the next.", metavar="SECONDS"),
+    Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
+)
+
+SIMULATE = (
+    Key("world", str, "tutorial", "tutorial, building, or a FILE: drawing, picture, map_server YAML.", metavar="WORLD"),
+    Key("resolution", float, None, "Edge of a cell in metres.", "1 for tutorial and drawings, else 0.1"),
+    Key("size", str, "30x20", "Of a building, in metres.", metavar="WxD"),
+    Key("scans", int, 200, "Scans along a robot's round through a building.", metavar="N"),
+    Key("angles", int, None, "Beams of a scan.", "100 in the tutorial, else 180", metavar="N"),
+    Key("fov", float, None, "Field of view in degrees.", "360 in the tutorial, else 180", metavar="DEGREES"),
+    Key("max_range", float, None, "Of the sensor.", "42 in the tutorial, else 30", metavar="METRES"),
+    Key("sensor", str, "default", "Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL"),
+    SEED,
+)
+
+DEMO = (
+    SEED,
+    Key("chains", int, 4, "Markov chains."),
+    Key("draws", int, 1000, "Maps that each chain keeps."),
+    Key("warmup", int, 100, "Sweeps of each chain that are not kept."),
+    Key("particles", int, 100_000, "Of importance sampling."),
+    Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
+    Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
+)
+
+RENDER = (
+    Key(
+        "what",
+        click.Choice(("figure", "mean", "entropy", "deviation", "draw", "trace", "animation", "weights")),
+        "figure",
+        "What to draw.",
+    ),
+    Key("chain", int, 1, "Whose draws are shown, from 1."),
+    Key("draw", int, -1, "Which draw is shown, from 1; -1 is the last."),
+    Key("frames", int, 100, "Frames of an animation, at most."),
+)
+
+EXPORT = (
+    Key(
+        "mode",
+        click.Choice(("trinary", "scale")),
+        "trinary",
+        "How map_server shall read it: three values, or per cent.",
+    ),
+    Key("occupied_thresh", float, None, "Above it a cell is occupied.", "0.65, or 1 with scale"),
+    Key("free_thresh", float, None, "Below it a cell is free.", "0.25, or 0 with scale"),
+)
+
+SECTIONS: Mapping[str, tuple[Key, ...]] = {
+    "infer": INFER,
+    "simulate": SIMULATE,
+    "demo": DEMO,
+    "render": RENDER,
+    "export": EXPORT,
+}
+"""The tables of a configuration file: one a command."""

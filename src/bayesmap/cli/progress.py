@@ -1,0 +1,66 @@
+"""How far a run is: a bar on a terminal, nothing elsewhere."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from bayesmap.cli.talk import Talk
+
+if TYPE_CHECKING:
+    from bayesmap.api import Event
+
+Tell = Callable[["Event"], None]
+
+STAGES = {
+    "propagate": ("belief propagation", "rounds"),
+    "warm-up": ("warm-up", "sweeps"),
+    "draws": ("drawing", "sweeps"),
+    "particles": ("importance sampling", "particles"),
+}
+"""The stages of a run as a user reads them, and what is counted in each."""
+
+
+@contextlib.contextmanager
+def progress(talk: Talk, begin: str) -> Iterator[Tell]:
+    """Give what a run is to tell its events to; the bar is gone when the block ends.
+
+    Args:
+        talk: whether a bar may be drawn.
+        begin: what happens before the first event.
+    """
+    if not talk.draws_bar:
+        yield lambda event: None
+        return
+    # Loaded here alone: a tenth of a second that pipelines and batch jobs do not have to pay.
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
+
+    bar = Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=24),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[unit]}"),
+        TimeRemainingColumn(elapsed_when_finished=True),
+        TextColumn("{task.fields[log_joint]}"),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task(begin, total=None, unit="", log_joint="")
+        counted = ""
+
+        def tell(event: Event) -> None:
+            nonlocal counted
+            name, unit = STAGES[event.stage]
+            if unit != counted:  # another clock, or the estimate would mix rounds with sweeps
+                bar.reset(task, total=event.total)
+                counted = unit
+            joint = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
+            bar.update(
+                task, description=name, completed=event.done, total=event.total, unit=f"{unit} ETA", log_joint=joint
+            )
+
+        yield tell

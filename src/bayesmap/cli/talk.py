@@ -1,0 +1,78 @@
+"""Who hears what: results on standard output, everything else on standard error."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+SCHEMA_VERSION = 1
+"""Raised when a key of the JSON documents changes its meaning or disappears; new keys do not raise it."""
+
+
+@dataclass(frozen=True)
+class Talk:
+    """How talkative this call is.
+
+    Attributes:
+        quiet: only errors and warnings.
+        verbose: details too.
+        as_json: standard output gets one JSON document.
+        bar: a progress bar may be drawn.
+    """
+
+    quiet: bool = False
+    verbose: bool = False
+    as_json: bool = False
+    bar: bool = True
+
+    def say(self, text: str) -> None:
+        """A line for whoever watches."""
+        if not self.quiet:
+            complain(text)
+
+    def detail(self, text: str) -> None:
+        """A line for whoever asked for details."""
+        if self.verbose:
+            complain(text)
+
+    def warn(self, text: str) -> None:
+        """A line that even a quiet call prints."""
+        complain(f"bayesmap: warning: {text}")
+
+    def result(self, document: dict[str, Any], paths: Iterable[str | Path]) -> None:
+        """The result: the document with ``--json``, otherwise the paths of what was written, one a line."""
+        write_out(as_json(document) if self.as_json else "".join(f"{path}\n" for path in paths))
+
+    @property
+    def draws_bar(self) -> bool:
+        """Whether there is a terminal to draw a bar on, and nobody minds."""
+        return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def as_json(document: dict[str, Any]) -> str:
+    """One JSON document with its schema's version, ending in a newline; NaN and infinity are refused."""
+    return json.dumps({"schema_version": SCHEMA_VERSION, **document}, indent=2, allow_nan=False) + "\n"
+
+
+def write_out(text: str) -> None:
+    """Write to standard output; a reader that has left, such as ``head``, is no error."""
+    try:
+        click.echo(text, nl=False)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # What Python would flush at exit must not complain again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def complain(text: str) -> None:
+    """A line on standard error, if there is still somebody to read it."""
+    with contextlib.suppress(BrokenPipeError):
+        click.echo(text, err=True)
