@@ -256,7 +256,7 @@ def block_sweeps(
     log_all_free: wp.float64,
     keys: wp.array(dtype=wp.uint64),
     order: wp.array(dtype=wp.int32),
-    half_bits: wp.uint32,
+    shuffle_bits: wp.uint32,
     sweep_0: int,
     sweeps: int,
     chains: Chains,
@@ -275,8 +275,8 @@ def block_sweeps(
         shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
         for i in range(size):
             place = i
-            if half_bits > wp.uint32(0):
-                place = int(shuffled(wp.uint32(i), wp.uint32(size), half_bits, shuffle_key))
+            if shuffle_bits > wp.uint32(0):
+                place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
             block = order[place]
             x = block // blocks.rows
             y = block % blocks.rows

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.shuffle import feistel_half_bits
+from bayesmap.kernels.shuffle import cipher_bits
 from bayesmap.kernels.state import Chains, derive_state
 
 wp.set_module_options({"enable_backward": False})
@@ -68,9 +68,9 @@ def run_sweeps(
     device = chains.device
     log_likelihoods, log_priors = (wp.empty((n, sweeps), dtype=wp.float64, device=device) for _ in range(2))
     draws = wp.empty((n, sweeps // thin if keep else 0, cells), dtype=wp.uint8, device=device)
-    half_bits = feistel_half_bits(len(order)) if shuffle else 0
+    bits = cipher_bits(len(order)) if shuffle else 0
     inputs = [*tables, prior, wp.float64(log_all_free), chains.keys]
-    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(half_bits), sweep_0, sweeps]
+    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(bits), sweep_0, sweeps]
     inputs += [chains.states, thin, draws, log_likelihoods, log_priors]
     launch(kernel, n, inputs, device, threads=threads)
     return log_likelihoods.numpy(), log_priors.numpy(), draws.numpy()

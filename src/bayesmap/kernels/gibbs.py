@@ -109,7 +109,7 @@ def gibbs_sweeps(
     log_all_free: wp.float64,
     keys: wp.array(dtype=wp.uint64),
     order: wp.array(dtype=wp.int32),
-    half_bits: wp.uint32,
+    shuffle_bits: wp.uint32,
     sweep_0: int,
     sweeps: int,
     chains: Chains,
@@ -120,7 +120,7 @@ def gibbs_sweeps(
 ):
     """One thread a chain: several sweeps, each over all cells in the given order.
 
-    With ``half_bits`` positive the order is shuffled afresh in every sweep. Every ``thin``-th sweep is copied to
+    With ``shuffle_bits`` positive the order is shuffled afresh in every sweep. Every ``thin``-th sweep is copied to
     ``draws`` if that has room.
     """
     n = chain_0 + wp.tid()
@@ -132,8 +132,8 @@ def gibbs_sweeps(
         shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
         for i in range(size):
             place = i
-            if half_bits > wp.uint32(0):
-                place = int(shuffled(wp.uint32(i), wp.uint32(size), half_bits, shuffle_key))
+            if shuffle_bits > wp.uint32(0):
+                place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
             c = order[place]
             u = to_uniform(random_bits(keys[n], base + wp.uint64(c)))
             if chain.reached[c] == 0:
