@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -78,7 +79,7 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
             by_flags = {section: flags} if section is not None else {}
             run(Call(talk, section, (by_file, read_pairs(pairs, section), by_flags)), **given)
 
-        made = click.command(help=run.__doc__)(callback)
+        made = click.command(help=inspect.cleandoc(run.__doc__ or ""))(callback)
         made.params = list(getattr(run, "__click_params__", []))[::-1]
         made.params += [_option(key) for key in keys] + list(COMMON)
         return made

@@ -1,0 +1,155 @@
+"""``bayesmap demo``: the tutorial's map from one noisy scan, by the tutorial's methods."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
+from bayesmap.cli.document import run_document
+from bayesmap.cli.progress import progress
+from bayesmap.cli.talk import Talk, as_json
+from bayesmap.errors import BadInput
+
+if TYPE_CHECKING:
+    from bayesmap.run import Run
+
+BEAMS, SIGMA_M, MAX_RANGE_M = 100, 0.2, 42.0
+"""The tutorial's sensor; the range is longer than the map's diagonal."""
+
+FILM_SWEEPS = 80
+
+
+@takes("demo")
+@click.option("-o", "--output", metavar="DIR", default="runs/demo", help="Folder of results. [default: runs/demo]")
+@click.option("--force", is_flag=True, help="Write into DIR even if it holds a run that is no demo.")
+def command(call: Call, output: str, force: bool) -> None:
+    """Map the tutorial's building from one scan of 100 noisy beams.
+
+    Three methods look at the same scan: single-site Gibbs with prior wall probability 0.5, 2 x 2 block Gibbs with
+    prior 0.05, and importance sampling, which collapses. Leaves in DIR pictures of the posteriors and of the weights, a
+    film of a chain (GIF and WebP), the saved run (run.nc), the map for nav2, and the JSON document (demo.json).
+    """
+    folder = Path(output)
+    if (folder / "run.nc").exists() and not (folder / "demo.json").exists() and not force:
+        raise BadInput(
+            f"{folder}: holds a run that is no demo; choose another folder with -o, or replace it with --force"
+        )
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise BadInput(f"{folder}: not a folder; choose another with -o") from None
+
+    runs = _runs(call.talk, call.values())
+    outputs = [*_pictures(runs, folder), folder / "demo.json"]
+    main = runs["gibbs"]
+    document = {
+        **run_document(main),
+        "heldout": None,
+        "runs": {name: _in_short(run) for name, run in runs.items()},
+        "outputs": {path.name: str(path) for path in outputs},
+    }
+    _write_json(folder / "demo.json", document)
+    _report(call.talk, runs, folder)
+    call.talk.result(document, outputs)
+    if not all(run.finished for run in runs.values()):
+        click.get_current_context().exit(INTERRUPTED)
+    if call.values()["strict"] and document["problems"]:
+        click.get_current_context().exit(PROBLEMS)
+
+
+def _runs(talk: Talk, values: dict[str, Any]) -> dict[str, Run]:
+    """The same scan seen by each method; and a chain from its first sweep on, to be watched."""
+    import numpy as np
+
+    from bayesmap.api import infer
+    from bayesmap.model.forward import simulate
+    from bayesmap.model.priors import Independent
+    from bayesmap.sensor.noise import Gaussian
+    from bayesmap.world.tutorial import TUTORIAL_GRID, tutorial
+
+    walls, pose = tutorial()
+    sensor, seed = Gaussian(SIGMA_M), values["seed"]
+    angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
+    talk.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
+    scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
+    common = {"seed": seed, "threads": values["threads"], "sensor": sensor}
+    sizes = {"chains": values["chains"], "warmup": values["warmup"], "draws": values["draws"]}
+    half, rare = Independent(0.5), Independent(0.05)
+    asked: dict[str, dict[str, Any]] = {
+        "gibbs": {"method": "gibbs", "prior": half, **sizes},
+        "block": {"method": "block", "prior": rare, **sizes},
+        "importance": {
+            "method": "importance",
+            "prior": half,
+            "particles": values["particles"],
+            "chains": 1,
+            "draws": 1000,
+        },
+        "film": {"method": "gibbs", "prior": half, "chains": 1, "warmup": 0, "draws": FILM_SWEEPS},
+    }
+    runs: dict[str, Run] = {}
+    for name, arguments in asked.items():
+        with progress(talk, "compiling" if not runs else "tracing beams") as tell:
+            runs[name] = infer(scans, TUTORIAL_GRID, on_progress=tell, **common, **arguments)
+        if not runs[name].finished:
+            raise KeyboardInterrupt
+    return runs
+
+
+def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
+    """Everything that is looked at, the run itself, and its map."""
+    from bayesmap.viz.animation import write_animation
+    from bayesmap.viz.figure import write_figure
+    from bayesmap.viz.weights import weights_figure
+    from bayesmap.world.tutorial import tutorial
+
+    walls, pose = tutorial()
+    paths = []
+
+    def picture(name: str, figure: Any) -> None:
+        paths.append(folder / name)
+        write_figure(figure, paths[-1])
+
+    picture("posterior.png", runs["gibbs"].plot(truth=walls, title="single-site Gibbs, prior 0.5"))
+    picture("posterior-block.png", runs["block"].plot(truth=walls, title="2 x 2 block Gibbs, prior 0.05"))
+    picture("posterior-importance.png", runs["importance"].plot(truth=walls, title="importance sampling, prior 0.5"))
+    picture("weights.png", weights_figure(runs["importance"].log_weights))
+    film = runs["film"]
+    for ending in ("gif", "webp"):
+        paths.append(folder / f"chain.{ending}")
+        write_animation(paths[-1], film.grid, film.draws[0], observed=film.observed, truth=walls, poses=pose)
+    paths.append(folder / "run.nc")
+    runs["gibbs"].save(paths[-1])
+    return [*paths, *runs["gibbs"].export(folder / "map.yaml")]
+
+
+def _in_short(run: Run) -> dict[str, Any]:
+    """What distinguishes the methods; the whole document is that of the first."""
+    kept = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
+    document = run_document(run)
+    return {name: document[name] for name in (*kept, "log_evidence", "diagnostics", "problems")}
+
+
+def _write_json(path: Path, document: dict[str, Any]) -> None:
+    from bayesmap.io.atomic import write_whole
+
+    with write_whole(path) as partial:
+        partial.write_text(as_json(document), encoding="utf-8")
+
+
+def _report(talk: Talk, runs: dict[str, Run], folder: Path) -> None:
+    for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
+        summary, posterior = runs[name].summary(), runs[name].posterior
+        talk.say(
+            f"{line} {posterior.packed.shape[0]} chains of {posterior.sweep:,} sweeps, "
+            f"{summary.microseconds_per_sweep:.0f} us a sweep, R-hat of the log joint {summary.rhat_log_joint:.3f}"
+        )
+    weights = runs["importance"].log_weights
+    talk.say(
+        f"importance sampling:            {len(weights):,} particles, effective sample size "
+        f"{runs['importance'].summary().effective_sample_size:.1f}: it collapsed, as it should"
+    )
+    talk.say(f"pictures, the saved run and demo.json are in {folder}")
