@@ -1,0 +1,158 @@
+"""The beam table holds the sensor's likelihood at the oracle's distances, whichever way it was filled."""
+
+import numpy as np
+import pytest
+from oracle.formula import beams, distances, touches
+from oracle.worlds import make_case, scorer
+
+import bayesmap as bm
+from bayesmap.kernels import trace as tracing
+from bayesmap.kernels.trace import trace
+from bayesmap.sensor.mixture import FLAT_NATS
+from bayesmap.sensor.model import RangeLimits
+
+SENSORS = {
+    "gaussian": bm.Gaussian(0.3),
+    "growing": bm.Gaussian(0.1, 0.1),
+    "student-t": bm.StudentT(0.2, 3.0, 0.02),
+    "mixture": bm.BeamMixture(bm.Gaussian(0.05)),
+    "wide mixture": bm.BeamMixture(bm.Gaussian(0.5, 0.05), 0.1, 0.1, 0.3, 1.0),
+    "student-t mixture": bm.BeamMixture(bm.StudentT(0.05, 4.0)),
+}
+FLOAT32 = 2e-5
+"""Distances and likelihoods are kept in single precision: 3e-7 of 3 m, times slopes of some tens of nats a metre."""
+
+
+class ByNumpy(bm.SensorModel):
+    """Another model's law without its compiled parameters."""
+
+    def __init__(self, law):
+        self.law = law
+
+    def log_likelihood(self, range_m, distance_m, limits):
+        return self.law.log_likelihood(range_m, distance_m, limits)
+
+    def reach_m(self, range_m, limits):
+        return self.law.reach_m(range_m, limits)
+
+    def sample(self, rng, distance_m, limits):
+        return self.law.sample(rng, distance_m, limits)
+
+
+def random_scans(seed, grid, sensor=None, n=3, beams_per_pose=40):
+    """Poses in and around the grid; readings of all kinds."""
+    rng = np.random.default_rng(seed)
+    size = np.array(grid.shape) * grid.resolution
+    xy = np.array(grid.origin) + rng.uniform(-0.2, 1.2, (n, 2)) * size
+    readings = rng.uniform(0.2, 4.0, (n, beams_per_pose))
+    kinds = rng.random(readings.shape)
+    readings[kinds < 0.1] = np.inf
+    readings[(kinds >= 0.1) & (kinds < 0.15)] = -np.inf
+    readings[(kinds >= 0.15) & (kinds < 0.2)] = np.nan
+    angles = rng.uniform(0, 2 * np.pi, beams_per_pose)
+    return bm.Scans(np.column_stack([xy, rng.uniform(-4, 4, n)]), angles, readings, max_range_m=4.0, min_range_m=0.2)
+
+
+GRID = bm.Grid((13, 9), 0.25, (3.0, -1.0))
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_distances(name):
+    sensor = SENSORS[name]
+    for seed in range(10):
+        scans = random_scans(seed, GRID)
+        table = trace(scans, GRID, sensor)
+        walls = np.random.default_rng([seed, 1]).random(GRID.shape) < [0.02, 0.1, 0.3, 0.9][seed % 4]
+        starts, angles = beams(scans.poses, scans.angles_rad, GRID)
+        d = distances(walls, starts, angles) * GRID.resolution
+        z, limits = scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m)
+        expected = sensor.log_likelihood(z, d, limits)
+        np.testing.assert_allclose(table.beam_log_likelihoods(walls), expected, atol=FLAT_NATS + FLOAT32, rtol=1e-5)
+        assert table.log_likelihood(walls) == pytest.approx(expected.sum(), abs=len(z) * (FLAT_NATS + FLOAT32))
+
+
+@pytest.mark.parametrize("name", ["gaussian", "growing", "mixture", "wide mixture"])
+def test_it_is_the_oracle_s_density_too(name):
+    """The same with a density that the package did not compute."""
+    sensor, scans = SENSORS[name], random_scans(1, GRID, n=1)
+    walls = np.random.default_rng(1).random(GRID.shape) < 0.1
+    starts, angles = beams(scans.poses, scans.angles_rad, GRID)
+    d = distances(walls, starts, angles) * GRID.resolution
+    score = scorer(sensor, (scans.min_range_m, scans.max_range_m))
+    found = trace(scans, GRID, sensor).beam_log_likelihoods(walls)
+    for z, one, value in zip(scans.ranges_m.ravel(), d, found, strict=True):
+        expected = 0.0 if np.isnan(z) else float(score(z, np.array([one]))[0])
+        floor = -30.0 if isinstance(sensor, bm.BeamMixture) else -np.inf  # documented: of typed readings
+        assert value == pytest.approx(max(expected, floor), abs=FLAT_NATS + FLOAT32, rel=1e-5)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_the_compiled_likelihood_equals_numpy_s(name, monkeypatch):
+    monkeypatch.setattr(tracing, "SLICE", 100)  # several slices, not one
+    for seed in range(5):
+        scans = random_scans(seed, GRID)
+        compiled, plain = trace(scans, GRID, SENSORS[name]), trace(scans, GRID, ByNumpy(SENSORS[name]))
+        np.testing.assert_array_equal(compiled.offsets, plain.offsets)
+        np.testing.assert_array_equal(compiled.cells, plain.cells)
+        np.testing.assert_allclose(compiled.loglik, plain.loglik, rtol=1e-6, atol=1e-6)
+        np.testing.assert_allclose(compiled.beyond, plain.beyond, rtol=1e-6, atol=1e-6)
+
+
+def test_a_beam_lists_the_cells_that_it_touches_by_distance_each_once():
+    """On corners and lines too: the poses stand on multiples of half a cell, the angles are multiples of 15 degrees."""
+    rng = np.random.default_rng(7)
+    poses = np.column_stack([3.0 + rng.integers(-2, 28, 30) / 8, -1.0 + rng.integers(-2, 20, 30) / 8, np.zeros(30)])
+    angles = np.arange(24) * np.pi / 12
+    scans = bm.Scans(poses, angles, np.full((30, 24), 1.0), max_range_m=50.0)
+    table = trace(scans, GRID, bm.Gaussian(0.1))
+    met = touches(*beams(poses, angles, GRID), GRID.shape)
+    for b in range(table.n_beams):
+        cells = table.cells[table.offsets[b] : table.offsets[b + 1]]
+        assert len(set(cells.tolist())) == len(cells)
+        assert set(cells.tolist()) == set(np.flatnonzero(np.isfinite(met[b])).tolist())
+        assert (np.diff(met[b, cells]) >= -1e-9).all()
+
+
+def test_an_invalid_reading_has_no_entry_and_no_worth():
+    scans = bm.Scans([4.0, 0.0, 0.0], [0.0, 1.0], [[np.nan, 1.0]], max_range_m=4.0)
+    table = trace(scans, GRID, bm.Gaussian(0.1))
+    assert table.offsets[1] == 0
+    assert table.beyond[0] == 0.0
+
+
+def test_a_robust_table_is_much_smaller_and_says_the_same():
+    scans = bm.Scans([3.1, 0.1, 0.0], np.linspace(-0.5, 0.5, 50), np.full((1, 50), 0.5), max_range_m=10.0)
+    robust, stiff = (trace(scans, GRID, s) for s in (bm.BeamMixture(bm.Gaussian(0.02)), bm.Gaussian(0.02)))
+    assert robust.n_incidences < 0.5 * stiff.n_incidences
+
+
+@pytest.mark.parametrize("depth", [0.25, 0.5, 1.0])
+def test_hit_depth_moves_hits_into_the_cell_by_that_share_of_the_chord(depth):
+    scans = bm.Scans([3.0, -0.875, 0.0], [0.0], [[1.5]], max_range_m=10.0)  # along the middle of the lowest row
+    table = trace(scans, GRID, bm.Gaussian(0.3), hit_depth=depth)
+    limits = RangeLimits(0.0, 10.0)
+    into = bm.Gaussian(0.3).log_likelihood(np.float64(1.5), (np.arange(13) + depth) * 0.25, limits)
+    # the first cell is left, not entered: from inside, the hit is its exit
+    np.testing.assert_allclose(table.loglik[-12:], into[1:], atol=FLOAT32)
+
+
+def test_observed_cells_are_those_that_some_beam_touches():
+    case = make_case(3)
+    table = case.problem().table
+    valid = ~np.isnan(case.scans.ranges_m.ravel())
+    met = touches(*beams(case.scans.poses, case.scans.angles_rad, case.grid), case.grid.shape)[valid]
+    near = (met * case.grid.resolution <= case.scans.max_range_m).any(axis=0)
+    np.testing.assert_array_equal(table.observed().ravel(), near)
+
+
+def test_a_map_of_another_shape_is_refused():
+    table = trace(random_scans(0, GRID), GRID, bm.Gaussian(0.1))
+    with pytest.raises(bm.BadInput, match=r"walls have shape \(9, 13\), but the grid is \(13, 9\)"):
+        table.log_likelihood(np.zeros((9, 13)))
+
+
+def test_scans_that_never_meet_the_grid_leave_an_empty_table():
+    scans = bm.Scans([100.0, 100.0, 0.0], [0.0], [[1.0]], max_range_m=4.0)
+    table = trace(scans, GRID, bm.Gaussian(0.1))
+    assert table.n_incidences == 0
+    assert table.log_likelihood(np.ones(GRID.shape)) == pytest.approx(table.beyond.sum())
