@@ -220,9 +220,7 @@ def importance_case(num_particles: int) -> Callable[[float], harness.Ready]:
 
 
 CASES = {
-    "raster": harness.Case(
-        chain(simple_gibbs_sweep, 5), 0.5, "sweep of 441 assess-based updates, row by row"
-    ),
+    "raster": harness.Case(chain(simple_gibbs_sweep, 5), 0.5, "sweep of 441 assess-based updates, row by row"),
     "incremental": harness.Case(incremental_chain(5), 0.5, "sweep of 441 trace edits, row by row"),
     "radial": harness.Case(chain(smarter_gibbs_update, 2), 0.5, "sweep of 441 updates, outwards"),
     "block": harness.Case(chain(block_gibbs_sweep, 2), 0.05, "sweep of 400 overlapping 2 x 2 blocks"),

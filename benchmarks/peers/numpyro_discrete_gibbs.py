@@ -110,12 +110,8 @@ def chain(make_ranges: Callable[[np.ndarray], Ranges], sweeps: int) -> Callable[
 
 
 CASES = {
-    "dense": harness.Case(
-        chain(dense_ranges, 20), 0.5, "sweep of 441 sites, table of (beam, cell) distances"
-    ),
-    "sparse": harness.Case(
-        chain(sparse_ranges, 20), 0.5, "sweep of 441 sites, only the cells that a beam crosses"
-    ),
+    "dense": harness.Case(chain(dense_ranges, 20), 0.5, "sweep of 441 sites, table of (beam, cell) distances"),
+    "sparse": harness.Case(chain(sparse_ranges, 20), 0.5, "sweep of 441 sites, only the cells that a beam crosses"),
 }
 
 
