@@ -1,0 +1,103 @@
+"""A real building: the Intel log at 10 cm, from the table to converged chains."""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import bayesmap as bm
+from bayesmap.inference.gibbs import Gibbs
+from bayesmap.inference.problem import Problem
+from bayesmap.inference.propagate import propagate
+from bayesmap.inference.start import start_maps
+from bayesmap.kernels.beliefs import Beliefs
+from bayesmap.kernels.trace import trace
+from bayesmap.model.defaults import HIT_DEPTH, P_WALL, default_sensor
+from benchmarks.figure import Figure, timed
+
+LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
+RESOLUTION_M, MAX_RANGE_M = 0.1, 20.0
+
+WHOLE_RUN = """
+import resource, sys, time
+import bayesmap as bm
+from bayesmap.model.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.posterior.diagnostics import rhat
+began = time.perf_counter()
+scans, _ = bm.read_log(sys.argv[1]).limited({max_range}).holdout(10)
+grid = bm.Grid.covering(scans, {resolution})
+arguments = dict(prior=bm.Independent(P_WALL), sensor=default_sensor({resolution}), hit_depth=HIT_DEPTH, chains=4)
+run = bm.infer(scans, grid, warmup=20, draws=80, **arguments)
+seconds = time.perf_counter() - began
+joint, likelihood = rhat(run.log_joint), rhat(run.posterior.log_likelihood)
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+print(f"seconds={{seconds}} rhat={{joint}} rhat_likelihood={{likelihood}} peak_mb={{peak}}")
+"""
+
+
+def run(device: str, with_peers: bool) -> Iterator[Figure]:
+    """Table, belief propagation and sweeps on one core; then the whole run on all cores, in a process of its own."""
+    if not LOG.exists():
+        print(f"skipped: building: {LOG} is not there (set BAYESMAP_DATA)", flush=True)
+        return
+    scans, _ = bm.read_log(LOG).limited(MAX_RANGE_M).holdout(10)
+    grid = bm.Grid.covering(scans, RESOLUTION_M)
+    sensor = default_sensor(RESOLUTION_M)
+
+    def build() -> Problem:
+        table = trace(scans, grid, sensor, hit_depth=HIT_DEPTH, device=device)
+        return Problem(table, bm.Independent(P_WALL), scans.poses, device)
+
+    def table_and_index() -> int:
+        _ = build().index
+        return 1
+
+    yield timed("building/table", lambda: build() is not None, unit="s", scale=1, repeats=5)
+    yield timed("building/table_and_index", table_and_index, unit="s", scale=1, repeats=5)
+    problem = build()
+    yield Figure("building/incidences", problem.table.n_incidences * 1e-6, "M")
+    bytes_each = (
+        problem.table.nbytes + sum(a.nbytes for a in vars(problem.index).values())
+    ) / problem.table.n_incidences
+    yield Figure("building/table_bytes", bytes_each, "B/incidence")
+
+    beliefs = Beliefs(problem.table, problem.logit, device)
+
+    def one_round() -> int:
+        beliefs.round(0.5, threads=1)
+        return 1
+
+    yield timed("building/propagation_round", one_round, unit="s", scale=1, repeats=9)
+
+    sampler = Gibbs(problem, "radial")
+    warm = propagate(problem)
+    state = [sampler.init(start_maps(problem, "propagate", 1, 0, warm), seed=0)]
+    state[0], _ = sampler.step(state[0], 10, keep=False, threads=1)
+
+    def sweeps() -> int:
+        state[0], _ = sampler.step(state[0], 10, keep=False, threads=1)
+        return 10
+
+    yield timed("building/gibbs_sweep", sweeps, unit="ms/sweep", scale=1e3)
+    if device == "cpu":
+        yield from whole_run()
+
+
+def whole_run(repeats: int = 3) -> Iterator[Figure]:
+    """Log to 4 chains of 80 draws, with what R-hat says of them."""
+    script = WHOLE_RUN.format(max_range=MAX_RANGE_M, resolution=RESOLUTION_M)
+    found: dict[str, list[float]] = {}
+    for _ in range(repeats):
+        done = subprocess.run([sys.executable, "-c", script, str(LOG)], capture_output=True, text=True, check=True)
+        for name, value in re.findall(r"(\w+)=(\S+)", done.stdout):
+            found.setdefault(name, []).append(float(value))
+    seconds, rhat = found["seconds"], found["rhat"][0]
+    note = f"R-hat of the log joint {rhat:.3f}, of the log likelihood {found['rhat_likelihood'][0]:.3f}"
+    yield Figure(
+        "building/whole_run", float(np.median(seconds)), "s", spread=(min(seconds), max(seconds)), against=note
+    )
+    yield Figure("building/peak_memory", max(found["peak_mb"]), "MB")

@@ -1,0 +1,30 @@
+"""Ray casting: cell visits a second on one core."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import warp as wp
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.ranges import first_hit_ranges
+from benchmarks.figure import Figure, rate
+
+BEAMS, SIZE = 200_000, 1000
+
+
+def run(device: str, with_peers: bool) -> Iterator[Figure]:
+    """Long beams through a sparse 1000 x 1000 map; one launch runs on one core."""
+    devices.start()
+    rng = np.random.default_rng(0)
+    walls = (rng.random((SIZE, SIZE)) < 0.002).astype(np.uint8)
+    columns = [rng.uniform(0, SIZE, BEAMS), rng.uniform(0, SIZE, BEAMS), rng.uniform(0, 2 * np.pi, BEAMS)]
+    inputs = [devices.to_device(walls, wp.uint8, device)]
+    inputs += [devices.to_device(c, wp.float64, device) for c in columns]
+    distance = wp.empty(BEAMS, dtype=wp.float64, device=device)
+    visits = wp.empty(BEAMS, dtype=wp.int32, device=device)
+
+    def work() -> float:
+        wp.launch(first_hit_ranges, BEAMS, [*inputs, wp.float64(2.0 * SIZE), distance, visits], device=device)
+        return float(visits.numpy().sum()) * 1e-6
+
+    yield rate("ranges/cell_visits", work, unit="M/s")
