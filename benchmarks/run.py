@@ -72,9 +72,8 @@ def main() -> int:
 
     yardstick = yardstick_seconds()
     saved = json.loads(BASELINE.read_text()) if BASELINE.exists() else {"figures": {}, "yardstick_s": yardstick}
-    print(
-        f"bayesmap {__version__}, Python {platform.python_version()}, {options.device}, {yardstick * 1e3:.1f} ms yardstick"
-    )
+    python = platform.python_version()
+    print(f"bayesmap {__version__}, Python {python}, {options.device}, yardstick {yardstick * 1e3:.1f} ms")
     figures, worse = {}, []
     for figure in measure(options.suites or list(SUITES), options.device, not options.no_peers):
         figures[figure.name] = asdict(figure)
@@ -86,10 +85,8 @@ def main() -> int:
             if factor > WORSE:
                 worse.append(figure.name)
         spread = "" if figure.spread is None else f"[{figure.spread[0]:.4g} .. {figure.spread[1]:.4g}]"
-        print(
-            f"{figure.name:34} {figure.value:10.4g} {figure.unit:12} {spread:22} {change:16} {figure.against}",
-            flush=True,
-        )
+        row = f"{figure.name:34} {figure.value:10.4g} {figure.unit:12} {spread:22} {change:16} {figure.against}"
+        print(row.rstrip(), flush=True)
 
     document = {"device": options.device, "yardstick_s": yardstick, "version": __version__, "figures": figures}
     for path in filter(None, (options.json, BASELINE if options.save else None)):

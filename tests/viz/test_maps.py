@@ -1,5 +1,3 @@
-import time
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -126,9 +124,9 @@ def test_a_variance_is_recognised_by_its_size_and_probabilities_are_no_walls():
         draw_probability(panel(), GRID, [["a"]])
 
 
-def test_a_speckled_mask_of_a_large_map_is_hatched_in_little_time():
+def test_a_speckled_mask_of_a_large_map_is_one_artist_not_one_for_each_cell():
     grid = Grid(shape=(600, 600))
     seen = np.random.default_rng(0).random(grid.shape) < 0.7
-    start = time.process_time()
-    draw_probability(panel(), grid, np.zeros(grid.shape), seen)
-    assert time.process_time() - start < 2.0
+    ax = panel()
+    draw_probability(ax, grid, np.zeros(grid.shape), seen)
+    assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10
