@@ -117,8 +117,9 @@ def run_peer(
         repeats: how many timings to take after the warm-up.
         prior: prior wall probability; by default the case's own (0.05 for blocks, else 0.5).
         cores: cores that the peer may use, None for all. One by default: our figures are for one core,
-            and it is no handicap, as the small arrays of a sweep gain nothing from a second one (NumPyro
-            even loses). Only importance sampling is faster on more. The limit needs Linux.
+            and single-site sweeps gain nothing from a second one (NumPyro even loses half its speed).
+            GenJAX's blocks and importance sampling are nearly twice as fast on two: compare those with
+            ours on equally many. The limit needs Linux.
         timeout_s: after which the peer is given up.
 
     Returns:
