@@ -12,20 +12,20 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.assembly import Assembly
 from bayesmap.errors import BadInput
 from bayesmap.inference.block import BlockGibbs
 from bayesmap.inference.chain import Chains, Progress, Schedule, run_chains
 from bayesmap.inference.exact import enumerate_maps
 from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.importance import sample_importance
+from bayesmap.inference.importance import Particles, sample_importance
 from bayesmap.inference.interrupt import stop_on_interrupt
 from bayesmap.inference.problem import Problem, check_count
 from bayesmap.inference.propagate import ROUNDS, Marginals, propagate
-from bayesmap.inference.sampler import STREAM_START, Order
+from bayesmap.inference.sampler import Order
 from bayesmap.inference.start import Start, default_start, start_maps
 from bayesmap.model.priors import Independent
-from bayesmap.posterior.packing import pack
-from bayesmap.posterior.posterior import Posterior, mean_of_draws
+from bayesmap.posterior.posterior import Posterior
 from bayesmap.run import Run
 from bayesmap.sensor.describe import describe
 from bayesmap.sensor.model import SensorModel
@@ -127,12 +127,12 @@ def infer(
     settings["fingerprint"] = _fingerprint(settings, scans, grid, problem, start)
     if resume is not None and resume.posterior.settings["fingerprint"] != settings["fingerprint"]:
         raise BadInput(f"resume: the saved run was made with other {_difference(resume.posterior.settings, settings)}")
-    common = _Common(problem, scans, sensor, settings, began, time.perf_counter() - began)
+    common = Assembly(problem, scans, sensor, settings, began, time.perf_counter() - began)
     with stop_on_interrupt() as should_stop:
         if method == "exact":
-            return common.exact()
+            return common.exact(enumerate_maps(problem))
         if method == "importance":
-            return common.importance(on_progress, should_stop)
+            return common.importance(_weigh(problem, particles, seed, on_progress, should_stop))
         if method == "propagate":
             return common.marginals(_warm(problem, rounds, threads, on_progress, should_stop))
         sampler = Gibbs(problem, order) if method == "gibbs" else BlockGibbs(problem, order)
@@ -188,119 +188,18 @@ def _warm(
     return propagate(problem, rounds=rounds, threads=threads, on_round=tell, should_stop=should_stop)
 
 
-@dataclass(frozen=True, eq=False)
-class _Common:
-    """What the result of every method shares."""
+def _weigh(
+    problem: Problem,
+    particles: int,
+    seed: int,
+    on_progress: Callable[[Event], None] | None,
+    should_stop: Callable[[], bool],
+) -> Particles:
+    def tell(done: int, total: int) -> None:
+        if on_progress is not None:
+            on_progress(Event("particles", done, total))
 
-    problem: Problem
-    scans: Scans
-    sensor: SensorModel
-    settings: dict[str, Any]
-    began: float
-    trace_seconds: float
-
-    def exact(self) -> Run:
-        """Enumerate, and draw from the result."""
-        whole = enumerate_maps(self.problem)
-        walls = self._independent(whole.sample)
-        return self._run(walls, occupancy=whole.marginals(), log_evidence=whole.log_evidence)
-
-    def importance(self, on_progress: Callable[[Event], None] | None, should_stop: Callable[[], bool]) -> Run:
-        """Weigh particles, and resample."""
-
-        def tell(done: int, total: int) -> None:
-            if on_progress is not None:
-                on_progress(Event("particles", done, total))
-
-        found = sample_importance(
-            self.problem, self.settings["particles"], self.settings["seed"], on_progress=tell, should_stop=should_stop
-        )
-        walls = self._independent(lambda rng, count: found.maps(found.resample(rng, count)))
-        return self._run(
-            walls,
-            occupancy=found.occupancy(),
-            log_weights=found.log_weights,
-            log_evidence=found.log_evidence,
-            sampling=found.seconds,
-            finished=found.finished,
-        )
-
-    def marginals(self, found: Marginals) -> Run:
-        """Beliefs, with draws that are independent from cell to cell: marginals are all that there is."""
-        walls = self._independent(lambda rng, count: rng.random((count, *found.p_wall.shape)) < found.p_wall)
-        return self._run(walls, occupancy=found.p_wall, belief_changes=found.changes, sampling=found.seconds)
-
-    def chains(self, chains: Chains, warm: Marginals | None, threads: int | None) -> Run:
-        """Chains, finished or not."""
-        from bayesmap.kernels.parallel import available_cores
-
-        used = min(threads or available_cores(), len(chains.walls)) if self.problem.device == "cpu" else 1
-        return self._run(
-            None,
-            occupancy=mean_of_draws(chains.packed, self.problem.table.grid),
-            chains=chains,
-            belief_changes=None if warm is None else warm.changes,
-            warm_start=0.0 if warm is None else warm.seconds,
-            sampling=chains.seconds,
-            finished=chains.finished,
-            threads_used=used,
-        )
-
-    def _independent(self, draw: Callable[[np.random.Generator, int], NDArray[np.bool_]]) -> list[NDArray[np.bool_]]:
-        seed, chains, draws = (self.settings[key] for key in ("seed", "chains", "draws"))
-        return [draw(np.random.default_rng([seed, chain, STREAM_START]), draws) for chain in range(chains)]
-
-    def _run(
-        self,
-        walls: list[NDArray[np.bool_]] | None,
-        *,
-        occupancy: NDArray[np.float64],
-        chains: Chains | None = None,
-        warm_start: float = 0.0,
-        sampling: float = 0.0,
-        finished: bool = True,
-        threads_used: int = 1,
-        **extra: Any,
-    ) -> Run:
-        from bayesmap.kernels.score import log_likelihoods
-
-        table = self.problem.table
-        if chains is None:
-            assert walls is not None
-            packed = pack(np.stack(walls))
-            chains = Chains(
-                packed=packed,
-                log_likelihood=np.stack([log_likelihoods(table, chain, self.problem.device) for chain in packed]),
-                log_prior=np.array([[self.problem.prior.log_prob(w, table.grid) for w in chain] for chain in walls]),
-                warmup_log_joint=np.zeros((len(walls), 0)),
-                walls=np.zeros((len(walls), table.grid.n_cells), dtype=np.uint8),
-                sweep=0,
-                seconds=sampling,
-                finished=finished,
-            )
-        settings = {**self.settings, "threads_used": threads_used}
-        total = time.perf_counter() - self.began
-        seconds = {"trace": self.trace_seconds, "warm_start": warm_start, "sampling": sampling, "total": total}
-        return Run(
-            Posterior(
-                grid=table.grid,
-                scans=self.scans,
-                sensor=self.sensor,
-                settings=settings,
-                occupancy=occupancy,
-                observed=table.observed(),
-                packed=chains.packed,
-                log_likelihood=chains.log_likelihood,
-                log_prior=chains.log_prior,
-                warmup_log_joint=chains.warmup_log_joint,
-                walls=chains.walls,
-                sweep=chains.sweep,
-                finished=finished,
-                seconds=seconds,
-                counts={"scans": len(self.scans), "beams": self.scans.n_beams, "incidences": table.n_incidences},
-                **extra,
-            )
-        )
+    return sample_importance(problem, particles, seed, on_progress=tell, should_stop=should_stop)
 
 
 def _chains_of(posterior: Posterior) -> Chains:

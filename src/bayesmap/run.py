@@ -50,7 +50,7 @@ class Run:
 
     @property
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that at least one beam touches, (nx, ny)."""
+        """Cells that a beam reaches in at least half of the draws, (nx, ny): elsewhere the prior speaks."""
         return self.posterior.observed
 
     @cached_property

@@ -25,7 +25,8 @@ class Posterior:
         settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
         occupancy: posterior wall probability of every cell, (nx, ny): the mean of the draws, or the method's own
             marginals where it computes them ("exact", "importance", "propagate").
-        observed: cells that at least one beam touches, (nx, ny).
+        observed: cells that a beam reaches, with no wall before them, in at least half of the draws, (nx, ny); in the
+            others the posterior is the prior, or little more.
         packed: draws, eight cells to a byte, (chains, draws, ceil(N / 8)).
         log_likelihood, log_prior: of every draw, (chains, draws).
         warmup_log_joint: (chains, warm-up sweeps).
