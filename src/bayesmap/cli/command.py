@@ -79,12 +79,17 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
             by_flags = {section: flags} if section is not None else {}
             run(Call(talk, section, (by_file, read_pairs(pairs, section), by_flags)), **given)
 
-        made = click.command(help=inspect.cleandoc(run.__doc__ or ""))(callback)
+        made = click.command(help=_help(run.__doc__ or ""))(callback)
         made.params = list(getattr(run, "__click_params__", []))[::-1]
         made.params += [_option(key) for key in keys] + list(COMMON)
         return made
 
     return decorate
+
+
+def _help(docstring: str) -> str:
+    """The docstring, in which a raw backslash-b keeps click from filling a paragraph."""
+    return inspect.cleandoc(docstring).replace("\\b\n", "\b\n")
 
 
 def _option(key: Key) -> click.Option:

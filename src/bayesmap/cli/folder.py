@@ -18,17 +18,18 @@ DERIVED = ("posterior.png", "map.yaml", "map.pgm", "summary.json")
 
 @dataclass
 class Folder:
-    """Where `infer` writes.
+    """Where `infer` writes. Nothing in it changes before `begin`, which a run that cannot start never reaches.
 
     Attributes:
         path: the folder.
         talk: for details and warnings.
-        saved: whether this call has saved its run here.
+        resuming: whether the run in it is to go on.
     """
 
     path: Path
     talk: Talk
-    saved: bool = field(default=False)
+    resuming: bool = False
+    begun: bool = field(default=False, init=False)
 
     @property
     def run(self) -> Path:
@@ -40,49 +41,56 @@ class Folder:
         """The settings that the run was started with."""
         return self.path / "config.toml"
 
-    def open(self, *, force: bool, resume: bool) -> None:
-        """Make the folder; refuse to touch a run that nobody said to replace.
+    def check(self, *, force: bool) -> None:
+        """Refuse to touch a run that nobody said to replace.
 
         Raises:
             BadInput: there is a run already, or something that is no folder.
         """
-        if self.run.exists() and not (force or resume):
+        if self.run.exists() and not (force or self.resuming):
             raise BadInput(
                 f"{self.run}: there is a run already; --resume goes on with it, --force replaces it, "
                 "-o takes another folder"
             )
-        try:
-            self.path.mkdir(parents=True, exist_ok=True)
-        except (FileExistsError, NotADirectoryError):
-            raise BadInput(f"{self.path}: not a folder; choose another with -o") from None
+        for place in (self.path, *self.path.parents):
+            if place.exists():
+                if not place.is_dir():
+                    raise BadInput(f"{place}: not a folder; choose another with -o")
+                break
 
-    def write_config(self, toml: str) -> None:
-        """Keep the settings, so that the run can be resumed without saying them again."""
+    def begin(self, toml: str) -> None:
+        """The run has started: keep its settings, so that it can be resumed without saying them again.
+
+        Unless resuming, an older run goes, with all that was made from it.
+        """
         from bayesmap.io.atomic import write_whole
 
+        if self.begun:
+            return
+        self.begun = True
+        self.path.mkdir(parents=True, exist_ok=True)
+        for name in DERIVED if self.resuming else (self.run.name, *DERIVED):
+            (self.path / name).unlink(missing_ok=True)
         with write_whole(self.config) as partial:
             partial.write_text(toml, encoding="utf-8")
-
-    def save(self, run: Run) -> None:
-        """Save the run, whole or not at all. What was made from another run goes."""
-        run.save(self.run)
-        if not self.saved:
-            for name in DERIVED:
-                (self.path / name).unlink(missing_ok=True)
-        self.saved = True
 
     def checkpoint(self, run: Run) -> None:
         """Save the run so far; a full disk is no reason to lose the hours to come."""
         try:
-            self.save(run)
+            run.save(self.run)
             self.talk.detail(f"checkpoint after {run.posterior.sweep:,} sweeps: {self.run}")
         except OSError as error:
             self.talk.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
 
     def write_products(self, run: Run) -> list[Path]:
-        """Draw and export the run: the posterior's picture, and the map for nav2."""
+        """Save the run, draw it, and export it for nav2.
+
+        Returns:
+            What was written.
+        """
         from bayesmap.viz.figure import write_figure
 
+        run.save(self.run)
         picture = self.path / "posterior.png"
         write_figure(run.plot(), picture)
         return [self.run, picture, *run.export(self.path / "map.yaml")]

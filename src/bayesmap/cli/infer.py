@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
 from bayesmap.cli import sensors
 from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
+from bayesmap.cli.progress import progress
 from bayesmap.cli.settings import Settings, as_toml, read_file
 from bayesmap.cli.talk import Talk
 from bayesmap.errors import BadInput
@@ -19,7 +20,14 @@ from bayesmap.errors import BadInput
 if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
     from bayesmap.run import Run
+    from bayesmap.sensor.model import SensorModel
     from bayesmap.world.scans import Scans
+
+PASSED_ON = (
+    "method", "order", "chains", "warmup", "draws", "thin", "seed", "start", "particles", "rounds", "hit_depth",
+    "threads", "device",
+)  # fmt: skip
+"""Settings that `bayesmap.infer` has under the same name."""
 
 
 @takes("infer")
@@ -28,11 +36,15 @@ if TYPE_CHECKING:
 @click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
 def command(call: Call, log: str, output: str | None, resume: bool, force: bool) -> None:
-    """Infer the walls from LOG, a CARMEN log of range scans, plain or gzipped.
+    r"""Infer the walls from LOG, a CARMEN log of range scans, plain or gzipped.
 
     Leaves in DIR the saved run (run.nc), a picture (posterior.png), the map for nav2 (map.yaml), the JSON document
     (summary.json) and the settings (config.toml). The run is saved at the end of warm-up, every 30 seconds, and on
-    Ctrl-C; --resume goes on.
+    Ctrl-C; --resume goes on, with the settings that the run was started with.
+
+    \b
+    bayesmap infer office.log.gz -o runs/office
+    bayesmap infer office.log.gz --resolution 0.05 --max-range 20 --holdout 10 --json
 
     {sensors}
     """
@@ -40,25 +52,20 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     if not Path(log).is_file():
         raise BadInput(f"{log}: no such file; give a CARMEN log, plain or gzipped")
-    folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk)
-    before = _settings_of(folder) if resume else {}
-    values = call.values(before)
+    folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk, resuming=resume)
+    values = call.values(_settings_of(folder) if resume else None)
     sensor = sensors.sensor_of(values["sensor"])
-    folder.open(force=force, resume=resume)
+    folder.check(force=force)
 
     reading = _read(call.talk, log, values)
     train, heldout = _split(reading.scans, values["holdout"])
-    saved = _saved(call.talk, folder) if resume else None
-    if saved is None:
-        folder.write_config(as_toml({"infer": values}))
-    run = _infer(call.talk, folder, reading.scans, train, values, sensor, saved)
-    go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"])
+    saved = _saved(folder) if resume else None
+    run = _infer(folder, reading.scans, train, values, sensor, saved)
     if not run.finished:
-        _leave(call, folder, run, reading, go_on)
+        _leave(folder, run, reading, shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"]))
 
-    folder.save(run)
     outputs = folder.write_products(run)
-    score = _score(call.talk, run, heldout, values["holdout"])
+    score = _score(run, heldout, values["holdout"])
     document = _document(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
     folder.write_document(document)
     _report(call.talk, document)
@@ -79,15 +86,15 @@ def _settings_of(folder: Folder) -> Settings:
     return {k: v for k, v in read_file(folder.config).items() if k == "infer"} if folder.config.exists() else {}
 
 
-def _saved(talk: Talk, folder: Folder) -> Run | None:
+def _saved(folder: Folder) -> Run | None:
     """The run to go on with; None if it had not come to its first checkpoint."""
     from bayesmap.run import load
 
     if not folder.run.exists():
-        talk.say(f"{folder.run}: no run to resume; starting from the beginning")
+        folder.talk.say(f"{folder.run}: no run to resume; starting from the beginning")
         return None
     run = load(folder.run)
-    talk.say(f"resuming {folder.run} after {run.posterior.sweep:,} sweeps")
+    folder.talk.say(f"resuming {folder.run} after {run.posterior.sweep:,} sweeps")
     return run
 
 
@@ -121,61 +128,57 @@ def _split(scans: Scans, every: int) -> tuple[Scans, Scans | None]:
 
 
 def _infer(
-    talk: Talk, folder: Folder, scans: Scans, train: Scans, values: dict[str, Any], sensor: Any, saved: Run | None
+    folder: Folder, scans: Scans, train: Scans, values: dict[str, Any], sensor: SensorModel | None, saved: Run | None
 ) -> Run:
-    # The grid holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.
-    from bayesmap.cli.progress import progress
+    from bayesmap.api import Event, infer
+    from bayesmap.io.map_server import read_map
     from bayesmap.model.defaults import default_sensor
     from bayesmap.model.priors import Independent
     from bayesmap.world.grid import Grid
 
-    grid = Grid.covering(scans, values["resolution"])
-    talk.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
-    prior = Independent(values["prior"])
-    model = sensor if sensor is not None else default_sensor(grid.resolution)
-    with progress(talk, "tracing beams") as tell:
-        from bayesmap.api import infer
+    if values["grid"] is None:
+        # It holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.
+        grid = Grid.covering(scans, values["resolution"])
+    else:
+        _, grid = read_map(values["grid"])
+    folder.talk.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
+    toml = as_toml({"infer": values})
+    with progress(folder.talk, "tracing beams") as tell:
 
-        return infer(
+        def on_progress(event: Event) -> None:
+            folder.begin(toml)
+            tell(event)
+
+        run = infer(
             train,
             grid,
-            prior=prior,
-            sensor=model,
-            method=values["method"],
-            order=values["order"],
-            chains=values["chains"],
-            warmup=values["warmup"],
-            draws=values["draws"],
-            thin=values["thin"],
-            seed=values["seed"],
-            start=values["start"],
-            particles=values["particles"],
-            rounds=values["rounds"],
-            hit_depth=values["hit_depth"],
-            threads=values["threads"],
-            device=values["device"],
+            prior=Independent(values["prior"]),
+            sensor=sensor if sensor is not None else default_sensor(grid.resolution),
             resume=saved,
-            on_progress=tell,
+            on_progress=on_progress,
             on_checkpoint=folder.checkpoint,
             checkpoint_every_s=values["checkpoint_every"],
+            **{name: values[name] for name in PASSED_ON},
         )
+    folder.begin(toml)
+    return run
 
 
-def _leave(call: Call, folder: Folder, run: Run, reading: LogReading, go_on: str) -> None:
+def _leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn:
     """Interrupted: keep the chains so far, say how to go on, and go."""
     kept: list[Path] = []
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
     if run.posterior.sweep > 0:
-        folder.save(run)
+        run.save(folder.run)
         kept = [folder.run]
-        call.talk.say(f"interrupted after {run.posterior.sweep:,} sweeps, which are saved; go on with:\n  {go_on}")
+        folder.talk.say(f"interrupted after {run.posterior.sweep:,} sweeps, which are saved; go on with:\n  {go_on}")
     else:
-        call.talk.say(f"interrupted before the first sweep; start again with:\n  {go_on}")
-    call.talk.result(_document(run, reading, None, kept), kept)
+        folder.talk.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
+    folder.talk.result(_document(run, reading, None, kept), kept)
     click.get_current_context().exit(INTERRUPTED)
 
 
-def _score(talk: Talk, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
+def _score(run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
     if heldout is None:
         return None
     valid = heldout.n_beams - heldout.counts()["invalid"]

@@ -55,6 +55,14 @@ SEED = Key("seed", int, 0, "Of all random numbers.")
 
 INFER = (
     Key("resolution", float, 0.1, "Edge of a cell in metres."),
+    Key(
+        "grid",
+        str,
+        None,
+        "Take the cells of this map, whatever --resolution.",
+        "poses, hits and 0.5 m around",
+        "MAP.yaml",
+    ),
     Key("max_range", float, None, "Longer readings are no return.", "the longest hit of the log", "METRES"),
     Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
     Key("skip_bad_lines", bool, False, "Leave out malformed lines instead of refusing the log."),

@@ -35,32 +35,30 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
         return
     # Loaded here alone: a tenth of a second that pipelines and batch jobs do not have to pay.
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
 
     bar = Progress(
         SpinnerColumn(),
         TextColumn("{task.description}"),
         BarColumn(bar_width=24),
-        MofNCompleteColumn(),
-        TextColumn("{task.fields[unit]}"),
+        TextColumn("{task.fields[count]}"),
         TimeRemainingColumn(elapsed_when_finished=True),
         TextColumn("{task.fields[log_joint]}"),
         console=Console(stderr=True),
         transient=True,
     )
     with bar:
-        task = bar.add_task(begin, total=None, unit="", log_joint="")
+        task = bar.add_task(begin, total=None, count="", log_joint="")
         counted = ""
 
         def tell(event: Event) -> None:
             nonlocal counted
             name, unit = STAGES[event.stage]
-            if unit != counted:  # another clock, or the estimate would mix rounds with sweeps
-                bar.reset(task, total=event.total)
-                counted = unit
+            count = f"{event.done:,}/{event.total:,} {unit} ETA"
             joint = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
-            bar.update(
-                task, description=name, completed=event.done, total=event.total, unit=f"{unit} ETA", log_joint=joint
-            )
+            if unit != counted:  # another clock, or the estimate would mix rounds with sweeps
+                bar.reset(task, total=event.total, description=name, count=count, log_joint=joint)
+                counted = unit
+            bar.update(task, description=name, completed=event.done, count=count, log_joint=joint)
 
         yield tell

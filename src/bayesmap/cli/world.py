@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from bayesmap.sensor.model import SensorModel
     from bayesmap.world.grid import Grid
 
+RARE = 1e-5
+"""How often a simulated laser reads nonsense: seldom, since one such reading far outside makes a map larger."""
+
 IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 MAPS = (".yaml", ".yml")
 
@@ -48,8 +51,8 @@ class World:
         from bayesmap.sensor.noise import Gaussian
 
         if self.is_tutorial:
-            return BeamMixture(Gaussian(0.2), p_random=1e-3, p_no_return=0.0, p_short=0.0)
-        return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M))
+            return BeamMixture(Gaussian(0.2), p_random=RARE, p_no_return=0.0, p_short=0.0)
+        return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=RARE)
 
 
 def world_of(values: dict[str, Any], poses: Sequence[str]) -> World:
