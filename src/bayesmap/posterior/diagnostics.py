@@ -116,8 +116,14 @@ class CellDiagnostics:
     disagreeing: int
 
 
-def diagnose_cells(packed: NDArray[np.uint8], shape: tuple[int, int]) -> CellDiagnostics:
-    """Diagnose every cell of packed draws, (chains, draws, bytes)."""
+def diagnose_cells(
+    packed: NDArray[np.uint8], shape: tuple[int, int], among: NDArray[np.bool_] | None = None
+) -> CellDiagnostics:
+    """Diagnose the cells of packed draws, (chains, draws, bytes).
+
+    R-hat and effective sample size are the worst ``among`` some cells, (nx, ny); all if None. Pass the observed ones:
+    the others are independent prior draws, and the worst of a hundred thousand of those is bad by chance.
+    """
     draws = packed.shape[1]
     cells = shape[0] * shape[1]
     if draws == 0:
@@ -125,7 +131,7 @@ def diagnose_cells(packed: NDArray[np.uint8], shape: tuple[int, int]) -> CellDia
     walls = np.stack([count_walls(chain, cells) for chain in packed])  # (chains, N)
     constant = ((walls == 0) | (walls == draws)).all(axis=0)
     unchanged = constant & (walls == walls[0]).all(axis=0)
-    changed = np.nonzero(~constant)[0]
+    changed = np.nonzero(~constant if among is None else ~constant & among.ravel())[0]
     worst_rhat, least_ess = float("nan"), float("nan")
     if draws >= 4:
         for i in range(0, len(changed), CELLS_AT_ONCE):

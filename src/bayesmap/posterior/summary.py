@@ -23,7 +23,7 @@ class Summary:
         rhat_log_joint, rhat_log_likelihood: rank-normalised split R-hat over the chains. The likelihood's is the
             sharper test where many cells are unobserved, whose prior draws drown slow changes of the joint.
         ess_log_joint_bulk, ess_log_joint_tail: effective sample sizes of the log joint.
-        rhat_max, ess_min: worst over all cells that changed.
+        rhat_max, ess_min: worst over the observed cells that changed.
         unchanged_cells: cells with one value in all draws; they have no R-hat and are counted apart.
         disagreeing_cells: cells that never changed within a chain but differ between chains.
         effective_sample_size: of the weights, for importance sampling.
@@ -76,7 +76,7 @@ def summarise(posterior: Posterior) -> Summary:
     log_joint = posterior.log_likelihood + posterior.log_prior
     draws = log_joint.shape[1]
     enough = markov and draws >= 4
-    cells = diagnose_cells(posterior.packed, posterior.grid.shape) if markov else None
+    cells = diagnose_cells(posterior.packed, posterior.grid.shape, posterior.observed) if markov else None
     weights = posterior.log_weights
     sweeps = posterior.sweep * max(1, posterior.packed.shape[0])
     threads = int(posterior.settings.get("threads_used", 1))
