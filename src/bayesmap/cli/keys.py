@@ -51,7 +51,7 @@ class Key:
         return reader
 
 
-SEED = Key("seed", int, 0, "Of all random numbers.")
+SEED = Key("seed", click.IntRange(min=0), 0, "Of all random numbers.", metavar="INTEGER")
 
 INFER = (
     Key("resolution", float, 0.1, "Edge of a cell in metres."),

@@ -138,14 +138,13 @@ def _checked(key: Key, value: Any) -> Value:
     """The value as the key's type, by the rules of the flag of that name."""
     numeric = isinstance(value, int | float) and not isinstance(value, bool)
     if key.kind is bool:
-        fits = isinstance(value, bool)
+        wanted, fits = "true or false", isinstance(value, bool)
     elif key.kind is float:
-        fits = numeric
-    elif key.kind is int:
-        fits = numeric and float(value).is_integer()
+        wanted, fits = "a number", numeric
+    elif key.kind is int or isinstance(key.kind, click.IntRange):
+        wanted, fits = "a whole number", numeric and float(value).is_integer()
     else:
-        fits = isinstance(value, str)
-    wanted = {bool: "true or false", float: "a number", int: "a whole number"}.get(key.kind, "a text")
+        wanted, fits = "a text", isinstance(value, str)
     if not fits:
         raise _Wrong(f"{key.name} must be {wanted}, got {value!r}")
     try:

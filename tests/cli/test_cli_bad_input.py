@@ -1,0 +1,126 @@
+"""Bad input: exit code 3, one line that names the place and the remedy, nothing on standard output, nothing left."""
+
+import gzip
+import re
+
+import pytest
+from shell import call
+
+NAN_POSE = "FLASER 2 1.0 1.0 nan 0 0 0 0 0 1.0 host 1.0\n"
+GOOD = "FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 {t} host {t}\n"
+
+
+def refuse(*arguments):
+    """Standard error of a call that must be refused."""
+    result = call(*arguments)
+    assert result.exit_code == 3, (result.exit_code, result.stderr, result.exception)
+    assert result.stdout == ""
+    last = result.stderr.splitlines()[-1]
+    assert last.startswith("bayesmap: error: ")
+    assert "Traceback" not in result.stderr
+    return last
+
+
+def log(folder, text):
+    path = folder / "my.log"
+    path.write_text(text)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "remedy"),
+    [
+        (GOOD.format(t=1) + "FLASER 3 1.0 2.0 1.5 0.1\n", "line 2", "--skip-bad-lines"),
+        (GOOD.format(t=1) + NAN_POSE, "line 2", "--skip-bad-lines"),
+        (GOOD.format(t=1) * 2 + "FLASER 2 1.0 2.0 0 0 0 0 0 0 1 host 1\n", "line 3: .* 2 beams", "most scans"),
+        (GOOD.format(t=1) + GOOD.format(t=2).replace("FLASER 3", "FLASER -3"), "line 2", "--skip-bad-lines"),
+        ("{}", "not a log of a known format", "CARMEN"),
+        ("", "empty", "my.log"),
+    ],
+)
+def test_logs(tmp_path, text, place, remedy):
+    message = refuse("infer", log(tmp_path, text), "-o", tmp_path / "run")
+    assert re.search(place, message)
+    assert remedy in message
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--sensor", "gaussian:-0.2"], "sigma_m must be a positive number of metres, got -0.2"),
+        (["--sensor", "magic"], "unknown kind 'magic'; known: default"),
+        (["--resolution", "1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
+        (["--resolution", "-1"], "resolution must be a positive number of metres, got -1.0"),
+        (["--prior", "1.5"], "must lie in [0, 1], got 1.5"),
+        (["--hit-depth", "2"], "hit_depth must lie in [0, 1], got 2.0"),
+        (["--chains", "0"], "chains must be a whole number of 1 or more, got 0"),
+        (["--draws", "-1"], "draws must be a whole number of 0 or more, got -1"),
+        (["--holdout", "1"], "hold out every n-th scan with n >= 2, got 1"),
+        (["--holdout", "1000"], "too few to hold out every 1000-th"),
+        (["--no-return", "nan"], "--no-return nan"),
+        (["--device", "cuda:9"], "there is: cpu"),
+        (["--method", "exact"], "exact"),
+        (["--grid", "nowhere.yaml"], "nowhere.yaml: cannot be read"),
+    ],
+)
+def test_settings(office, tmp_path, arguments, message):
+    assert message in refuse("infer", office, "-o", tmp_path / "run", *arguments)
+    assert not (tmp_path / "run").exists()
+
+
+def test_missing_and_truncated_logs(office, tmp_path):
+    assert "no such file" in refuse("infer", tmp_path / "none.log")
+    cut = tmp_path / "cut.log.gz"
+    whole = gzip.compress(office.read_bytes())
+    cut.write_bytes(whole[: len(whole) // 2])
+    assert "damaged or cut short after line" in refuse("infer", cut, "-o", tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("command", ["render", "export"])
+def test_missing_and_truncated_runs(office_run, tmp_path, command):
+    assert "no such file" in refuse(command, tmp_path / "none.nc")
+    whole = (office_run / "run.nc").read_bytes()
+    cut = tmp_path / "run.nc"
+    for content in (whole[: len(whole) // 2], b"", b"not netCDF"):
+        cut.write_bytes(content)
+        assert "damaged or truncated" in refuse(command, cut)
+    assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_a_damaged_checkpoint_is_not_resumed(office, office_run, tmp_path):
+    (tmp_path / "run.nc").write_bytes((office_run / "run.nc").read_bytes()[:5000])
+    assert "damaged or truncated" in refuse("infer", office, "-o", tmp_path, "--resume")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--pose", "2,2,0"], r"pose 0 at \(2, 2\) m stands in the occupied cell \(2, 2\); move the robot"),
+        (["--world", "nowhere.txt", "--pose", "0,0,0"], "no such file"),
+        (["--world", "building", "--size", "huge"], "size 'huge': give width and depth in metres"),
+        (["--world", "building", "--size", "1x1"], "at least"),
+        (["--angles", "1"], "give 2 to 100,000 beams"),
+        (["--fov", "400"], r"must lie in \(0, 360\] degrees"),
+        (["--sensor", "gaussian:-1"], "positive"),
+        (["--max-range", "-3"], "largest range must be a positive number"),
+    ],
+)
+def test_simulate(tmp_path, arguments, message):
+    assert re.search(message, refuse("simulate", "-o", tmp_path / "my.log", *arguments))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_worlds_that_are_none(tmp_path):
+    world = tmp_path / "world.txt"
+    for content, message in ((b"..X\n..\n", "line 2 has 2 cells"), (b"\xff\xfe\x00", "neither a text drawing nor")):
+        world.write_bytes(content)
+        assert message in refuse("simulate", "-o", tmp_path / "my.log", "--world", world, "--pose", "0.5,0.5,0")
+
+
+def test_a_file_in_the_way_of_a_folder(office, tmp_path):
+    (tmp_path / "run").write_text("mine")
+    assert "not a folder" in refuse("infer", office, "-o", tmp_path / "run")
+    assert "not a folder" in refuse("infer", office, "-o", tmp_path / "run" / "deeper")
+    assert "not a folder" in refuse("demo", "-o", tmp_path / "run")

@@ -1,0 +1,100 @@
+"""Settings: where they come from, which wins, and what is said of mistakes."""
+
+import json
+import tomllib
+
+import pytest
+from shell import call
+
+from bayesmap.cli.keys import SECTIONS
+from bayesmap.cli.settings import as_toml, defaults, layered, read_file, read_pairs
+from bayesmap.errors import BadInput
+
+
+def write(folder, text):
+    path = folder / "my.toml"
+    path.write_text(text)
+    return path
+
+
+def test_the_printed_configuration_is_the_effective_one(tmp_path):
+    first = call("config").stdout
+    assert tomllib.loads(first).keys() == SECTIONS.keys()
+    path = write(tmp_path, first)
+    assert call("config", "-c", path).stdout == first
+    assert read_file(path).keys() == SECTIONS.keys()
+    assert layered(read_file(path)) == defaults()
+
+
+def test_every_kind_of_value_survives_the_round_trip(tmp_path):
+    set_ = ["no_return=inf", "max_range=20", "sensor=student-t:0.1,dof=4", "skip_bad_lines=true", 'world=my "map".txt']
+    arguments = [part for pair in set_ for part in ("--set", pair)]
+    printed = call("config", *arguments).stdout
+    again = call("config", "-c", write(tmp_path, printed)).stdout
+    assert again == printed
+    values = tomllib.loads(printed)["infer"]
+    assert values["no_return"] == float("inf")
+    assert values["max_range"] == 20.0
+    assert tomllib.loads(printed)["simulate"]["world"] == 'my "map".txt'
+
+
+def test_json_is_one_document():
+    document = json.loads(call("config", "--json", "--set", "no_return=inf").stdout)
+    assert document["schema_version"] == 1
+    assert document["settings"]["infer"]["no_return"] == "inf"
+
+
+def test_flags_win_over_set_over_file_over_defaults(office, tmp_path, short):
+    path = write(tmp_path, "draws = 3\n[infer]\nchains = 1\nwarmup = 1\nthin = 2\n")
+    result = call(
+        "infer", office, "-o", tmp_path / "run", "-c", path, "--set", "warmup=2", "--set", "thin=3", "--thin", "1",
+        "--json", "--resolution", "0.25",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    asked = {name: document[name] for name in ("draws", "chains", "warmup", "thin", "order")}
+    assert asked == {"draws": 3, "chains": 1, "warmup": 2, "thin": 1, "order": "radial"}
+
+
+def test_a_bare_key_holds_for_all_commands_that_have_it(tmp_path):
+    settings = layered(read_file(write(tmp_path, "seed = 7\n[demo]\nseed = 8\n")))
+    assert [settings[section]["seed"] for section in ("infer", "simulate", "demo")] == [7, 7, 8]
+    assert read_pairs(["seed=3"], "infer") == {"infer": {"seed": 3}}
+    assert read_pairs(["demo.seed=3"], "infer") == {"demo": {"seed": 3}}
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[infer]\nresoluton = 1\n", "did you mean 'resolution'?"),
+        ("[infer]\nmax-range = 1\n", "did you mean 'max_range'?"),
+        ("[infre]\nchains = 1\n", "did you mean 'infer'?"),
+        ("chians = 1\n", "did you mean 'chains'?"),
+        ("[infer]\nchains = 'two'\n", "chains must be a whole number, got 'two'"),
+        ("[infer]\nchains = 2.5\n", "chains must be a whole number, got 2.5"),
+        ("[infer]\nstrict = 1\n", "strict must be true or false, got 1"),
+        ("[infer]\nprior = true\n", "prior must be a number, got True"),
+        ("[infer]\nmethod = 'magic'\n", "method: 'magic' is not one of"),
+        ("seed = -1\n", "seed: -1 is not in the range x>=0"),
+        ("[infer\n", "not valid TOML"),
+    ],
+)
+def test_mistakes_in_a_file_exit_3_and_name_it(tmp_path, text, message):
+    path = write(tmp_path, text)
+    result = call("config", "-c", path)
+    assert result.exit_code == 3
+    assert result.stdout == ""
+    assert result.stderr.startswith(f"bayesmap: error: {path}: ")
+    assert message in result.stderr
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(BadInput, match=r"nothing\.toml: cannot be read"):
+        read_file(tmp_path / "nothing.toml")
+
+
+def test_only_one_section_is_printed_where_only_one_is_given():
+    assert as_toml({"export": {"mode": "scale", "free_thresh": None}}).splitlines()[:2] == [
+        "[export]",
+        'mode = "scale"   # How map_server shall read it: three values, or per cent. One of trinary, scale.',
+    ]

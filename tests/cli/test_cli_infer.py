@@ -1,0 +1,122 @@
+"""`infer`: what it leaves behind, what its document says, and that nothing is lost."""
+
+import json
+
+import numpy as np
+import pytest
+from data import intel_log
+from shell import call
+
+import bayesmap as bm
+from bayesmap.io.map_server import read_map
+
+KEYS = {
+    "schema_version", "version", "grid", "scans", "beams", "incidences", "method", "order", "prior", "sensor", "chains",
+    "warmup", "draws", "thin", "sweeps", "finished", "seconds", "microseconds_per_sweep", "log_joint", "rhat_max",
+    "ess_min", "unchanged_cells", "diagnostics", "problems", "heldout", "peak_memory_mb", "seed", "outputs", "log",
+}  # fmt: skip
+FILES = {"run.nc", "posterior.png", "map.yaml", "map.pgm", "summary.json", "config.toml"}
+
+
+def test_everything_is_left_in_the_folder(office_run):
+    assert {path.name for path in office_run.iterdir()} == FILES
+    run = bm.load(office_run / "run.nc")
+    assert run.finished
+    occupancy, grid = read_map(office_run / "map.yaml")
+    assert grid == run.grid
+    assert np.isnan(occupancy[~run.observed]).all()
+    assert (office_run / "posterior.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_document(office, tmp_path, short):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--holdout", "4", "--json", "--seed", "5")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document.keys() >= KEYS
+    assert json.loads((tmp_path / "run" / "summary.json").read_text()) == document
+    run = bm.load(tmp_path / "run" / "run.nc")
+    assert document["grid"] == {"shape": list(run.grid.shape), "resolution": 0.25, "origin": list(run.grid.origin)}
+    assert (document["scans"], document["beams"]) == (9, 9 * 60)
+    assert document["heldout"]["every"] == 4
+    assert document["heldout"]["beams"] == 3 * 60
+    _, heldout = bm.read_log(office).holdout(4)
+    assert document["heldout"]["nats_per_beam"] == pytest.approx(run.log_score(heldout))
+    assert document["log_joint"]["mean"] == pytest.approx(run.log_joint.mean())
+    assert document["log_joint"]["last"] == pytest.approx(run.log_joint[:, -1].mean())
+    assert document["seconds"].keys() == {"trace", "warm_start", "sampling", "total"}
+    assert (document["chains"], document["sweeps"], document["seed"]) == (2, 13, 5)
+    assert document["log"]["skipped_lines"] == 0
+    assert document["log"]["no_return_m"] == 12.0
+    assert document["outputs"].keys() == FILES
+    assert document["peak_memory_mb"] > 10
+    assert document["finished"] is True
+
+
+def test_without_json_stdout_has_the_paths(office, tmp_path, short):
+    result = call("infer", office, "-o", tmp_path / "run", *short)
+    assert {line.rsplit("/", 1)[-1] for line in result.stdout.split()} == FILES
+    assert "grid: " in result.stderr
+    quiet = call("infer", office, "-o", tmp_path / "run", *short, "--force", "-q")
+    assert all("warning" in line for line in quiet.stderr.splitlines())
+
+
+def test_strict_exits_4_but_leaves_everything(office, tmp_path, short):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--strict", "--json")
+    assert result.exit_code == 4
+    assert json.loads(result.stdout)["problems"]
+    assert {path.name for path in (tmp_path / "run").iterdir()} == FILES
+
+
+@pytest.mark.parametrize("method", ["block", "propagate", "importance"])
+def test_other_methods(office, tmp_path, short, method):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--method", method, "--particles", "500", "--json")
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["method"] == method
+
+
+def test_the_cells_of_a_given_map(office, tmp_path, short):
+    truth = office.with_name("office-truth.yaml")
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--grid", truth)
+    assert result.exit_code == 0, result.stderr
+    assert bm.load(tmp_path / "run" / "run.nc").grid == read_map(truth)[1]
+
+
+def test_a_run_is_not_overwritten_unless_told(office, office_run, tmp_path, short):
+    before = (office_run / "run.nc").read_bytes()
+    result = call("infer", office, "-o", office_run, *short)
+    assert result.exit_code == 3
+    assert "--resume goes on with it, --force replaces it" in result.stderr
+    assert (office_run / "run.nc").read_bytes() == before
+    again = tmp_path / "again"
+    assert call("infer", office, "-o", again, *short).exit_code == 0
+    assert call("infer", office, "-o", again, *short, "--force", "--seed", "9").exit_code == 0
+    assert bm.load(again / "run.nc").posterior.settings["seed"] == 9
+
+
+def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
+    log = tmp_path / "bad.log"
+    lines = office.read_text().splitlines()
+    lines[5] = lines[5][:200]
+    log.write_text("\n".join(lines))
+    refused = call("infer", log, "-o", tmp_path / "run", *short)
+    assert refused.exit_code == 3
+    assert f"{log}: line 6: " in refused.stderr
+    assert "--skip-bad-lines" in refused.stderr
+    assert not (tmp_path / "run").exists()
+    read = call("infer", log, "-o", tmp_path / "run", *short, "--skip-bad-lines", "--json")
+    assert read.exit_code == 0
+    assert json.loads(read.stdout)["log"]["skipped_lines"] == 1
+    assert f"{log}: line 6 left out" in read.stderr
+
+
+def test_the_intel_building(tmp_path):
+    log = intel_log("intel-corrected.log.gz")
+    result = call(
+        "infer", log, "-o", tmp_path / "run", "--resolution", "0.4", "--max-range", "10",
+        "--chains", "2", "--warmup", "3", "--draws", "6", "--holdout", "10", "--json",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert (document["log"]["scans"], document["scans"]) == (910, 819)
+    assert document["log"]["no_return_m"] == 81.83
+    assert document["heldout"]["beams"] == 91 * 180

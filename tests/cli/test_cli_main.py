@@ -1,0 +1,167 @@
+"""Help, version, exit codes, and the manners of the streams."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from shell import SOURCE, call, start
+
+import bayesmap
+from bayesmap.cli import infer as infer_module
+from bayesmap.cli.main import COMMANDS
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], *([name, "--help"] for name in COMMANDS)])
+def test_help_loads_nothing_heavy(arguments):
+    code = (
+        "import sys\nfrom bayesmap.cli.main import main\n"
+        f"try:\n    main({arguments!r})\nexcept SystemExit as done:\n    assert done.code == 0, done.code\n"
+        "heavy = {'jax', 'warp', 'matplotlib', 'scipy', 'numpy', 'netCDF4', 'rich', 'PIL'} & set(sys.modules)\n"
+        "assert not heavy, heavy\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_version():
+    assert call("--version").stdout == f"bayesmap, version {bayesmap.__version__}\n"
+
+
+def test_every_command_is_listed_and_described():
+    shown = call("--help").stdout
+    for name in COMMANDS:
+        assert re.search(rf"^  {name} +\w", shown, re.MULTILINE)
+        assert "\\b" not in call(name, "--help").stdout
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["infre"],
+        ["infer"],
+        ["infer", "x.log", "--no-such-flag"],
+        ["infer", "x.log", "--chains", "two"],
+        ["infer", "x.log", "--method", "magic"],
+        ["infer", "x.log", "--set", "chains"],
+        ["infer", "x.log", "--set", "chians=2"],
+        ["infer", "x.log", "--resume", "--force"],
+        ["infer", "x.log", "--seed", "-3"],
+        ["simulate", "-o", "scans.txt"],
+        ["simulate", "--pose", "here"],
+    ],
+)
+def test_usage_errors_exit_2(arguments):
+    result = call(*arguments)
+    assert result.exit_code == 2, result.stderr
+    assert result.stdout == ""
+    assert "Error" in result.stderr
+
+
+def test_a_mistyped_command_gets_a_suggestion():
+    assert "did you mean 'infer'" in call("infre").stderr
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "message"),
+    [
+        (RuntimeError("a loose wire"), 1, "unexpected RuntimeError: a loose wire; -v shows where"),
+        (OSError(28, "No space left on device", "run.nc"), 1, "run.nc: No space left on device"),
+        (MemoryError(), 1, "out of memory"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (bayesmap.BadInput("two\nlines"), 3, "two lines"),
+    ],
+)
+def test_failures_are_one_line(monkeypatch, office, tmp_path, error, code, message):
+    def fail(*arguments, **options):
+        raise error
+
+    monkeypatch.setattr(infer_module, "_infer", fail)
+    result = call("infer", office, "-o", tmp_path / "run", "-q")
+    assert result.exit_code == code
+    assert result.stdout == ""
+    assert result.stderr.startswith("bayesmap: error: " + message)
+    assert result.stderr.count("\n") == 1
+
+
+def test_verbose_shows_the_traceback(monkeypatch, office, tmp_path):
+    def fail(*arguments, **options):
+        raise RuntimeError("a loose wire")
+
+    monkeypatch.setattr(infer_module, "_infer", fail)
+    result = call("infer", office, "-o", tmp_path / "run", "-v")
+    assert result.exit_code == 1
+    assert "Traceback" in result.stderr
+    assert result.stderr.endswith("bayesmap: error: unexpected RuntimeError: a loose wire\n")
+
+
+def test_a_reader_that_leaves_is_no_error():
+    process = start("config")
+    process.stdout.close()
+    errors = process.stderr.read()
+    process.stderr.close()
+    assert process.wait() == 0
+    assert errors == ""
+
+
+def test_no_bar_without_a_terminal_and_only_data_on_stdout(office, tmp_path, short):
+    process = start("infer", office, "-o", tmp_path / "run", *short[:-1], "--json")
+    out, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert json.loads(out)["schema_version"] == 1
+    assert "\x1b" not in out + errors
+    assert "\r" not in errors
+
+
+def test_a_terminal_gets_a_bar_and_can_refuse_it(office, tmp_path, short):
+    pty = pytest.importorskip("pty")
+
+    def on_terminal(*more):
+        read, write = pty.openpty()
+        arguments = ["infer", office, "-o", tmp_path / "run", *short[:-1], "--force", *more]
+        environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "NO_COLOR": "1"}
+        process = subprocess.Popen(
+            [sys.executable, "-m", "bayesmap.cli.main", *map(str, arguments)],
+            stdout=subprocess.DEVNULL,
+            stderr=write,
+            env=environment,
+        )
+        os.close(write)
+        shown = b""
+        while True:
+            try:
+                piece = os.read(read, 65536)
+            except OSError:  # Linux says so when the other end closes
+                break
+            if not piece:
+                break
+            shown += piece
+        os.close(read)
+        assert process.wait() == 0, shown
+        return shown.decode()
+
+    bar = on_terminal()
+    assert "sweeps ETA" in bar
+    assert "log joint" in bar
+    assert not re.search(r"\x1b\[[0-9;]*3[0-9]m", bar), "NO_COLOR is not honoured"
+    assert "ETA" not in on_terminal("--no-progress")
+
+
+def test_choices_are_those_of_the_library():
+    from typing import get_args
+
+    from bayesmap.api import Method
+    from bayesmap.cli.keys import INFER, METHODS, ORDERS, STARTS
+    from bayesmap.inference.propagate import ROUNDS
+    from bayesmap.inference.sampler import Order
+    from bayesmap.inference.start import Start
+    from bayesmap.model.defaults import HIT_DEPTH, P_WALL
+
+    assert set(METHODS) == set(get_args(Method))
+    assert set(ORDERS) == set(get_args(Order))
+    assert set(STARTS) == set(get_args(Start))
+    defaults = {key.name: key.default for key in INFER}
+    assert (defaults["prior"], defaults["hit_depth"], defaults["rounds"]) == (P_WALL, HIT_DEPTH, ROUNDS)

@@ -1,0 +1,127 @@
+"""`demo`, `simulate`, `render` and `export`: files that open, and truth that comes back."""
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+from shell import call
+
+import bayesmap as bm
+from bayesmap.cli.simulate import fan
+from bayesmap.io.map_server import read_map
+
+
+def test_demo(tmp_path):
+    folder = tmp_path / "demo"
+    result = call("demo", "-o", folder, "--draws", "200", "--particles", "5000", "--json")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert json.loads((folder / "demo.json").read_text()) == document
+    assert {path.name for path in folder.iterdir()} == set(document["outputs"])
+    assert document["runs"].keys() == {"gibbs", "block", "importance", "film"}
+    assert document["runs"]["importance"]["diagnostics"]["effective_sample_size"] < 10
+    assert document["heldout"] is None
+    for ending in ("gif", "webp"):
+        with Image.open(folder / f"chain.{ending}") as film:
+            assert film.n_frames > 10
+    run = bm.load(folder / "run.nc")
+    walls, _ = bm.worlds.tutorial()
+    sure = (run.occupancy < 0.05) | (run.occupancy > 0.95)
+    assert sure.sum() > 150
+    assert ((run.occupancy > 0.5) == walls)[sure].mean() > 0.98
+    # A demo may be repeated, but other people's runs are safe from it.
+    (folder / "demo.json").unlink()
+    assert call("demo", "-o", folder).exit_code == 3
+
+
+@pytest.mark.parametrize("what", ["figure", "mean", "entropy", "deviation", "draw", "trace"])
+def test_render(office, office_run, tmp_path, what):
+    target = tmp_path / "picture.png"
+    truth = ["--truth", office.with_name("office-truth.yaml")] if what in ("figure", "mean") else []
+    result = call("render", office_run / "run.nc", "--what", what, "-o", target, *truth)
+    assert result.exit_code == 0, result.stderr
+    assert result.stdout == f"{target}\n"
+    with Image.open(target) as image:
+        assert image.size[0] > 400
+
+
+def test_render_animation_and_default_names(office_run, tmp_path):
+    copy = tmp_path / "run.nc"
+    copy.write_bytes((office_run / "run.nc").read_bytes())
+    for what, name in (("animation", "chain.gif"), ("figure", "posterior.png"), ("entropy", "entropy.png")):
+        document = json.loads(call("render", copy, "--what", what, "--json", "--frames", "3").stdout)
+        assert document["outputs"] == {name: str(tmp_path / name)}
+    with Image.open(tmp_path / "chain.gif") as film:
+        assert film.n_frames == 3
+
+
+def test_render_says_what_it_cannot_draw(office_run, tmp_path):
+    for arguments, message in (
+        (["--what", "weights"], "no importance weights"),
+        (["--what", "draw", "--draw", "99"], "this run has 8 draws a chain"),
+        (["--what", "draw", "--chain", "3"], "this run has chains 1 to 2"),
+        (["--what", "animation", "-o", tmp_path / "film.png"], ".gif, .webp"),
+        (["-o", tmp_path / "picture.jpg"], ".png, .pdf, .svg"),
+    ):
+        result = call("render", office_run / "run.nc", *arguments)
+        assert result.exit_code == 3, result.stderr
+        assert message in result.stderr
+
+
+def test_export(office_run, tmp_path):
+    run = bm.load(office_run / "run.nc")
+    for mode in ("trinary", "scale"):
+        target = tmp_path / f"{mode}.yaml"
+        result = call("export", office_run / "run.nc", "-o", target, "--mode", mode)
+        assert result.exit_code == 0, result.stderr
+        occupancy, grid = read_map(target)
+        assert grid == run.grid
+        known = ~np.isnan(occupancy)
+        if mode == "scale":
+            np.testing.assert_array_equal(known, run.observed)
+            np.testing.assert_allclose(occupancy[known], run.occupancy[known], atol=0.011)
+    assert call("export", office_run / "run.nc", "-o", tmp_path / "map.txt").exit_code == 3
+
+
+def test_simulated_truth_is_found_again(office, office_run):
+    truth, there = read_map(office.with_name("office-truth.yaml"))
+    run = bm.load(office_run / "run.nc")
+    x, y = run.grid.centers_m()
+    i = np.floor((x - there.origin[0]) / there.resolution).astype(int)
+    j = np.floor((y - there.origin[1]) / there.resolution).astype(int)
+    inside = (i >= 0) & (i < there.shape[0]), (j >= 0) & (j < there.shape[1])
+    walls = truth[np.ix_(i[inside[0]], j[inside[1]])] > 0.5
+    found = run.occupancy[np.ix_(*inside)]
+    free = found < 0.02
+    assert free.sum() > 300
+    assert walls[free].mean() < 0.05
+
+
+def test_simulate_worlds_from_files(tmp_path):
+    drawing = tmp_path / "room.txt"
+    drawing.write_text("XXXXX\nX...X\nX...X\nXXXXX\n")
+    truth = tmp_path / "scan-truth.yaml"
+    result = call(
+        "simulate", "--world", drawing, "--pose", "1.5,2.5,0", "--pose", "2.5,2.5,90", "-o",
+        tmp_path / "scan.log.gz", "--json",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["scans"] == 2
+    assert read_map(truth)[0].shape == (4, 5)
+    again = call("simulate", "--world", truth, "--pose", "1.5,2.5,0", "-o", tmp_path / "scan.log.gz")
+    assert again.exit_code == 3
+    assert "--force replaces it" in again.stderr
+    again = call("simulate", "--world", truth, "--pose", "1.5,2.5,0", "-o", tmp_path / "again.log")
+    assert again.exit_code == 0, again.stderr
+    picture = call(
+        "simulate", "--world", tmp_path / "scan-truth.pgm", "--pose", "0.15,0.25,0", "-o", tmp_path / "p.log"
+    )
+    assert picture.exit_code == 0, picture.stderr
+    assert call("simulate", "--world", drawing, "-o", tmp_path / "q.log").exit_code == 2
+
+
+def test_fans():
+    np.testing.assert_allclose(np.degrees(fan(180, 180.0)), np.arange(180) - 90)
+    np.testing.assert_allclose(np.degrees(fan(361, 180.0)), np.arange(361) / 2 - 90)
+    np.testing.assert_allclose(np.degrees(fan(4, 360.0)), [0, 90, 180, 270])
