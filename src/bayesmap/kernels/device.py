@@ -61,4 +61,5 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 def load_kernels(kernel: Any, device: str) -> None:
     """Compile the kernel's module for a device, or fetch it from Warp's cache, now rather than at its first launch."""
-    kernel.module.load(wp.get_device(device))
+    # Launches on the CPU use blocks of one; any other size would be another variant, compiled for nothing.
+    kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)

@@ -13,6 +13,8 @@ from typing import Any
 
 import warp as wp
 
+from bayesmap.kernels.device import load_kernels
+
 
 def available_cores() -> int:
     """Cores that this process may use."""
@@ -36,7 +38,7 @@ def launch(kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: 
     if threads == 1:
         wp.launch(kernel, dim=size, inputs=[0, *inputs], device=device)
         return
-    kernel.module.load(wp.get_device(device))  # once, before the threads would all try
+    load_kernels(kernel, device)  # once, before the threads would all try
     edges = [size * i // threads for i in range(threads + 1)]
 
     def run(i: int) -> None:
