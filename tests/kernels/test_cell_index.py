@@ -12,7 +12,7 @@ from bayesmap.kernels import parallel
 from bayesmap.kernels.index import index_by_cell
 from bayesmap.kernels.trace import trace
 
-FIELDS = ("offsets", "entry", "beam", "loglik", "gain_bound")
+FIELDS = ("offsets", "entry", "beam", "loglik", "gain_bound", "lead")
 
 
 @pytest.mark.parametrize("name", SENSORS)
@@ -45,6 +45,16 @@ def test_the_gain_bound_bounds_what_the_rest_of_a_cell_can_add(sensor, seed):
         rest = np.cumsum(gains[:, ::-1], axis=1)[:, ::-1]
         bound = index.gain_bound[index.offsets[c] : index.offsets[c + 1]]
         assert (rest <= bound + 1e-4).all()  # sums of some dozen single-precision terms of up to some hundred nats
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_lead_is_the_least_that_a_wall_can_be_worth(seed):
+    """To a beam that hits it, over all maps of 3 x 3 cells; and some map has just that."""
+    table = make_case(seed, shape=(3, 3), n_poses=3, sensor=bm.BeamMixture(bm.Gaussian(0.2))).problem().table
+    index = index_by_cell(table)
+    for b, e, lead in zip(index.beam, index.entry, index.lead, strict=True):
+        behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.beyond[b])
+        assert lead == pytest.approx(table.loglik[e] - behind.max(), abs=1e-5)
 
 
 def test_incidences_that_could_gain_come_first():
