@@ -146,5 +146,6 @@ def gibbs_sweeps(
         log_likelihoods[n, s] = log_likelihood(chain.current)
         log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
         if draws.shape[1] > 0 and (s + 1) % thin == 0:
-            for c in range(size):
-                draws[n, s // thin, c] = chain.walls[c]
+            kept = draws[n, s // thin]
+            for c in range(kept.shape[0]):
+                kept[c] = chain.walls[c]
