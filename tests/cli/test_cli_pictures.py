@@ -82,6 +82,9 @@ def test_export(office_run, tmp_path):
             np.testing.assert_array_equal(known, run.observed)
             np.testing.assert_allclose(occupancy[known], run.occupancy[known], atol=0.011)
     assert call("export", office_run / "run.nc", "-o", tmp_path / "map.txt").exit_code == 3
+    missing = call("export", office_run / "run.nc", "-o", tmp_path / "nowhere" / "map.yaml")
+    assert missing.exit_code == 3
+    assert "no such folder; make it first" in missing.stderr
 
 
 def test_simulated_truth_is_found_again(office, office_run):

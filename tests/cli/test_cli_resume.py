@@ -114,6 +114,21 @@ def test_resume_of_a_finished_run_changes_nothing(office, tmp_path, short):
     same(bm.load(folder / "run.nc"), before)
 
 
+def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, monkeypatch):
+    folder = tmp_path / "run"
+    save = Folder.checkpoint
+
+    def checkpoint(self, run):
+        save(self, run)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
+    result = call("infer", office, "-o", folder, *short)
+    assert result.exit_code == 130
+    assert f"the last checkpoint is kept; go on with:\n  bayesmap infer {office}" in result.stderr
+    assert bm.load(folder / "run.nc").posterior.sweep == 5
+
+
 def test_interrupted_in_its_warm_up_a_run_has_no_picture_yet(office, tmp_path, monkeypatch):
     folder = tmp_path / "run"
     long = ("--resolution", "0.25", "--warmup", "20000", "--draws", "2", "--checkpoint-every", "0", "--chains", "1")

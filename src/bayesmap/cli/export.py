@@ -25,6 +25,8 @@ def command(call: Call, run_file: str, output: str | None) -> None:
     from bayesmap.run import load
 
     target = Path(output) if output else Path(run_file).with_name("map.yaml")
+    if not target.parent.is_dir():
+        raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
     run = load(run_file)
     if np.isnan(run.occupancy).any():
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -56,6 +57,8 @@ class Folder:
             if place.exists():
                 if not place.is_dir():
                     raise BadInput(f"{place}: not a folder; choose another with -o")
+                if not os.access(place, os.W_OK):  # better now than after the hours of a run
+                    raise BadInput(f"{place}: no permission to write there; choose another folder with -o")
                 break
 
     def begin(self, toml: str) -> None:

@@ -54,15 +54,23 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         raise BadInput(f"{log}: no such file; give a CARMEN log, plain or gzipped")
     folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk, resuming=resume)
     values = call.values(_settings_of(folder) if resume else None)
+    if values["draws"] < 1:  # the library allows none, where marginals are all that is wanted
+        raise BadInput(f"draws: give 1 or more, got {values['draws']}; the picture and the map are made from them")
     sensor = sensors.sensor_of(values["sensor"])
     folder.check(force=force)
 
     reading = _read(call.talk, log, values)
     train, heldout = _split(reading.scans, values["holdout"])
     saved = _saved(folder) if resume else None
-    run = _infer(folder, reading.scans, train, values, sensor, saved)
+    go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"])
+    try:
+        run = _infer(folder, reading.scans, train, values, sensor, saved)
+    except KeyboardInterrupt:  # a second Ctrl-C: no time to save anything
+        if folder.begun and folder.run.exists():
+            call.talk.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
+        raise
     if not run.finished:
-        _leave(folder, run, reading, shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"]))
+        _leave(folder, run, reading, go_on)
 
     outputs = folder.write_products(run)
     score = _score(run, heldout, values["holdout"])
