@@ -17,11 +17,13 @@ from bayesmap.kernels.parallel import available_cores, launch
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.shuffle import shuffled
 from bayesmap.kernels.state import (
+    CERTAIN_LEVEL,
     Chain,
     Chains,
     Prior,
     Table,
     chain_of,
+    draw_from_prior,
     entry_loglik,
     log_likelihood,
     log_prior,
@@ -33,6 +35,7 @@ from bayesmap.sensor.table import BeamTable
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
 LOOK_BACK = wp.constant(8)  # a beam's cells in one block lie close together, even where it runs along a line
+CERTAIN = wp.constant(wp.uint64(CERTAIN_LEVEL))
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))
 Weights = wp.types.vector(length=16, dtype=wp.float64)
 
@@ -215,7 +218,7 @@ def beams_reaching(blocks: Blocks, reached: wp.array(dtype=wp.int32), x: int, y:
 
 
 @wp.func
-def draw_from_prior(
+def draw_block_from_prior(
     blocks: Blocks,
     prior: Prior,
     walls: wp.array(dtype=wp.uint8),
@@ -228,8 +231,7 @@ def draw_from_prior(
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
         if c >= 0:
-            u = to_uniform(random_bits(key, counter + wp.uint64(j)))
-            walls[c] = wp.uint8(wp.where(u < prior.probability[c], 1, 0))
+            walls[c] = wp.uint8(draw_from_prior(prior, c, random_bits(key, counter + wp.uint64(j))))
 
 
 @wp.func
@@ -238,9 +240,9 @@ def prior_weights(blocks: Blocks, prior: Prior, x: int, y: int) -> Weights:
     weights = Weights()
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
-        if c < 0 or prior.probability[c] == wp.float64(0.0):
+        if c < 0 or prior.level[c] == wp.uint64(0):
             weights = weights + IMPOSSIBLE * blocks.takes[j]
-        elif prior.probability[c] == wp.float64(1.0):
+        elif prior.level[c] == CERTAIN:
             weights = weights + IMPOSSIBLE * (Weights(wp.float64(1.0)) - blocks.takes[j])
         else:
             weights = weights + prior.logit[c] * blocks.takes[j]
@@ -282,7 +284,7 @@ def block_sweeps(
             y = block % blocks.rows
             counter = base + wp.uint64(4 * block)
             if beams_reaching(blocks, chain.reached, x, y) == 0:
-                draw_from_prior(blocks, prior, chain.walls, x, y, keys[n], counter)
+                draw_block_from_prior(blocks, prior, chain.walls, x, y, keys[n], counter)
             else:
                 weights = block_weights(t, blocks, chain, block, x, y)
                 weights = weights + prior_weights(blocks, prior, x, y)

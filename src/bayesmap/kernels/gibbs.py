@@ -21,6 +21,7 @@ from bayesmap.kernels.state import (
     Prior,
     Table,
     chain_of,
+    draw_from_prior,
     draw_wall,
     entry_loglik,
     log_likelihood,
@@ -33,7 +34,6 @@ from bayesmap.kernels.state import (
 wp.set_module_options({"enable_backward": False})
 
 CERTAIN = wp.constant(wp.float64(20.0))  # log-odds
-FEW = wp.constant(16)  # beams of a wall that are looked at one by one without a bound first
 NO_BOUND = wp.constant(wp.float64(-1.0e300))
 
 
@@ -87,7 +87,7 @@ def draw_free_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) 
 def draw_wall_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) -> bool:
     """Whether a wall that beams reach stays one."""
     logit = prior.logit[c]
-    if chain.known[c] == UNKNOWN and t.cell_offsets[c + 1] - t.cell_offsets[c] > FEW:
+    if chain.known[c] == UNKNOWN:
         least = wp.float64(0.0)
         for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
             if chain.first[t.cell_beam[i]] == t.cell_entry[i]:
@@ -135,13 +135,13 @@ def gibbs_sweeps(
             if shuffle_bits > wp.uint32(0):
                 place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
             c = order[place]
-            u = to_uniform(random_bits(keys[n], base + wp.uint64(c)))
+            bits = random_bits(keys[n], base + wp.uint64(c))
             if chain.reached[c] == 0:
-                chain.walls[c] = wp.uint8(wp.where(u < prior.probability[c], 1, 0))
+                chain.walls[c] = wp.uint8(draw_from_prior(prior, c, bits))
             elif chain.walls[c] != wp.uint8(0):
-                if not draw_wall_cell(t, prior, chain, c, u):
+                if not draw_wall_cell(t, prior, chain, c, to_uniform(bits)):
                     remove_wall(t, chain, c)
-            elif draw_free_cell(t, prior, chain, c, u):
+            elif draw_free_cell(t, prior, chain, c, to_uniform(bits)):
                 put_wall(t, chain, c)
         log_likelihoods[n, s] = log_likelihood(chain.current)
         log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)

@@ -7,8 +7,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.state import Prior, Table
+from bayesmap.kernels.random import random_bits
+from bayesmap.kernels.state import Prior, Table, draw_from_prior
 
 wp.set_module_options({"enable_backward": False})
 
@@ -16,7 +16,7 @@ wp.set_module_options({"enable_backward": False})
 @wp.func
 def particle_wall(prior: Prior, key: wp.uint64, particle: wp.uint64, cells: wp.uint64, c: int) -> bool:
     """Whether cell c is a wall in the map of a particle."""
-    return to_uniform(random_bits(key, particle * cells + wp.uint64(c))) < prior.probability[c]
+    return draw_from_prior(prior, c, random_bits(key, particle * cells + wp.uint64(c)))
 
 
 @wp.kernel
@@ -31,7 +31,7 @@ def weigh_particles(
     """One thread a particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
     i = first + wp.tid()
     particle = particle_0 + wp.uint64(i)
-    cells = wp.uint64(prior.probability.shape[0])
+    cells = wp.uint64(prior.level.shape[0])
     total = wp.float64(0.0)
     for b in range(t.beyond.shape[0]):
         term = t.beyond[b]
@@ -69,7 +69,7 @@ def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str)
 
 def draw(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
     """The maps of some particles, (n, N)."""
-    cells = prior.probability.shape[0]
+    cells = prior.level.shape[0]
     walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
     chosen = wp.array(particles.astype(np.uint64), dtype=wp.uint64, device=device)
     launch(draw_particles, len(particles), [prior, wp.uint64(key), chosen, walls], device)

@@ -35,6 +35,8 @@ class Table:
     cell_lead: wp.array(dtype=wp.float32)
 
 
+CERTAIN_LEVEL = 1 << 53  # the level of probability one
+
 UNKNOWN = wp.constant(wp.uint8(0))  # `gain` has to be summed again
 BOUND = wp.constant(wp.uint8(1))  # the sum is at most `gain` for a free cell, at least `gain` for a wall
 EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
@@ -81,13 +83,20 @@ def chain_of(chains: Chains, i: int) -> Chain:
 class Prior:
     """Independent wall probabilities, cell by cell, and their log-odds.
 
-    ``gain`` is what a wall adds to the log prior: the log-odds, but 0 in cells that the prior fixes.
+    ``level`` is the probability in units of 2^-53, for draws without floating point; ``gain`` is what a wall adds to
+    the log prior: the log-odds, but 0 in cells that the prior fixes.
     """
 
-    probability: wp.array(dtype=wp.float64)
+    level: wp.array(dtype=wp.uint64)
     logit: wp.array(dtype=wp.float64)
     gain: wp.array(dtype=wp.float64)
     uniform: int
+
+
+@wp.func
+def draw_from_prior(prior: Prior, c: int, bits: wp.uint64) -> bool:
+    """Whether a uniform number, made of these bits, lies below the cell's prior probability."""
+    return (bits >> wp.uint64(11)) < prior.level[c]
 
 
 @wp.func
@@ -218,7 +227,7 @@ def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
 def put_prior(p_wall: NDArray[np.float64], logit: NDArray[np.float64], device: str) -> Any:
     """A prior on a device."""
     on = Prior()
-    on.probability = devices.to_device(p_wall, wp.float64, device)
+    on.level = devices.to_device(np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), wp.uint64, device)
     on.logit = devices.to_device(logit, wp.float64, device)
     fixed = (p_wall == 0) | (p_wall == 1)
     on.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
