@@ -153,7 +153,7 @@ def test_what_a_chain_remembers_of_its_cells_is_true(method, order):
                 put, removed = walls.copy(), walls.copy()
                 put[c], removed[c] = True, False
                 adds = np.subtract(*(problem.table.log_likelihood(w.reshape(8, 8)) for w in (put, removed)))
-                close = 1e-3 + 1e-5 * abs(gain[chain, c])  # single precision, some dozen terms
+                close = float(1e-3 + 1e-5 * abs(gain[chain, c]))  # single precision, some dozen terms
                 if known[chain, c] == EXACT and not walls[c]:
                     assert adds == pytest.approx(gain[chain, c], abs=close)
                 elif walls[c]:
