@@ -13,15 +13,16 @@ def gaussian(z, d, *, sigma, per_m=0.0, max_m):
 def mixture(z, d, *, sigma, dof=None, per_m=0.0, min_m, max_m, p_random, p_no_return, p_short, rate):
     """log p(z | d) of one reading, told component by component; z may be +inf (no return) or -inf (too close)."""
     seen, wall = d <= max_m, min(d, max_m)
-    law = stats.norm(wall, sigma + per_m * wall) if dof is None else stats.t(dof, wall, sigma + per_m * wall)
-    passing = stats.expon(scale=1 / rate)
-    reaches = 1 - p_short * passing.cdf(wall)  # no object stands before the wall
+    law, shape = (stats.norm, ()) if dof is None else (stats.t, (dof,))
+    at = (*shape, wall, sigma + per_m * wall)
+    reaches = 1 - p_short * stats.expon.cdf(wall, scale=1 / rate)  # no object stands before the wall
     echo = reaches * (1 - p_no_return) if seen else 0.0  # the wall is what is read
     if z == np.inf:
-        p = (1 - p_random) * (reaches - echo + echo * law.sf(max_m))
+        p = (1 - p_random) * (reaches - echo + echo * law.sf(max_m, *at))
     elif z == -np.inf:
-        p = (1 - p_random) * (p_short * passing.cdf(min(wall, min_m)) + echo * law.cdf(min_m))
+        blocked = p_short * stats.expon.cdf(min(wall, min_m), scale=1 / rate)
+        p = (1 - p_random) * (blocked + echo * law.cdf(min_m, *at))
     else:
-        short = p_short * passing.pdf(z) if z < wall else 0.0
-        p = p_random / (max_m - min_m) + (1 - p_random) * (short + echo * law.pdf(z))
+        short = p_short * stats.expon.pdf(z, scale=1 / rate) if z < wall else 0.0
+        p = p_random / (max_m - min_m) + (1 - p_random) * (short + echo * law.pdf(z, *at))
     return float(np.log(p))
