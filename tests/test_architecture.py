@@ -1,0 +1,141 @@
+"""The rooms of the house: which may import which, and what stays outside until it is needed."""
+
+import ast
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import bayesmap
+
+SOURCE = Path(bayesmap.__file__).parent
+FILES = sorted(SOURCE.rglob("*.py"))
+NAMES = [str(path.relative_to(SOURCE)) for path in FILES]
+
+LEVELS = (
+    {"errors", "version"},
+    {"gen", "world"},
+    {"sensor"},
+    {"kernels"},
+    {"model"},
+    {"inference"},
+    {"posterior"},
+    {"io", "viz"},
+    {"run"},
+    {"assembly"},  # the half of `api` that turns results into runs
+    {"api"},
+    {"app", "cli"},
+)
+LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
+
+
+def room_of(module):
+    """bayesmap.kernels.walk -> kernels."""
+    parts = module.split(".")
+    return parts[1] if len(parts) > 1 else ""
+
+
+def imports(path):
+    """Modules that a file imports, at its top or inside functions, as (line, dotted name); typing's are not run."""
+    tree = ast.parse(path.read_text())
+    typing_only = {
+        id(inner)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+        for inner in ast.walk(node)
+    }
+    for node in ast.walk(tree):
+        if id(node) in typing_only:
+            continue
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}:{node.lineno}: a relative import"
+            # `from bayesmap import x` imports bayesmap.x
+            if node.module == "bayesmap":
+                yield from ((node.lineno, f"bayesmap.{alias.name}") for alias in node.names)
+            else:
+                yield node.lineno, node.module
+
+
+def home(path):
+    """The room of a source file; "" for the package's own __init__."""
+    parts = path.relative_to(SOURCE).with_suffix("").parts
+    return "" if parts == ("__init__",) else parts[0]
+
+
+@pytest.mark.parametrize("path", FILES, ids=NAMES)
+def test_imports_point_one_way(path):
+    here = home(path)
+    if here == "":
+        return  # the public face reaches everywhere, on first use
+    for line, module in imports(path):
+        if module.split(".")[0] == "bayesmap" and (there := room_of(module)) != here:
+            if there in ("", "__version__"):
+                continue
+            public = there not in LEVEL and there in bayesmap.__all__
+            assert public or there in LEVEL, f"{path}:{line}: {module} is in no room that this test knows"
+            target = room_of(bayesmap._HOME[there]) if public else there
+            assert LEVEL[target] < LEVEL[here], f"{path}:{line}: {here} may not import {module}"
+
+
+@pytest.mark.parametrize(("library", "room"), [("warp", "kernels"), ("jax", "gen"), ("matplotlib", "viz")])
+def test_heavy_libraries_have_one_room_each(library, room):
+    for path in FILES:
+        for line, module in imports(path):
+            if module.split(".")[0] == library:
+                assert home(path) == room, f"{path}:{line}: only {room} imports {library}"
+
+
+def test_every_room_is_known():
+    assert {home(path) for path in FILES} - {""} <= set(LEVEL)
+
+
+@pytest.mark.parametrize("path", FILES, ids=NAMES)
+def test_files_are_short_and_named_for_what_they_do(path):
+    assert len(path.read_text().splitlines()) <= 350
+    assert path.stem not in ("utils", "helpers", "manager", "misc", "common", "util", "helper")
+
+
+def loaded_after(code):
+    """The top-level modules that a fresh interpreter has loaded after running some code."""
+    script = f"{code}\nimport sys, json; print(json.dumps(sorted({{name.split('.')[0] for name in sys.modules}})))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+def test_importing_the_package_loads_nothing_heavy():
+    loaded = loaded_after("import bayesmap")
+    assert not loaded & {
+        "jax",
+        "warp",
+        "matplotlib",
+        "scipy",
+        "xarray",
+        "netCDF4",
+        "arviz_base",
+        "arviz_stats",
+        "numpy",
+    }
+
+
+HELP = """
+import sys, runpy, io, contextlib
+sys.argv = ["bayesmap", "--help"]
+out = io.StringIO()
+with contextlib.redirect_stdout(out), contextlib.suppress(SystemExit):
+    runpy.run_module("bayesmap.cli.main", run_name="__main__")
+assert "infer" in out.getvalue()
+"""
+
+
+@pytest.mark.skipif(not (SOURCE / "cli" / "main.py").exists(), reason="there is no command line yet")
+def test_asking_for_help_loads_nothing_heavy():
+    assert not loaded_after(HELP) & {"jax", "warp", "matplotlib"}
+
+
+def test_what_is_loaded_on_demand_would_be_noticed():
+    """Power of the two tests above."""
+    assert "warp" in loaded_after("import bayesmap.kernels.walk")
