@@ -1,0 +1,133 @@
+"""R-hat and effective sample sizes are arviz's, one cell at a time or a hundred thousand."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bayesmap.posterior import diagnostics
+from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
+from bayesmap.posterior.packing import pack
+
+
+def arviz_rhat(values):
+    """Arviz is imported here, for it takes its time; where a half chain is constant it divides by nothing."""
+    from arviz_stats.base import array_stats
+
+    with np.errstate(all="ignore"):
+        return float(array_stats.rhat(values))
+
+
+def arviz_ess(values, method="bulk", **options):
+    from arviz_stats.base import array_stats
+
+    with np.errstate(all="ignore"):
+        return float(array_stats.ess(values, method=method, **options))
+
+
+def series(seed, chains, draws, kind):
+    """Autocorrelated, antithetic, trending, heavy-tailed, whole-numbered or stuck draws."""
+    rng = np.random.default_rng(seed)
+    noise = rng.standard_normal((chains, draws))
+    if kind == "heavy":
+        return rng.standard_cauchy((chains, draws))
+    if kind == "whole":
+        return rng.poisson(3.0, (chains, draws)).astype(float)
+    if kind == "apart":
+        return noise + 3.0 * np.arange(chains)[:, None]
+    if kind == "trend":
+        return noise + np.linspace(0, 4, draws)
+    rho = {"slow": 0.9, "fast": -0.8, "white": 0.0}[kind]
+    values = noise.copy()
+    for i in range(1, draws):
+        values[:, i] = rho * values[:, i - 1] + noise[:, i]
+    return values
+
+
+KINDS = ["slow", "fast", "white", "heavy", "whole", "apart", "trend"]
+
+
+@settings(max_examples=60)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 5), st.integers(4, 120), st.sampled_from(KINDS))
+def test_scalars_have_arviz_s_r_hat_and_effective_sample_sizes(seed, chains, draws, kind):
+    values = series(seed, chains, draws, kind)
+    if chains > 1:  # arviz gives none for one chain, where the halves of that chain could be compared
+        assert rhat(values) == pytest.approx(arviz_rhat(values), rel=1e-9)
+    assert bulk_ess(values) == pytest.approx(arviz_ess(values), rel=1e-9)
+    expected = arviz_ess(values, "tail", prob=(0.05, 0.95))
+    assert tail_ess(values) == pytest.approx(expected, rel=1e-9)
+
+
+def walls_of(seed, chains, draws, shape=(5, 4)):
+    """Cells that flip at every rate, some that never change, and some that differ between chains alone."""
+    rng = np.random.default_rng(seed)
+    stay = rng.uniform(0, 0.98, shape)
+    walls = np.zeros((chains, draws, *shape), dtype=bool)
+    walls[:, 0] = rng.random((chains, *shape)) < 0.5
+    for i in range(1, draws):
+        redrawn = rng.random((chains, *shape)) < 0.4
+        walls[:, i] = np.where(rng.random((chains, *shape)) < stay, walls[:, i - 1], redrawn)
+    walls[:, :, 0, 0] = True
+    walls[:, :, 1, 1] = False
+    walls[:, :, 2, 2] = (np.arange(chains) % 2 == 0)[:, None]
+    return walls
+
+
+@pytest.mark.parametrize(("chains", "draws"), [(4, 100), (2, 51), (1, 40), (8, 4), (3, 9)])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeypatch):
+    monkeypatch.setattr(diagnostics, "CELLS_AT_ONCE", 7)  # several batches
+    walls = walls_of(seed, chains, draws)
+    found = diagnose_cells(pack(walls), walls.shape[2:])
+    flat = walls.reshape(chains, draws, -1).astype(float)
+    within = (flat != flat[:, :1]).any(axis=(0, 1))
+    rhats = [arviz_rhat(flat[:, :, c]) for c in np.flatnonzero(within)]
+    sizes = [arviz_ess(flat[:, :, c]) for c in np.flatnonzero(within)]
+    # arviz folds about the median too; of a 0/1 quantity that is constant or the same again
+    if chains > 1:
+        assert found.rhat_max == pytest.approx(np.nanmax(rhats), rel=1e-9)
+    assert found.ess_min == pytest.approx(np.nanmin(sizes), rel=1e-9)
+    constant = ~within
+    same = (flat == flat[:1, :1]).all(axis=(0, 1))
+    assert found.unchanged == same.sum() >= 2
+    assert found.disagreeing == (constant & ~same).sum()
+    assert found.disagreeing >= (chains > 1)
+
+
+def test_cells_can_be_left_out():
+    walls = walls_of(1, 4, 100)
+    among = np.zeros((5, 4), dtype=bool)
+    among[3, 2] = True
+    alone = diagnose_cells(pack(walls), (5, 4), among)
+    values = walls[:, :, 3, 2].astype(float)
+    assert alone.rhat_max == pytest.approx(arviz_rhat(values), rel=1e-9)
+    assert alone.ess_min == pytest.approx(arviz_ess(values), rel=1e-9)
+
+
+def test_one_chain_is_compared_with_itself():
+    halves = series(1, 2, 50, "apart")
+    assert rhat(halves.reshape(1, 100)) > 2
+    assert rhat(series(1, 1, 1000, "white")) < 1.01
+
+
+@pytest.mark.parametrize("draws", [5, 7])
+def test_a_cell_that_changes_in_the_middle_draw_alone_has_no_r_hat(draws):
+    """Of an odd number of draws, the halves leave the middle one out: both are constant then."""
+    walls = np.zeros((2, draws, 3, 3), dtype=bool)
+    walls[:, draws // 2, 1, 1] = True
+    assert np.isnan(diagnose_cells(pack(walls), (3, 3)).rhat_max)
+
+
+@pytest.mark.parametrize("draws", [0, 1, 2, 3])
+def test_too_few_draws_have_no_diagnostics(draws):
+    found = diagnose_cells(pack(np.zeros((2, draws, 3, 3), dtype=bool)), (3, 3))
+    assert np.isnan(found.rhat_max)
+    assert np.isnan(found.ess_min)
+    values = np.random.default_rng(1).normal(size=(2, draws))
+    assert np.isnan([rhat(values), bulk_ess(values), tail_ess(values)]).all()
+
+
+def test_a_map_that_never_changes_is_unchanged_and_nothing_else():
+    found = diagnose_cells(pack(np.ones((3, 50, 4, 4), dtype=bool)), (4, 4))
+    assert (found.unchanged, found.disagreeing) == (16, 0)
+    assert np.isnan(found.rhat_max)

@@ -1,0 +1,120 @@
+"""What a run says about itself: occupancy, entropy, held-out scores, summary."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+from oracle.formula import beams, distances
+from oracle.worlds import make_case
+from scipy import special
+
+import bayesmap as bm
+from bayesmap.posterior.packing import pack
+from bayesmap.posterior.posterior import entropy_bits, mean_of_draws
+from bayesmap.posterior.score import beam_log_scores
+from bayesmap.sensor.model import RangeLimits
+
+
+@pytest.fixture(scope="module")
+def case():
+    return make_case(21, sensor=bm.BeamMixture(bm.Gaussian(0.3)), n_poses=3)
+
+
+@pytest.fixture(scope="module")
+def run(case):
+    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=50)
+
+
+def test_occupancy_is_the_mean_of_the_draws(run):
+    np.testing.assert_allclose(run.occupancy, run.draws.mean(axis=(0, 1)), atol=1e-12)
+
+
+def test_without_draws_there_is_no_mean():
+    assert np.isnan(mean_of_draws(pack(np.zeros((2, 0, 3, 3), bool)), bm.Grid((3, 3)))).all()
+
+
+def test_entropy_in_bits():
+    p = np.array([0.0, 0.5, 1.0, 0.25])
+    expected = [0.0, 1.0, 0.0, -(0.25 * np.log2(0.25) + 0.75 * np.log2(0.75))]
+    np.testing.assert_allclose(entropy_bits(p), expected, atol=1e-12)
+
+
+def test_the_log_score_is_the_log_mean_density_over_draws(case, run):
+    """Beam by beam, at the oracle's distances; invalid readings are left out."""
+    held = make_case(22, sensor=case.sensor, n_poses=2).scans
+    readings = held.ranges_m.copy()
+    readings[0, :3] = [np.nan, np.inf, -np.inf]
+    held = dataclasses.replace(held, ranges_m=readings)
+    starts, angles = beams(held.poses, held.angles_rad, case.grid)
+    limits, z = RangeLimits(held.min_range_m, held.max_range_m), held.ranges_m.ravel()
+    worth = [
+        case.sensor.log_likelihood(z, distances(walls, starts, angles) * case.grid.resolution, limits)
+        for walls in run.draws.reshape(-1, 4, 4)
+    ]
+    plain = (special.logsumexp(worth, axis=0) - np.log(len(worth)))[~np.isnan(z)]
+    found = beam_log_scores(run.posterior, held)
+    np.testing.assert_allclose(found, plain, atol=2e-4)  # a robust table's flat nats
+    assert run.log_score(held) == pytest.approx(found.mean())
+
+
+def test_a_better_map_scores_better():
+    walls, pose = bm.worlds.tutorial()
+    grid, angles = bm.worlds.TUTORIAL_GRID, np.linspace(0, 2 * np.pi, 100, endpoint=False)
+    train, held = (
+        bm.simulate(walls, grid, pose, angles + turn, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=1)
+        for turn in (0.0, 0.01)
+    )
+    options = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "method": "block", "draws": 200}
+    learnt = bm.infer(train, grid, **options).log_score(held)
+    nothing = bm.infer(train.select(slice(0, 0)), grid, **options).log_score(held)
+    assert learnt > nothing + 1
+
+
+def test_scores_that_cannot_be_are_refused(case, run):
+    no_draws = dataclasses.replace(run.posterior, packed=run.posterior.packed[:, :0])
+    with pytest.raises(bm.BadInput, match="the run has no draws yet; let it finish its warm-up"):
+        bm.Run(no_draws).log_score(case.scans)
+    unknown = dataclasses.replace(
+        run.posterior, sensor=None, settings=run.posterior.settings | {"sensor": {"kind": "X"}}
+    )
+    with pytest.raises(bm.BadInput, match="'X', is not one of bayesmap's; pass sensor="):
+        bm.Run(unknown).log_score(case.scans)
+    with pytest.raises(bm.BadInput, match="none of the scans has a valid reading"):
+        run.log_score(dataclasses.replace(case.scans, ranges_m=np.full(case.scans.ranges_m.shape, np.nan)))
+
+
+def test_observed_cells_are_those_that_beams_reach_in_half_of_the_draws():
+    """Behind a wall that is certain, nothing is observed, though beams would touch it on a free map."""
+    grid = bm.Grid((6, 1))
+    p = np.array([[0.1], [0.1], [1.0], [0.1], [0.1], [0.1]])
+    scans = bm.Scans([-0.5, 0.5, 0.0], [0.0], [[2.5]], max_range_m=10.0)
+    run = bm.infer(scans, grid, prior=bm.Independent(p), sensor=bm.Gaussian(0.3), draws=100)
+    np.testing.assert_array_equal(run.observed.ravel(), [True, True, True, False, False, False])
+
+
+def test_the_summary_is_json_and_names_problems(run):
+    summary = run.summary()
+    assert summary is run.summary()
+    text = json.dumps(summary.as_json(), allow_nan=False)
+    assert json.loads(text)["finished"] is True
+    assert summary.unchanged_cells == (run.draws == run.draws[:1, :1]).all(axis=(0, 1)).sum()
+    bad = dataclasses.replace(
+        summary, rhat_log_joint=1.2, rhat_max=1.3, ess_min=12.0, disagreeing_cells=3, finished=False,
+        effective_sample_size=5.0,
+    )  # fmt: skip
+    problems = " / ".join(bad.problems())
+    for words in ("stopped before", "log joint is 1.200", "is 1.300", "3 cells", "is 12", "size of 5.0"):
+        assert words in problems
+    good = dataclasses.replace(
+        summary, rhat_log_joint=1.0, rhat_log_likelihood=1.0, rhat_max=1.0, ess_min=500.0, disagreeing_cells=0
+    )
+    assert good.problems() == []
+
+
+@pytest.mark.parametrize("method", ["exact", "importance", "propagate"])
+def test_methods_without_chains_have_no_r_hat(case, method):
+    run = bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, method=method, draws=10, particles=1000)
+    summary = run.summary()
+    assert np.isnan([summary.rhat_log_joint, summary.rhat_max, summary.ess_min]).all()
+    assert np.isfinite(summary.effective_sample_size) == (method == "importance")
