@@ -38,16 +38,14 @@ def scorer(sensor, limits):
     if isinstance(sensor, bm.Gaussian):
         return lambda z, d: density.gaussian(np.clip(z, low, high) if np.isinf(z) else z, d, sigma=sensor.sigma_m,
                                              per_m=sensor.sigma_per_m, max_m=high)  # fmt: skip
-    return lambda z, d: np.array(
-        [
-            density.mixture(
-                z, one, sigma=sensor.noise.sigma_m, per_m=sensor.noise.sigma_per_m, min_m=low, max_m=high,
-                p_random=sensor.p_random, p_no_return=sensor.p_no_return, p_short=sensor.p_short,
-                rate=sensor.rate_short_per_m,
-            )
-            for one in d
-        ]
-    )  # fmt: skip
+    noise = sensor.noise
+    gaussian = isinstance(noise, bm.Gaussian)
+    law = {"sigma": noise.sigma_m, "per_m": noise.sigma_per_m} if gaussian else {
+        "sigma": noise.scale_m, "per_m": noise.scale_per_m, "dof": noise.dof
+    }  # fmt: skip
+    weights = {"p_random": sensor.p_random, "p_no_return": sensor.p_no_return, "p_short": sensor.p_short}
+    rest = {"rate": sensor.rate_short_per_m, "min_m": low, "max_m": high}
+    return lambda z, d: np.array([density.mixture(z, one, **law, **weights, **rest) for one in d])
 
 
 def random_prior(rng, kind, shape):

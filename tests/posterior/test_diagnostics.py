@@ -107,7 +107,7 @@ def test_cells_can_be_left_out():
 def test_one_chain_is_compared_with_itself():
     halves = series(1, 2, 50, "apart")
     assert rhat(halves.reshape(1, 100)) > 2
-    assert rhat(series(1, 1, 1000, "white")) < 1.01
+    assert rhat(series(1, 1, 1000, "white")) < 1.05
 
 
 @pytest.mark.parametrize("draws", [5, 7])

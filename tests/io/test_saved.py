@@ -1,0 +1,277 @@
+"""A saved run is the run: it comes back equal, opens anywhere, and damage does not pass unnoticed."""
+
+import dataclasses
+import json
+
+import netCDF4
+import numpy as np
+import pytest
+from oracle.worlds import make_case
+
+import bayesmap as bm
+from bayesmap.inference import chain as runner
+
+ARRAYS = (
+    "occupancy", "observed", "packed", "log_likelihood", "log_prior", "warmup_log_joint", "walls", "log_weights",
+    "belief_changes",
+)  # fmt: skip
+PLAIN = ("grid", "sensor", "settings", "sweep", "finished", "seconds", "counts", "log_evidence", "notes")
+
+
+@pytest.fixture(scope="module")
+def case():
+    return make_case(31, prior=0.3, sensor=bm.BeamMixture(bm.StudentT(0.2, 3.0)), n_poses=2, shape=(5, 3))
+
+
+def infer(case, **options):
+    return bm.infer(case.scans, case.grid, **{"prior": case.prior, "sensor": case.sensor, "draws": 20, **options})
+
+
+def assert_equal_runs(one, other):
+    for name in ARRAYS:
+        mine, theirs = getattr(one.posterior, name), getattr(other.posterior, name)
+        assert (mine is None) == (theirs is None), name
+        if mine is not None:
+            assert mine.dtype == theirs.dtype, name
+            np.testing.assert_array_equal(mine, theirs, err_msg=name)
+    for name in PLAIN:
+        assert getattr(one.posterior, name) == getattr(other.posterior, name), name
+    for field in dataclasses.fields(bm.Scans):
+        np.testing.assert_array_equal(
+            *(getattr(run.posterior.scans, field.name) for run in (one, other)), err_msg=field.name
+        )
+
+
+@pytest.fixture(scope="module")
+def saved(case, tmp_path_factory):
+    path = tmp_path_factory.mktemp("saved") / "run.nc"
+    run = infer(case)
+    run.save(path)
+    return run, path
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])
+@pytest.mark.parametrize("draws", [0, 1, 130])
+def test_a_run_comes_back_equal(case, method, draws, tmp_path):
+    run = infer(case, method=method, draws=draws, particles=500)
+    run.save(tmp_path / "run.nc")
+    assert_equal_runs(bm.load(tmp_path / "run.nc"), run)
+
+
+def test_stamps_and_typed_readings_come_back(case, tmp_path):
+    readings = case.scans.ranges_m.copy()
+    readings[0, :3] = [np.inf, -np.inf, np.nan]
+    scans = dataclasses.replace(case.scans, ranges_m=readings, stamps_s=np.array([1e9 + 0.25, 1e9 + 0.5]))
+    run = bm.infer(scans, case.grid, prior=case.prior, sensor=case.sensor, draws=3)
+    run.save(tmp_path / "run.nc")
+    assert_equal_runs(bm.load(tmp_path / "run.nc"), run)
+
+
+class Own(bm.Gaussian):
+    pass
+
+
+def test_a_run_with_a_sensor_of_one_s_own_comes_back_without_it(case, tmp_path):
+    run = infer(case, sensor=Own(0.4))
+    run.save(tmp_path / "run.nc")
+    loaded = bm.load(tmp_path / "run.nc")
+    assert loaded.posterior.sensor is None
+    assert loaded.posterior.settings["sensor"] == {"kind": "Own"}
+    np.testing.assert_array_equal(loaded.draws, run.draws)
+
+
+@pytest.mark.parametrize("stop_at", [4, 12])
+def test_an_interrupted_run_is_saved_and_goes_on_bit_for_bit(case, stop_at, tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
+    options = {"warmup": 8, "draws": 10, "seed": 3, "checkpoint_every_s": -1.0}
+    seen = []
+    whole = infer(case, on_checkpoint=seen.append, **options)
+    part = next(run for run in seen if run.posterior.sweep == stop_at)
+    part.save(tmp_path / "part.nc")
+    loaded = bm.load(tmp_path / "part.nc")
+    assert_equal_runs(loaded, part)
+    assert not loaded.finished
+    resumed = infer(case, resume=loaded, **options)
+    for name in ("packed", "log_likelihood", "log_prior", "warmup_log_joint", "walls", "sweep", "finished"):
+        np.testing.assert_array_equal(getattr(resumed.posterior, name), getattr(whole.posterior, name), err_msg=name)
+
+
+def test_it_opens_in_arviz(saved):
+    import warnings
+
+    run, path = saved
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what arviz's own imports say is not our concern
+        import arviz_base
+
+        tree = arviz_base.from_netcdf(path)
+    walls = tree["posterior"]["walls"]
+    assert walls.dims == ("chain", "draw", "x", "y")
+    np.testing.assert_array_equal(walls.values.astype(bool), run.draws)
+    np.testing.assert_allclose(tree["sample_stats"]["lp"].values, run.log_joint)
+
+
+def test_it_opens_in_xarray_with_its_coordinates_in_metres(saved):
+    import xarray
+
+    run, path = saved
+    with xarray.open_datatree(path, engine="netcdf4") as tree:
+        x, y = run.grid.centers_m()
+        np.testing.assert_allclose(tree["posterior"]["x"], x)
+        np.testing.assert_allclose(tree["posterior"]["y"], y)
+        np.testing.assert_array_equal(tree["posterior"]["walls"].values.astype(bool), run.draws)
+        np.testing.assert_array_equal(tree["observed_data"]["range_m"], run.posterior.scans.ranges_m)
+        assert tree.attrs["inference_library"] == "bayesmap"
+
+
+def damaged(path, tmp_path, content):
+    copy = tmp_path / "damaged.nc"
+    copy.write_bytes(content)
+    return copy
+
+
+def test_a_truncated_file_is_refused_wherever_it_ends(saved, tmp_path):
+    content = saved[1].read_bytes()
+    for length in [*range(0, 100, 7), *np.linspace(100, len(content) - 1, 60).astype(int)]:
+        copy = damaged(saved[1], tmp_path, content[:length])
+        with pytest.raises(bm.BadInput, match=r"damaged\.nc: "):
+            bm.load(copy)
+
+
+# In a process of its own: a damaged file could take down the netCDF library itself.
+FLIPS = """
+import sys, numpy as np, bayesmap as bm
+from pathlib import Path
+sys.path[:0] = sys.argv[3:]
+from test_saved import assert_equal_runs
+path, copy = Path(sys.argv[1]), Path(sys.argv[2])
+content, whole = path.read_bytes(), bm.load(path)
+rng = np.random.default_rng(1)
+refused = 0
+for i in range(400):
+    flipped = bytearray(content)
+    place = int(rng.integers(len(content)))
+    flipped[place] ^= 1 << int(rng.integers(8))
+    copy.write_bytes(flipped)
+    try:
+        loaded = bm.load(copy)
+    except bm.BadInput as error:
+        assert str(copy) in str(error), f"byte {place}: the message does not name the file: {error}"
+        refused += 1
+    except Exception as error:
+        raise AssertionError(f"byte {place}: {type(error).__name__}: {error}") from error
+    else:
+        assert_equal_runs(loaded, whole)
+print(refused)
+"""
+
+
+def test_a_flipped_bit_is_refused_or_makes_no_difference(saved, tmp_path):
+    import subprocess
+    import sys
+    from pathlib import Path
+
+    here = Path(__file__).parent
+    script = [sys.executable, "-c", FLIPS, str(saved[1]), str(tmp_path / "flipped.nc"), str(here), str(here.parent)]
+    done = subprocess.run(script, check=False, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr[-600:]
+    assert int(done.stdout) > 20
+
+
+def rewrite(path, change):
+    """Change the file's header as a hand or a bad disk would, without a new checksum."""
+    with netCDF4.Dataset(path, "a") as file:
+        header = json.loads(file.getncattr("bayesmap"))
+        change(header)
+        file.setncattr("bayesmap", json.dumps(header))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda header: header.update(sweep=7),
+        lambda header: header["settings"].update(seed=99),
+        lambda header: header["settings"]["sensor"].update(p_random=0.9),
+        lambda header: header["settings"]["sensor"].update(p_random=-0.9),
+        lambda header: header["settings"]["sensor"].update(p_rundom=0.1),
+        lambda header: header["settings"]["sensor"].update(p_random="much"),
+        lambda header: header["grid"].update(resolution=-1.0),
+        lambda header: header["grid"].update(resolution=None),
+        lambda header: header["grid"].update(shape=[5, 4]),
+        lambda header: header.update(limits=[0.1]),
+        lambda header: header.update(limits=[0.1, -3.0]),
+        lambda header: header.pop("counts"),
+        lambda header: header.update(notes=None),
+        lambda header: header.update(settings=[]),
+    ],
+)
+def test_a_header_that_was_tampered_with_is_refused_by_the_file_s_name(saved, change, tmp_path):
+    copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
+    rewrite(copy, change)
+    with pytest.raises(bm.BadInput, match=r"damaged\.nc"):
+        bm.load(copy)
+
+
+@pytest.mark.parametrize(
+    ("group", "name"),
+    [
+        ("posterior", "walls"), ("sample_stats", "log_likelihood"), ("sample_stats", "log_prior"),
+        ("warmup_sample_stats", "lp"), ("observed_data", "range_m"), ("constant_data", "occupancy"),
+        ("constant_data", "state"), ("constant_data", "pose_world"), ("constant_data", "observed"),
+    ],
+)  # fmt: skip
+def test_one_number_changed_is_noticed(saved, group, name, tmp_path):
+    copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
+    with netCDF4.Dataset(copy, "a") as file:
+        file.set_auto_mask(False)
+        variable = file[group][name]
+        values = variable[:]
+        values.flat[3] = 1 - values.flat[3]
+        variable[:] = values
+    with pytest.raises(bm.BadInput, match=r"damaged\.nc: the saved run is damaged"):
+        bm.load(copy)
+
+
+def test_a_newer_format_is_refused_with_the_remedy(saved, tmp_path):
+    copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
+    with netCDF4.Dataset(copy, "a") as file:
+        file.setncattr("format_version", 99)
+    with pytest.raises(bm.BadInput, match=r"damaged\.nc: saved by bayesmap .* newer format \(99\).*update bayesmap"):
+        bm.load(copy)
+
+
+def test_what_is_no_saved_run_is_refused(tmp_path):
+    with pytest.raises(bm.BadInput, match=r"nothing\.nc: no such file"):
+        bm.load(tmp_path / "nothing.nc")
+    (tmp_path / "text.nc").write_text("hello")
+    with pytest.raises(bm.BadInput, match=r"text\.nc: not a readable saved run"):
+        bm.load(tmp_path / "text.nc")
+    with netCDF4.Dataset(tmp_path / "other.nc", "w") as file:
+        file.createDimension("x", 3)
+    with pytest.raises(bm.BadInput, match=r"other\.nc: a netCDF file, but not a saved run"):
+        bm.load(tmp_path / "other.nc")
+    with pytest.raises(bm.BadInput):
+        bm.load(tmp_path)
+
+
+def test_a_failed_save_leaves_the_old_file_and_nothing_else(saved, tmp_path, monkeypatch):
+    from bayesmap.io import saved as module
+
+    run, _ = saved
+    path = tmp_path / "run.nc"
+    run.save(path)
+    before = path.read_bytes()
+
+    def fail(posterior, file):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(module, "_write", fail)
+    with pytest.raises((OSError, bm.BadInput), match="disk full"):
+        run.save(path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_folder_that_is_not_there_is_bad_input(saved, tmp_path):
+    with pytest.raises(bm.BadInput, match="nowhere"):
+        saved[0].save(tmp_path / "nowhere" / "run.nc")
