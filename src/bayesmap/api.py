@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.assembly import Assembly
-from bayesmap.errors import BadInput
+from bayesmap.errors import BadInput, check_count
 from bayesmap.inference.block import BlockGibbs
 from bayesmap.inference.chain import Chains, Progress, Schedule, run_chains
 from bayesmap.inference.exact import enumerate_maps
 from bayesmap.inference.gibbs import Gibbs
 from bayesmap.inference.importance import Particles, sample_importance
 from bayesmap.inference.interrupt import stop_on_interrupt
-from bayesmap.inference.problem import Problem, check_count
+from bayesmap.inference.problem import Problem
 from bayesmap.inference.propagate import ROUNDS, Marginals, propagate
 from bayesmap.inference.sampler import Order
 from bayesmap.inference.start import Start, default_start, start_maps
@@ -111,8 +111,15 @@ def infer(
         raise BadInput(f"infer: method must be one of {', '.join(get_args(Method))}, got {method!r}")
     if draws is None:
         draws = 0 if method == "propagate" else 1000
-    schedule = Schedule(check_count("warmup", warmup, 0), check_count("draws", draws, 0), check_count("thin", thin, 1))
-    chains = check_count("chains", chains, 1)
+    schedule = Schedule(
+        check_count("infer", "warmup", warmup, 0),
+        check_count("infer", "draws", draws, 0),
+        check_count("infer", "thin", thin, 1),
+    )
+    chains = check_count("infer", "chains", chains, 1)
+    seed = check_count("infer", "seed", seed, 0)
+    if threads is not None:
+        threads = check_count("infer", "threads", threads, 1)
     if not 0.0 <= hit_depth <= 1.0:
         raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
     began = time.perf_counter()
@@ -127,7 +134,10 @@ def infer(
     settings["fingerprint"] = _fingerprint(settings, scans, grid, problem, start)
     if resume is not None and resume.posterior.settings["fingerprint"] != settings["fingerprint"]:
         raise BadInput(f"resume: the saved run was made with other {_difference(resume.posterior.settings, settings)}")
-    common = Assembly(problem, scans, sensor, settings, began, time.perf_counter() - began)
+    if resume is not None and resume.posterior.sweep == 0:
+        resume = None  # stopped before its first sweep: there is nothing to go on with
+    before = None if resume is None else resume.posterior
+    common = Assembly(problem, scans, sensor, settings, began, time.perf_counter() - began, before)
     with stop_on_interrupt() as should_stop:
         if method == "exact":
             return common.exact(enumerate_maps(problem))
@@ -137,7 +147,7 @@ def infer(
             return common.marginals(_warm(problem, rounds, threads, on_progress, should_stop))
         sampler = Gibbs(problem, order) if method == "gibbs" else BlockGibbs(problem, order)
         warm = None
-        if start == "propagate" and resume is None:
+        if isinstance(start, str) and start == "propagate" and resume is None:
             warm = _warm(problem, rounds, threads, on_progress, should_stop)
 
         def tell(progress: Progress) -> None:

@@ -36,6 +36,7 @@ class Assembly:
     settings: dict[str, Any]
     began: float
     trace_seconds: float
+    before: Posterior | None = None  # what is being resumed
 
     def exact(self, whole: Enumeration) -> Run:
         """The whole posterior, with draws from it."""
@@ -57,19 +58,29 @@ class Assembly:
     def marginals(self, found: Marginals) -> Run:
         """Beliefs, with draws that are independent from cell to cell: marginals are all that there is."""
         walls = self._independent(lambda rng, count: rng.random((count, *found.p_wall.shape)) < found.p_wall)
-        return self._run(walls, occupancy=found.p_wall, belief_changes=found.changes, sampling=found.seconds)
+        return self._run(
+            walls,
+            occupancy=found.p_wall,
+            belief_changes=found.changes,
+            sampling=found.seconds,
+            finished=found.finished,
+        )
 
     def chains(self, chains: Chains, warm: Marginals | None, threads: int | None) -> Run:
         """Chains, finished or not."""
         from bayesmap.kernels.parallel import available_cores
 
         used = min(threads or available_cores(), len(chains.walls)) if self.problem.device == "cpu" else 1
+        if self.before is not None:
+            changes, warm_seconds = self.before.belief_changes, self.before.seconds["warm_start"]
+        else:
+            changes, warm_seconds = (None, 0.0) if warm is None else (warm.changes, warm.seconds)
         return self._run(
             None,
             occupancy=mean_of_draws(chains.packed, self.problem.table.grid),
             chains=chains,
-            belief_changes=None if warm is None else warm.changes,
-            warm_start=0.0 if warm is None else warm.seconds,
+            belief_changes=changes,
+            warm_start=warm_seconds,
             sampling=chains.seconds,
             finished=chains.finished,
             threads_used=used,
@@ -108,7 +119,7 @@ class Assembly:
                 finished=finished,
             )
         settings = {**self.settings, "threads_used": threads_used}
-        total = time.perf_counter() - self.began
+        total = time.perf_counter() - self.began + (self.before.seconds["total"] if self.before else 0.0)
         seconds = {"trace": self.trace_seconds, "warm_start": warm_start, "sampling": sampling, "total": total}
         return Run(
             Posterior(

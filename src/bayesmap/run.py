@@ -93,9 +93,14 @@ class Run:
         save(self.posterior, path)
 
     def plot(self, **options: Any) -> Figure:
-        """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`."""
+        """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`.
+
+        Raises:
+            BadInput: a run that was stopped before its first draw.
+        """
         from bayesmap.viz.figure import posterior_figure
 
+        self._need_marginals()
         posterior = self.posterior
         if posterior.packed.shape[1] and "draw" not in options:
             options["draw"] = unpack(posterior.packed[0, -1], posterior.grid.shape)
@@ -107,10 +112,18 @@ class Run:
 
         Returns:
             The paths of the two files.
+
+        Raises:
+            BadInput: a run that was stopped before its first draw, or a file that cannot be written.
         """
         from bayesmap.io.map_server import write_map
 
+        self._need_marginals()
         return write_map(path, self.posterior.occupancy, self.posterior.grid, self.posterior.observed, **options)
+
+    def _need_marginals(self) -> None:
+        if np.isnan(self.posterior.occupancy).any():
+            raise BadInput("run: stopped before its first draw, there is no posterior yet; resume it")
 
 
 def load(path: str | os.PathLike[str]) -> Run:

@@ -6,6 +6,7 @@ import sys
 import pytest
 
 import bayesmap
+from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 
 
@@ -65,7 +66,7 @@ def test_a_link_keeps_pointing_to_the_file_that_is_replaced(tmp_path):
 
 
 def test_a_missing_folder_is_noticed_before_the_work_is_done(tmp_path):
-    with pytest.raises(FileNotFoundError), write_whole(tmp_path / "absent" / "file"):
+    with pytest.raises(BadInput, match="absent"), write_whole(tmp_path / "absent" / "file"):
         pytest.fail("the block must not run")
 
 

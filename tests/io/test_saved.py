@@ -104,7 +104,7 @@ def test_it_opens_in_arviz(saved):
         warnings.simplefilter("ignore")  # what arviz's own imports say is not our concern
         import arviz_base
 
-        tree = arviz_base.from_netcdf(path)
+        tree = arviz_base.convert_to_datatree(str(path))
     walls = tree["posterior"]["walls"]
     assert walls.dims == ("chain", "draw", "x", "y")
     np.testing.assert_array_equal(walls.values.astype(bool), run.draws)

@@ -1,4 +1,4 @@
-"""One panel of a saved run as a picture of its own."""
+"""Which of a saved run's draws, and what truth, a picture shows."""
 
 from __future__ import annotations
 
@@ -10,51 +10,10 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from bayesmap.run import Run
     from bayesmap.world.grid import Grid
 
 Walls = NDArray[np.bool_]
-HEIGHT_IN, BAR_IN = 5.6, 1.3
-
-
-def panel_figure(run: Run, what: str, *, draw: Walls | None, truth: Walls | None) -> Figure:
-    """The posterior mean, its entropy, its standard deviation, or one draw, with a colour bar.
-
-    Args:
-        run: the run.
-        what: ``"mean"``, ``"entropy"``, ``"deviation"`` or ``"draw"``.
-        draw: the draw to show, for ``"draw"``.
-        truth: the true walls, to be outlined.
-    """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    from bayesmap.viz import maps, overlays
-
-    grid, seen = run.grid, run.observed
-    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.3, 3.0)) + BAR_IN
-    figure = Figure(
-        figsize=(width_in, HEIGHT_IN), dpi=max(160.0, 1.1 * max(grid.shape) / HEIGHT_IN), layout="constrained"
-    )
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
-    if what == "mean":
-        image, label = maps.draw_probability(axes, grid, run.occupancy, seen), "probability of wall"
-    elif what == "entropy":
-        image, label = maps.draw_entropy(axes, grid, run.occupancy, seen), "entropy [bits]"
-    elif what == "deviation":
-        spread = np.sqrt(run.occupancy * (1.0 - run.occupancy))
-        image, label = maps.draw_deviation(axes, grid, spread, seen), "standard deviation"
-    else:
-        assert draw is not None
-        image, label = maps.draw_sample(axes, grid, draw, seen), ""
-    if label:
-        figure.colorbar(image, ax=axes, label=label, shrink=0.8)
-    if truth is not None:
-        overlays.draw_truth_outline(axes, grid, truth)
-    return figure
 
 
 def one_draw(run: Run, chain: int, draw: int) -> Walls:

@@ -54,6 +54,9 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None) ->
         chain, numbers = pictures.frames(run, values["chain"], values["frames"])
         write_animation(target, run.grid, chain, observed=run.observed, truth=walls, sweeps=numbers)
     else:
-        write_figure(pictures.panel_figure(run, what, draw=draw, truth=walls), target)
+        from bayesmap.viz.panel import panel_figure
+
+        values_shown = draw if what == "draw" and draw is not None else run.occupancy
+        write_figure(panel_figure(run.grid, what, values_shown, run.observed, truth=walls), target)
     document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
     call.talk.result(document, [target])

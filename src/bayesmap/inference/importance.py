@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.inference.problem import Problem, check_count
+from bayesmap.errors import check_count
+from bayesmap.inference.problem import Problem
 from bayesmap.inference.sampler import STREAM_PARTICLES
 
 BATCH = 4096
@@ -84,7 +85,7 @@ def sample_importance(
     from bayesmap.kernels.importance import weigh
     from bayesmap.kernels.random import mix
 
-    particles = check_count("particles", particles, 1)
+    particles = check_count("importance", "particles", particles, 1)
     key = mix(seed, 0, STREAM_PARTICLES)
     batches: list[NDArray[np.float64]] = []
     began = time.perf_counter()

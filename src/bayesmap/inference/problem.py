@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
 from bayesmap.model.priors import Independent
 from bayesmap.sensor.table import BeamTable, CellIndex
 
@@ -85,14 +83,3 @@ class Problem:
         self.table.check_walls(walls)
         p = self.p_wall.reshape(self.table.grid.shape)
         return np.where(p == 0, False, np.where(p == 1, True, np.asarray(walls) != 0))
-
-
-def check_count(name: str, value: int, least: int) -> int:
-    """A whole number, or a clear error.
-
-    Raises:
-        BadInput: not a whole number, or below the least.
-    """
-    if isinstance(value, bool) or not math.isfinite(value) or int(value) != value or value < least:
-        raise BadInput(f"infer: {name} must be a whole number of {least} or more, got {value!r}")
-    return int(value)

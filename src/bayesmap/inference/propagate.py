@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.errors import BadInput
-from bayesmap.inference.problem import Problem, check_count
+from bayesmap.errors import BadInput, check_count
+from bayesmap.inference.problem import Problem
 
 DAMPING = 0.5
 ROUNDS = 20
@@ -26,6 +26,7 @@ class Marginals:
         changes: largest change of any cell's probability in each round, (rounds,).
         mean_changes: mean change over the cells that beams touch, (rounds,).
         converged: whether the last largest change was below the tolerance.
+        finished: false if it was stopped before that, with rounds to go.
         seconds: time in the rounds.
     """
 
@@ -33,6 +34,7 @@ class Marginals:
     changes: NDArray[np.float64]
     mean_changes: NDArray[np.float64]
     converged: bool
+    finished: bool
     seconds: float
 
 
@@ -65,7 +67,7 @@ def propagate(
     """
     from bayesmap.kernels.beliefs import Beliefs
 
-    rounds = check_count("rounds", rounds, 1)
+    rounds = check_count("propagate", "rounds", rounds, 1)
     if not 0 <= damping < 1:
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
     began = time.perf_counter()
@@ -90,5 +92,6 @@ def propagate(
         changes=np.array(changes),
         mean_changes=np.array(mean_changes),
         converged=changes[-1] < tolerance,
+        finished=changes[-1] < tolerance or len(changes) == rounds,
         seconds=time.perf_counter() - began,
     )

@@ -8,6 +8,8 @@ import secrets
 from collections.abc import Iterator
 from pathlib import Path
 
+from bayesmap.errors import BadInput
+
 
 @contextlib.contextmanager
 def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
@@ -21,12 +23,15 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     If the block raises, the temporary file is removed and ``path`` is as it was.
 
     Raises:
-        OSError: the folder does not exist, or cannot be written.
+        BadInput: the folder does not exist, or cannot be written to.
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
     # Made here, not by the block: the usual permissions apply, and a missing folder is noticed at once.
-    os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    try:
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be written ({error.strerror}); name a file in a folder that is there") from None
     try:
         yield temporary
         if target.exists():

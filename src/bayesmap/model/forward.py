@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bayesmap.errors import BadInput
+from bayesmap.errors import BadInput, check_count
 from bayesmap.sensor.model import RangeLimits, SensorModel
 from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans, as_angles, as_poses
+from bayesmap.world.scans import Scans, as_angles, as_poses, check_limits
 
 
 def ranges(
@@ -75,6 +75,8 @@ def simulate(
         BadInput: as `ranges`, and for a pose inside a wall.
     """
     many, angles = as_poses(poses), as_angles(angles_rad)
+    check_limits(min_range_m, max_range_m)
+    seed = check_count("simulate", "seed", seed, 0)
     solid = np.asarray(walls) != 0
     _check_walls(solid, grid)
     for scan, (x, y, _) in enumerate(many):

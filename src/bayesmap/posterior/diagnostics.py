@@ -12,12 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special, stats
+from scipy import special
 
 from bayesmap.posterior.packing import count_walls
 
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 4096
+RHAT_LIMIT = 1.05
+"""Above this, chains have not mixed."""
 
 
 def split_chains(values: Floats) -> Floats:
@@ -28,7 +30,8 @@ def split_chains(values: Floats) -> Floats:
 
 def rank_normalise(values: Floats) -> Floats:
     """Normal scores of the ranks over all chains, (C, D)."""
-    ranks = stats.rankdata(values, method="average").reshape(values.shape)
+    _, place, count = np.unique(values, return_inverse=True, return_counts=True)
+    ranks = (np.cumsum(count) - (count - 1) / 2)[place].reshape(values.shape)  # ties share their mean rank
     return np.asarray(special.ndtri((ranks - 0.375) / (values.size + 0.25)))
 
 
@@ -108,12 +111,14 @@ class CellDiagnostics:
         ess_min: smallest effective sample size of such a cell (for a 0/1 quantity bulk and tail are the same).
         unchanged: cells with the same value in every draw of every chain: they have no R-hat.
         disagreeing: cells constant in each chain, but not the same in all: chains that never met.
+        high: cells with an R-hat over `RHAT_LIMIT`, those that disagree included.
     """
 
     rhat_max: float
     ess_min: float
     unchanged: int
     disagreeing: int
+    high: int
 
 
 def diagnose_cells(
@@ -127,12 +132,14 @@ def diagnose_cells(
     draws = packed.shape[1]
     cells = shape[0] * shape[1]
     if draws == 0:
-        return CellDiagnostics(float("nan"), float("nan"), cells, 0)
+        return CellDiagnostics(float("nan"), float("nan"), cells, 0, 0)
     walls = np.stack([count_walls(chain, cells) for chain in packed])  # (chains, N)
     constant = ((walls == 0) | (walls == draws)).all(axis=0)
     unchanged = constant & (walls == walls[0]).all(axis=0)
     changed = np.nonzero(~constant if among is None else ~constant & among.ravel())[0]
     worst_rhat, least_ess = float("nan"), float("nan")
+    disagreeing = int((constant & ~unchanged).sum())
+    high = disagreeing
     if draws >= 4:
         for i in range(0, len(changed), CELLS_AT_ONCE):
             some = changed[i : i + CELLS_AT_ONCE]
@@ -140,6 +147,8 @@ def diagnose_cells(
             bits = np.unpackbits(columns, axis=-1)
             place = np.searchsorted(np.unique(some // 8), some // 8) * 8 + some % 8
             halves = split_chains(bits[:, :, place].astype(np.float64))
-            worst_rhat = float(np.fmax(worst_rhat, np.nanmax(plain_rhat(halves))))
+            rhats = plain_rhat(halves)
+            high += int((rhats > RHAT_LIMIT).sum())
+            worst_rhat = float(np.fmax(worst_rhat, np.nanmax(rhats)))
             least_ess = float(np.fmin(least_ess, np.nanmin(plain_ess(halves))))
-    return CellDiagnostics(worst_rhat, least_ess, int(unchanged.sum()), int((constant & ~unchanged).sum()))
+    return CellDiagnostics(worst_rhat, least_ess, int(unchanged.sum()), disagreeing, high)

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
+from bayesmap.posterior.diagnostics import RHAT_LIMIT, bulk_ess, diagnose_cells, rhat, tail_ess
 from bayesmap.posterior.posterior import Posterior
 
-RHAT_LIMIT = 1.05
 ESS_LIMIT = 100.0
 
 
@@ -26,6 +25,7 @@ class Summary:
         rhat_max, ess_min: worst over the observed cells that changed.
         unchanged_cells: cells with one value in all draws; they have no R-hat and are counted apart.
         disagreeing_cells: cells that never changed within a chain but differ between chains.
+        rhat_high_cells: observed cells with an R-hat over 1.05, those that disagree included.
         effective_sample_size: of the weights, for importance sampling.
         microseconds_per_sweep: of one chain on one core.
         finished: false if stopped early.
@@ -39,6 +39,7 @@ class Summary:
     ess_min: float
     unchanged_cells: int
     disagreeing_cells: int
+    rhat_high_cells: int
     effective_sample_size: float
     microseconds_per_sweep: float
     finished: bool
@@ -59,7 +60,8 @@ class Summary:
             if value > RHAT_LIMIT:
                 found.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}")
         if self.rhat_max > RHAT_LIMIT:
-            found.append(f"R-hat of some cell is {self.rhat_max:.3f}, over {RHAT_LIMIT}")
+            worst = f"the worst is {self.rhat_max:.3f}"
+            found.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
         if self.disagreeing_cells:
             found.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
         if self.ess_min < ESS_LIMIT:
@@ -89,6 +91,7 @@ def summarise(posterior: Posterior) -> Summary:
         ess_min=cells.ess_min if cells else nan,
         unchanged_cells=cells.unchanged if cells else 0,
         disagreeing_cells=cells.disagreeing if cells else 0,
+        rhat_high_cells=cells.high if cells else 0,
         effective_sample_size=float(1.0 / np.exp(2 * weights).sum()) if weights is not None else nan,
         microseconds_per_sweep=1e6 * posterior.seconds["sampling"] * threads / sweeps if markov and sweeps else nan,
         finished=posterior.finished,

@@ -12,7 +12,7 @@ from abc import abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special, stats
+from scipy import special
 
 from bayesmap.errors import BadInput
 from bayesmap.sensor.model import Floats, KernelParameters, RangeLimits, SensorModel
@@ -127,7 +127,7 @@ class StudentT(AdditiveNoise):
 
     def tail(self, standard: Floats) -> Floats:
         """P(T > x)."""
-        return np.asarray(stats.t.sf(standard, self.dof))
+        return np.asarray(special.stdtr(self.dof, -np.asarray(standard)))
 
     def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
         """Standard t draws."""

@@ -9,6 +9,7 @@ from bayesmap.viz.diagnostics import draw_log_joint, draw_running_mean, trace_fi
 from bayesmap.viz.figure import posterior_figure, write_figure
 from bayesmap.viz.maps import draw_deviation, draw_entropy, draw_probability, draw_sample
 from bayesmap.viz.overlays import draw_rays, draw_sensor, draw_truth_outline
+from bayesmap.viz.panel import panel_figure
 from bayesmap.viz.weights import draw_weights, weights_figure
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "draw_sensor",
     "draw_truth_outline",
     "draw_weights",
+    "panel_figure",
     "posterior_figure",
     "render_frames",
     "trace_figure",

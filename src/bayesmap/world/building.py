@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
+from bayesmap.errors import BadInput, check_count
 from bayesmap.world.floor_plan import Space, inner_wall_cells, lay_out
 from bayesmap.world.furniture import RoomFloor, furnish
 from bayesmap.world.grid import Grid
@@ -98,7 +98,7 @@ def building(
         raise BadInput(f"building: size_m must be at least {SMALLEST_M} metres, got {size_m!r}")
     if long / resolution * short / resolution > 50_000_000:
         raise BadInput(f"building: {size_m!r} metres at {resolution} m is too many cells; use a coarser one")
-    plan = _Construction(np.random.default_rng(seed), (long, short), resolution)
+    plan = _Construction(np.random.default_rng(check_count("building", "seed", seed, 0)), (long, short), resolution)
     plan.build(clutter)
     opacity = np.where(plan.glass, 1.0 - glass_pass, plan.opacity)
     walls, glass, spaces = plan.opacity > 0, plan.glass, plan.spaces

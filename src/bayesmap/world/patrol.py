@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
+from bayesmap.errors import BadInput, check_count
 from bayesmap.world.building import Building
 from bayesmap.world.clearance import lattice_stride, passage_m, wall_distance_m
 
@@ -42,7 +42,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float6
     if n_scans < 1:
         raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
     lattice = _Lattice(building)
-    stops = lattice.stops(np.random.default_rng(seed))
+    stops = lattice.stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
     path = _smooth(lattice.tour(stops), lattice)
     steps = np.hypot(*np.diff(path, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])

@@ -61,14 +61,7 @@ class Scans:
                 f"scans: ranges_m has shape {ranges.shape}, but {len(poses)} poses and {len(angles)} angles "
                 f"need ({len(poses)}, {len(angles)})"
             )
-        if not (math.isfinite(self.max_range_m) and self.max_range_m > 0):
-            raise BadInput(
-                f"scans: max_range_m must be a positive number of metres, got {self.max_range_m!r}"
-            )
-        if not (math.isfinite(self.min_range_m) and 0 <= self.min_range_m < self.max_range_m):
-            raise BadInput(
-                f"scans: min_range_m must lie in [0, {self.max_range_m:g} m), got {self.min_range_m!r}"
-            )
+        check_limits(self.min_range_m, self.max_range_m)
         object.__setattr__(self, "poses", poses)
         object.__setattr__(self, "angles_rad", angles)
         object.__setattr__(self, "ranges_m", ranges)
@@ -169,6 +162,18 @@ def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
         beam = int(np.nonzero(~np.isfinite(array))[0][0])
         raise BadInput(f"scans: angle of beam {beam} is not finite: {array[beam]}")
     return array
+
+
+def check_limits(min_range_m: float, max_range_m: float) -> None:
+    """The sensor's span must make sense.
+
+    Raises:
+        BadInput: a largest range that is not positive, or a smallest that is negative or not below it.
+    """
+    if not (math.isfinite(max_range_m) and max_range_m > 0):
+        raise BadInput(f"scans: max_range_m must be a positive number of metres, got {max_range_m!r}")
+    if not (math.isfinite(min_range_m) and 0 <= min_range_m < max_range_m):
+        raise BadInput(f"scans: min_range_m must lie in [0, {max_range_m:g}), got {min_range_m!r}")
 
 
 def _as_floats(values: ArrayLike, name: str) -> NDArray[np.float64]:

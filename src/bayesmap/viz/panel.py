@@ -1,0 +1,58 @@
+"""One panel as a picture of its own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.viz import maps
+from bayesmap.viz.overlays import draw_truth_outline
+from bayesmap.world.grid import Grid
+
+HEIGHT_IN, BAR_IN = 5.6, 1.3
+
+
+def panel_figure(
+    grid: Grid,
+    what: str,
+    values: NDArray[Any],
+    observed: ArrayLike | None = None,
+    *,
+    truth: ArrayLike | None = None,
+) -> Figure:
+    """A single map with its colour bar.
+
+    Args:
+        grid: the map's grid.
+        what: "mean" and "entropy" (values: probabilities of a wall), "deviation" (values: the same; drawn is the
+            standard deviation of a cell), or "draw" (values: walls).
+        values: shape (nx, ny).
+        observed: cells to draw; the others are hatched. All if None.
+        truth: true walls, (nx, ny), to be outlined.
+
+    Raises:
+        BadInput: shapes or values that do not fit.
+    """
+    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.3, 3.0)) + BAR_IN
+    dpi = max(160.0, 1.1 * max(grid.shape) / HEIGHT_IN)
+    figure = Figure(figsize=(width_in, HEIGHT_IN), dpi=dpi, layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots()
+    if what == "mean":
+        image, label = maps.draw_probability(axes, grid, values, observed), "probability of wall"
+    elif what == "entropy":
+        image, label = maps.draw_entropy(axes, grid, values, observed), "entropy [bits]"
+    elif what == "deviation":
+        spread = np.sqrt(values * (1.0 - values))
+        image, label = maps.draw_deviation(axes, grid, spread, observed), "standard deviation"
+    else:
+        image, label = maps.draw_sample(axes, grid, values, observed), ""
+    if label:
+        figure.colorbar(image, ax=axes, label=label, shrink=0.8)
+    if truth is not None:
+        draw_truth_outline(axes, grid, truth)
+    return figure
