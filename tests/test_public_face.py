@@ -1,0 +1,198 @@
+"""The names that users rely on (DESIGN section 5), and what they are told when their input cannot be used."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import bayesmap as bm
+
+WALLS, POSE = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 1]], dtype=bool), [0.5, 0.5, 0.3]
+GRID = bm.Grid((3, 3))
+ANGLES = np.linspace(0, 2 * np.pi, 8, endpoint=False)
+SENSOR, PRIOR = bm.Gaussian(0.2), bm.Independent(0.3)
+
+
+@pytest.fixture(scope="module")
+def scans():
+    return bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=6.0, seed=0)
+
+
+@pytest.fixture(scope="module")
+def run(scans):
+    return bm.infer(scans, GRID, prior=PRIOR, sensor=SENSOR, chains=2, warmup=20, draws=30)
+
+
+def test_every_public_name_is_there_and_listed():
+    for name in bm.__all__:
+        assert getattr(bm, name) is not None
+    assert {
+        "BadInput", "BeamMixture", "Gaussian", "Grid", "Independent", "Reading", "Run", "Scans", "SensorModel",
+        "StudentT", "infer", "load", "ranges", "read_log", "simulate", "worlds", "__version__",
+    } <= set(bm.__all__)  # fmt: skip
+    assert set(dir(bm)) >= set(bm.__all__)
+
+
+def test_what_is_not_public_is_not_there():
+    with pytest.raises(AttributeError, match="module 'bayesmap' has no attribute 'nonsense'"):
+        bm.nonsense  # noqa: B018
+
+
+def test_the_readme_s_lines_run(tmp_path):
+    """The code of DESIGN section 5, as it stands there, on the tutorial's map."""
+    walls, pose = bm.worlds.tutorial()
+    grid = bm.Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))
+    angles = np.linspace(0, 2 * np.pi, 100, endpoint=False)
+    exact = bm.ranges(walls, grid, pose, angles, 42.0)
+    assert exact.shape == (100,)
+    scans = bm.simulate(walls, grid, pose, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=0)
+    again = bm.Scans(
+        poses=scans.poses, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, max_range_m=scans.max_range_m
+    )
+    run = bm.infer(
+        again, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method="gibbs", order="radial", chains=4,
+        warmup=100, draws=1000, seed=0,
+    )  # fmt: skip
+    assert run.occupancy.shape == (21, 21)
+    assert run.draws.shape == (4, 1000, 21, 21)
+    assert run.log_joint.shape == (4, 1000)
+    assert run.summary().rhat_log_joint < 1.1
+    assert np.isfinite(run.log_score(scans))
+    run.save(tmp_path / "run.nc")
+    np.testing.assert_array_equal(bm.load(tmp_path / "run.nc").draws, run.draws)
+    assert bm.Grid.covering(scans, resolution=0.1).n_cells > 0
+
+
+def test_plots_and_exports(run, tmp_path):
+    os.environ.setdefault("MPLBACKEND", "agg")
+    figure = run.plot()
+    assert figure.axes
+    import matplotlib.pyplot as plt
+
+    plt.close(figure)
+    files = run.export(tmp_path / "map.yaml")
+    assert all(os.path.getsize(path) > 0 for path in files)
+
+
+def test_importance_has_weights_and_other_methods_say_that_they_have_none(scans, run):
+    weighted = bm.infer(scans, GRID, prior=PRIOR, sensor=SENSOR, method="importance", particles=500, draws=5)
+    assert np.exp(weighted.log_weights).sum() == pytest.approx(1.0)
+    with pytest.raises(bm.BadInput, match="method 'gibbs' has no importance weights"):
+        run.log_weights  # noqa: B018
+
+
+def infer(scans, **change):
+    return bm.infer(scans, **{"grid": GRID, "prior": PRIOR, "sensor": SENSOR, "draws": 2, "warmup": 0} | change)
+
+
+BAD = {
+    "no such method": ({"method": "gibs"}, "method must be one of exact, importance, .*, got 'gibs'"),
+    "no such order": ({"order": "spiral"}, "order must be one of raster, radial, random, got 'spiral'"),
+    "no such order of blocks": ({"method": "block", "order": "spiral"}, "order must be one of raster, radial, random"),
+    "no such start": ({"start": "there"}, "start must be one of prior, zeros, ones, propagate or a map, got 'there'"),
+    "a start of another shape": ({"start": np.zeros((2, 2))}, r"start has shape \(2, 2\), expected \(3, 3\)"),
+    "no chains": ({"chains": 0}, "chains must be a whole number of 1 or more, got 0"),
+    "half a chain": ({"chains": 1.5}, "chains must be a whole number"),
+    "true chains": ({"chains": True}, "chains must be a whole number"),
+    "negative warm-up": ({"warmup": -1}, "warmup must be a whole number of 0 or more, got -1"),
+    "endless draws": ({"draws": float("inf")}, "draws must be a whole number"),
+    "draws in words": ({"draws": "many"}, "draws must be a whole number"),
+    "no thinning": ({"thin": 0}, "thin must be a whole number of 1 or more, got 0"),
+    "negative threads": ({"threads": -1}, "threads must be"),
+    "half a thread": ({"threads": 1.5}, "threads must be"),
+    "a negative seed": ({"seed": -1}, "seed must be"),
+    "half a seed": ({"seed": 0.5}, "seed must be"),
+    "no particles": ({"method": "importance", "particles": 0}, "particles must be a whole number of 1 or more, got 0"),
+    "no rounds": ({"method": "propagate", "rounds": 0}, "rounds must be a whole number of 1 or more, got 0"),
+    "hits behind cells": ({"hit_depth": 1.5}, r"hit_depth must lie in \[0, 1\], got 1.5"),
+    "no such device": ({"device": "tpu:7"}, "'tpu:7' is not on this machine; there is: cpu"),
+    "a prior of another shape": (
+        {"prior": bm.Independent(np.full((2, 2), 0.5))}, r"p_wall has shape \(2, 2\), but the grid is \(3, 3\)",
+    ),
+    "too many cells to enumerate": (
+        {"method": "exact", "grid": bm.Grid((30, 30), 0.1)}, "cells are unknown, and enumeration takes at most 16",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", BAD)
+def test_arguments_that_make_no_sense_are_refused_with_place_and_remedy(scans, what):
+    change, message = BAD[what]
+    with pytest.raises(bm.BadInput, match=message):
+        infer(scans, **change)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: bm.Independent(1.5), r"p_wall must lie in \[0, 1\], got 1.5"),
+        (lambda: bm.Independent(np.nan), "p_wall must lie in"),
+        (lambda: bm.Independent(np.array([[0.5, -0.1]])), "p_wall must lie in .*got -0.1"),
+        (lambda: bm.Independent(np.array([0.5])), r"a number or an \(nx, ny\) array, got shape \(1,\)"),
+        (lambda: bm.ranges(WALLS[:2], GRID, POSE, ANGLES, 5.0), r"walls have shape \(2, 3\), but the grid is \(3, 3\)"),
+        (lambda: bm.ranges(WALLS, GRID, POSE, ANGLES, 0.0), "max_range_m must be a positive number of metres, got 0.0"),
+        (lambda: bm.ranges(WALLS, GRID, POSE, ANGLES, np.nan), "max_range_m must be a positive"),
+        (lambda: bm.ranges(WALLS, GRID, [0.5, 0.5], ANGLES, 5.0), r"poses has shape \(1, 2\), expected \(S, 3\)"),
+        (lambda: bm.ranges(WALLS, GRID, [0.5, np.nan, 0], ANGLES, 5.0), "pose of scan 0 is not finite"),
+        (lambda: bm.ranges(WALLS, GRID, POSE, [], 5.0), "at least one beam"),
+        (lambda: bm.ranges(WALLS, GRID, POSE, [0.0, np.inf], 5.0), "angle of beam 1 is not finite: inf"),
+        (
+            lambda: bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=np.inf),
+            "max_range_m must be a positive",
+        ),
+        (
+            lambda: bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=5.0, opacity=np.ones((2, 2))),
+            "opacity",
+        ),
+        (lambda: bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=5.0, seed=-1), "seed"),
+        (lambda: bm.load("nowhere.nc"), "nowhere.nc: no such file"),
+        (lambda: bm.read_log("nowhere.log"), "nowhere.log"),
+    ],
+)
+def test_bad_input_is_refused_before_anything_is_done(make, message):
+    with pytest.raises(bm.BadInput, match=message):
+        make()
+
+
+def test_bad_input_is_a_value_error():
+    """So that code which knows nothing of bayesmap can catch it."""
+    assert issubclass(bm.BadInput, ValueError)
+
+
+def test_numpy_s_numbers_are_numbers(scans):
+    """Seeds from np.arange and noise levels from np.linspace are what loops over settings hand in."""
+    plain = infer(scans, seed=3, chains=2, draws=4, prior=bm.Independent(0.25), sensor=bm.Gaussian(0.5))
+    numpy = infer(
+        scans, seed=np.int64(3), chains=np.int32(2), draws=np.int64(4), prior=bm.Independent(np.float32(0.25)),
+        sensor=bm.Gaussian(np.float32(0.5)), hit_depth=np.float32(0.0),
+    )  # fmt: skip
+    np.testing.assert_array_equal(numpy.draws, plain.draws)
+
+
+def test_walls_of_any_number_type_are_walls(scans):
+    expected = bm.ranges(WALLS, GRID, POSE, ANGLES, 5.0)
+    for dtype in (np.uint8, np.int64, np.float64):
+        np.testing.assert_array_equal(bm.ranges(WALLS.astype(dtype), GRID, POSE, ANGLES, 5.0), expected)
+
+
+def test_infer_does_not_touch_its_arguments(scans):
+    before = scans.ranges_m.copy(), scans.poses.copy()
+    p = np.full((3, 3), 0.3)
+    infer(scans, prior=bm.Independent(p), method="block", draws=20)
+    np.testing.assert_array_equal(scans.ranges_m, before[0])
+    np.testing.assert_array_equal(scans.poses, before[1])
+    assert (p == 0.3).all()
+
+
+def test_nothing_is_printed():
+    """Not by Warp either: standard output belongs to the user."""
+    code = (
+        "import numpy as np, bayesmap as bm\n"
+        "w, p = bm.worlds.tutorial()\n"
+        "bm.ranges(w, bm.worlds.TUTORIAL_GRID, p, [0.0], 5.0)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == ""
+    assert done.stderr == ""
