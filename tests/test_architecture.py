@@ -27,6 +27,7 @@ LEVELS = (
     {"assembly"},  # the half of `api` that turns results into runs
     {"api"},
     {"app", "cli"},
+    {"__main__"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
 

@@ -127,23 +127,29 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
-            if attributes.get("format") != FORMAT:
-                raise BadInput(f"{path}: a netCDF file, but not a saved run of bayesmap's")
-            if int(attributes["format_version"]) > FORMAT_VERSION:
-                raise BadInput(
-                    f"{path}: saved by bayesmap {attributes.get('inference_library_version')}, in a newer format "
-                    f"({attributes['format_version']}) than this version reads ({FORMAT_VERSION}); update bayesmap"
-                )
-            header = json.loads(attributes["bayesmap"])
-            posterior = _read(file, header)
-            whole = _checksum(posterior, header) == attributes["checksum"]
-    except (OSError, RuntimeError, KeyError, IndexError, ValueError, AttributeError) as error:
-        if isinstance(error, BadInput):
-            raise
-        raise BadInput(f"{path}: not a readable saved run (damaged or truncated?): {error}") from None
+            stranger = _stranger(attributes)
+            if stranger is None:
+                header = json.loads(attributes["bayesmap"])
+                posterior = _read(file, header)
+                whole = _checksum(posterior, header) == attributes["checksum"]
+    except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
+        raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error})") from None
+    if stranger is not None:
+        raise BadInput(f"{path}: {stranger}")
     if not whole:
         raise BadInput(f"{path}: the saved run is damaged (its checksum does not match); use a backup or run again")
     return posterior
+
+
+def _stranger(attributes: dict[str, Any]) -> str | None:
+    """Why a sound netCDF file is not one that we can read, or None."""
+    if attributes.get("format") != FORMAT:
+        return "a netCDF file, but not a saved run of bayesmap's"
+    version = int(attributes["format_version"])
+    if version <= FORMAT_VERSION:
+        return None
+    by = attributes.get("inference_library_version")
+    return f"saved by bayesmap {by} in format {version}, newer than this version's {FORMAT_VERSION}; update bayesmap"
 
 
 def _read(file: Any, header: dict[str, Any]) -> Posterior:
