@@ -1,11 +1,45 @@
-"""Generative functions on JAX: traces, choice maps, combinators, edits, inference on traces."""
+"""Generative functions on JAX: traces, choice maps, combinators, edits, inference on traces.
+
+The interface is that of GenJAX 0.10; `docs/coming-from-genjax.md` lists what differs.
+"""
 
 from bayesmap.gen.choice_map import ChoiceMap, ChoiceMapBuilder
+from bayesmap.gen.closure import Closure
 from bayesmap.gen.densities import *  # noqa: F403
-from bayesmap.gen.diff import Diff
-from bayesmap.gen.generative_function import EmptyRequest, IndexRequest, Regenerate, StaticRequest, Trace, Update
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
+from bayesmap.gen.dimap import contramap, dimap, map
+from bayesmap.gen.distribution import ExactDensity, exact_density
+from bayesmap.gen.errors import (
+    AddressError,
+    AddressReuse,
+    ChoiceMapNoValueAtAddress,
+    MissingAddress,
+    NotSupportedEditRequest,
+    OutsideSupport,
+    ShapeMismatch,
+    UnknownAddress,
+)
+from bayesmap.gen.generative_function import (
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    IndexRequest,
+    Regenerate,
+    StaticRequest,
+    Trace,
+    Update,
+    VectorRequest,
+)
+from bayesmap.gen.marginal import marginal
+from bayesmap.gen.mask import Mask
+from bayesmap.gen.masking import mask
+from bayesmap.gen.mcmc import Chain, effective_sample_size, metropolis_hastings, run_chain, split_rhat
+from bayesmap.gen.moves import HMC, Rejuvenate, mala
+from bayesmap.gen.pretty import pretty, render
+from bayesmap.gen.pytree import Const, Pytree
+from bayesmap.gen.scan import accumulate, iterate, iterate_final, reduce, scan
 from bayesmap.gen.selection import Selection, SelectionBuilder
+from bayesmap.gen.smc import Importance, ImportanceK, ParticleCollection, Target, particle_filter
 from bayesmap.gen.static import gen
+from bayesmap.gen.switch import mix, or_else, switch
 from bayesmap.gen.vmap import repeat, vmap
-def pretty(): pass

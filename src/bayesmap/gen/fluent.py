@@ -99,8 +99,8 @@ class Fluent:
 
         return contramap(f)(self)
 
-    def marginal(self, /, *, selection: Any = None, algorithm: Any = None) -> Any:
+    def marginal(self, /, *, selection: Any = None, particles: int = 1) -> Any:
         """See `bayesmap.gen.marginal`."""
         from bayesmap.gen import marginal
 
-        return marginal(selection=selection, algorithm=algorithm)(self)
+        return marginal(selection=selection, particles=particles)(self)
