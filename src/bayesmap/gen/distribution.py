@@ -150,7 +150,8 @@ class ExactDensity(GenerativeFunction):
         if jnp.shape(value) != expected.shape:
             raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {expected.shape}")
         value = jnp.asarray(value)
-        cast = value.astype(expected.dtype)
+        # A copy, so that no two sites share one array: traces tell values apart by identity.
+        cast = jnp.array(value, expected.dtype, copy=True)
         if jnp.issubdtype(expected.dtype, jnp.floating) or value.dtype == jnp.bool_:
             return cast, given, 0.0
         possible = jnp.logical_and(cast == value, self.in_support(cast))

@@ -22,6 +22,7 @@ from typing import Any, Self
 import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.chunked import in_chunks
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import AddressError
 from bayesmap.gen.fluent import Fluent
@@ -135,8 +136,8 @@ class GenerativeFunction(Fluent, Pytree):
         raise TypeError(f"{type(self).__name__} takes no keyword arguments; it was given {', '.join(names)}")
 
     def importance(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        """The same as `generate`."""
-        return self.generate(key, constraint, args)
+        """The same as `generate`, but a large batch of it under `jax.vmap` runs in chunks: see `in_chunks`."""
+        return in_chunks(self.generate, key, constraint, args)  # type: ignore[no-any-return]
 
     def propose(self, key: PRNGKey, args: Arguments) -> tuple[ChoiceMap, Score, Any]:
         """Simulate, and return (choices, score, return value)."""

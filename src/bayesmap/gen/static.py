@@ -31,12 +31,30 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
 @Pytree.dataclass
 class StaticTrace(Trace):
-    """The calls of one run by address."""
+    """The calls of one run by address.
+
+    The return value's leaves that some call returned are found there: (address, number of the leaf). `computed`
+    holds the others.
+    """
 
     gen_fn: Any
     args: Any
-    retval: Any
     subtraces: dict[StaticAddress, Trace]
+    computed: list[Any]
+    retval_tree: Any = Pytree.static()
+    sources: tuple[tuple[StaticAddress, int] | None, ...] = Pytree.static()
+
+    @staticmethod
+    def build(gen_fn: Any, args: Any, retval: Any, subtraces: dict[StaticAddress, Trace]) -> "StaticTrace":
+        """Record a run; `subtraces` are in the order of the calls."""
+        origin: dict[int, tuple[StaticAddress, int]] = {}
+        for path, trace in subtraces.items():
+            for k, leaf in enumerate(jax.tree.leaves(trace.get_retval())):
+                origin.setdefault(id(leaf), (path, k))
+        leaves, tree = jax.tree.flatten(retval)
+        sources = tuple(origin.get(id(leaf)) if isinstance(leaf, jax.Array) else None for leaf in leaves)
+        computed = [leaf for leaf, source in zip(leaves, sources, strict=True) if source is None]
+        return StaticTrace(gen_fn, args, subtraces, computed, tree, sources)
 
     def get_gen_fn(self) -> Any:
         return self.gen_fn
@@ -45,7 +63,10 @@ class StaticTrace(Trace):
         return self.args  # type: ignore[no-any-return]
 
     def get_retval(self) -> Any:
-        return self.retval
+        computed = iter(self.computed)
+        returned = {path: jax.tree.leaves(t.get_retval()) for path, t in self.subtraces.items()}
+        leaves = [next(computed) if s is None else returned[s[0]][s[1]] for s in self.sources]
+        return self.retval_tree.unflatten(leaves)
 
     def get_score(self) -> Score:
         return sum((t.get_score() for t in self.subtraces.values()), start=jnp.zeros(()))
@@ -88,7 +109,7 @@ class _Run(Handler):
             raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
         with running(self):
             retval = gen_fn.call(args)
-        return StaticTrace(gen_fn, args, retval, self.traces)
+        return StaticTrace.build(gen_fn, args, retval, self.traces)
 
     def next_key(self) -> PRNGKey:
         return jax.random.fold_in(self.key, len(self.visited))
@@ -306,7 +327,7 @@ class StaticGenerativeFunction(GenerativeFunction):
                 raise NotSupportedEditRequest(self, request)
         handler = _Edit(key, trace, part, argdiffs)
         new = handler.run(self, Diff.tree_primal(argdiffs))
-        return new, handler.weight, handler.mark(new.retval), _undo(request, handler.backward)
+        return new, handler.weight, handler.mark(new.get_retval()), _undo(request, handler.backward)
 
 
 def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
