@@ -4,6 +4,7 @@ An address is a name, an index, or a tuple of them. Below a vectorised model the
 whole arrays, so `chm["v"]` is `chm[:, "v"]` and `chm[0, "v"]` its first element. Names select submaps;
 an index selects from the leading axis of everything below it.
 """
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import reduce
@@ -14,7 +15,7 @@ import jax.numpy as jnp
 
 from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, show
 from bayesmap.gen.mask import Mask, is_concrete, where
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 
 _is_mask: Callable[[Any], bool] = lambda leaf: isinstance(leaf, Mask)  # noqa: E731
@@ -169,7 +170,7 @@ class ChoiceMap(Pytree):
         return maps[index] if isinstance(index, int) else Switch(index, tuple(maps))
 
 
-@Pytree.dataclass
+@dataclass
 class Choice(ChoiceMap):
     """A bare value: an array, or a Mask of one."""
 
@@ -190,7 +191,7 @@ class Choice(ChoiceMap):
         yield ()
 
 
-@Pytree.dataclass
+@dataclass
 class Static(ChoiceMap):
     """Submaps by name."""
 
@@ -220,7 +221,7 @@ class Static(ChoiceMap):
         return not self.mapping
 
 
-@Pytree.dataclass
+@dataclass
 class Indexed(ChoiceMap):
     """A map for one element, `index` a scalar; or for several, `index` (k,) and every value (k, ...)."""
 
@@ -246,7 +247,7 @@ class Indexed(ChoiceMap):
         yield from ((self.index, *path) for path in self.inner.paths())
 
 
-@Pytree.dataclass
+@dataclass
 class Or(ChoiceMap):
     """Both maps, the left one first: what `|` gives when it cannot be worked out at once."""
 
@@ -264,7 +265,7 @@ class Or(ChoiceMap):
         yield from self.right.paths()
 
 
-@Pytree.dataclass
+@dataclass
 class Switch(ChoiceMap):
     """The map numbered by the integer array `index`, the others masked out."""
 
@@ -281,7 +282,9 @@ class Switch(ChoiceMap):
         return reduce(lambda a, b: a | b, present) if present else None
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
-        index = self.index if isinstance(component, str) or jnp.ndim(self.index) == 0 else self.index[component]
+        index = (
+            self.index if isinstance(component, str) or jnp.ndim(self.index) == 0 else self.index[component]
+        )
         maps = tuple(chm.get_inner_map(component) for chm in self.maps)
         return Static({}) if all(chm.static_is_empty() for chm in maps) else Switch(index, maps)
 
@@ -346,7 +349,10 @@ class _Builder:
         new = ChoiceMap.entry(value, *self._address)
         if self._base is None:
             return new
-        old, value = self._base.get_submap(self._address).get_value(), new.get_submap(self._address).get_value()
+        old, value = (
+            self._base.get_submap(self._address).get_value(),
+            new.get_submap(self._address).get_value(),
+        )
         if old is not None and value is not None and jnp.shape(old) != jnp.shape(value):
             raise ShapeMismatch(self._address, f"found {jnp.shape(value)}, expected {jnp.shape(old)}")
         return new | self._base

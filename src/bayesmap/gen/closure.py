@@ -1,4 +1,5 @@
 """A generative function together with its first arguments."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from typing import Any
 
@@ -6,12 +7,12 @@ from bayesmap.gen import handler
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Trace
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class Closure(GenerativeFunction):
     """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments.
 

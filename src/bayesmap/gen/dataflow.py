@@ -11,8 +11,40 @@ from bayesmap.gen.diff import Change, IndexChange, NoChange, UnknownChange
 
 # Element i of the result depends on element i of the operands alone.
 _ELEMENTWISE = frozenset(
-    "add sub mul div neg not and or xor gt ge lt le eq ne max min abs sign exp log floor ceil round select_n "
-    "convert_element_type copy copy_p integer_pow sqrt tanh logistic".split()
+    [
+        "add",
+        "sub",
+        "mul",
+        "div",
+        "neg",
+        "not",
+        "and",
+        "or",
+        "xor",
+        "gt",
+        "ge",
+        "lt",
+        "le",
+        "eq",
+        "ne",
+        "max",
+        "min",
+        "abs",
+        "sign",
+        "exp",
+        "log",
+        "floor",
+        "ceil",
+        "round",
+        "select_n",
+        "convert_element_type",
+        "copy",
+        "copy_p",
+        "integer_pow",
+        "sqrt",
+        "tanh",
+        "logistic",
+    ]
 )
 
 
@@ -59,7 +91,9 @@ def dataflow(fn: Callable[..., Any], *inputs: Any) -> Dataflow | None:
         images = frozenset[int]()
         if eqn.primitive.name in _ELEMENTWISE:
             images = frozenset(
-                k for k in sources if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
+                k
+                for k in sources
+                if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
             )
         for out in eqn.outvars:
             origins[out] = _Origin(sources, images)

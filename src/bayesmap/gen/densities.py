@@ -3,6 +3,7 @@
 A family gives its parameters in the form that the two functions below them use, how to draw `shape`
 independent values, and the log density elementwise.
 """
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import warnings
 from collections.abc import Callable
@@ -16,7 +17,7 @@ from jax.nn import log_sigmoid, log_softmax
 from jax.scipy.special import gammaln, xlog1py, xlogy
 
 from bayesmap.gen.distribution import ExactDensity
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.typing import PRNGKey
 
 Params = tuple[Any, ...]
@@ -32,12 +33,12 @@ class Family(NamedTuple):
     batch: Callable[..., tuple[int, ...]] = lambda *params: jnp.broadcast_shapes(*map(jnp.shape, params))
 
 
-@Pytree.dataclass
+@dataclass
 class Named(ExactDensity):
     """One of the families below; with `keywords`, its last arguments go by these names."""
 
-    name: str = Pytree.static()
-    keywords: tuple[str, ...] = Pytree.static(default=())
+    name: str = static()
+    keywords: tuple[str, ...] = static(default=())
 
     def _parameters(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Params:
         split = len(args) - len(self.keywords)

@@ -9,24 +9,24 @@ from typing import Any
 
 import jax
 
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass
 
 
 class Change(Pytree):
     """What is known of a change."""
 
 
-@Pytree.dataclass
+@dataclass
 class _NoChange(Change):
     """The value is the old one."""
 
 
-@Pytree.dataclass
+@dataclass
 class _UnknownChange(Change):
     """Nothing is known."""
 
 
-@Pytree.dataclass
+@dataclass
 class IndexChange(Change):
     """Only the elements `value[index]` may differ; `index` holds ints or scalar integer arrays."""
 
@@ -41,7 +41,7 @@ def _is_diff(value: Any) -> bool:
     return isinstance(value, Diff)
 
 
-@Pytree.dataclass
+@dataclass
 class Diff(Pytree):
     """A leaf value `primal` (the new one) and its `tangent`."""
 

@@ -1,19 +1,20 @@
 """A generative function with its arguments or its return value transformed."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dataflow import dataflow
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Trace
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class DimapTrace(Trace):
     """The inner trace, the outer arguments and return value."""
 
@@ -21,15 +22,6 @@ class DimapTrace(Trace):
     args: Any
     inner: Trace
     retval: Any
-
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
-    def get_retval(self) -> Any:
-        return self.retval
 
     def get_score(self) -> Score:
         return self.inner.get_score()
@@ -39,9 +31,6 @@ class DimapTrace(Trace):
 
     def get_inner_trace(self, address: Any) -> Trace:
         return self.inner.get_inner_trace(address)
-
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
 
 def _changes(fn: Callable[..., Any], *inputs: Any) -> Any:
@@ -54,18 +43,20 @@ def _changes(fn: Callable[..., Any], *inputs: Any) -> Any:
     return Diff.zip(value, [flow.change(k, tangents) for k in range(len(flow.outputs))])
 
 
-@Pytree.dataclass
+@dataclass
 class Dimap(GenerativeFunction):
     """See `dimap`."""
 
     inner: GenerativeFunction
-    pre: Callable[..., Any] = Pytree.static()
-    post: Callable[..., Any] = Pytree.static()
+    pre: Callable[..., Any] = static()
+    post: Callable[..., Any] = static()
 
     def _inner_args(self, *args: Any) -> tuple[Any, ...]:
         inner_args = self.pre(*args)
         if not isinstance(inner_args, tuple):
-            raise TypeError(f"the function of the arguments must return a tuple, not {type(inner_args).__name__}")
+            raise TypeError(
+                f"the function of the arguments must return a tuple, not {type(inner_args).__name__}"
+            )
         return inner_args
 
     def _trace(self, args: Arguments, inner_args: Arguments, inner: Trace) -> DimapTrace:
@@ -105,7 +96,7 @@ def _same_retval(args: Any, inner_args: Any, retval: Any) -> Any:
     return retval
 
 
-@dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True)
 class _OfRetval:
     """`f` of the return value alone; equal for equal `f`, so that traces stay comparable."""
 

@@ -1,4 +1,5 @@
 """Distributions with a known density, as generative functions with one choice at the empty address."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -10,14 +11,21 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dense import dense
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
-from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Regenerate, Trace, Update
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    GenerativeFunction,
+    Regenerate,
+    Trace,
+    Update,
+)
 from bayesmap.gen.mask import Mask, is_concrete, where
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class DistributionTrace(Trace):
     """One draw and its log density."""
 
@@ -26,23 +34,11 @@ class DistributionTrace(Trace):
     value: Any
     score: Score
 
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
     def get_retval(self) -> Any:
         return self.value
 
-    def get_score(self) -> Score:
-        return self.score
-
     def get_choices(self) -> ChoiceMap:
         return ChoiceMap.choice(self.value)
-
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
 
 class ExactDensity(GenerativeFunction):
@@ -89,7 +85,9 @@ class ExactDensity(GenerativeFunction):
         if given is None:
             return self.score(value, args) + penalty, value
         if is_concrete(given) and not bool(jnp.all(given)):
-            raise MissingAddress((), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}")
+            raise MissingAddress(
+                (), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}"
+            )
         return jnp.where(jnp.all(given), self.score(value, args) + penalty, jnp.nan), value
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
@@ -165,13 +163,13 @@ class ExactDensity(GenerativeFunction):
         return cast, given, 0.0
 
 
-@Pytree.dataclass
+@dataclass
 class CustomDensity(ExactDensity):
     """The distribution of a pair of functions; made by `exact_density`."""
 
-    sampler: Callable[..., Any] = Pytree.static()
-    log_density: Callable[..., Any] = Pytree.static()
-    name: str = Pytree.static()
+    sampler: Callable[..., Any] = static()
+    log_density: Callable[..., Any] = static()
+    name: str = static()
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
         return self.sampler(key, *args, **kwargs)

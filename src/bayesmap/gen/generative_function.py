@@ -26,7 +26,7 @@ from bayesmap.gen.chunked import in_chunks
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import AddressError
 from bayesmap.gen.fluent import Fluent
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -38,24 +38,28 @@ class Trace(Pytree):
     """A record of one run: arguments, choices, return value, score.
 
     Fields hold arrays, so a batch of traces (from `jax.vmap`) is a trace whose every leaf has a leading
-    axis, and the methods below then answer for the whole batch.
+    axis, and the methods below then answer for the whole batch. A subclass has the fields `gen_fn` and
+    `args`, and either fields `retval` and `score` or methods `get_retval` and `get_score`.
     """
+
+    gen_fn: Any
+    args: Any
 
     def get_gen_fn(self) -> "GenerativeFunction":
         """The generative function that made the trace."""
-        raise NotImplementedError
+        return self.gen_fn  # type: ignore[no-any-return]
 
     def get_args(self) -> Arguments:
         """The arguments that it was run on."""
-        raise NotImplementedError
+        return self.args  # type: ignore[no-any-return]
 
     def get_retval(self) -> Any:
         """Its return value."""
-        raise NotImplementedError
+        return self.retval  # type: ignore[attr-defined]
 
     def get_score(self) -> Score:
         """The log density of all choices."""
-        raise NotImplementedError
+        return self.score  # type: ignore[attr-defined, no-any-return]
 
     def get_choices(self) -> ChoiceMap:
         """The choices by address."""
@@ -76,10 +80,10 @@ class Trace(Pytree):
         """The same trace holding other arguments.
 
         A combinator stores the traces of its parts `with_args(None)`: it can work their arguments out, and a
-        batch of traces then holds an argument that all parts share once. A trace that needs its
-        arguments for its own edits need not override this.
+        batch of traces then holds an argument that all parts share once. Override it in a trace whose own
+        edits need the old arguments.
         """
-        return self
+        return self.replace(args=args)
 
     def edit(self, key: PRNGKey, request: "EditRequest", argdiffs: Any = None) -> Edited:
         """Carry out a request; `argdiffs` None means that the arguments stay the same.
@@ -88,10 +92,14 @@ class Trace(Pytree):
             (new trace, weight, retdiff, backward request)
         """
         if not isinstance(request, EditRequest):
-            raise TypeError(f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}")
+            raise TypeError(
+                f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}"
+            )
         return request.edit(key, self, Diff.no_change(self.get_args()) if argdiffs is None else argdiffs)
 
-    def update(self, key: PRNGKey, constraint: ChoiceMap, argdiffs: Any = None) -> tuple[Self, Weight, Any, ChoiceMap]:
+    def update(
+        self, key: PRNGKey, constraint: ChoiceMap, argdiffs: Any = None
+    ) -> tuple[Self, Weight, Any, ChoiceMap]:
         """Change the choices in `constraint`: (new trace, weight, retdiff, the choices replaced)."""
         trace, weight, retdiff, backward = self.edit(key, Update(constraint), argdiffs)
         if not isinstance(backward, Update):
@@ -144,7 +152,9 @@ class GenerativeFunction(Fluent, Pytree):
         trace = self.simulate(key, args)
         return trace.get_choices(), trace.get_score(), trace.get_retval()
 
-    def update(self, key: PRNGKey, trace: Trace, constraint: ChoiceMap, argdiffs: Any) -> tuple[Any, Weight, Any, Any]:
+    def update(
+        self, key: PRNGKey, trace: Trace, constraint: ChoiceMap, argdiffs: Any
+    ) -> tuple[Any, Weight, Any, Any]:
         """The same as `trace.update(key, constraint, argdiffs)`."""
         return trace.update(key, constraint, argdiffs)
 
@@ -157,14 +167,14 @@ class EditRequest(Pytree):
         return trace.get_gen_fn().edit(key, trace, self, argdiffs)
 
 
-@Pytree.dataclass
+@dataclass
 class Update(EditRequest):
     """Give the choices in `constraint` new values, keep the rest. Weight: new score - old score."""
 
     constraint: ChoiceMap
 
 
-@Pytree.dataclass
+@dataclass
 class EmptyRequest(EditRequest):
     """Keep all choices. Weight: 0 if no argument changed, else new score - old score."""
 
@@ -174,7 +184,7 @@ class EmptyRequest(EditRequest):
         return Update(ChoiceMap.empty()).edit(key, trace, argdiffs)
 
 
-@Pytree.dataclass
+@dataclass
 class Regenerate(EditRequest):
     """Draw the selected choices afresh from the model, keep the rest.
 
@@ -185,7 +195,7 @@ class Regenerate(EditRequest):
     selection: Selection
 
 
-@Pytree.dataclass
+@dataclass
 class StaticRequest(EditRequest):
     """One request per address of a `@gen` function; addresses left out keep their choices."""
 
@@ -196,7 +206,7 @@ class StaticRequest(EditRequest):
         object.__setattr__(self, "addressed", paths)
 
 
-@Pytree.dataclass
+@dataclass
 class IndexRequest(EditRequest):
     """A request for the element `idx`, an int or a scalar integer array, of a vectorised model."""
 
@@ -204,7 +214,7 @@ class IndexRequest(EditRequest):
     request: EditRequest
 
 
-@Pytree.dataclass
+@dataclass
 class VectorRequest(EditRequest):
     """One request for every element of a vectorised model: the leaves of `request` have a leading axis."""
 

@@ -49,7 +49,8 @@ class Handler:
                 raise AddressReuse(path, f"there is one at {other}")
         if get_opaque_trace_state(convention="flax") != self.trace_state:
             raise AddressError(
-                path, "the site is inside a jax transformation within the body; use the vmap, scan or or_else combinator"
+                path,
+                "the site is inside a jax transformation within the body; use the vmap, scan or or_else combinator",
             )
         self.visited.append(path)
 
@@ -59,7 +60,9 @@ def visit(address: Any, gen_fn: Any, args: tuple[Any, ...]) -> Any:
     stack = getattr(_local, "stack", [])
     path = as_path(address)
     if not stack:
-        raise AddressError(path, "`@` is for the body of a @gen function; call the closure with a key instead")
+        raise AddressError(
+            path, "`@` is for the body of a @gen function; call the closure with a key instead"
+        )
     stack[-1].enter(path)
     return stack[-1].visit(path, gen_fn, args)
 

@@ -1,4 +1,5 @@
 """A generative function that shows only some of its choices."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -10,13 +11,20 @@ from jax.scipy.special import logsumexp
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Regenerate, Trace, Update
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    GenerativeFunction,
+    Regenerate,
+    Trace,
+    Update,
+)
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class MarginalTrace(Trace):
     """The choices that are shown, and an estimate of their marginal density."""
 
@@ -26,32 +34,17 @@ class MarginalTrace(Trace):
     retval: Any
     score: Score
 
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
-    def get_retval(self) -> Any:
-        return self.retval
-
-    def get_score(self) -> Score:
-        return self.score
-
     def get_choices(self) -> ChoiceMap:
         return self.choices
 
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
-
-@Pytree.dataclass
+@dataclass
 class Marginal(GenerativeFunction):
     """See `marginal`."""
 
     inner: GenerativeFunction
     selection: Selection
-    particles: int = Pytree.static(default=1)
+    particles: int = static(default=1)
 
     def _estimate(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
         """`n` runs that agree with `shown`, and their weights."""
@@ -77,13 +70,17 @@ class Marginal(GenerativeFunction):
         shown = trace.get_choices().filter(self.selection)
         missing = shown.filter(~constraint.get_selection())
         if not missing.static_is_empty():
-            raise NotImplementedError(f"a marginal needs all its choices or none; missing: {list(missing.paths())}")
+            raise NotImplementedError(
+                f"a marginal needs all its choices or none; missing: {list(missing.paths())}"
+            )
         score = logsumexp(weights) - jnp.log(self.particles)
         return MarginalTrace(self, args, shown, trace.get_retval(), score), score
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         trace, score = self.generate(jax.random.key(0), choices, args)
-        hidden = jax.eval_shape(self.inner.simulate, jax.random.key(0), args).get_choices().filter(~self.selection)
+        hidden = (
+            jax.eval_shape(self.inner.simulate, jax.random.key(0), args).get_choices().filter(~self.selection)
+        )
         if not hidden.static_is_empty():
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
         return score, trace.get_retval()

@@ -5,7 +5,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.typing import Flag
 
 
@@ -24,7 +24,7 @@ def where(flag: Any, yes: Any, no: Any) -> Any:
     return jax.tree.map(pick, yes, no)
 
 
-@Pytree.dataclass
+@dataclass
 class Mask(Pytree):
     """`value` where `flag` holds, nothing elsewhere; the flag's shape is a prefix of every leaf's shape."""
 

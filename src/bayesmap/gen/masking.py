@@ -1,4 +1,5 @@
 """A generative function that may be switched off at run time."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from typing import Any
 
@@ -17,12 +18,12 @@ from bayesmap.gen.generative_function import (
     Update,
 )
 from bayesmap.gen.mask import Mask
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class MaskTrace(Trace):
     """The inner trace, whose choices and score count where `flag` holds."""
 
@@ -30,12 +31,6 @@ class MaskTrace(Trace):
     args: Any
     inner: Trace
     flag: Any
-
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
 
     def get_retval(self) -> Mask:
         return Mask.build(self.inner.get_retval(), self.flag)
@@ -49,11 +44,8 @@ class MaskTrace(Trace):
     def get_inner_trace(self, address: Any) -> Trace:
         return self.inner.get_inner_trace(address)
 
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
-
-@Pytree.dataclass
+@dataclass
 class MaskCombinator(GenerativeFunction):
     """See `mask`."""
 

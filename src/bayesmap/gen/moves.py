@@ -1,4 +1,5 @@
 """Edit requests that propose: their weight is the log Metropolis-Hastings ratio of the move."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -9,13 +10,20 @@ import jax.numpy as jnp
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import show
-from bayesmap.gen.generative_function import Edited, EditRequest, EmptyRequest, GenerativeFunction, Trace, Update
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    Trace,
+    Update,
+)
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import PRNGKey
 
 
-@Pytree.dataclass
+@dataclass
 class Rejuvenate(EditRequest):
     """Propose new values from a generative function whose choices have the model's addresses.
 
@@ -24,7 +32,7 @@ class Rejuvenate(EditRequest):
     """
 
     proposal: GenerativeFunction
-    argument_mapping: Callable[[ChoiceMap], Any] = Pytree.static()
+    argument_mapping: Callable[[ChoiceMap], Any] = static()
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
         propose_key, edit_key = jax.random.split(key)
@@ -35,7 +43,7 @@ class Rejuvenate(EditRequest):
         return new, weight + backward - forward, retdiff, self
 
 
-@Pytree.dataclass
+@dataclass
 class HMC(EditRequest):
     """Hamiltonian Monte Carlo on the selected choices, all of them real: `L` leapfrog steps of size `eps`.
 
@@ -45,7 +53,7 @@ class HMC(EditRequest):
 
     selection: Selection
     eps: Any
-    L: int = Pytree.static(default=10)
+    L: int = static(default=10)
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
         momentum_key, edit_key = jax.random.split(key)
@@ -54,7 +62,9 @@ class HMC(EditRequest):
         start = choices.filter(self.selection)
         for path in start.paths():
             if not jnp.issubdtype(jnp.result_type(start[path]), jnp.floating):
-                raise TypeError(f"HMC moves real choices; {show(path)} has dtype {jnp.result_type(start[path])}")
+                raise TypeError(
+                    f"HMC moves real choices; {show(path)} has dtype {jnp.result_type(start[path])}"
+                )
 
         def log_density(values: ChoiceMap) -> Any:
             return current.get_gen_fn().assess(values | choices, args)[0]

@@ -2,6 +2,7 @@
 
 So `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one score, whatever the nesting.
 """
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from typing import Any
 
@@ -14,17 +15,17 @@ from bayesmap.gen.dense import check_index
 from bayesmap.gen.diff import Diff, IndexChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
 from bayesmap.gen.generative_function import Edited, EditRequest, EmptyRequest, IndexRequest, Update
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score
 
 
-@Pytree.dataclass
+@dataclass
 class Product(ExactDensity):
     """`inner` drawn once per element of the mapped arguments, element i with the i-th of `split(key, n)`."""
 
     inner: ExactDensity
-    in_axes: InAxes = Pytree.static()
-    n: int | None = Pytree.static()
+    in_axes: InAxes = static()
+    n: int | None = static()
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)

@@ -6,44 +6,31 @@ decorated by `penzai.pz.pytree_dataclass` may inherit from it too.
 """
 
 import dataclasses
-from collections.abc import Callable, Iterable
-from typing import Any, Generic, Self, TypeVar, dataclass_transform, overload
+from collections.abc import Iterable
+from typing import Any, Generic, Self, TypeVar, dataclass_transform
 
 import jax
 
 T = TypeVar("T")
 
 
+def static(**options: Any) -> Any:
+    """A field that belongs to the tree's definition: hashable, never traced."""
+    return dataclasses.field(metadata={"pytree_node": False}, **options)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field, static))
+def dataclass(cls: type[T]) -> type[T]:
+    """Make a subclass of `Pytree` a frozen dataclass, and register it with JAX."""
+    frozen = dataclasses.dataclass(frozen=True)(cls)
+    return jax.tree_util.register_pytree_with_keys_class(frozen)
+
+
 class Pytree:
     """Base of pytree dataclasses: decorate a subclass with `@Pytree.dataclass`."""
 
-    @overload
-    @staticmethod
-    def dataclass(cls: type[T], /) -> type[T]: ...
-    @overload
-    @staticmethod
-    def dataclass(cls: None = None, /, **options: Any) -> Callable[[type[T]], type[T]]: ...
-
-    @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
-    @staticmethod
-    def dataclass(cls: Any = None, /, **options: Any) -> Any:
-        """Make `cls` a frozen dataclass and register it with JAX.
-
-        Args:
-            cls: a subclass of `Pytree`.
-            **options: passed on to `dataclasses.dataclass`.
-        """
-
-        def decorate(cls: type[T]) -> type[T]:
-            frozen = dataclasses.dataclass(frozen=True, **options)(cls)
-            return jax.tree_util.register_pytree_with_keys_class(frozen)  # type: ignore[type-var]
-
-        return decorate if cls is None else decorate(cls)
-
-    @staticmethod
-    def static(**options: Any) -> Any:
-        """A field that belongs to the tree's definition: hashable, never traced."""
-        return dataclasses.field(metadata={"pytree_node": False}, **options)
+    dataclass = staticmethod(dataclass)
+    static = staticmethod(static)
 
     @staticmethod
     def field(**options: Any) -> Any:
@@ -86,11 +73,11 @@ class Pytree:
         return new
 
 
-@Pytree.dataclass
+@dataclass
 class Const(Pytree, Generic[T]):
     """A value that JAX does not trace."""
 
-    val: T = Pytree.static()
+    val: T = static()
 
     def unwrap(self) -> T:
         """The wrapped value."""

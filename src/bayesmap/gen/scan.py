@@ -1,4 +1,5 @@
 """A generative function iterated, each step's state going into the next."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -23,12 +24,12 @@ from bayesmap.gen.generative_function import (
     Update,
     VectorRequest,
 )
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class ScanTrace(Trace):
     """The steps' traces stacked, without their arguments; `carries` are the states that they started from."""
 
@@ -39,34 +40,19 @@ class ScanTrace(Trace):
     retval: Any
     score: Score
 
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
-    def get_retval(self) -> Any:
-        return self.retval
-
-    def get_score(self) -> Score:
-        return self.score
-
     def get_choices(self) -> ChoiceMap:
         return self.inner.get_choices()
 
     def get_inner_trace(self, address: Any) -> Trace:
         return self.inner.get_inner_trace(address)
 
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
-
-@Pytree.dataclass
+@dataclass
 class Scan(GenerativeFunction):
     """See `scan`."""
 
     inner: GenerativeFunction
-    n: int | None = Pytree.static(default=None)
+    n: int | None = static(default=None)
 
     def _length(self, args: Arguments) -> int:
         if len(args) != 2:
@@ -124,7 +110,9 @@ class Scan(GenerativeFunction):
             case IndexRequest(t, inner):
                 return self._edit_step(key, trace, check_index(t, n), inner, argdiffs)
             case Update(Indexed(inner, t)) if jnp.ndim(t) == 0:
-                new, weight, retdiff, back = self._edit_step(key, trace, check_index(t, n), Update(inner), argdiffs)
+                new, weight, retdiff, back = self._edit_step(
+                    key, trace, check_index(t, n), Update(inner), argdiffs
+                )
                 undo = back.request.constraint.extend(back.idx)  # type: ignore[attr-defined]
                 return new, weight, retdiff, Update(undo)
             case Update(constraint):
@@ -169,7 +157,9 @@ class Scan(GenerativeFunction):
 
         def step(key: PRNGKey, args: Any, mapped: Any) -> Any:
             inner, old_state, s = mapped
-            moved = lambda: EmptyRequest().edit(key, inner, (Diff.unknown_change(args[0]), Diff.no_change(args[1])))  # noqa: E731
+            moved = lambda: EmptyRequest().edit(
+                key, inner, (Diff.unknown_change(args[0]), Diff.no_change(args[1]))
+            )
             here = lambda: (new.with_args(None), weight)  # noqa: E731
             after = lambda: _bare(moved())  # noqa: E731
             same = lambda: (inner, jnp.zeros(()))  # noqa: E731
@@ -203,7 +193,9 @@ def _last(args: Any, inner_args: Any, retval: Any) -> Any:
 
 
 def _all(args: Any, inner_args: Any, retval: Any) -> Any:
-    return jax.tree.map(lambda first, rest: jnp.concatenate([jnp.asarray(first)[None], rest]), inner_args[0], retval[1])
+    return jax.tree.map(
+        lambda first, rest: jnp.concatenate([jnp.asarray(first)[None], rest]), inner_args[0], retval[1]
+    )
 
 
 def _first_only(state: Any) -> tuple[Any, None]:
@@ -226,9 +218,13 @@ def reduce() -> Callable[[GenerativeFunction], Any]:
 
 def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `state -> state` make `state -> ` all n + 1 states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_all)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))
+    return lambda gen_fn: dimap(pre=_first_only, post=_all)(
+        scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn)))
+    )
 
 
 def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `state -> state` make `state -> ` the last of n states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_last)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))
+    return lambda gen_fn: dimap(pre=_first_only, post=_last)(
+        scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn)))
+    )

@@ -1,8 +1,9 @@
 """Sets of addresses: `Selection.at["x"] | Selection.at["y", "z"]`."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from typing import Any
 
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass, static
 
 
 class SelectionBuilderType:
@@ -107,7 +108,7 @@ class Selection(Pytree):
         return _Not(self)
 
 
-@Pytree.dataclass
+@dataclass
 class _All(Selection):
     def check(self) -> bool:
         return True
@@ -116,7 +117,7 @@ class _All(Selection):
         return self
 
 
-@Pytree.dataclass
+@dataclass
 class _None(Selection):
     def check(self) -> bool:
         return False
@@ -125,7 +126,7 @@ class _None(Selection):
         return self
 
 
-@Pytree.dataclass
+@dataclass
 class _Leaf(Selection):
     def check(self) -> bool:
         return True
@@ -134,10 +135,10 @@ class _Leaf(Selection):
         return _None()
 
 
-@Pytree.dataclass
+@dataclass
 class _At(Selection):
     inner: Selection
-    component: Any = Pytree.static()
+    component: Any = static()
 
     def check(self) -> bool:
         return False
@@ -146,7 +147,7 @@ class _At(Selection):
         return self.inner if self.component is ... or component == self.component else _None()
 
 
-@Pytree.dataclass
+@dataclass
 class _Not(Selection):
     inner: Selection
 
@@ -157,7 +158,7 @@ class _Not(Selection):
         return ~self.inner.below(component)
 
 
-@Pytree.dataclass
+@dataclass
 class _Or(Selection):
     left: Selection
     right: Selection
@@ -169,7 +170,7 @@ class _Or(Selection):
         return self.left.below(component) | self.right.below(component)
 
 
-@Pytree.dataclass
+@dataclass
 class _And(Selection):
     left: Selection
     right: Selection

@@ -9,11 +9,11 @@ from jax.scipy.special import logsumexp
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dense import vectorise
 from bayesmap.gen.generative_function import EditRequest, GenerativeFunction, Trace
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.typing import Array, IntArray, PRNGKey, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class Target(Pytree):
     """The posterior of `gen_fn(*args)` given the choices in `constraint`."""
 
@@ -30,7 +30,7 @@ class Target(Pytree):
         return choices.filter(~self.constraint.get_selection())
 
 
-@Pytree.dataclass
+@dataclass
 class ParticleCollection(Pytree):
     """k traces (leading axis) with log weights, properly weighted for the target."""
 
@@ -46,7 +46,7 @@ class ParticleCollection(Pytree):
         return self.log_weights
 
     def get_log_marginal_likelihood_estimate(self) -> Array:
-        """log of the mean weight: its exponential is an unbiased estimate of the evidence."""
+        """Log of the mean weight: its exponential is an unbiased estimate of the evidence."""
         return logsumexp(self.log_weights) - jnp.log(self.log_weights.shape[0])
 
     def effective_sample_size(self) -> Array:
@@ -83,14 +83,14 @@ class ParticleCollection(Pytree):
 
 
 def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
-    """k indices drawn with expected counts k w_i, from one uniform number."""
+    """K indices drawn with expected counts k w_i, from one uniform number."""
     k = log_weights.shape[0]
     edges = jnp.cumsum(jax.nn.softmax(log_weights))
     points = (jnp.arange(k) + jax.random.uniform(key)) / k
     return jnp.clip(jnp.searchsorted(edges, points), 0, k - 1)
 
 
-@Pytree.dataclass
+@dataclass
 class ImportanceK(Pytree):
     """Importance sampling with `k_particles` traces.
 
@@ -100,7 +100,7 @@ class ImportanceK(Pytree):
 
     target: Target
     q: GenerativeFunction | None = None
-    k_particles: int = Pytree.static(default=2)
+    k_particles: int = static(default=2)
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
         """Draw the traces."""
@@ -120,7 +120,7 @@ class ImportanceK(Pytree):
         return self.run_smc(key).get_log_marginal_likelihood_estimate()
 
 
-def Importance(target: Target, q: GenerativeFunction | None = None) -> ImportanceK:  # noqa: N802
+def Importance(target: Target, q: GenerativeFunction | None = None) -> ImportanceK:
     """Importance sampling with one trace."""
     return ImportanceK(target, q, 1)
 
@@ -165,7 +165,9 @@ def particle_filter(
         return (states, log_weights + weights), traces
 
     start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
-    (_, log_weights), traces = jax.lax.scan(step, (start, jnp.zeros(k)), (jnp.arange(n), xs, vectorise(constraint, n)))
+    (_, log_weights), traces = jax.lax.scan(
+        step, (start, jnp.zeros(k)), (jnp.arange(n), xs, vectorise(constraint, n))
+    )
     result = ParticleCollection(jax.tree.map(lambda x: x[-1], traces), log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
 

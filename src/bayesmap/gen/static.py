@@ -1,4 +1,5 @@
 """`@gen`: a Python function whose calls to other generative functions are traced by address."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import functools
 import importlib
@@ -24,12 +25,12 @@ from bayesmap.gen.generative_function import (
     Update,
 )
 from bayesmap.gen.handler import Handler, as_path, running
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class StaticTrace(Trace):
     """The calls of one run by address.
 
@@ -41,8 +42,8 @@ class StaticTrace(Trace):
     args: Any
     subtraces: dict[StaticAddress, Trace]
     computed: list[Any]
-    retval_tree: Any = Pytree.static()
-    sources: tuple[tuple[StaticAddress, int] | None, ...] = Pytree.static()
+    retval_tree: Any = static()
+    sources: tuple[tuple[StaticAddress, int] | None, ...] = static()
 
     @staticmethod
     def build(gen_fn: Any, args: Any, retval: Any, subtraces: dict[StaticAddress, Trace]) -> "StaticTrace":
@@ -56,12 +57,6 @@ class StaticTrace(Trace):
         computed = [leaf for leaf, source in zip(leaves, sources, strict=True) if source is None]
         return StaticTrace(gen_fn, args, subtraces, computed, tree, sources)
 
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
     def get_retval(self) -> Any:
         computed = iter(self.computed)
         returned = {path: jax.tree.leaves(t.get_retval()) for path, t in self.subtraces.items()}
@@ -74,9 +69,6 @@ class StaticTrace(Trace):
     def get_choices(self) -> ChoiceMap:
         parts = [t.get_choices().extend(*path) for path, t in self.subtraces.items()]
         return functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty())
-
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
     def get_inner_trace(self, address: Any) -> Trace:
         path = as_path(address)
@@ -171,7 +163,9 @@ class _Replay(Handler):
 class _Edit(_Run):
     """A run that edits each site's trace, telling it which of its arguments changed."""
 
-    def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
+    def __init__(
+        self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any
+    ):
         super().__init__(key)
         self.old, self.request = old, request
         self.backward: dict[StaticAddress, EditRequest] = {}
@@ -251,13 +245,13 @@ def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
             raise UnknownAddress(path, f"its sites are {', '.join(map(show, visited)) or 'none'}")
 
 
-@Pytree.dataclass
+@dataclass
 class StaticGenerativeFunction(GenerativeFunction):
     """What `@gen` makes of a function; `partial_args` come before its arguments."""
 
     partial_args: tuple[Any, ...]
-    source: Callable[..., Any] = Pytree.static()
-    keywords: tuple[str, ...] = Pytree.static(default=())
+    source: Callable[..., Any] = static()
+    keywords: tuple[str, ...] = static(default=())
 
     def call(self, args: Arguments) -> Any:
         """Run the body."""

@@ -1,4 +1,5 @@
 """A choice between generative functions, made at run time."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -20,13 +21,13 @@ from bayesmap.gen.generative_function import (
     Trace,
     Update,
 )
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.static import gen
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class SwitchTrace(Trace):
     """A trace per branch; only that of number `index` is filled in."""
 
@@ -37,23 +38,8 @@ class SwitchTrace(Trace):
     retval: Any
     score: Score
 
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
-    def get_retval(self) -> Any:
-        return self.retval
-
-    def get_score(self) -> Score:
-        return self.score
-
     def get_choices(self) -> ChoiceMap:
         return ChoiceMap.switch(self.index, [t.get_choices() for t in self.branches])
-
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
 
 def _run(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
@@ -71,7 +57,7 @@ def _run(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[t
     return jax.lax.switch(index, [branch(k) for k in range(len(thunks))])  # type: ignore[no-any-return]
 
 
-@Pytree.dataclass
+@dataclass
 class Switch(GenerativeFunction):
     """See `switch`."""
 
@@ -81,7 +67,9 @@ class Switch(GenerativeFunction):
         """(Index clamped to the branches, arguments of each)."""
         index, *rest = args
         if len(rest) != len(self.branches):
-            raise TypeError(f"switch takes an index and {len(self.branches)} tuples of arguments, not {len(rest)}")
+            raise TypeError(
+                f"switch takes an index and {len(self.branches)} tuples of arguments, not {len(rest)}"
+            )
         return jnp.clip(jnp.asarray(Diff.tree_primal(index)), 0, len(self.branches) - 1), rest
 
     def _build(self, args: Arguments, thunks: Sequence[Callable[[], Any]]) -> tuple[SwitchTrace, Weight]:
@@ -117,7 +105,9 @@ class Switch(GenerativeFunction):
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
         _, rest = self._read(args)
-        thunks = [lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, rest, strict=True)]
+        thunks = [
+            lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, rest, strict=True)
+        ]
         return self._build(args, thunks)[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[SwitchTrace, Weight]:

@@ -1,4 +1,5 @@
 """A generative function mapped over an axis of its arguments."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -24,12 +25,12 @@ from bayesmap.gen.generative_function import (
     VectorRequest,
 )
 from bayesmap.gen.product import Product
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
 
-@Pytree.dataclass
+@dataclass
 class VmapTrace(Trace):
     """The elements' traces, stacked and without their arguments: those are in `args`, shared ones once."""
 
@@ -38,17 +39,8 @@ class VmapTrace(Trace):
     inner: Trace
     score: Score
 
-    def get_gen_fn(self) -> Any:
-        return self.gen_fn
-
-    def get_args(self) -> Arguments:
-        return self.args  # type: ignore[no-any-return]
-
     def get_retval(self) -> Any:
         return self.inner.get_retval()
-
-    def get_score(self) -> Score:
-        return self.score
 
     def get_choices(self) -> ChoiceMap:
         return self.inner.get_choices()
@@ -56,17 +48,14 @@ class VmapTrace(Trace):
     def get_inner_trace(self, address: Any) -> Trace:
         return self.inner.get_inner_trace(address)
 
-    def with_args(self, args: Arguments | None) -> Trace:
-        return self.replace(args=args)
 
-
-@Pytree.dataclass
+@dataclass
 class Vmap(GenerativeFunction):
     """See `vmap` and `repeat`."""
 
     inner: GenerativeFunction
-    in_axes: InAxes = Pytree.static()
-    n: int | None = Pytree.static()
+    in_axes: InAxes = static()
+    n: int | None = static()
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)
