@@ -32,6 +32,11 @@ def _index(tree: Any, at: Any) -> Any:
 class ChoiceMap(Pytree):
     """Base of choice maps; make one with `ChoiceMapBuilder`, conventionally called `C`."""
 
+    def __repr__(self) -> str:
+        from bayesmap.gen.pretty import render
+
+        return render(self)
+
     # What a kind of node implements ---------------------------------------------------------------
 
     def get_value(self) -> Any:

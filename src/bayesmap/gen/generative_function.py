@@ -45,6 +45,11 @@ class Trace(Pytree):
     gen_fn: Any
     args: Any
 
+    def __repr__(self) -> str:
+        from bayesmap.gen.pretty import render
+
+        return render(self)
+
     def get_gen_fn(self) -> "GenerativeFunction":
         """The generative function that made the trace."""
         return self.gen_fn  # type: ignore[no-any-return]

@@ -11,9 +11,7 @@ from bayesmap.gen.mask import Mask
 
 
 def pretty() -> None:
-    """Show traces and choice maps as trees; in notebooks through treescope, if it is installed."""
-    ChoiceMap.__repr__ = lambda self: "\n".join(_lines(self))  # type: ignore[method-assign]
-    Trace.__repr__ = lambda self: render(self)  # type: ignore[method-assign]
+    """Show values in notebooks by treescope, if it is installed; elsewhere their text is a tree already."""
     try:
         import treescope
     except ImportError:

@@ -22,7 +22,7 @@ def static(**options: Any) -> Any:
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field, static))
 def dataclass(cls: type[T]) -> type[T]:
     """Make a subclass of `Pytree` a frozen dataclass, and register it with JAX."""
-    frozen = dataclasses.dataclass(frozen=True)(cls)
+    frozen = dataclasses.dataclass(frozen=True, repr=cls.__repr__ is object.__repr__)(cls)
     return jax.tree_util.register_pytree_with_keys_class(frozen)
 
 
