@@ -19,14 +19,14 @@ def log_density(dist, value, *args):
 
 
 def test_arguments_come_as_a_tuple():
-    """B.5"""
+    """B.5."""
     assert genjax.normal.simulate(KEY, (0.0, 1.0)).get_args() == (0.0, 1.0)
     with pytest.raises(TypeError, match="tuple"):
         genjax.normal.simulate(KEY, [0.0, 1.0])
 
 
 def test_array_parameters_score_as_a_sum():
-    """B.5"""
+    """B.5."""
     loc = jnp.array([0.0, 1.0, 2.0])
     trace = genjax.normal.simulate(KEY, (loc, 1.0))
     assert trace.get_score().shape == ()
@@ -35,7 +35,7 @@ def test_array_parameters_score_as_a_sum():
 
 
 def test_a_distribution_applied_to_arguments_and_a_key_is_a_draw():
-    """B.6"""
+    """B.6."""
     draw = genjax.normal(1.0, 2.0)(KEY)
     assert draw == genjax.normal.sample(KEY, 1.0, 2.0) == genjax.normal.sample(KEY, loc=1.0, scale=2.0)
     assert genjax.normal.sample(KEY, 1.0, 2.0, sample_shape=(5, 2)).shape == (5, 2)
@@ -43,7 +43,7 @@ def test_a_distribution_applied_to_arguments_and_a_key_is_a_draw():
 
 @pytest.mark.parametrize("dist", [genjax.bernoulli, genjax.categorical])
 def test_positional_logits_warn_and_named_parameters_do_not(dist):
-    """B.7"""
+    """B.7."""
     logits = jnp.log(jnp.array([0.3, 0.7]))
     with pytest.warns(DeprecationWarning, match="logits"):
         positional = dist.sample(KEY, logits)
@@ -55,7 +55,7 @@ def test_positional_logits_warn_and_named_parameters_do_not(dist):
 
 @pytest.mark.parametrize("value", [1.0, True, 1])
 def test_flip_takes_any_number_that_means_true(value):
-    """B.8"""
+    """B.8."""
     np.testing.assert_allclose(log_density(genjax.flip, value, 0.3), np.log(0.3), rtol=1e-6)
 
 
@@ -75,7 +75,7 @@ def test_a_value_that_a_discrete_distribution_never_draws_has_no_density_when_tr
 
 
 def test_impossible_values_of_the_right_kind_score_minus_infinity():
-    """B.9"""
+    """B.9."""
     assert log_density(genjax.flip, True, 0.0) == -jnp.inf
     assert log_density(genjax.uniform, 1.5, 0.0, 1.0) == -jnp.inf
     assert log_density(genjax.exponential, -1.0, 2.0) == -jnp.inf
@@ -83,14 +83,14 @@ def test_impossible_values_of_the_right_kind_score_minus_infinity():
 
 
 def test_integer_arguments_are_promoted():
-    """B.9"""
+    """B.9."""
     np.testing.assert_allclose(log_density(genjax.normal, 1, 0, 2), st.norm.logpdf(1.0, 0.0, 2.0), rtol=1e-6)
     assert genjax.uniform(0, 2)(KEY).dtype == jnp.float32
     assert genjax.flip(1)(KEY)
 
 
 def test_importance_weight_is_the_density_of_what_was_constrained():
-    """B.10"""
+    """B.10."""
     trace, weight = genjax.normal.importance(KEY, C.v(0.5), (0.0, 1.0))
     np.testing.assert_allclose(weight, st.norm.logpdf(0.5), rtol=1e-6)
     assert trace.get_retval() == 0.5
@@ -100,13 +100,13 @@ def test_importance_weight_is_the_density_of_what_was_constrained():
 
 
 def test_assess_of_an_empty_map_names_the_missing_address():
-    """B.10"""
+    """B.10."""
     with pytest.raises(MissingAddress, match=r"\(\)"):
         genjax.normal.assess(C.n(), (0.0, 1.0))
 
 
 def test_propose_gives_choices_score_and_value():
-    """B.10"""
+    """B.10."""
     choices, score, value = genjax.normal.propose(KEY, (0.0, 1.0))
     assert choices[()] == value
     np.testing.assert_allclose(score, st.norm.logpdf(value), rtol=1e-6)

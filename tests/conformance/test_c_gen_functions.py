@@ -27,7 +27,7 @@ def nested(loc, scale=1.0):
 
 
 def test_a_call_at_an_address_gives_its_return_value():
-    """C.11"""
+    """C.11."""
     trace = nested.simulate(KEY, (1.0,))
     choices = trace.get_choices()
     assert choices["inner", "x"] + choices["inner", "y"] == trace.get_subtrace("inner").get_retval()
@@ -35,25 +35,27 @@ def test_a_call_at_an_address_gives_its_return_value():
 
 
 def test_a_closure_puts_its_arguments_first():
-    """C.11"""
+    """C.11."""
     trace = nested(1.0).simulate(KEY, (2.0,))
     assert trace.get_args() == (1.0, 2.0)
     assert trace.get_retval() == nested.simulate(KEY, (1.0, 2.0)).get_retval()
 
 
 def test_keyword_arguments_reach_the_body():
-    """C.11"""
+    """C.11."""
 
     @genjax.gen
     def caller():
         return nested(1.0, scale=2.0) @ "n"
 
     np.testing.assert_array_equal(nested(1.0, scale=2.0)(KEY), nested(1.0, 2.0)(KEY))
-    assert caller.simulate(KEY, ()).get_score() == caller.assess(caller.simulate(KEY, ()).get_choices(), ())[0]
+    assert (
+        caller.simulate(KEY, ()).get_score() == caller.assess(caller.simulate(KEY, ()).get_choices(), ())[0]
+    )
 
 
 def test_at_the_empty_address_the_choice_is_the_bare_value():
-    """C.12"""
+    """C.12."""
     bare = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ ())
     trace = bare.simulate(KEY, ())
     assert trace.get_choices()[()] == trace.get_retval()
@@ -61,7 +63,7 @@ def test_at_the_empty_address_the_choice_is_the_bare_value():
 
 
 def test_the_empty_address_beside_a_name_raises():
-    """C.12"""
+    """C.12."""
 
     @genjax.gen
     def clash():
@@ -73,14 +75,14 @@ def test_the_empty_address_beside_a_name_raises():
 
 
 def test_a_tuple_address_nests():
-    """C.12"""
+    """C.12."""
     tupled = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ ("a", "b"))
     trace = tupled.simulate(KEY, ())
     assert trace.get_choices()("a")["b"] == trace.get_choices()["a", "b"] == trace.get_retval()
 
 
 def test_a_duplicate_address_raises():
-    """C.13"""
+    """C.13."""
 
     @genjax.gen
     def twice():
@@ -92,7 +94,7 @@ def test_a_duplicate_address_raises():
 
 
 def test_assess_names_the_missing_address_in_full():
-    """C.13"""
+    """C.13."""
     with pytest.raises(MissingAddress, match=r"\('inner', 'y'\)"):
         nested.assess(C["inner", "x"].set(1.0) | C["z"].set(0.0), (1.0,))
 
@@ -115,7 +117,7 @@ def test_an_address_that_the_model_lacks_raises(use):
 
 
 def test_a_request_for_an_address_that_the_model_lacks_raises():
-    """C.13"""
+    """C.13."""
     request = genjax.StaticRequest({"w": genjax.Update(C.v(1.0))})
     with pytest.raises(UnknownAddress, match="'w': its sites are 'inner', 'z'"):
         nested.simulate(KEY, (1.0,)).edit(KEY, request)
@@ -137,20 +139,20 @@ def test_a_site_outside_a_body_or_inside_a_jax_transformation_raises():
 
 
 def test_the_score_is_the_sum_of_the_sites_scores():
-    """C.14"""
+    """C.14."""
     trace = nested.simulate(KEY, (1.0,))
     parts = [trace.get_subtrace("inner", "x"), trace.get_subtrace("inner", "y"), trace.get_subtrace("z")]
     np.testing.assert_allclose(trace.get_score(), sum(p.get_score() for p in parts), rtol=1e-6)
 
 
 def test_importance_weight_is_the_density_of_what_was_constrained_given_the_rest():
-    """C.14"""
+    """C.14."""
     trace, weight = model.importance(KEY, C["y"].set(0.5), (1.0,))
     np.testing.assert_allclose(weight, trace.get_subtrace("y").get_score(), rtol=1e-6)
 
 
 def test_update_weight_is_the_change_of_score_downstream_sites_included():
-    """C.14"""
+    """C.14."""
     trace = nested.simulate(KEY, (1.0,))
     new, weight, _, discard = trace.update(KEY, C["inner", "x"].set(0.25))
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
@@ -161,7 +163,7 @@ def test_update_weight_is_the_change_of_score_downstream_sites_included():
 
 
 def test_inline_splices_the_sites():
-    """C.15"""
+    """C.15."""
     spliced = genjax.gen(lambda: model.inline(0.0) + (genjax.normal(0.0, 1.0) @ "z"))
     choices = spliced.simulate(KEY, ()).get_choices()
     assert all(name in choices for name in ("x", "y", "z"))
@@ -169,14 +171,14 @@ def test_inline_splices_the_sites():
 
 
 def test_python_if_on_a_traced_argument_fails_with_jaxs_error():
-    """C.15"""
+    """C.15."""
     branching = genjax.gen(lambda x: genjax.normal(0.0, 1.0 if x > 0 else 2.0) @ "x")
     with pytest.raises(jax.errors.TracerBoolConversionError):
         jax.jit(branching.simulate)(KEY, (1.0,))
 
 
 def test_partial_apply_leaves_its_arguments_out():
-    """C.16"""
+    """C.16."""
     trace = nested.partial_apply(1.0).simulate(KEY, (2.0,))
     assert trace.get_args() == (2.0,)
     assert trace.get_retval() == nested.simulate(KEY, (1.0, 2.0)).get_retval()

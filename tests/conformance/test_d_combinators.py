@@ -38,13 +38,13 @@ def agrees(trace, tolerance=1e-5):
 
 
 def test_repeat_takes_its_number_by_name():
-    """D.17"""
+    """D.17."""
     with pytest.raises(TypeError):
         genjax.flip.repeat(3)
 
 
 def test_repeats_of_a_flip_are_one_array():
-    """D.17"""
+    """D.17."""
     trace = genjax.flip.repeat(n=4).repeat(n=3)(0.5).simulate(KEY, ())
     assert (trace.get_retval().shape, trace.get_retval().dtype, trace.get_score().shape) == ((3, 4), bool, ())
     assert [leaf.shape for leaf in jax.tree.leaves(trace.get_choices())] == [(3, 4)]
@@ -52,7 +52,7 @@ def test_repeats_of_a_flip_are_one_array():
 
 
 def test_choices_are_indexed_like_the_array_that_they_are():
-    """D.18"""
+    """D.18."""
     chm = genjax.normal.repeat(n=4).repeat(n=3)(0.0, 1.0).simulate(KEY, ()).get_choices()
     whole = chm[()]
     for index in (0, (0, 1), slice(None), ()):
@@ -61,7 +61,7 @@ def test_choices_are_indexed_like_the_array_that_they_are():
 
 
 def test_names_below_an_index_hold_whole_arrays():
-    """D.18"""
+    """D.18."""
     trace = draw.vmap(in_axes=0).simulate(KEY, (jnp.arange(3.0),))
     chm = trace.get_choices()
     np.testing.assert_array_equal(chm["v"], chm[:, "v"])
@@ -88,7 +88,7 @@ def test_a_constraint_array_of_the_wrong_length_raises(model, args, constraint):
 
 
 def test_an_index_out_of_range_raises():
-    """D.19"""
+    """D.19."""
     with pytest.raises(UnknownAddress, match="4: there are 4 elements"):
         genjax.normal.repeat(n=4).importance(KEY, C[4].set(0.0), (0.0, 1.0))
 
@@ -96,14 +96,16 @@ def test_an_index_out_of_range_raises():
 def test_some_elements_can_be_constrained():
     """D.20: the others draw what they would have drawn."""
     model, free = genjax.normal.repeat(n=4), genjax.normal.repeat(n=4)(0.0, 1.0)(KEY)
-    trace, weight = model.importance(KEY, C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0])), (0.0, 1.0))
+    trace, weight = model.importance(
+        KEY, C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0])), (0.0, 1.0)
+    )
     np.testing.assert_array_equal(trace.get_retval(), jnp.array([free[0], 0.5, 1.0, 2.0]))
     expected = sum(genjax.normal.assess(C.v(v), (0.0, 1.0))[0] for v in (0.5, 1.0, 2.0))
     np.testing.assert_allclose(weight, expected, rtol=1e-6)
 
 
 def test_assess_with_some_elements_missing_raises():
-    """D.20"""
+    """D.20."""
     with pytest.raises(MissingAddress):
         genjax.normal.repeat(n=4).assess(C[1].set(0.5), (0.0, 1.0))
 
@@ -118,7 +120,7 @@ def test_values_are_cast_to_the_sites_dtype():
 
 
 def test_vmap_errors_are_those_of_jax():
-    """D.21"""
+    """D.21."""
     model = genjax.normal.vmap(in_axes=(0, 0))
     with pytest.raises(ValueError, match="inconsistent sizes"):
         model.simulate(KEY, (jnp.zeros(3), jnp.zeros(4)))
@@ -127,7 +129,7 @@ def test_vmap_errors_are_those_of_jax():
 
 
 def test_vmap_maps_the_axes_that_it_is_told():
-    """D.21"""
+    """D.21."""
     locs = jnp.arange(6.0).reshape(2, 3)
     trace = draw.vmap(in_axes=1).vmap(in_axes=(0,)).simulate(KEY, (locs[:, None, :],))
     assert trace.get_choices()["v"].shape == (2, 3, 1)
@@ -143,7 +145,7 @@ def test_broadcast_arguments_are_stored_once():
 
 
 def test_scan_returns_the_last_state_and_the_stacked_outputs():
-    """D.22"""
+    """D.22."""
     trace = step.scan(n=3).simulate(KEY, (0.0, jnp.arange(3.0)))
     z = trace.get_choices()["z"]
     np.testing.assert_array_equal(trace.get_retval()[0], z[-1])
@@ -153,7 +155,7 @@ def test_scan_returns_the_last_state_and_the_stacked_outputs():
 
 
 def test_iterate_and_accumulate_return_every_state_the_others_the_last():
-    """D.22"""
+    """D.22."""
     add = genjax.gen(lambda state, x: genjax.normal(state + x, 1.0) @ "z")
     for model, args, last in [
         (walk.iterate(n=3), (0.0,), walk.iterate_final(n=3)),
@@ -168,13 +170,13 @@ def test_iterate_and_accumulate_return_every_state_the_others_the_last():
 
 
 def test_scan_without_inputs_needs_a_length():
-    """D.22"""
+    """D.22."""
     with pytest.raises(TypeError, match="n="):
         step.scan().simulate(KEY, (0.0, None))
 
 
 def test_a_mask_that_is_true_means_that_the_choices_score():
-    """D.23"""
+    """D.23."""
     on, off = (draw.mask().simulate(KEY, (flag, 0.0)) for flag in (True, False))
     np.testing.assert_allclose(on.get_score(), draw.simulate(KEY, (0.0,)).get_score(), rtol=1e-6)
     assert off.get_score() == 0.0
@@ -195,7 +197,7 @@ def test_switching_a_mask_weighs_its_score(turn_on):
 
 
 def test_or_else_runs_the_first_branch_where_the_flag_holds():
-    """D.24"""
+    """D.24."""
     other = genjax.gen(lambda loc: genjax.normal(loc, 1.0) @ "w")
     model = draw.or_else(other)
     for flag, name, loc in ((True, "v", 0.0), (False, "w", 50.0)):
@@ -206,7 +208,7 @@ def test_or_else_runs_the_first_branch_where_the_flag_holds():
 
 
 def test_switch_runs_the_branch_that_is_numbered():
-    """D.24"""
+    """D.24."""
     branches = [genjax.gen(lambda loc: genjax.normal(loc, 1.0) @ "v") for _ in range(3)]
     model = genjax.switch(*branches)
     for k in range(3):
@@ -220,7 +222,7 @@ def test_switch_runs_the_branch_that_is_numbered():
 
 
 def test_the_addresses_of_a_mixture():
-    """D.24"""
+    """D.24."""
     trace = genjax.mix(draw, draw).simulate(KEY, (jnp.zeros(2), (0.0,), (9.0,)))
     choices = trace.get_choices()
     assert choices["mixture_component"] in (0, 1)
@@ -229,21 +231,21 @@ def test_the_addresses_of_a_mixture():
 
 
 def test_map_transforms_the_return_value():
-    """D.25"""
+    """D.25."""
     trace = draw.map(lambda x: x + 100).simulate(KEY, (0.0,))
     assert trace.get_retval() == draw(0.0)(KEY) + 100
     agrees(trace)
 
 
 def test_contramap_returns_a_tuple_of_arguments():
-    """D.25"""
+    """D.25."""
     assert draw.contramap(lambda a, b: (a + b,))(1.0, 2.0)(KEY) == draw(3.0)(KEY)
     with pytest.raises(TypeError, match="must return a tuple"):
         draw.contramap(lambda a: a)(1.0)(KEY)
 
 
 def test_dimap_post_sees_arguments_inner_arguments_and_value():
-    """D.25"""
+    """D.25."""
     seen = draw.dimap(pre=lambda a: (a + 1,), post=lambda args, inner, ret: (args, inner, ret))
     trace = seen.simulate(KEY, (1.0,))
     assert trace.get_retval() == ((1.0,), (2.0,), draw(2.0)(KEY))

@@ -51,7 +51,7 @@ def same_types(a, b):
 
 
 def test_edit_gives_trace_weight_retdiff_and_the_way_back():
-    """E.26"""
+    """E.26."""
     new, weight, retdiff, back = TRACE.edit(KEY, Update(C["table"].set(~TABLE)))
     np.testing.assert_array_equal(Diff.tree_primal(retdiff)[0], ~TABLE)
     restored, undone, _, _ = new.edit(KEY, back)
@@ -60,14 +60,14 @@ def test_edit_gives_trace_weight_retdiff_and_the_way_back():
 
 
 def test_update_returns_the_choices_that_it_replaced_last():
-    """E.26"""
+    """E.26."""
     _, _, _, discard = TRACE.update(KEY, C["table"].set(~TABLE))
     np.testing.assert_array_equal(discard["table"], TABLE)
     assert "readings" not in {path[0] for path in discard.paths()}
 
 
 def test_argdiffs_change_the_arguments():
-    """E.26"""
+    """E.26."""
     new, weight, _, _ = TRACE.edit(KEY, Update(C.n()), Diff.unknown_change((0.6, 0.5)))
     assert new.get_args() == (0.6, 0.5)
     changes_by_the_joint(TRACE, new, weight)
@@ -95,7 +95,7 @@ def test_one_element_can_be_changed(name, traced):
 
 
 def test_one_element_of_a_vmap_can_be_changed():
-    """E.28"""
+    """E.28."""
     request = StaticRequest({"readings": IndexRequest(2, Update(C["r"].set(0.25)))})
     for edit in (request, Update(C["readings", 2, "r"].set(0.25))):
         new, weight, _, back = TRACE.edit(KEY, edit)
@@ -119,15 +119,17 @@ def test_one_step_of_a_scan_can_be_changed(t):
 
 
 def test_all_steps_of_a_scan_can_be_changed():
-    """E.27"""
+    """E.27."""
     trace = step.scan(n=5).simulate(KEY, (0.0, jnp.arange(5.0)))
-    new, weight, _, back = trace.edit(KEY, Update(C["y"].set(jnp.ones(5))), Diff.unknown_change((1.0, jnp.arange(5.0))))
+    new, weight, _, back = trace.edit(
+        KEY, Update(C["y"].set(jnp.ones(5))), Diff.unknown_change((1.0, jnp.arange(5.0)))
+    )
     changes_by_the_joint(trace, new, weight)
     np.testing.assert_array_equal(back.constraint["y"], trace.get_choices()["y"])
 
 
 def test_an_edit_of_an_element_outside_raises():
-    """E.28"""
+    """E.28."""
     with pytest.raises(UnknownAddress, match=r"\('table', 3\)"):
         TRACE.edit(KEY, Update(C["table", 3, 0].set(True)))
 
@@ -145,7 +147,7 @@ def test_old_and_new_trace_can_be_branches_of_cond():
 
 
 def test_an_empty_request_weighs_nothing_when_nothing_changed():
-    """E.30"""
+    """E.30."""
     new, weight, retdiff, _ = TRACE.edit(KEY, EmptyRequest())
     assert weight == 0.0
     assert new is TRACE
@@ -153,14 +155,14 @@ def test_an_empty_request_weighs_nothing_when_nothing_changed():
 
 
 def test_an_empty_request_rescores_when_arguments_changed():
-    """E.30"""
+    """E.30."""
     new, weight, _, _ = TRACE.edit(KEY, EmptyRequest(), Diff.unknown_change((0.3, 2.0)))
     assert weight != 0.0
     changes_by_the_joint(TRACE, new, weight)
 
 
 def test_project_sums_the_selected_scores():
-    """E.30"""
+    """E.30."""
     parts = [TRACE.project(KEY, Selection.at[name]) for name in ("table", "readings")]
     np.testing.assert_allclose(parts[0], TRACE.get_subtrace("table").get_score(), rtol=1e-6)
     np.testing.assert_allclose(sum(parts), TRACE.get_score(), rtol=1e-6)
@@ -169,7 +171,7 @@ def test_project_sums_the_selected_scores():
 
 
 def test_edit_takes_requests_only():
-    """E.31"""
+    """E.31."""
     with pytest.raises(TypeError, match="EditRequest"):
         TRACE.edit(KEY, C["table"].set(TABLE))
 

@@ -23,28 +23,30 @@ def model(loc):
     return x
 
 
-@pytest.mark.parametrize("join", [lambda a, b: a | b, lambda a, b: a + b, lambda a, b: a ^ b, lambda a, b: a.merge(b)])
+@pytest.mark.parametrize(
+    "join", [lambda a, b: a | b, lambda a, b: a + b, lambda a, b: a ^ b, lambda a, b: a.merge(b)]
+)
 def test_joining_prefers_the_left_value(join):
-    """F.32"""
+    """F.32."""
     both = join(C["x"].set(1.0) | C["y"].set(2.0), C["x"].set(3.0) | C["z", "w"].set(4.0))
     assert (both["x"], both["y"], both["z", "w"]) == (1.0, 2.0, 4.0)
 
 
 def test_and_filters_the_right_map_by_the_left_ones_addresses():
-    """F.32"""
+    """F.32."""
     both = C["x"].set(1.0) & (C["x"].set(3.0) | C["y"].set(2.0))
     assert both["x"] == 3.0
     assert "y" not in both
 
 
 def test_a_value_against_names_raises():
-    """F.32"""
+    """F.32."""
     with pytest.raises(ValueError, match="bare value"):
         C["x"].set(1.0) | C["x", "y"].set(2.0)
 
 
 def test_at_set_replaces():
-    """F.33"""
+    """F.33."""
     chm = C["x"].set(jnp.zeros(3)) | C["y"].set(1.0)
     np.testing.assert_array_equal(chm.at["x"].set(jnp.ones(3))["x"], jnp.ones(3))
     np.testing.assert_array_equal(chm.at["x", 1].set(5.0)["x"], [0.0, 5.0, 0.0])
@@ -54,7 +56,7 @@ def test_at_set_replaces():
 
 
 def test_asking_for_what_is_not_there_raises():
-    """F.34"""
+    """F.34."""
     chm = C["x", "y"].set(1.0)
     assert ("x", "y") in chm
     assert "x" not in chm
@@ -64,7 +66,7 @@ def test_asking_for_what_is_not_there_raises():
 
 
 def test_filter_mask_selection_and_extend():
-    """F.34"""
+    """F.34."""
     chm = C["x"].set(1.0) | C["y", "z"].set(2.0)
     kept = chm.filter(S["y"])
     assert ("y", "z") in kept
@@ -78,7 +80,7 @@ def test_filter_mask_selection_and_extend():
 
 
 def test_invalid_subset_is_what_the_model_would_never_choose():
-    """F.34"""
+    """F.34."""
     extras = (C["x"].set(1.0) | C["w"].set(2.0)).invalid_subset(model, (0.0,))
     assert "w" in extras
     assert "x" not in extras
@@ -86,9 +88,13 @@ def test_invalid_subset_is_what_the_model_would_never_choose():
 
 
 def test_ways_to_build_a_map():
-    """F.34"""
+    """F.34."""
     expected = C["x"].set(1.0) | C["y", "z"].set(2.0)
-    for chm in (C.d({"x": 1.0, "y": {"z": 2.0}}), C.kw(x=1.0, y={"z": 2.0}), ChoiceMap.d({"x": 1.0, ("y", "z"): 2.0})):
+    for chm in (
+        C.d({"x": 1.0, "y": {"z": 2.0}}),
+        C.kw(x=1.0, y={"z": 2.0}),
+        ChoiceMap.d({"x": 1.0, ("y", "z"): 2.0}),
+    ):
         assert jax.tree.map(float, chm) == jax.tree.map(float, expected)
     assert C.n().static_is_empty()
     assert C["a"].v(3.0)["a"] == 3.0
@@ -97,7 +103,7 @@ def test_ways_to_build_a_map():
 
 
 def test_maps_can_hold_indices():
-    """F.32"""
+    """F.32."""
     chm = C[0, "v"].set(1.0) | C[2, "v"].set(3.0)
     assert (chm[0, "v"], chm[2, "v"]) == (1.0, 3.0)
     assert (1, "v") not in chm
@@ -108,7 +114,7 @@ def test_maps_can_hold_indices():
 
 
 def test_a_selection_matches_everything_below():
-    """F.35"""
+    """F.35."""
     sel = Selection.at["x"]
     assert sel["x"]
     assert sel["x", "y", "z"]
@@ -117,7 +123,7 @@ def test_a_selection_matches_everything_below():
 
 
 def test_selections_combine():
-    """F.35"""
+    """F.35."""
     x, y = Selection.at["x"], Selection.at["y"]
     assert (x | y)["y"]
     assert not (x & y)["x"]
@@ -130,7 +136,7 @@ def test_selections_combine():
 
 
 def test_leaf_all_and_none():
-    """F.35"""
+    """F.35."""
     leaf = Selection.leaf().extend("x")
     assert leaf["x"]
     assert not leaf["x", "y"]
@@ -141,7 +147,7 @@ def test_leaf_all_and_none():
 
 
 def test_unmask():
-    """F.36"""
+    """F.36."""
     value = jnp.arange(3.0)
     assert Mask(1.0, True).unmask() == 1.0
     with pytest.raises(ValueError, match="flag is False"):
@@ -149,7 +155,9 @@ def test_unmask():
     assert Mask(1.0, False).unmask(default=5.0) == 5.0
     mixed = Mask(value, jnp.array([True, False, True]))
     np.testing.assert_array_equal(mixed.unmask(default=jnp.full(3, -1.0)), [0.0, -1.0, 2.0])
-    np.testing.assert_array_equal((mixed | Mask(value + 10, jnp.array([True, True, True]))).value, [0.0, 11.0, 2.0])
+    np.testing.assert_array_equal(
+        (mixed | Mask(value + 10, jnp.array([True, True, True]))).value, [0.0, 11.0, 2.0]
+    )
     with pytest.raises(ValueError, match=r"shape \(3,\) cannot mask"):
         Mask(jnp.zeros(2), jnp.ones(3, bool))
 
@@ -161,7 +169,7 @@ class Params(Pytree):
 
 
 def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
-    """F.37"""
+    """F.37."""
     params = Params(3, 2.0)
     assert jax.tree.leaves(params) == [2.0]
     assert jax.tree.structure(params) != jax.tree.structure(Params(4, 2.0))
@@ -174,7 +182,7 @@ def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
 
 
 def test_traces_of_module_level_models_pickle():
-    """F.39"""
+    """F.39."""
     trace = model.simulate(KEY, (1.0,))
     loaded = pickle.loads(pickle.dumps(trace))
     assert loaded.get_gen_fn() == model
@@ -183,7 +191,7 @@ def test_traces_of_module_level_models_pickle():
 
 
 def test_traces_survive_jit_vmap_scan_and_cond():
-    """F.39"""
+    """F.39."""
     trace = model.simulate(KEY, (1.0,))
     again = jax.jit(lambda t: t)(trace)
     assert again.get_score() == trace.get_score()

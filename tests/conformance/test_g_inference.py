@@ -7,8 +7,8 @@ import jax.scipy.stats as st
 import numpy as np
 
 import bayesmap.gen as genjax
+from bayesmap.gen import HMC, Diff, EmptyRequest, ImportanceK, Regenerate, Selection, Target
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.gen import Diff, EmptyRequest, HMC, ImportanceK, Regenerate, Selection, Target
 
 KEY = jr.key(0)
 DATA = jnp.array([2.0, 1.5, 2.5, 3.0])
@@ -22,7 +22,7 @@ def model():
 
 @genjax.gen
 def tempered(precision):
-    """mu ~ N(0, 1) seen as 2 with a given precision: evidence N(2; 0, 1 + 1 / precision)."""
+    """Mu ~ N(0, 1) seen as 2 with a given precision: evidence N(2; 0, 1 + 1 / precision)."""
     mu = genjax.normal(0.0, 1.0) @ "mu"
     return genjax.normal(mu, precision**-0.5) @ "y"
 
@@ -35,7 +35,7 @@ def walk(state, scale):
 
 
 def kalman(data):
-    """log evidence, and the last state's mean and variance, of `walk` with scale 1 from state 0."""
+    """Log evidence, and the last state's mean and variance, of `walk` with scale 1 from state 0."""
     mean, variance, evidence = 0.0, 0.0, 0.0
     for y in np.asarray(data, np.float64):
         variance += 1.0
@@ -66,7 +66,7 @@ def test_a_target_tells_its_open_choices():
 
 
 def test_resampled_particles_are_draws_from_the_posterior():
-    """Posterior N(1, 1/2). 20 000 prior draws have an effective sample size over 5000: five standard errors of that."""
+    """Posterior N(1, 1/2), within five standard errors of 5000 draws: the effective sample size is more."""
     collection = jax.jit(ImportanceK(Target(model, (), C["y"].set(2.0)), k_particles=20_000).run_smc)(KEY)
     assert collection.effective_sample_size() > 5000
     after = collection.resample(KEY)
@@ -74,23 +74,25 @@ def test_resampled_particles_are_draws_from_the_posterior():
     assert abs(float(mu.mean()) - 1.0) < 5 * (0.5 / 5000) ** 0.5
     assert abs(float(mu.var()) - 0.5) < 5 * 0.5 * (2 / 5000) ** 0.5
     np.testing.assert_allclose(
-        after.get_log_marginal_likelihood_estimate(), collection.get_log_marginal_likelihood_estimate(), rtol=1e-5
+        after.get_log_marginal_likelihood_estimate(),
+        collection.get_log_marginal_likelihood_estimate(),
+        rtol=1e-5,
     )
     assert after.sample_particle(KEY).get_choices()["y"] == 2.0
 
 
 def test_annealed_smc_estimates_the_evidence():
-    """Reweight to the next precision, resample, move by HMC: the evidence at precision 4 from that at 0.25."""
+    """Reweight to the next precision, resample, move by HMC: from precision 0.25 to 4."""
 
     def run(key):
         keys = jr.split(key, 13)
         start = Target(tempered, (0.25,), C["y"].set(2.0))
         particles = ImportanceK(start, k_particles=50).run_smc(keys[0])
+        move = genjax.metropolis_hastings(HMC(Selection.at["mu"], 0.5, 3))
         for k, precision in enumerate((0.5, 1.0, 2.0, 4.0)):
             particles = particles.edit(keys[3 * k + 1], EmptyRequest(), Diff.unknown_change((precision,)))
             particles = particles.resample(keys[3 * k + 2])
-            move = genjax.metropolis_hastings(HMC(Selection.at["mu"], 0.5, 3))
-            moved = jax.vmap(lambda key, trace: move(key, trace)[0])(jr.split(keys[3 * k + 3], 50), particles.particles)
+            moved, _ = jax.vmap(move)(jr.split(keys[3 * k + 3], 50), particles.particles)
             particles = particles.replace(particles=moved)
         return particles.get_log_marginal_likelihood_estimate()
 
@@ -102,7 +104,12 @@ def test_the_particle_filter_estimates_the_evidence_of_a_state_space_model():
     evidence, mean, variance = kalman(DATA)
     for threshold in (0.0, 0.5, 1.1):
         run = lambda key: genjax.particle_filter(  # noqa: E731
-            key, walk, (0.0, jnp.ones(4)), C["y"].set(DATA), 100, threshold  # noqa: B023
+            key,
+            walk,
+            (0.0, jnp.ones(4)),
+            C["y"].set(DATA),
+            100,
+            threshold,  # noqa: B023
         )
         particles, estimates = jax.jit(jax.vmap(run))(jr.split(KEY, 400))
         unbiased(estimates, evidence)
@@ -126,7 +133,7 @@ def test_the_chain_driver_gives_draws_acceptance_and_the_last_trace():
 
 
 def test_rhat_and_ess_of_well_mixed_chains():
-    """MALA on the posterior N(1, 1/2): R-hat near 1; the mean within 5 of the standard errors that the ESS says."""
+    """MALA on the posterior N(1, 1/2): R-hat near 1, the mean within 5 standard errors by the ESS."""
     starts = jr.normal(KEY, (4,)) * 3
     trace_at = lambda mu: model.importance(KEY, C["mu"].set(mu) | C["y"].set(2.0), ())[0]  # noqa: E731
     kernel = genjax.metropolis_hastings(genjax.mala(Selection.at["mu"], 0.9))

@@ -8,7 +8,16 @@ import jax.numpy as jnp
 import jax.random as jrand
 import numpy as np
 import pytest
-from gen_tutorial_model import CENTER, GRID_SIZE, PARAMS, ModelParams, angles, full_model, sensor_model, true_walls
+from gen_tutorial_model import (
+    CENTER,
+    GRID_SIZE,
+    PARAMS,
+    ModelParams,
+    angles,
+    full_model,
+    sensor_model,
+    true_walls,
+)
 from gen_tutorial_model import walls_prior as prior
 
 import bayesmap.gen as genjax
@@ -111,7 +120,7 @@ def test_prior_draws_the_golden_map():
 
 
 def test_sensor_draws_the_golden_readings(readings):
-    """A.4: the first readings and their sum, which GenJAX 0.10.3 gives to the last bit on the same machine."""
+    """A.4: the first readings and their sum; GenJAX 0.10.3 on the same machine agrees to the last bit."""
     np.testing.assert_allclose(readings[:4], [6.2485046, 6.2457266, 4.1215606, 3.7695596], rtol=2e-7)
     np.testing.assert_allclose(readings.sum(), 1225.6375, rtol=1e-7)
 
@@ -131,7 +140,7 @@ def test_basic_gibbs_visits_the_golden_states(basic_chain):
 
 @pytest.mark.parametrize("request_of", [whole_map_request, index_request, address_request])
 def test_incremental_gibbs_keeps_the_joint_density_as_its_score(request_of, readings):
-    """E.27 to E.29 in the tutorial's setting: the sweep's edits agree with assess, and their traces with cond."""
+    """E.27 to E.29 in the tutorial's setting: edits agree with assess, and their traces with cond."""
     trace = incremental_sweep(request_of, jrand.key(0), start_trace(readings))
     assert trace.get_choices()["walls"].dtype == bool
     assert 0 < int(trace.get_choices()["walls"].sum()) < GRID_SIZE**2
@@ -149,7 +158,7 @@ def test_the_three_ways_to_flip_a_pixel_draw_the_same_chain(readings):
 
 
 def test_importance_sampling_of_100_000_maps_stores_each_argument_once(readings):
-    """D.21 and the tutorial's N: no part of the traces has the size of N x rays x map; and the weights collapse."""
+    """D.21 at the tutorial's N: nothing has the size of N x rays x map; and the weights collapse."""
     n = 100_000
     model_importance = jax.jit(full_model.importance)
     constraints = C["readings"].set(readings)
@@ -210,7 +219,9 @@ def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
 
     def update(key, walls, i, j):
         candidates = jax.vmap(lambda p: jax.lax.dynamic_update_slice(walls, p, (i, j)))(patterns)
-        scores = jax.vmap(lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0])(candidates)
+        scores = jax.vmap(lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0])(
+            candidates
+        )
         return candidates[genjax.categorical.sample(key, logits=scores)]
 
     @jax.jit

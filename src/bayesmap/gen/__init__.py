@@ -3,7 +3,8 @@
 The interface is that of GenJAX 0.10; `docs/coming-from-genjax.md` lists what differs.
 """
 
-from bayesmap.gen.choice_map import ChoiceMap, ChoiceMapBuilder
+from bayesmap.gen.builder import ChoiceMapBuilder
+from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import Closure
 from bayesmap.gen.densities import (
     bernoulli,
@@ -63,7 +64,7 @@ from bayesmap.gen.masking import mask
 from bayesmap.gen.mcmc import Chain, effective_sample_size, metropolis_hastings, run_chain, split_rhat
 from bayesmap.gen.moves import HMC, Rejuvenate, mala
 from bayesmap.gen.pretty import pretty, render
-from bayesmap.gen.pytree import Const, Pytree
+from bayesmap.gen.pytree import Pytree
 from bayesmap.gen.scan import accumulate, iterate, iterate_final, reduce, scan
 from bayesmap.gen.selection import Selection, SelectionBuilder
 from bayesmap.gen.smc import Importance, ImportanceK, ParticleCollection, Target, particle_filter

@@ -50,7 +50,7 @@ def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Ma
     leaves, treedef = jax.tree.flatten(args)
     if n is None:
         n = next(jnp.shape(x)[a] for x, a in zip(leaves, spread, strict=True) if a is not None)
-    return Mapped(leaves, spread, treedef.unflatten, n)
+    return Mapped(leaves, spread, lambda new: jax.tree.unflatten(treedef, new), n)
 
 
 def total(scores: Any) -> Any:
@@ -59,4 +59,4 @@ def total(scores: Any) -> Any:
     The barrier keeps XLA from merging it with the sums that made the scores into one long loop, which
     loses a digit: with it, compiled and uncompiled scores agree.
     """
-    return jnp.sum(jax.lax.optimization_barrier(scores))
+    return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]

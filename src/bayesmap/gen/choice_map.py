@@ -13,7 +13,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, show
+from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, show
 from bayesmap.gen.mask import Mask, is_concrete, where
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
@@ -21,7 +21,8 @@ from bayesmap.gen.selection import Selection
 _is_mask: Callable[[Any], bool] = lambda leaf: isinstance(leaf, Mask)  # noqa: E731
 
 
-def _components(address: Any) -> tuple[Any, ...]:
+def components(address: Any) -> tuple[Any, ...]:
+    """An address as a tuple."""
     return address if isinstance(address, tuple) else (address,)
 
 
@@ -63,7 +64,7 @@ class ChoiceMap(Pytree):
 
     def get_submap(self, *addresses: Any) -> "ChoiceMap":
         """The submap at an address: empty where there is none."""
-        path = [c for address in addresses for c in _components(address)]
+        path = [c for address in addresses for c in components(address)]
         return reduce(lambda chm, component: chm.get_inner_map(component), path, self)
 
     def __call__(self, *addresses: Any) -> "ChoiceMap":
@@ -127,9 +128,11 @@ class ChoiceMap(Pytree):
         return acc
 
     @property
-    def at(self) -> "_Builder":
+    def at(self) -> Any:
         """`chm.at["x"].set(v)`: this map with the value at "x" replaced."""
-        return _Builder(self, ())
+        from bayesmap.gen.builder import Builder
+
+        return Builder(self, ())
 
     # Making ---------------------------------------------------------------------------------------
 
@@ -150,12 +153,12 @@ class ChoiceMap(Pytree):
         """A value, dict or map at an address."""
         if not isinstance(value, ChoiceMap):
             value = ChoiceMap.d(value) if isinstance(value, dict) else ChoiceMap.choice(value)
-        return value.extend(*address)
+        return value.extend(*address)  # type: ignore[no-any-return]
 
     @staticmethod
     def from_mapping(pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
         """A map from (address, value) pairs."""
-        entries = [ChoiceMap.entry(value, *_components(address)) for address, value in pairs]
+        entries = [ChoiceMap.entry(value, *components(address)) for address, value in pairs]
         return reduce(merge, entries, ChoiceMap.empty())
 
     @staticmethod
@@ -338,51 +341,3 @@ def overlay(chm: ChoiceMap, array: Any) -> Any:
         case Choice(value):
             return value
     raise ValueError(f"Names below an index cannot replace elements of an array of shape {array.shape}")
-
-
-class _Builder:
-    """`C["x", 0].set(v)`; also `C.v(value)`, `C.d({...})`, `C.kw(...)`, `C.n()`."""
-
-    def __init__(self, base: ChoiceMap | None, address: tuple[Any, ...]) -> None:
-        self._base, self._address = base, address
-
-    def __getitem__(self, address: Any) -> "_Builder":
-        return _Builder(self._base, (*self._address, *_components(address)))
-
-    def set(self, value: Any) -> ChoiceMap:
-        """The map (the empty one for `C`) with `value`, a value, dict or map, at the address."""
-        new = ChoiceMap.entry(value, *self._address)
-        if self._base is None:
-            return new
-        old, value = (
-            self._base.get_submap(self._address).get_value(),
-            new.get_submap(self._address).get_value(),
-        )
-        if old is not None and value is not None and jnp.shape(old) != jnp.shape(value):
-            raise ShapeMismatch(self._address, f"found {jnp.shape(value)}, expected {jnp.shape(old)}")
-        return new | self._base
-
-    def update(self, f: Callable[[Any], Any]) -> ChoiceMap:
-        here = (self._base or ChoiceMap.empty()).get_submap(self._address)
-        return self.set(f(here.get_value() if here.has_value() else here))
-
-    def v(self, value: Any) -> ChoiceMap:
-        return self.set(ChoiceMap.choice(value))
-
-    def n(self) -> ChoiceMap:
-        return ChoiceMap.empty()
-
-    def d(self, mapping: dict[Any, Any]) -> ChoiceMap:
-        return self.set(ChoiceMap.d(mapping))
-
-    def kw(self, **values: Any) -> ChoiceMap:
-        return self.set(ChoiceMap.d(values))
-
-    def from_mapping(self, pairs: Iterable[tuple[Any, Any]]) -> ChoiceMap:
-        return self.set(ChoiceMap.from_mapping(pairs))
-
-    def switch(self, index: Any, maps: Iterable[ChoiceMap]) -> ChoiceMap:
-        return self.set(ChoiceMap.switch(index, maps))
-
-
-ChoiceMapBuilder = _Builder(None, ())

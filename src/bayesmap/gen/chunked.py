@@ -26,7 +26,7 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     def of_traced(*values: Any) -> Any:
         # What is known stays known, so that errors can be raised while tracing.
         filled = dict(zip(traced, values, strict=True))
-        return fn(*treedef.unflatten([filled.get(k, x) for k, x in enumerate(leaves)]))
+        return fn(*jax.tree.unflatten(treedef, [filled.get(k, x) for k, x in enumerate(leaves)]))
 
     chunked = custom_vmap(of_traced)
 

@@ -11,40 +11,8 @@ from bayesmap.gen.diff import Change, IndexChange, NoChange, UnknownChange
 
 # Element i of the result depends on element i of the operands alone.
 _ELEMENTWISE = frozenset(
-    [
-        "add",
-        "sub",
-        "mul",
-        "div",
-        "neg",
-        "not",
-        "and",
-        "or",
-        "xor",
-        "gt",
-        "ge",
-        "lt",
-        "le",
-        "eq",
-        "ne",
-        "max",
-        "min",
-        "abs",
-        "sign",
-        "exp",
-        "log",
-        "floor",
-        "ceil",
-        "round",
-        "select_n",
-        "convert_element_type",
-        "copy",
-        "copy_p",
-        "integer_pow",
-        "sqrt",
-        "tanh",
-        "logistic",
-    ]
+    "abs add and ceil convert_element_type copy copy_p div eq exp floor ge gt integer_pow le log logistic lt "  # noqa: SIM905
+    "max min mul ne neg not or round select_n sign sqrt sub tanh xor".split()
 )
 
 

@@ -36,8 +36,8 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             return value, None
         case Indexed(inner, index) if shape:
             index = check_index(index, shape[0])
-            value, flag = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
-            present = True if flag is None else flag
+            value, given = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
+            present = True if given is None else given
             return _put(value, index, shape[0]), jnp.zeros(shape, bool).at[index].set(present)
         case Or() | Switch():
             parts = [chm.left, chm.right] if isinstance(chm, Or) else chm.branches()

@@ -205,7 +205,7 @@ _FAMILIES: dict[str, Family] = {
             *_odds("binomial")(logits=logits, probs=probs)[:1],
         ),
         lambda key, shape, n, p: jr.binomial(key, n, p, shape).astype(jnp.int32),
-        lambda v, n, p: st.binom.logpmf(v, n, p),
+        st.binom.logpmf,
         support=_counts,
     ),
     "laplace": Family(_two, lambda key, shape, m, s: m + s * jr.laplace(key, shape), st.laplace.logpdf),

@@ -83,7 +83,7 @@ class Diff(Pytree):
     def zip(value: Any, tangents: list[Change]) -> Any:
         """Mark the leaves of the plain tree `value` with `tangents`, in order."""
         leaves, treedef = jax.tree.flatten(value)
-        return treedef.unflatten([Diff(leaf, t) for leaf, t in zip(leaves, tangents, strict=True)])
+        return jax.tree.unflatten(treedef, [Diff(leaf, t) for leaf, t in zip(leaves, tangents, strict=True)])
 
     @staticmethod
     def static_check_no_change(value: Any) -> bool:

@@ -1,5 +1,7 @@
 """What bad use gets: every message names the address, what was found and what was expected."""
 
+# ruff: noqa: D102 - each class says its headline.
+
 from typing import Any, Self
 
 from bayesmap.errors import BadInput

@@ -1,4 +1,4 @@
-"""Combinators as methods: `model.vmap(in_axes=0)`. This file alone looks them up, when they are called."""
+"""Combinators as methods, `model.vmap(in_axes=0)`: looked up when they are called."""
 
 import importlib
 from collections.abc import Callable
@@ -26,7 +26,7 @@ def _function(name: str) -> Callable[..., Any]:
 
 
 class Fluent:
-    """The methods that build larger generative functions; `bayesmap.gen.vmap` and the like say what they do."""
+    """The methods that build larger generative functions."""
 
     vmap, repeat, scan = _decorator("vmap"), _decorator("repeat"), _decorator("scan")
     iterate, iterate_final = _decorator("iterate"), _decorator("iterate_final")

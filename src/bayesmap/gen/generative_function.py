@@ -7,8 +7,8 @@ dataclasses and implement
 - `assess(choices, args)`: (log density of exactly these choices, return value);
 - `generate(key, constraint, args)`: (trace that agrees with the constraint, weight), the weight being
   the log of (joint density / density with which the unconstrained choices were drawn);
-- `edit(key, trace, request, argdiffs)`: (new trace, weight, retdiff, backward request). For requests that draw
-  nothing the weight is new score - old score. `argdiffs` are the new arguments as `Diff` leaves, and say
+- `edit(key, trace, request, argdiffs)`: (new trace, weight, retdiff, backward request). For requests that
+  draw nothing the weight is new score - old score. `argdiffs` are the new arguments as `Diff` leaves, and say
   which of them changed, and where: a `Diff` whose tangent is `IndexChange((i, j))` is the old array but
   for element [i, j]. That is the place to be incremental. `edit` may rely on `Diff.tree_primal(argdiffs)`
   alone for arguments: a trace inside a larger one is stored without its own.
@@ -149,7 +149,7 @@ class GenerativeFunction(Fluent, Pytree):
         raise TypeError(f"{type(self).__name__} takes no keyword arguments; it was given {', '.join(names)}")
 
     def importance(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        """The same as `generate`, but a large batch of it under `jax.vmap` runs in chunks: see `in_chunks`."""
+        """The same as `generate`; a large batch of it under `jax.vmap` runs in chunks, see `in_chunks`."""
         return in_chunks(self.generate, key, constraint, args)  # type: ignore[no-any-return]
 
     def propose(self, key: PRNGKey, args: Arguments) -> tuple[ChoiceMap, Score, Any]:
@@ -184,6 +184,7 @@ class EmptyRequest(EditRequest):
     """Keep all choices. Weight: 0 if no argument changed, else new score - old score."""
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        """Nothing to do unless an argument changed."""
         if Diff.static_check_no_change(argdiffs):
             return trace, jnp.zeros(()), Diff.no_change(trace.get_retval()), EmptyRequest()
         return Update(ChoiceMap.empty()).edit(key, trace, argdiffs)

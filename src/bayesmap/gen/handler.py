@@ -25,12 +25,16 @@ def as_path(address: Any) -> StaticAddress:
     return path
 
 
+def _trace_state() -> Any:
+    return get_opaque_trace_state(convention="flax")  # type: ignore[no-untyped-call]
+
+
 class Handler:
     """One run of a body: `visit` is called for each site, in order."""
 
     def __init__(self) -> None:
         self.visited: list[StaticAddress] = []
-        self.trace_state = get_opaque_trace_state(convention="flax")
+        self.trace_state = _trace_state()
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: tuple[Any, ...]) -> Any:
         """The value of the site's call."""
@@ -47,11 +51,9 @@ class Handler:
             shared = min(len(other), len(path))
             if other[:shared] == path[:shared]:
                 raise AddressReuse(path, f"there is one at {other}")
-        if get_opaque_trace_state(convention="flax") != self.trace_state:
-            raise AddressError(
-                path,
-                "the site is inside a jax transformation within the body; use the vmap, scan or or_else combinator",
-            )
+        if _trace_state() != self.trace_state:
+            remedy = "use the vmap, scan or or_else combinator"
+            raise AddressError(path, f"the site is inside a jax transformation within the body; {remedy}")
         self.visited.append(path)
 
 

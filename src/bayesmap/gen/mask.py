@@ -51,10 +51,6 @@ class Mask(Pytree):
             return Mask(value.value, flag if inner is True else jnp.logical_and(flag, inner))
         return Mask(value, flag)
 
-    def primal_flag(self) -> Flag:
-        """The flag."""
-        return self.flag
-
     def flatten(self) -> Any:
         """The value if the flag is known to be True, None if it is known to be False, else this Mask."""
         if is_concrete(self.flag) and jnp.ndim(self.flag) == 0:
@@ -88,9 +84,3 @@ class Mask(Pytree):
         shape = jnp.broadcast_shapes(*(jnp.shape(f) for f in flags))
         first, second = (jnp.broadcast_to(f, shape) for f in flags)
         return Mask(where(first, self.value, other.value), jnp.logical_or(first, second))
-
-    def __and__(self, flag: Flag) -> "Mask":
-        return Mask.build(self, flag)
-
-    def __invert__(self) -> "Mask":
-        return Mask(self.value, jnp.logical_not(self.flag))

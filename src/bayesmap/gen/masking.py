@@ -66,7 +66,7 @@ class MaskCombinator(GenerativeFunction):
         return jnp.where(args[0], score, 0.0), Mask.build(retval, jnp.asarray(args[0], bool))
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """The hidden choices of a trace that is off take part in edits; they enter the weight when it turns on."""
+        """Edits move the hidden choices of a trace that is off, too; they weigh when it turns on."""
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
         args = Diff.tree_primal(argdiffs)

@@ -43,7 +43,11 @@ def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -
 
 
 def run_chain(
-    key: PRNGKey, trace: Trace, kernel: Kernel, n: int, collect: Callable[[Trace], Any] = lambda trace: trace.get_choices()
+    key: PRNGKey,
+    trace: Trace,
+    kernel: Kernel,
+    n: int,
+    collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
 ) -> Chain:
     """Apply a kernel `n` times, step t with `fold_in(key, t)`, collecting something of each trace.
 

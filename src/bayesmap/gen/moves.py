@@ -71,8 +71,8 @@ class HMC(EditRequest):
 
         leaves, treedef = jax.tree.flatten(start)
         keys = jax.random.split(momentum_key, len(leaves))
-        momentum = treedef.unflatten(
-            [jax.random.normal(k, x.shape, x.dtype) for k, x in zip(keys, leaves, strict=True)]
+        momentum = jax.tree.unflatten(
+            treedef, [jax.random.normal(k, x.shape, x.dtype) for k, x in zip(keys, leaves, strict=True)]
         )
 
         def drift(tree: Any, by: Any, scale: Any) -> Any:
@@ -96,5 +96,5 @@ def _kinetic(momentum: Any) -> Any:
 
 
 def mala(selection: Selection, eps: Any) -> HMC:
-    """Metropolis-adjusted Langevin: one leapfrog step of size `eps`, a drift of eps^2 / 2 times the gradient."""
+    """Metropolis-adjusted Langevin: one leapfrog step, which drifts by eps^2 / 2 times the gradient."""
     return HMC(selection, eps, 1)

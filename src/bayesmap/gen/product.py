@@ -40,7 +40,7 @@ class Product(ExactDensity):
     def score(self, value: Any, args: Arguments, given: Any = None) -> Score:
         rest = (value,) if given is None else (value, given)
         scores = self._map(args).vmap(lambda v, *g_args: self.inner.score(v, g_args[-1], *g_args[:-1]), *rest)
-        return total(scores)
+        return total(scores)  # type: ignore[no-any-return]
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
         mapped, below = self._map(args), []

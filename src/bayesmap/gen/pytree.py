@@ -7,7 +7,7 @@ decorated by `penzai.pz.pytree_dataclass` may inherit from it too.
 
 import dataclasses
 from collections.abc import Iterable
-from typing import Any, Generic, Self, TypeVar, dataclass_transform
+from typing import Any, Self, TypeVar, dataclass_transform
 
 import jax
 
@@ -36,11 +36,6 @@ class Pytree:
     def field(**options: Any) -> Any:
         """A field that is a subtree; the same as leaving the specifier out."""
         return dataclasses.field(**options)
-
-    @staticmethod
-    def const(value: T) -> "Const[T]":
-        """`value` as a pytree without leaves."""
-        return value if isinstance(value, Const) else Const(value)
 
     def replace(self, **changes: Any) -> Self:
         """A copy with some fields changed."""
@@ -71,14 +66,3 @@ class Pytree:
             source = nodes if f.metadata.get("pytree_node", True) else fixed
             object.__setattr__(new, f.name, next(source))
         return new
-
-
-@dataclass
-class Const(Pytree, Generic[T]):
-    """A value that JAX does not trace."""
-
-    val: T = static()
-
-    def unwrap(self) -> T:
-        """The wrapped value."""
-        return self.val

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from bayesmap.gen.axes import total
 from bayesmap.gen.choice_map import ChoiceMap, Indexed
 from bayesmap.gen.dense import check_index, vectorise
-from bayesmap.gen.diff import Diff, NoChange
+from bayesmap.gen.diff import Diff
 from bayesmap.gen.dimap import dimap, map
 from bayesmap.gen.errors import NotSupportedEditRequest
 from bayesmap.gen.generative_function import (
@@ -63,7 +63,7 @@ class Scan(GenerativeFunction):
         return self.n if self.n is not None else int(jnp.shape(leaves[0])[0])
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
-        """Iterate `step(key_t, (state, input_t), mapped_t) -> (trace_t, weight_t, more_t)`, with chained keys."""
+        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, with chained keys."""
         n = self._length(args)
 
         def body(carry: Any, scanned: Any) -> Any:
@@ -139,38 +139,37 @@ class Scan(GenerativeFunction):
         return new, weight, Diff.unknown_change(new.retval), undo
 
     def _edit_step(self, key: PRNGKey, trace: Any, t: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit step t; then the steps after it, for as long as the state that they start from may differ."""
+        """Edit step t; then, if the state that it hands on may differ, the steps after it."""
         args = Diff.tree_primal(argdiffs)
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
-        n = self._length(args)
-        at = lambda tree, i: jax.tree.map(lambda x: x[i], tree)  # noqa: E731
-        step_args = (at(trace.carries, t), at(args[1], t))
-        new, weight, retdiff, back = request.edit(key, at(trace.inner, t), Diff.no_change(step_args))
-        state, out = new.get_retval()
-        if all(c == NoChange for c in Diff.tangents(retdiff[0])):
-            put = lambda tree, value: jax.tree.map(lambda x, v: x.at[t].set(v), tree, value)  # noqa: E731
-            inner = put(trace.inner, new.with_args(None))
+        old, *step_args = jax.tree.map(lambda x: x[t], (trace.inner, trace.carries, args[1]))
+        new, weight, retdiff, back = request.edit(key, old, Diff.no_change(tuple(step_args)))
+        state_diff, out = retdiff[0], new.get_retval()[1]
+        new = new.with_args(None)
+
+        def put(stack: Any, value: Any) -> Any:
+            return jax.tree.map(lambda x, v: x.at[t].set(v), stack, value)
+
+        if Diff.static_check_no_change(state_diff):
             retval = (trace.retval[0], put(trace.retval[1], out))
-            new = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
+            inner = put(trace.inner, new)
+            result = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
             diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
-            return new, before + weight, diff, IndexRequest(t, back)
+            return result, before + weight, diff, IndexRequest(t, back)
 
-        def step(key: PRNGKey, args: Any, mapped: Any) -> Any:
-            inner, old_state, s = mapped
-            moved = lambda: EmptyRequest().edit(
-                key, inner, (Diff.unknown_change(args[0]), Diff.no_change(args[1]))
-            )
-            here = lambda: (new.with_args(None), weight)  # noqa: E731
-            after = lambda: _bare(moved())  # noqa: E731
-            same = lambda: (inner, jnp.zeros(()))  # noqa: E731
-            return (*jax.lax.switch(jnp.sign(s - t) + 1, [same, here, after]), None)
+        def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
+            inner, s = mapped
 
-        result, total_weight, _ = self._loop(key, args, step, (trace.inner, trace.carries, jnp.arange(n)))
-        return result, before + total_weight, Diff.unknown_change(result.retval), IndexRequest(t, back)
+            def follow() -> tuple[Trace, Weight]:
+                diffs = (Diff.unknown_change(step_args[0]), Diff.no_change(step_args[1]))
+                moved, weight, _, _ = EmptyRequest().edit(key, inner, diffs)
+                return moved.with_args(None), weight
 
+            options = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), follow]
+            return (*jax.lax.switch(jnp.sign(s - t) + 1, options), None)
 
-def _bare(edited: Edited) -> tuple[Trace, Weight]:
-    return edited[0].with_args(None), edited[1]
+        result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self._length(args))))
+        return result, before + change, Diff.unknown_change(result.retval), IndexRequest(t, back)
 
 
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:

@@ -10,7 +10,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.choice_map import ChoiceMap, Static
+from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dataflow import Dataflow, dataflow
 from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange
 from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, show
@@ -34,8 +34,8 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 class StaticTrace(Trace):
     """The calls of one run by address.
 
-    The return value's leaves that some call returned are found there: (address, number of the leaf). `computed`
-    holds the others.
+    The return value's leaves that some call returned are found there, by `sources`: (address, number of
+    the leaf); `computed` holds the others.
     """
 
     gen_fn: Any
@@ -190,7 +190,7 @@ class _Edit(_Run):
             raise UnknownAddress(path, "the trace that is edited has no such site")
         marked_fn, argdiffs = self.mark((gen_fn, args))
         subtrace, request, key = self.old.subtraces[path], self.request(path), self.next_key()
-        same = jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn())
+        same = bool(jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn()))  # type: ignore[operator]
         with _located(path):
             if same and Diff.static_check_no_change(marked_fn):
                 trace, weight, retdiff, back = request.edit(key, subtrace, argdiffs)
@@ -328,7 +328,7 @@ def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> E
     """One request from those of the sites: an Update where the request was one and all of them are."""
     if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
         parts = [b.constraint.extend(*path) for path, b in backward.items() if isinstance(b, Update)]
-        return Update(functools.reduce(lambda a, b: a | b, parts, Static({})))
+        return Update(functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty()))
     return StaticRequest(dict(backward))
 
 

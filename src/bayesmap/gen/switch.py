@@ -43,7 +43,11 @@ class SwitchTrace(Trace):
 
 
 def _run(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
-    """Run thunk number `index`, each returning (own, shared): all the own results, those not run zero, and its shared."""
+    """Run thunk number `index`; each returns (own, shared).
+
+    Returns:
+        (the own results of all, zeros for those not run; the shared result).
+    """
     blank = [jax.eval_shape(lambda t=t: t()[0]) for t in thunks]
 
     def branch(k: int) -> Callable[[], Any]:
@@ -113,7 +117,8 @@ class Switch(GenerativeFunction):
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[SwitchTrace, Weight]:
         _, rest = self._read(args)
         parts = zip(self.branches, self._parts(constraint, rest), rest, strict=True)
-        return self._build(args, [lambda fn=fn, c=c, a=a: fn.generate(key, c, a) for fn, c, a in parts])
+        thunks = [lambda fn=fn, c=c, a=a: fn.generate(key, c, a) for fn, c, a in parts]
+        return self._build(args, thunks)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         index, rest = self._read(args)
@@ -162,7 +167,8 @@ class Switch(GenerativeFunction):
 def switch(*gen_fns: GenerativeFunction) -> Switch:
     """Of several generative functions, run the one numbered by the first argument (clamped to their number).
 
-    The further arguments are one tuple per function; all return values have the same shape. Choices are Masks.
+    The further arguments are one tuple per function; all return values have the same shape. Choices
+    are Masks.
     """
     return Switch(gen_fns)
 
