@@ -41,6 +41,12 @@ def test_a_closure_puts_its_arguments_first():
     assert trace.get_retval() == nested.simulate(KEY, (1.0, 2.0)).get_retval()
 
 
+def test_a_combinator_comes_before_the_arguments():
+    """C.11: what bad use gets."""
+    with pytest.raises(TypeError, match="apply repeat before the arguments"):
+        nested(1.0).repeat(n=3)
+
+
 def test_keyword_arguments_reach_the_body():
     """C.11."""
 
@@ -175,6 +181,7 @@ def test_python_if_on_a_traced_argument_fails_with_jaxs_error():
     branching = genjax.gen(lambda x: genjax.normal(0.0, 1.0 if x > 0 else 2.0) @ "x")
     with pytest.raises(jax.errors.TracerBoolConversionError):
         jax.jit(branching.simulate)(KEY, (1.0,))
+    assert branching.simulate(KEY, (1.0,)).get_retval() == genjax.normal(0.0, 1.0)(jr.fold_in(KEY, 1))
 
 
 def test_partial_apply_leaves_its_arguments_out():

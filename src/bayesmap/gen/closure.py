@@ -33,6 +33,9 @@ class Closure(GenerativeFunction):
     def _full(self, rest: tuple[Any, ...]) -> tuple[Any, ...]:
         return (*self.args, *rest, *self.keywords)
 
+    def check_open(self, name: str) -> None:
+        raise TypeError(f"apply {name} before the arguments: m.{name}(...)(x), not m(x).{name}(...)")
+
     def __matmul__(self, address: Any) -> Any:
         return handler.visit(address, self.gen_fn, self._full(()))
 

@@ -209,7 +209,6 @@ _FAMILIES: dict[str, Family] = {
         support=_counts,
     ),
     "laplace": Family(_two, lambda key, shape, m, s: m + s * jr.laplace(key, shape), st.laplace.logpdf),
-    "logistic": Family(_two, lambda key, shape, m, s: m + s * jr.logistic(key, shape), st.logistic.logpdf),
     "cauchy": Family(_two, lambda key, shape, m, s: m + s * jr.cauchy(key, shape), st.cauchy.logpdf),
     "gumbel": Family(
         _two,
@@ -284,7 +283,6 @@ geometric = Named("geometric")
 """Failures before the first success."""
 binomial = Named("binomial")
 laplace = Named("laplace")
-logistic = Named("logistic")
 cauchy = Named("cauchy")
 gumbel = Named("gumbel")
 student_t = Named("student_t")

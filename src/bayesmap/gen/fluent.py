@@ -9,6 +9,7 @@ def _decorator(name: str) -> Callable[..., Any]:
     """A method `m.name(**options)` that is `name(**options)(m)`."""
 
     def method(self: Any, *args: Any, **options: Any) -> Any:
+        self.check_open(name)
         return getattr(importlib.import_module("bayesmap.gen"), name)(*args, **options)(self)
 
     method.__name__, method.__doc__ = name, f"See `bayesmap.gen.{name}`."
@@ -19,6 +20,7 @@ def _function(name: str) -> Callable[..., Any]:
     """A method `m.name(*others)` that is `name(m, *others)`."""
 
     def method(self: Any, *others: Any) -> Any:
+        self.check_open(name)
         return getattr(importlib.import_module("bayesmap.gen"), name)(self, *others)
 
     method.__name__, method.__doc__ = name, f"See `bayesmap.gen.{name}`."
@@ -39,6 +41,9 @@ class Fluent:
         _function("switch"),
         _function("mix"),
     )
+
+    def check_open(self, name: str) -> None:
+        """Raise TypeError if the function has been applied to arguments already."""
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
         """The function applied to arguments: trace it with `@ "address"`, draw from it with `(key)`."""
