@@ -71,6 +71,7 @@ def test_argdiffs_change_the_arguments():
     new, weight, _, _ = TRACE.edit(KEY, Update(C.n()), Diff.unknown_change((0.6, 0.5)))
     assert new.get_args() == (0.6, 0.5)
     changes_by_the_joint(TRACE, new, weight)
+    same_types(new, TRACE)
 
 
 EDITS = {
@@ -126,6 +127,7 @@ def test_all_steps_of_a_scan_can_be_changed():
     )
     changes_by_the_joint(trace, new, weight)
     np.testing.assert_array_equal(back.constraint["y"], trace.get_choices()["y"])
+    same_types(new, trace)
 
 
 def test_an_edit_of_an_element_outside_raises():

@@ -81,7 +81,6 @@ __all__ = [
     "ChoiceMapBuilder",
     "ChoiceMapNoValueAtAddress",
     "Closure",
-    "Const",
     "Diff",
     "EditRequest",
     "EmptyRequest",

@@ -11,13 +11,14 @@ from bayesmap.gen.mask import Mask
 
 
 def pretty() -> None:
-    """Show values in notebooks by treescope, if it is installed; elsewhere their text is a tree already."""
+    """Show values by treescope, if it is installed and a notebook is running; their text is a tree anyhow."""
     try:
         import treescope
-    except ImportError:
+
+        treescope.register_as_default()
+        treescope.register_autovisualize_magic()
+    except (ImportError, RuntimeError):  # the latter is what treescope raises outside IPython
         return
-    treescope.register_as_default()
-    treescope.register_autovisualize_magic()
 
 
 def render(value: Trace | ChoiceMap) -> str:
