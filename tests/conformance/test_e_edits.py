@@ -130,6 +130,16 @@ def test_all_steps_of_a_scan_can_be_changed():
     same_types(new, trace)
 
 
+def test_an_edit_can_leave_and_return_from_an_impossible_value():
+    """E.28: a score of -inf is not added to, which would give NaN."""
+    trace, _ = genjax.flip.repeat(n=3).importance(KEY, C.v(jnp.zeros(3)), (0.0,))
+    impossible, down, _, back = trace.edit(KEY, IndexRequest(1, Update(C.v(1.0))))
+    assert down == impossible.get_score() == -jnp.inf
+    restored, up, _, _ = impossible.edit(KEY, back)
+    assert up == jnp.inf
+    assert restored.get_score() == trace.get_score() == 0.0
+
+
 def test_an_edit_of_an_element_outside_raises():
     """E.28."""
     with pytest.raises(UnknownAddress, match=r"\('table', 3\)"):

@@ -1,5 +1,6 @@
 """Section F: choice maps, selections, masks, pytrees."""
 
+import copy
 import pickle
 
 import jax
@@ -188,6 +189,12 @@ def test_traces_of_module_level_models_pickle():
     assert loaded.get_gen_fn() == model
     np.testing.assert_array_equal(loaded.get_choices()["y", "z"], trace.get_choices()["y", "z"])
     assert loaded.update(KEY, C["x"].set(0.0))[0].get_choices()["x"] == 0.0
+
+
+def test_traces_of_local_models_can_be_copied():
+    """F.39."""
+    trace = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(KEY, ())
+    assert copy.deepcopy(trace).get_choices()["x"] == trace.get_choices()["x"]
 
 
 def test_traces_survive_jit_vmap_scan_and_cond():

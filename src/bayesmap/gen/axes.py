@@ -60,3 +60,13 @@ def total(scores: Any) -> Any:
     loses a digit: with it, compiled and uncompiled scores agree.
     """
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
+
+
+def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> Any:
+    """The sum after one of its terms changed, in time that does not grow with their number.
+
+    Rounding errors add up, to about sqrt(k) units in the last place after k changes. A sum that is not
+    finite is taken afresh.
+    """
+    moved = sum_ + (new - old)
+    return jax.lax.cond(jnp.isfinite(moved), lambda: moved, afresh)

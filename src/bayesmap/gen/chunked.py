@@ -8,12 +8,12 @@ import jax
 from jax.custom_batching import custom_vmap
 from jax.extend.core import jaxprs_in_params
 
-CHUNK_BYTES = {"cpu": 1 << 20, "gpu": 1 << 28, "tpu": 1 << 28}
-"""How large the largest intermediate array of a chunk may be: on a CPU, what stays in cache."""
+CACHE_BYTES, DEVICE_BYTES = 1 << 20, 1 << 28
+"""How large the largest intermediate array of a chunk may be, on a CPU and on an accelerator."""
 
 
 def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
-    """`fn(*args)`; under `jax.vmap`, as many elements at a time as keep arrays within `CHUNK_BYTES`.
+    """`fn(*args)`; under `jax.vmap`, as many elements at a time as keep every array small.
 
     Memory is then that of the results and of one chunk. Work that all elements share is done once, too: XLA
     takes it out of the loop over chunks, whereas in one large batch it may repeat it for each element.
@@ -39,7 +39,7 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
             return of_traced(*(next(rest) if b else v for v, b in zip(values, in_batched, strict=True)))
 
         largest = _largest_array(jax.make_jaxpr(one)([v[0] for v in moving]).jaxpr)
-        chunk = CHUNK_BYTES[jax.default_backend()] // largest
+        chunk = (CACHE_BYTES if jax.default_backend() == "cpu" else DEVICE_BYTES) // largest
         if chunk >= axis_size:
             out = jax.vmap(one)(moving)
         else:

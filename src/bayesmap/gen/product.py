@@ -9,7 +9,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.axes import Mapped, map_over, total
+from bayesmap.gen.axes import Mapped, map_over, replace_term, total
 from bayesmap.gen.choice_map import Indexed
 from bayesmap.gen.dense import check_index
 from bayesmap.gen.diff import Diff, IndexChange
@@ -60,7 +60,7 @@ class Product(ExactDensity):
         return super().edit(key, trace, request, argdiffs)
 
     def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Change one element: no other is looked at, but for the sum of the scores."""
+        """Change one element; no other is looked at."""
         args = Diff.tree_primal(argdiffs)
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         mapped = self._map(args)
@@ -71,5 +71,8 @@ class Product(ExactDensity):
         edited, weight, retdiff, back = request.edit(key, element, Diff.no_change(here))
         new_value = trace.value.at[i].set(edited.get_retval())
         below = retdiff.tangent.index if isinstance(retdiff.tangent, IndexChange) else ()
-        new = DistributionTrace(self, args, new_value, self.score(new_value, args))
+        score = replace_term(
+            trace.score, element.score, edited.get_score(), lambda: self.score(new_value, args)
+        )
+        new = DistributionTrace(self, args, new_value, score)
         return new, before + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, back)

@@ -7,7 +7,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.axes import Mapped, map_over, total
+from bayesmap.gen.axes import Mapped, map_over, replace_term, total
 from bayesmap.gen.choice_map import ChoiceMap, Indexed
 from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
@@ -127,7 +127,7 @@ class Vmap(GenerativeFunction):
         return self._trace(args, inner), total(weights), retdiff, undo
 
     def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Change one element: no other is looked at, but for the sum of the scores."""
+        """Change one element; no other is looked at."""
         args = Diff.tree_primal(argdiffs)
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         mapped = self._map(args)
@@ -141,7 +141,15 @@ class Vmap(GenerativeFunction):
         inner = jax.tree.map(store, trace.inner, element, new.with_args(None))
         retval = inner.get_retval()
         moved = [_at(i, t) for t in Diff.tangents(retdiff)]
-        return self._trace(args, inner), before + weight, Diff.zip(retval, moved), IndexRequest(i, back)
+        score = replace_term(
+            trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score())
+        )
+        return (
+            VmapTrace(self, args, inner, score),
+            before + weight,
+            Diff.zip(retval, moved),
+            IndexRequest(i, back),
+        )
 
 
 def _at(i: Any, tangent: Change) -> Change:
