@@ -201,7 +201,7 @@ class StaticGenerativeFunction(GenerativeFunction):
     def __reduce__(self) -> Any:
         # The module's name for the source is this object, so pickle finds the source through it.
         if "<" in self.source.__qualname__:
-            return super().__reduce_ex__(2)
+            return StaticGenerativeFunction, (self.partial_args, self.source, self.keywords)
         where = (self.source.__module__, self.source.__qualname__)
         return _unpickle, (*where, self.partial_args, self.keywords)
 
