@@ -1,0 +1,227 @@
+"""The contract: what a trace, a generative function and an edit request can be asked.
+
+To write a generative function of your own, subclass `GenerativeFunction` and `Trace` as pytree
+dataclasses and implement
+
+- `simulate(key, args)`: draw the choices; the trace's score is their log density;
+- `assess(choices, args)`: (log density of exactly these choices, return value);
+- `generate(key, constraint, args)`: (trace that agrees with the constraint, weight), the weight being
+  the log of (joint density / density with which the unconstrained choices were drawn);
+- `edit(key, trace, request, argdiffs)`: (new trace, weight, retdiff, backward request). For requests that
+  draw nothing the weight is new score - old score. `argdiffs` are the new arguments as `Diff` leaves, and say
+  which of them changed, and where: a `Diff` whose tangent is `IndexChange((i, j))` is the old array but
+  for element [i, j]. That is the place to be incremental. `edit` may rely on `Diff.tree_primal(argdiffs)`
+  alone for arguments: a trace inside a larger one is stored without its own.
+- `project(key, trace, selection)`: the selected choices' part of the score.
+
+`vmap`, `@gen` and the rest call nothing else.
+"""
+
+from typing import Any, Self
+
+import jax.numpy as jnp
+
+from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.chunked import in_chunks
+from bayesmap.gen.diff import Diff
+from bayesmap.gen.errors import AddressError
+from bayesmap.gen.fluent import Fluent
+from bayesmap.gen.pytree import Pytree, dataclass
+from bayesmap.gen.selection import Selection
+from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
+
+Edited = tuple["Trace", Weight, Any, "EditRequest"]
+"""(new trace, weight, return value as a tree of `Diff`, the request that would undo the edit)."""
+
+
+class Trace(Pytree):
+    """A record of one run: arguments, choices, return value, score.
+
+    Fields hold arrays, so a batch of traces (from `jax.vmap`) is a trace whose every leaf has a leading
+    axis, and the methods below then answer for the whole batch. A subclass has the fields `gen_fn` and
+    `args`, and either fields `retval` and `score` or methods `get_retval` and `get_score`.
+    """
+
+    gen_fn: Any
+    args: Any
+
+    def __repr__(self) -> str:
+        from bayesmap.gen.pretty import render
+
+        return render(self)
+
+    def get_gen_fn(self) -> "GenerativeFunction":
+        """The generative function that made the trace."""
+        return self.gen_fn  # type: ignore[no-any-return]
+
+    def get_args(self) -> Arguments:
+        """The arguments that it was run on."""
+        return self.args  # type: ignore[no-any-return]
+
+    def get_retval(self) -> Any:
+        """Its return value."""
+        return self.retval  # type: ignore[attr-defined]
+
+    def get_score(self) -> Score:
+        """The log density of all choices."""
+        return self.score  # type: ignore[attr-defined, no-any-return]
+
+    def get_choices(self) -> ChoiceMap:
+        """The choices by address."""
+        raise NotImplementedError
+
+    def get_subtrace(self, *addresses: Any) -> "Trace":
+        """The trace of the call made at an address."""
+        trace = self
+        for address in addresses:
+            trace = trace.get_inner_trace(address)
+        return trace
+
+    def get_inner_trace(self, address: Any) -> "Trace":
+        """The trace of the call made at one address, a name or a tuple."""
+        raise AddressError(address, f"a {type(self).__name__} has no subtraces")
+
+    def with_args(self, args: Arguments | None) -> "Trace":
+        """The same trace holding other arguments.
+
+        A combinator stores the traces of its parts `with_args(None)`: it can work their arguments out, and a
+        batch of traces then holds an argument that all parts share once. Override it in a trace whose own
+        edits need the old arguments.
+        """
+        return self.replace(args=args)
+
+    def edit(self, key: PRNGKey, request: "EditRequest", argdiffs: Any = None) -> Edited:
+        """Carry out a request; `argdiffs` None means that the arguments stay the same.
+
+        Returns:
+            (new trace, weight, retdiff, backward request)
+        """
+        if not isinstance(request, EditRequest):
+            raise TypeError(
+                f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}"
+            )
+        return request.edit(key, self, Diff.no_change(self.get_args()) if argdiffs is None else argdiffs)
+
+    def update(
+        self, key: PRNGKey, constraint: ChoiceMap, argdiffs: Any = None
+    ) -> tuple[Self, Weight, Any, ChoiceMap]:
+        """Change the choices in `constraint`: (new trace, weight, retdiff, the choices replaced)."""
+        trace, weight, retdiff, backward = self.edit(key, Update(constraint), argdiffs)
+        if not isinstance(backward, Update):
+            raise TypeError(f"This update is undone by {type(backward).__name__}, not by choices; use edit")
+        return trace, weight, retdiff, backward.constraint  # type: ignore[return-value]
+
+    def project(self, key: PRNGKey, selection: Selection) -> Weight:
+        """The selected choices' part of the score."""
+        return self.get_gen_fn().project(key, self, selection)
+
+
+class GenerativeFunction(Fluent, Pytree):
+    """A probabilistic program: see the module's text for what each method means."""
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
+        """Run on the tuple `args`, drawing every choice."""
+        raise NotImplementedError
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """(Log density of `choices`, return value).
+
+        Raises:
+            MissingAddress: a choice has no value.
+            UnknownAddress: a value belongs to no choice.
+        """
+        raise NotImplementedError
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
+        """Run with some choices given: (trace, log importance weight)."""
+        raise NotImplementedError
+
+    def edit(self, key: PRNGKey, trace: Any, request: "EditRequest", argdiffs: Any) -> Edited:
+        """Carry out a primitive request on `trace`, whose new arguments are `argdiffs`."""
+        raise NotImplementedError
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """The selected choices' part of the trace's score."""
+        raise NotImplementedError
+
+    def keyworded(self, names: tuple[str, ...]) -> "GenerativeFunction":
+        """The same function taking its last `len(names)` arguments by these names."""
+        raise TypeError(f"{type(self).__name__} takes no keyword arguments; it was given {', '.join(names)}")
+
+    def importance(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
+        """The same as `generate`; a large batch of it under `jax.vmap` runs in chunks, see `in_chunks`."""
+        return in_chunks(self.generate, key, constraint, args)  # type: ignore[no-any-return]
+
+    def propose(self, key: PRNGKey, args: Arguments) -> tuple[ChoiceMap, Score, Any]:
+        """Simulate, and return (choices, score, return value)."""
+        trace = self.simulate(key, args)
+        return trace.get_choices(), trace.get_score(), trace.get_retval()
+
+    def update(
+        self, key: PRNGKey, trace: Trace, constraint: ChoiceMap, argdiffs: Any
+    ) -> tuple[Any, Weight, Any, Any]:
+        """The same as `trace.update(key, constraint, argdiffs)`."""
+        return trace.update(key, constraint, argdiffs)
+
+
+class EditRequest(Pytree):
+    """A change to make to a trace."""
+
+    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        """Carry the change out. Unless overridden, the trace's generative function does."""
+        return trace.get_gen_fn().edit(key, trace, self, argdiffs)
+
+
+@dataclass
+class Update(EditRequest):
+    """Give the choices in `constraint` new values, keep the rest. Weight: new score - old score."""
+
+    constraint: ChoiceMap
+
+
+@dataclass
+class EmptyRequest(EditRequest):
+    """Keep all choices. Weight: 0 if no argument changed, else new score - old score."""
+
+    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        """Nothing to do unless an argument changed."""
+        if Diff.static_check_no_change(argdiffs):
+            return trace, jnp.zeros(()), Diff.no_change(trace.get_retval()), EmptyRequest()
+        return Update(ChoiceMap.empty()).edit(key, trace, argdiffs)
+
+
+@dataclass
+class Regenerate(EditRequest):
+    """Draw the selected choices afresh from the model, keep the rest.
+
+    The weight is the log Metropolis-Hastings ratio of that proposal: what the kept choices' density
+    changed by. The selected choices' own densities cancel against those of their proposal.
+    """
+
+    selection: Selection
+
+
+@dataclass
+class StaticRequest(EditRequest):
+    """One request per address of a `@gen` function; addresses left out keep their choices."""
+
+    addressed: dict[Any, EditRequest]
+
+    def __post_init__(self) -> None:
+        paths = {a if isinstance(a, tuple) else (a,): request for a, request in self.addressed.items()}
+        object.__setattr__(self, "addressed", paths)
+
+
+@dataclass
+class IndexRequest(EditRequest):
+    """A request for the element `idx`, an int or a scalar integer array, of a vectorised model."""
+
+    idx: Any
+    request: EditRequest
+
+
+@dataclass
+class VectorRequest(EditRequest):
+    """One request for every element of a vectorised model: the leaves of `request` have a leading axis."""
+
+    request: EditRequest

@@ -1,0 +1,118 @@
+"""A generative function that shows only some of its choices."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jax.scipy.special import logsumexp
+
+from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.diff import Diff
+from bayesmap.gen.errors import NotSupportedEditRequest
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    GenerativeFunction,
+    Regenerate,
+    Trace,
+    Update,
+)
+from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.selection import Selection
+from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
+
+
+@dataclass
+class MarginalTrace(Trace):
+    """The choices that are shown, and an estimate of their marginal density."""
+
+    gen_fn: Any
+    args: Any
+    choices: ChoiceMap
+    retval: Any
+    score: Score
+
+    def get_choices(self) -> ChoiceMap:
+        return self.choices
+
+
+@dataclass
+class Marginal(GenerativeFunction):
+    """See `marginal`."""
+
+    inner: GenerativeFunction
+    selection: Selection
+    particles: int = static(default=1)
+
+    def _estimate(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
+        """`n` runs that agree with `shown`, and their weights."""
+        return jax.vmap(lambda k: self.inner.generate(k, shown, args))(jax.random.split(key, n))
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> MarginalTrace:
+        simulate_key, estimate_key = jax.random.split(key)
+        trace = self.inner.simulate(simulate_key, args)
+        shown = trace.get_choices().filter(self.selection)
+        # This run is one of the particles, or 1 / density would be biased: conditional importance sampling.
+        weights = trace.project(simulate_key, self.selection)[None]
+        if self.particles > 1:
+            _, others = self._estimate(estimate_key, shown, args, self.particles - 1)
+            weights = jnp.concatenate([weights, others])
+        score = logsumexp(weights) - jnp.log(self.particles)
+        return MarginalTrace(self, args, shown, trace.get_retval(), score)
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[MarginalTrace, Weight]:
+        if constraint.static_is_empty():
+            return self.simulate(key, args), jnp.zeros(())
+        traces, weights = self._estimate(key, constraint, args, self.particles)
+        trace = jax.tree.map(lambda x: x[0], traces)
+        shown = trace.get_choices().filter(self.selection)
+        missing = shown.filter(~constraint.get_selection())
+        if not missing.static_is_empty():
+            raise NotImplementedError(
+                f"a marginal needs all its choices or none; missing: {list(missing.paths())}"
+            )
+        score = logsumexp(weights) - jnp.log(self.particles)
+        return MarginalTrace(self, args, shown, trace.get_retval(), score), score
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        trace, score = self.generate(jax.random.key(0), choices, args)
+        hidden = (
+            jax.eval_shape(self.inner.simulate, jax.random.key(0), args).get_choices().filter(~self.selection)
+        )
+        if not hidden.static_is_empty():
+            raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
+        return score, trace.get_retval()
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        args = Diff.tree_primal(argdiffs)
+        match request:
+            case Update(constraint) if constraint.static_is_empty() and Diff.static_check_no_change(argdiffs):
+                return trace, jnp.zeros(()), Diff.no_change(trace.retval), request
+            case Update(constraint):
+                new, score = self.generate(key, constraint | trace.choices, args)
+                discard = constraint & trace.choices
+                return new, score - trace.score, Diff.unknown_change(new.retval), Update(discard)
+            case Regenerate(selection) if not trace.choices.filter(~selection).static_is_empty():
+                raise NotSupportedEditRequest(self, request)
+            case Regenerate():
+                new = self.simulate(key, args)
+                return new, jnp.zeros(()), Diff.unknown_change(new.retval), Update(trace.choices)
+        raise NotSupportedEditRequest(self, request)
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        if not trace.choices.filter(~selection).static_is_empty():
+            raise NotImplementedError("a marginal's score cannot be split among its choices")
+        return trace.score  # type: ignore[no-any-return]
+
+
+def marginal(
+    *, selection: Selection | None = None, particles: int = 1
+) -> Callable[[GenerativeFunction], Marginal]:
+    """A decorator: keep the selected choices, and sum the others out.
+
+    The score is exact where nothing is summed out; else it is estimated by importance sampling with
+    `particles` runs, so that `generate` gives unbiased weights.
+    """
+    return lambda gen_fn: Marginal(gen_fn, Selection.all() if selection is None else selection, particles)

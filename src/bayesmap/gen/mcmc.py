@@ -1,0 +1,102 @@
+"""Markov chains of traces, and how well they mix."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from bayesmap.gen.generative_function import EditRequest, Trace
+from bayesmap.gen.typing import Array, BoolArray, PRNGKey
+
+Kernel = Callable[[PRNGKey, Any], tuple[Any, BoolArray]]
+
+
+class Chain(NamedTuple):
+    """The last trace, what was collected at each step (leading axis: step), and whether each was accepted."""
+
+    last: Any
+    draws: Any
+    accepted: BoolArray
+
+
+def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
+    """A kernel that makes an edit and keeps it with probability min(1, exp(weight)).
+
+    Args:
+        request: the edit, or a function of the trace that gives it.
+
+    Returns:
+        (key, trace) -> (trace, accepted).
+    """
+
+    def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
+        edit_key, accept_key = jax.random.split(key)
+        wanted = request if isinstance(request, EditRequest) else request(trace)
+        new, weight, _, _ = trace.edit(edit_key, wanted)
+        accepted = jnp.log(jax.random.uniform(accept_key)) < weight
+        return jax.tree.map(
+            lambda a, b: jax.lax.select(accepted, *jnp.broadcast_arrays(a, b)), new, trace
+        ), accepted
+
+    return kernel
+
+
+def run_chain(
+    key: PRNGKey,
+    trace: Trace,
+    kernel: Kernel,
+    n: int,
+    collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
+) -> Chain:
+    """Apply a kernel `n` times, step t with `fold_in(key, t)`, collecting something of each trace.
+
+    A longer run begins with the shorter one. For several chains, `jax.vmap` this over keys and traces.
+    """
+
+    def step(trace: Any, t: Any) -> Any:
+        trace, accepted = kernel(jax.random.fold_in(key, t), trace)
+        return trace, (collect(trace), accepted)
+
+    trace = jax.tree.map(jnp.asarray, trace)
+    last, (draws, accepted) = jax.lax.scan(step, trace, jnp.arange(n))
+    return Chain(last, draws, accepted)
+
+
+def split_rhat(draws: Array) -> Array:
+    """Split R-hat, Gelman et al., Bayesian Data Analysis 3, section 11.4; near 1 where chains agree.
+
+    Args:
+        draws: (chains, draws, ...).
+
+    Returns:
+        (...): NaN where nothing varies.
+    """
+    half = draws.shape[1] // 2
+    halves = jnp.concatenate([draws[:, :half], draws[:, half : 2 * half]]).astype(jnp.result_type(float))
+    within = jnp.mean(jnp.var(halves, axis=1, ddof=1), axis=0)
+    between = jnp.var(jnp.mean(halves, axis=1), axis=0, ddof=1)
+    return jnp.sqrt((half - 1) / half + between / within)
+
+
+def effective_sample_size(draws: Array) -> Array:
+    """Bulk effective sample size by Geyer's initial positive sequence, BDA3 section 11.5.
+
+    Args:
+        draws: (chains, draws, ...).
+
+    Returns:
+        (...): at most a little over chains * draws; NaN where nothing varies.
+    """
+    m, n = draws.shape[:2]
+    draws = draws.astype(jnp.result_type(float))
+    centred = draws - jnp.mean(draws, axis=1, keepdims=True)
+    spectrum = jnp.abs(jnp.fft.rfft(centred, 2 * n, axis=1)) ** 2
+    autocov = jnp.mean(jnp.fft.irfft(spectrum, 2 * n, axis=1)[:, :n], axis=0) / n
+    within = autocov[0] * n / (n - 1)
+    spread = jnp.var(jnp.mean(draws, axis=1), axis=0, ddof=1) if m > 1 else 0.0
+    total = within * (n - 1) / n + spread
+    rho = 1 - (within - autocov * n / (n - 1)) / total
+    pairs = rho[: n // 2 * 2].reshape(n // 2, 2, *rho.shape[1:]).sum(axis=1)
+    positive = jnp.cumprod(pairs > 0, axis=0)
+    return m * n / (2 * jnp.sum(jnp.where(positive, pairs, 0.0), axis=0) - 1)

@@ -1,0 +1,100 @@
+"""Edit requests that propose: their weight is the log Metropolis-Hastings ratio of the move."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.diff import Diff
+from bayesmap.gen.errors import show
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    Trace,
+    Update,
+)
+from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.selection import Selection
+from bayesmap.gen.typing import PRNGKey
+
+
+@dataclass
+class Rejuvenate(EditRequest):
+    """Propose new values from a generative function whose choices have the model's addresses.
+
+    `argument_mapping` makes its arguments of the current choices: of the old ones for the proposal,
+    of the new ones for the way back.
+    """
+
+    proposal: GenerativeFunction
+    argument_mapping: Callable[[ChoiceMap], Any] = static()
+
+    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        propose_key, edit_key = jax.random.split(key)
+        old = trace.get_choices()
+        proposed, forward, _ = self.proposal.propose(propose_key, self.argument_mapping(old))
+        new, weight, retdiff, _ = Update(proposed).edit(edit_key, trace, argdiffs)
+        backward, _ = self.proposal.assess(proposed & old, self.argument_mapping(new.get_choices()))
+        return new, weight + backward - forward, retdiff, self
+
+
+@dataclass
+class HMC(EditRequest):
+    """Hamiltonian Monte Carlo on the selected choices, all of them real: `L` leapfrog steps of size `eps`.
+
+    Follows Neal, MCMC using Hamiltonian dynamics (2011), equations 5.18 to 5.20. Accepting the edit with
+    probability exp(weight) leaves the posterior invariant for any step size.
+    """
+
+    selection: Selection
+    eps: Any
+    L: int = static(default=10)
+
+    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        momentum_key, edit_key = jax.random.split(key)
+        current, before, _, _ = EmptyRequest().edit(edit_key, trace, argdiffs)
+        args, choices = Diff.tree_primal(argdiffs), current.get_choices()
+        start = choices.filter(self.selection)
+        for path in start.paths():
+            if not jnp.issubdtype(jnp.result_type(start[path]), jnp.floating):
+                raise TypeError(
+                    f"HMC moves real choices; {show(path)} has dtype {jnp.result_type(start[path])}"
+                )
+
+        def log_density(values: ChoiceMap) -> Any:
+            return current.get_gen_fn().assess(values | choices, args)[0]
+
+        leaves, treedef = jax.tree.flatten(start)
+        keys = jax.random.split(momentum_key, len(leaves))
+        momentum = jax.tree.unflatten(
+            treedef, [jax.random.normal(k, x.shape, x.dtype) for k, x in zip(keys, leaves, strict=True)]
+        )
+
+        def drift(tree: Any, by: Any, scale: Any) -> Any:
+            return jax.tree.map(lambda x, d: x + scale * d, tree, by)
+
+        def leapfrog(_: Any, state: Any) -> Any:
+            position, momentum, gradient = state
+            momentum = drift(momentum, gradient, self.eps / 2)
+            position = drift(position, momentum, self.eps)
+            gradient = jax.grad(log_density)(position)
+            return position, drift(momentum, gradient, self.eps / 2), gradient
+
+        state = (start, momentum, jax.grad(log_density)(start))
+        position, final, _ = jax.lax.fori_loop(0, self.L, leapfrog, state)
+        new, weight, retdiff, _ = Update(position).edit(edit_key, current, Diff.no_change(args))
+        return new, before + weight + _kinetic(momentum) - _kinetic(final), retdiff, self
+
+
+def _kinetic(momentum: Any) -> Any:
+    return sum(0.5 * jnp.sum(p**2) for p in jax.tree.leaves(momentum))
+
+
+def mala(selection: Selection, eps: Any) -> HMC:
+    """Metropolis-adjusted Langevin: one leapfrog step, which drifts by eps^2 / 2 times the gradient."""
+    return HMC(selection, eps, 1)

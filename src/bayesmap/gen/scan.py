@@ -1,0 +1,229 @@
+"""A generative function iterated, each step's state going into the next."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from bayesmap.gen.axes import total
+from bayesmap.gen.choice_map import ChoiceMap, Indexed
+from bayesmap.gen.dense import check_index, vectorise
+from bayesmap.gen.diff import Diff
+from bayesmap.gen.dimap import dimap, map
+from bayesmap.gen.errors import NotSupportedEditRequest
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    IndexRequest,
+    Regenerate,
+    Trace,
+    Update,
+    VectorRequest,
+)
+from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.selection import Selection
+from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
+
+
+@dataclass
+class ScanTrace(Trace):
+    """The steps' traces stacked, without their arguments; `carries` are the states that they started from."""
+
+    gen_fn: Any
+    args: Any
+    inner: Trace
+    carries: Any
+    retval: Any
+    score: Score
+
+    def get_choices(self) -> ChoiceMap:
+        return self.inner.get_choices()
+
+    def get_inner_trace(self, address: Any) -> Trace:
+        return self.inner.get_inner_trace(address)
+
+
+@dataclass
+class Scan(GenerativeFunction):
+    """See `scan`."""
+
+    inner: GenerativeFunction
+    n: int | None = static(default=None)
+
+    def _length(self, args: Arguments) -> int:
+        if len(args) != 2:
+            raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
+        leaves = jax.tree.leaves(args[1])
+        if self.n is None and not leaves:
+            raise TypeError("scan needs n= where there are no inputs")
+        return self.n if self.n is not None else int(jnp.shape(leaves[0])[0])
+
+    def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
+        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, with chained keys."""
+        n = self._length(args)
+
+        def body(carry: Any, scanned: Any) -> Any:
+            key, state = carry
+            t, x, mapped = scanned
+            key = jax.random.fold_in(key, t)
+            trace, weight, more = step(key, (state, x), mapped)
+            after, out = trace.get_retval()
+            return (key, after), (trace.with_args(None), state, out, weight, more)
+
+        start = (key, jax.tree.map(jnp.asarray, args[0]))
+        (_, state), (inner, carries, out, weights, more) = jax.lax.scan(
+            body, start, (jnp.arange(n), args[1], mapped), length=n
+        )
+        trace = ScanTrace(self, args, inner, carries, (state, out), total(inner.get_score()))
+        return trace, total(weights), more
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> ScanTrace:
+        trace, _, _ = self._loop(key, args, lambda k, a, _: (self.inner.simulate(k, a), 0.0, None), None)
+        return trace  # type: ignore[no-any-return]
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[ScanTrace, Weight]:
+        each = vectorise(constraint, self._length(args))
+        trace, weight, _ = self._loop(key, args, lambda k, a, c: (*self.inner.generate(k, c, a), None), each)
+        return trace, weight
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        def step(state: Any, scanned: Any) -> Any:
+            x, choices = scanned
+            score, (state, out) = self.inner.assess(choices, (state, x))
+            return state, (score, out)
+
+        n = self._length(args)
+        start = jax.tree.map(jnp.asarray, args[0])
+        state, (scores, out) = jax.lax.scan(step, start, (args[1], vectorise(choices, n)), length=n)
+        return total(scores), (state, out)
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        n = self._length(argdiffs)
+        match request:
+            case IndexRequest(t, inner):
+                return self._edit_step(key, trace, check_index(t, n), inner, argdiffs)
+            case Update(Indexed(inner, t)) if jnp.ndim(t) == 0:
+                new, weight, retdiff, back = self._edit_step(
+                    key, trace, check_index(t, n), Update(inner), argdiffs
+                )
+                undo = back.request.constraint.extend(back.idx)  # type: ignore[attr-defined]
+                return new, weight, retdiff, Update(undo)
+            case Update(constraint):
+                return self._edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
+            case VectorRequest(each):
+                return self._edit_all(key, trace, each, argdiffs)
+            case Regenerate():
+                return self._edit_all(key, trace, request, argdiffs)
+        raise NotSupportedEditRequest(self, request)
+
+    def _edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit every step in turn; leaves of `request` have a leading axis."""
+        args = Diff.tree_primal(argdiffs)
+        mark = Diff.no_change if Diff.static_check_no_change(argdiffs[1]) else Diff.unknown_change
+
+        def step(key: PRNGKey, args: Any, mapped: Any) -> Any:
+            inner, request = mapped
+            diffs = (Diff.unknown_change(args[0]), mark(args[1]))
+            new, weight, _, back = request.edit(key, inner, diffs)
+            return new, weight, back
+
+        new, weight, back = self._loop(key, args, step, (trace.inner, request))
+        undo = back if isinstance(back, Update | EmptyRequest) else VectorRequest(back)
+        return new, weight, Diff.unknown_change(new.retval), undo
+
+    def _edit_step(self, key: PRNGKey, trace: Any, t: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit step t; then, if the state that it hands on may differ, the steps after it."""
+        args = Diff.tree_primal(argdiffs)
+        trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
+        old, *step_args = jax.tree.map(lambda x: x[t], (trace.inner, trace.carries, args[1]))
+        new, weight, retdiff, back = request.edit(key, old, Diff.no_change(tuple(step_args)))
+        state_diff, out = retdiff[0], new.get_retval()[1]
+        new = new.with_args(None)
+
+        def put(stack: Any, value: Any) -> Any:
+            return jax.tree.map(lambda x, v: x.at[t].set(v), stack, value)
+
+        if Diff.static_check_no_change(state_diff):
+            retval = (trace.retval[0], put(trace.retval[1], out))
+            inner = put(trace.inner, new)
+            result = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
+            diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
+            return result, before + weight, diff, IndexRequest(t, back)
+
+        def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
+            inner, s = mapped
+
+            def follow() -> tuple[Trace, Weight]:
+                diffs = (Diff.unknown_change(step_args[0]), Diff.no_change(step_args[1]))
+                moved, weight, _, _ = EmptyRequest().edit(key, inner, diffs)
+                return moved.with_args(None), weight
+
+            options = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), follow]
+            return (*jax.lax.switch(jnp.sign(s - t) + 1, options), None)
+
+        result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self._length(args))))
+        return result, before + change, Diff.unknown_change(result.retval), IndexRequest(t, back)
+
+
+def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
+    """A decorator: from `(state, x) -> (state, y)` make `(state, xs) -> (last state, ys)`.
+
+    Args:
+        n: the number of steps; needed where `xs` is None.
+
+    Step t uses the key `fold_in(key of step t - 1, t)`, and its choices' addresses begin with t.
+    """
+    return lambda gen_fn: Scan(gen_fn, n)
+
+
+def _pair(state: Any) -> tuple[Any, Any]:
+    return state, state
+
+
+def _last(args: Any, inner_args: Any, retval: Any) -> Any:
+    return retval[0]
+
+
+def _all(args: Any, inner_args: Any, retval: Any) -> Any:
+    return jax.tree.map(
+        lambda first, rest: jnp.concatenate([jnp.asarray(first)[None], rest]), inner_args[0], retval[1]
+    )
+
+
+def _first_only(state: Any) -> tuple[Any, None]:
+    return state, None
+
+
+def _drop_input(state: Any, x: Any) -> tuple[Any]:
+    return (state,)
+
+
+def accumulate() -> Callable[[GenerativeFunction], Any]:
+    """A decorator: from `(state, x) -> state` make `(state, xs) -> ` all n + 1 states."""
+    return lambda gen_fn: dimap(post=_all)(scan()(map(_pair)(gen_fn)))
+
+
+def reduce() -> Callable[[GenerativeFunction], Any]:
+    """A decorator: from `(state, x) -> state` make `(state, xs) -> ` the last state."""
+    return lambda gen_fn: dimap(post=_last)(scan()(map(_pair)(gen_fn)))
+
+
+def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
+    """A decorator: from `state -> state` make `state -> ` all n + 1 states."""
+    return lambda gen_fn: dimap(pre=_first_only, post=_all)(
+        scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn)))
+    )
+
+
+def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
+    """A decorator: from `state -> state` make `state -> ` the last of n states."""
+    return lambda gen_fn: dimap(pre=_first_only, post=_last)(
+        scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn)))
+    )

@@ -1,0 +1,276 @@
+"""`@gen`: a Python function whose calls to other generative functions are traced by address."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+import functools
+import importlib
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.dataflow import Dataflow, dataflow
+from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange
+from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, show
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    Regenerate,
+    StaticRequest,
+    Trace,
+    Update,
+)
+from bayesmap.gen.handler import Handler, running
+from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.selection import Selection
+from bayesmap.gen.static_trace import Replay, StaticTrace
+from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
+
+
+class _Run(Handler):
+    """A run that records a trace per site, with keys `fold_in(key, 1)`, `fold_in(key, 2)`, ..."""
+
+    def __init__(self, key: PRNGKey) -> None:
+        super().__init__()
+        self.key = key
+        self.traces: dict[StaticAddress, Trace] = {}
+        self.weight: Weight = jnp.zeros(())
+
+    def run(self, gen_fn: "StaticGenerativeFunction", args: Arguments) -> StaticTrace:
+        if not isinstance(args, tuple):
+            raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
+        with running(self):
+            retval = gen_fn.call(args)
+        return StaticTrace.build(gen_fn, args, retval, self.traces)
+
+    def next_key(self) -> PRNGKey:
+        return jax.random.fold_in(self.key, len(self.visited))
+
+    def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
+        trace = self.call(path, gen_fn, args)
+        self.traces[path] = trace.with_args(None)
+        return trace.get_retval()
+
+    def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
+        trace: Trace = gen_fn.simulate(self.next_key(), args)
+        return trace
+
+
+class _Generate(_Run):
+    def __init__(self, key: PRNGKey, constraint: ChoiceMap) -> None:
+        super().__init__(key)
+        self.constraint = constraint
+
+    def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
+        with _located(path):
+            trace, weight = gen_fn.generate(self.next_key(), self.constraint(path), args)
+        self.weight += weight
+        return trace  # type: ignore[no-any-return]
+
+
+class _Assess(Handler):
+    def __init__(self, choices: ChoiceMap) -> None:
+        super().__init__()
+        self.choices = choices
+        self.score: Score = jnp.zeros(())
+
+    def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
+        with _located(path):
+            score, retval = gen_fn.assess(self.choices(path), args)
+        self.score += score
+        return retval
+
+
+class _Edit(_Run):
+    """A run that edits each site's trace, telling it which of its arguments changed."""
+
+    def __init__(
+        self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any
+    ):
+        super().__init__(key)
+        self.old, self.request = old, request
+        self.backward: dict[StaticAddress, EditRequest] = {}
+        self.flow = _flow_of_body(old, Diff.tree_primal(argdiffs))
+        self.inputs: list[Change] = [NoChange] * len(jax.tree.leaves(old.gen_fn)) + Diff.tangents(argdiffs)
+        self.returned: dict[StaticAddress, list[Change]] = {}
+        self.position = 0
+
+    def mark(self, value: Any) -> Any:
+        """The next output of the body, with what is known of its change."""
+        position, self.position = self.position, self.position + len(jax.tree.leaves(value))
+        if self.flow is None:
+            return Diff.unknown_change(value)
+        tangents = list(self.inputs)
+        for path, subtrace in self.old.subtraces.items():
+            unknown = [UnknownChange] * len(jax.tree.leaves(subtrace.get_retval()))
+            tangents += self.returned.get(path, unknown)
+        return Diff.zip(value, [self.flow.change(k, tangents) for k in range(position, self.position)])
+
+    def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
+        if path not in self.old.subtraces:
+            raise UnknownAddress(path, "the trace that is edited has no such site")
+        marked_fn, argdiffs = self.mark((gen_fn, args))
+        subtrace, request, key = self.old.subtraces[path], self.request(path), self.next_key()
+        same = bool(jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn()))  # type: ignore[operator]
+        with _located(path):
+            if same and Diff.static_check_no_change(marked_fn):
+                trace, weight, retdiff, back = request.edit(key, subtrace, argdiffs)
+            else:
+                trace, weight, retdiff, back = _edit_anew(key, subtrace, gen_fn, request, args)
+        self.weight += weight
+        self.returned[path] = Diff.tangents(retdiff)
+        self.backward[path] = back
+        return trace
+
+
+def _flow_of_body(old: StaticTrace, args: Arguments) -> Dataflow | None:
+    """How the arguments of each site, in order, and the return value come from what precedes them."""
+
+    def body(gen_fn: Any, args: Arguments, *retvals: Any) -> Any:
+        replay = Replay(dict(zip(old.subtraces, retvals, strict=True)))
+        retval = replay.run(gen_fn, args)
+        return list(replay.calls.values()), retval
+
+    return dataflow(body, old.gen_fn, args, *(t.get_retval() for t in old.subtraces.values()))
+
+
+def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
+    """Edit the trace of a function that the body defined anew, and that may differ: score all of it."""
+    choices = old.get_choices()
+    match request:
+        case Update(constraint):
+            kept, removed = constraint | choices, old.get_score()
+        case EmptyRequest():
+            kept, removed = choices, old.get_score()
+        case Regenerate(selection):
+            kept, removed = choices.filter(~selection), old.project(key, ~selection)
+        case _:
+            raise NotSupportedEditRequest(gen_fn, request)
+    trace, weight = gen_fn.generate(key, kept, args)
+    return trace, weight - removed, Diff.unknown_change(trace.get_retval()), Update(choices)
+
+
+@contextmanager
+def _located(path: StaticAddress) -> Iterator[None]:
+    """Prefix the address of an error with where it was raised."""
+    try:
+        yield
+    except AddressError as error:
+        raise error.under(path) from None
+
+
+def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
+    """Raise UnknownAddress for a path that lies at or below no site."""
+    for path in paths:
+        if not any(path[: len(site)] == site for site in visited):
+            raise UnknownAddress(path, f"its sites are {', '.join(map(show, visited)) or 'none'}")
+
+
+@dataclass
+class StaticGenerativeFunction(GenerativeFunction):
+    """What `@gen` makes of a function; `partial_args` come before its arguments."""
+
+    partial_args: tuple[Any, ...]
+    source: Callable[..., Any] = static()
+    keywords: tuple[str, ...] = static(default=())
+
+    def call(self, args: Arguments) -> Any:
+        """Run the body."""
+        split = len(args) - len(self.keywords)
+        named = dict(zip(self.keywords, args[split:], strict=True))
+        return self.source(*self.partial_args, *args[:split], **named)
+
+    def inline(self, *args: Any) -> Any:
+        """Run the body as if it were written where it is called: its sites become the caller's."""
+        return self.call(args)
+
+    def partial_apply(self, *args: Any) -> "StaticGenerativeFunction":
+        """The function with its first arguments given; they are not among its traces' arguments."""
+        return self.replace(partial_args=(*self.partial_args, *args))
+
+    def keyworded(self, names: tuple[str, ...]) -> "StaticGenerativeFunction":
+        return self.replace(keywords=names)
+
+    def __get__(self, instance: Any, owner: Any = None) -> "StaticGenerativeFunction":
+        return self if instance is None else self.partial_apply(instance)
+
+    def __reduce__(self) -> Any:
+        # The module's name for the source is this object, so pickle finds the source through it.
+        if "<" in self.source.__qualname__:
+            return StaticGenerativeFunction, (self.partial_args, self.source, self.keywords)
+        where = (self.source.__module__, self.source.__qualname__)
+        return _unpickle, (*where, self.partial_args, self.keywords)
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> StaticTrace:
+        return _Run(key).run(self, args)
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[StaticTrace, Weight]:
+        handler = _Generate(key, constraint)
+        trace = handler.run(self, args)
+        _check_known(constraint.paths(), handler.visited)
+        return trace, handler.weight
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        handler = _Assess(choices)
+        with running(handler):
+            retval = self.call(args)
+        _check_known(choices.paths(), handler.visited)
+        return handler.score, retval
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        parts = [t.project(key, selection(path)) for path, t in trace.subtraces.items()]
+        return sum(parts, start=jnp.zeros(()))
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        sites = list(trace.subtraces)
+        match request:
+            case Update(constraint):
+                _check_known(constraint.paths(), sites)
+
+                def part(path: StaticAddress) -> EditRequest:
+                    below = constraint(path)
+                    return EmptyRequest() if below.static_is_empty() else Update(below)
+
+            case StaticRequest(addressed):
+                for path in addressed:
+                    if path not in sites:
+                        raise UnknownAddress(path, f"its sites are {', '.join(map(show, sites))}")
+                part = lambda path: addressed.get(path, EmptyRequest())  # noqa: E731
+            case Regenerate(selection):
+                part = lambda path: Regenerate(selection(path))  # noqa: E731
+            case _:
+                raise NotSupportedEditRequest(self, request)
+        handler = _Edit(key, trace, part, argdiffs)
+        new = handler.run(self, Diff.tree_primal(argdiffs))
+        return new, handler.weight, handler.mark(new.get_retval()), _undo(request, handler.backward)
+
+
+def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
+    """One request from those of the sites: an Update where the request was one and all of them are."""
+    if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
+        parts = [b.constraint.extend(*path) for path, b in backward.items() if isinstance(b, Update)]
+        return Update(functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty()))
+    return StaticRequest(dict(backward))
+
+
+def _unpickle(module: str, name: str, partial_args: Any, keywords: Any) -> StaticGenerativeFunction:
+    found: Any = functools.reduce(getattr, name.split("."), importlib.import_module(module))
+    source = found.source if isinstance(found, StaticGenerativeFunction) else found
+    return StaticGenerativeFunction(partial_args, source, keywords)
+
+
+def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
+    """Make a generative function of a Python function.
+
+    In its body `g(*args) @ "address"` calls a generative function and records its choices under the
+    address; `@ ()` makes them the function's own. The i-th call uses `fold_in(key, i)`, i from 1.
+
+    Raises, when it runs:
+        AddressReuse: two calls have the same address.
+        MissingAddress, UnknownAddress: choices that were given do not match the addresses.
+    """
+    return StaticGenerativeFunction((), source)

@@ -1,0 +1,191 @@
+"""A generative function mapped over an axis of its arguments."""
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from bayesmap.gen.axes import Mapped, map_over, replace_term, total
+from bayesmap.gen.choice_map import ChoiceMap, Indexed
+from bayesmap.gen.dense import check_index, vectorise
+from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
+from bayesmap.gen.distribution import ExactDensity
+from bayesmap.gen.errors import NotSupportedEditRequest
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    IndexRequest,
+    Regenerate,
+    Trace,
+    Update,
+    VectorRequest,
+)
+from bayesmap.gen.product import Product
+from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.selection import Selection
+from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
+
+
+@dataclass
+class VmapTrace(Trace):
+    """The elements' traces, stacked and without their arguments: those are in `args`, shared ones once."""
+
+    gen_fn: Any
+    args: Any
+    inner: Trace
+    score: Score
+
+    def get_retval(self) -> Any:
+        return self.inner.get_retval()
+
+    def get_choices(self) -> ChoiceMap:
+        return self.inner.get_choices()
+
+    def get_inner_trace(self, address: Any) -> Trace:
+        return self.inner.get_inner_trace(address)
+
+
+@dataclass
+class Vmap(GenerativeFunction):
+    """See `vmap` and `repeat`."""
+
+    inner: GenerativeFunction
+    in_axes: InAxes = static()
+    n: int | None = static()
+
+    def _map(self, args: Arguments) -> Mapped:
+        return map_over(self.in_axes, args, self.n)
+
+    def _trace(self, args: Arguments, inner: Trace) -> VmapTrace:
+        return VmapTrace(self, args, inner, total(inner.get_score()))
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> VmapTrace:
+        mapped = self._map(args)
+        keys = jax.random.split(key, mapped.n)
+        return self._trace(args, mapped.vmap(lambda k, a: self.inner.simulate(k, a).with_args(None), keys))
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[VmapTrace, Weight]:
+        mapped = self._map(args)
+
+        def element(key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> Any:
+            trace, weight = self.inner.generate(key, constraint, args)
+            return trace.with_args(None), weight
+
+        keys = jax.random.split(key, mapped.n)
+        inner, weights = mapped.vmap(element, keys, vectorise(constraint, mapped.n))
+        return self._trace(args, inner), total(weights)
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        mapped = self._map(args)
+        scores, retvals = mapped.vmap(self.inner.assess, vectorise(choices, mapped.n))
+        return total(scores), retvals
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        n = self._map(Diff.tree_primal(argdiffs)).n
+        match request:
+            case IndexRequest(i, inner):
+                return self._edit_element(key, trace, i, inner, argdiffs)
+            case Update(Indexed(inner, i)) if jnp.ndim(i) == 0:
+                new, weight, retdiff, back = self._edit_element(key, trace, i, Update(inner), argdiffs)
+                undo = back.request.constraint.extend(back.idx)  # type: ignore[attr-defined]
+                return new, weight, retdiff, Update(undo)
+            case Update(constraint) if constraint.static_is_empty():
+                return self._edit_all(key, trace, EmptyRequest(), argdiffs)
+            case Update(constraint):
+                return self._edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
+            case VectorRequest(each):
+                return self._edit_all(key, trace, each, argdiffs)
+            case Regenerate():
+                return self._edit_all(key, trace, request, argdiffs)
+        raise NotSupportedEditRequest(self, request)
+
+    def _edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit every element; leaves of `request` have a leading axis."""
+        args = Diff.tree_primal(argdiffs)
+        mapped = self._map(args)
+
+        def one(tangent: Change, axis: int | None) -> Change:
+            return UnknownChange if axis is not None and isinstance(tangent, IndexChange) else tangent
+
+        tangents = [one(t, a) for t, a in zip(Diff.tangents(argdiffs), mapped.axes, strict=True)]
+
+        def element(key: PRNGKey, inner: Trace, request: EditRequest, args: Arguments) -> Any:
+            new, weight, retdiff, back = request.edit(key, inner, Diff.zip(args, tangents))
+            blurred = [UnknownChange if isinstance(t, IndexChange) else t for t in Diff.tangents(retdiff)]
+            return new.with_args(None), weight, Diff.zip(Diff.tree_primal(retdiff), blurred), back
+
+        keys = jax.random.split(key, mapped.n)
+        inner, weights, retdiff, back = mapped.vmap(element, keys, trace.inner, request)
+        undo = back if isinstance(back, Update | EmptyRequest) else VectorRequest(back)
+        return self._trace(args, inner), total(weights), retdiff, undo
+
+    def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Change one element; no other is looked at."""
+        args = Diff.tree_primal(argdiffs)
+        trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
+        mapped = self._map(args)
+        i = check_index(i, mapped.n)
+        element = jax.tree.map(lambda x: x[i], trace.inner)
+        new, weight, retdiff, back = request.edit(key, element, Diff.no_change(mapped.element(i)))
+
+        def store(old: Any, was: Any, now: Any) -> Any:
+            return old if now is was else old.at[i].set(now)
+
+        inner = jax.tree.map(store, trace.inner, element, new.with_args(None))
+        retval = inner.get_retval()
+        moved = [_at(i, t) for t in Diff.tangents(retdiff)]
+        score = replace_term(
+            trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score())
+        )
+        return (
+            VmapTrace(self, args, inner, score),
+            before + weight,
+            Diff.zip(retval, moved),
+            IndexRequest(i, back),
+        )
+
+
+def _at(i: Any, tangent: Change) -> Change:
+    """What a change of element `i` is to the whole."""
+    if tangent == NoChange:
+        return NoChange
+    return IndexChange((i, *(tangent.index if isinstance(tangent, IndexChange) else ())))
+
+
+def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
+    """A decorator: map a generative function over axes of its arguments.
+
+    Args:
+        in_axes: as for `jax.vmap`, one entry per argument; None shares an argument among the elements.
+
+    Returns:
+        A function whose i-th element uses `split(key, n)[i]`; choices and return values have a leading axis,
+        and the address of a choice of element i begins with i.
+
+    Raises, when it runs:
+        ValueError, TypeError: what `jax.vmap` raises if the axes do not fit.
+        ShapeMismatch: a constraint's leading axis is not n.
+    """
+
+    def decorate(gen_fn: GenerativeFunction) -> Any:
+        kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
+        return kind(gen_fn, tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
+
+    return decorate
+
+
+def repeat(*, n: int) -> Callable[[GenerativeFunction], Any]:
+    """A decorator: call a generative function `n` times with the same arguments; see `vmap`."""
+
+    def decorate(gen_fn: GenerativeFunction) -> Any:
+        kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
+        return kind(gen_fn, None, n)
+
+    return decorate

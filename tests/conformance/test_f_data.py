@@ -1,0 +1,223 @@
+"""Section F: choice maps, selections, masks, pytrees."""
+
+import copy
+import pickle
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import numpy as np
+import pytest
+
+import bayesmap.gen as genjax
+from bayesmap.gen import ChoiceMap, ChoiceMapNoValueAtAddress, Mask, Pytree, Selection, ShapeMismatch
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.gen import SelectionBuilder as S
+
+KEY = jr.key(0)
+
+
+@genjax.gen
+def model(loc):
+    x = genjax.normal(loc, 1.0) @ "x"
+    genjax.flip.repeat(n=3)(0.5) @ ("y", "z")
+    return x
+
+
+@pytest.mark.parametrize(
+    "join", [lambda a, b: a | b, lambda a, b: a + b, lambda a, b: a ^ b, lambda a, b: a.merge(b)]
+)
+def test_joining_prefers_the_left_value(join):
+    """F.32."""
+    both = join(C["x"].set(1.0) | C["y"].set(2.0), C["x"].set(3.0) | C["z", "w"].set(4.0))
+    assert (both["x"], both["y"], both["z", "w"]) == (1.0, 2.0, 4.0)
+
+
+def test_and_filters_the_right_map_by_the_left_ones_addresses():
+    """F.32."""
+    both = C["x"].set(1.0) & (C["x"].set(3.0) | C["y"].set(2.0))
+    assert both["x"] == 3.0
+    assert "y" not in both
+
+
+def test_a_value_against_names_raises():
+    """F.32."""
+    with pytest.raises(ValueError, match="bare value"):
+        C["x"].set(1.0) | C["x", "y"].set(2.0)
+
+
+def test_at_set_replaces():
+    """F.33."""
+    chm = C["x"].set(jnp.zeros(3)) | C["y"].set(1.0)
+    np.testing.assert_array_equal(chm.at["x"].set(jnp.ones(3))["x"], jnp.ones(3))
+    np.testing.assert_array_equal(chm.at["x", 1].set(5.0)["x"], [0.0, 5.0, 0.0])
+    assert chm.at["y"].update(lambda y: y + 1)["y"] == 2.0
+    with pytest.raises(ShapeMismatch, match=r"found \(2,\), expected \(3,\)"):
+        chm.at["x"].set(jnp.ones(2))
+
+
+def test_asking_for_what_is_not_there_raises():
+    """F.34."""
+    chm = C["x", "y"].set(1.0)
+    assert ("x", "y") in chm
+    assert "x" not in chm
+    for address in ("z", ("x", "z"), "x"):
+        with pytest.raises(ChoiceMapNoValueAtAddress):
+            chm[address]
+
+
+def test_filter_mask_selection_and_extend():
+    """F.34."""
+    chm = C["x"].set(1.0) | C["y", "z"].set(2.0)
+    kept = chm.filter(S["y"])
+    assert ("y", "z") in kept
+    assert "x" not in kept
+    assert "x" in chm.mask(True)
+    assert "x" not in chm.mask(False)
+    assert jax.jit(lambda flag: chm.mask(flag)["x"].unmask(default=7.0))(False) == 7.0
+    assert chm.get_selection()["y", "z"]
+    assert not chm.get_selection()["y"]
+    assert chm.extend("a", "b")["a", "b", "x"] == 1.0
+
+
+def test_invalid_subset_is_what_the_model_would_never_choose():
+    """F.34."""
+    extras = (C["x"].set(1.0) | C["w"].set(2.0)).invalid_subset(model, (0.0,))
+    assert "w" in extras
+    assert "x" not in extras
+    assert C["x"].set(1.0).invalid_subset(model, (0.0,)) is None
+
+
+def test_ways_to_build_a_map():
+    """F.34."""
+    expected = C["x"].set(1.0) | C["y", "z"].set(2.0)
+    for chm in (
+        C.d({"x": 1.0, "y": {"z": 2.0}}),
+        C.kw(x=1.0, y={"z": 2.0}),
+        ChoiceMap.d({"x": 1.0, ("y", "z"): 2.0}),
+    ):
+        assert jax.tree.map(float, chm) == jax.tree.map(float, expected)
+    assert C.n().static_is_empty()
+    assert C["a"].v(3.0)["a"] == 3.0
+    assert ChoiceMap.switch(1, [C["x"].set(1.0), C["x"].set(2.0)])["x"] == 2.0
+    assert C["i"].switch(jnp.array(0), [C["x"].set(1.0), C["y"].set(2.0)])["i", "x"].unmask() == 1.0
+
+
+def test_maps_can_hold_indices():
+    """F.32."""
+    chm = C[0, "v"].set(1.0) | C[2, "v"].set(3.0)
+    assert (chm[0, "v"], chm[2, "v"]) == (1.0, 3.0)
+    assert (1, "v") not in chm
+    several = C[jnp.array([1, 4])].set(jnp.array([10.0, 40.0]))
+    assert several[4] == 40.0
+    assert 3 not in several
+    assert jax.jit(lambda i: several[i].unmask(default=0.0))(3) == 0.0
+
+
+def test_a_selection_matches_everything_below():
+    """F.35."""
+    sel = Selection.at["x"]
+    assert sel["x"]
+    assert sel["x", "y", "z"]
+    assert not sel["y"]
+    assert sel("x") == Selection.all()
+
+
+def test_selections_combine():
+    """F.35."""
+    x, y = Selection.at["x"], Selection.at["y"]
+    assert (x | y)["y"]
+    assert not (x & y)["x"]
+    assert (~x)["y"]
+    assert not (~x)["x", "z"]
+    assert ~~x == x
+    wild = Selection.at[..., "y"]
+    assert wild["a", "y"]
+    assert not wild["a", "z"]
+
+
+def test_leaf_all_and_none():
+    """F.35."""
+    leaf = Selection.leaf().extend("x")
+    assert leaf["x"]
+    assert not leaf["x", "y"]
+    assert Selection.all()["anything", "at", "all"]
+    assert Selection.all()[()]
+    assert not Selection.none()[()]
+    assert S[()] == Selection.leaf()
+
+
+def test_unmask():
+    """F.36."""
+    value = jnp.arange(3.0)
+    assert Mask(1.0, True).unmask() == 1.0
+    with pytest.raises(ValueError, match="flag is False"):
+        Mask(1.0, False).unmask()
+    assert Mask(1.0, False).unmask(default=5.0) == 5.0
+    mixed = Mask(value, jnp.array([True, False, True]))
+    np.testing.assert_array_equal(mixed.unmask(default=jnp.full(3, -1.0)), [0.0, -1.0, 2.0])
+    np.testing.assert_array_equal(
+        (mixed | Mask(value + 10, jnp.array([True, True, True]))).value, [0.0, 11.0, 2.0]
+    )
+    with pytest.raises(ValueError, match=r"shape \(3,\) cannot mask"):
+        Mask(jnp.zeros(2), jnp.ones(3, bool))
+
+
+@Pytree.dataclass
+class Params(Pytree):
+    count: int = Pytree.static()
+    scale: float = Pytree.field(default=1.0)
+
+
+def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
+    """F.37."""
+    params = Params(3, 2.0)
+    assert jax.tree.leaves(params) == [2.0]
+    assert jax.tree.structure(params) != jax.tree.structure(Params(4, 2.0))
+    assert params.replace(scale=5.0) == Params(3, 5.0)
+    with pytest.raises(AttributeError):
+        params.count = 4
+    with pytest.raises(TypeError, match="no field size"):
+        params.replace(size=1)
+    assert jax.jit(lambda p: jnp.zeros(p.count) + p.scale)(params).shape == (3,)
+
+
+def test_traces_of_module_level_models_pickle():
+    """F.39."""
+    trace = model.simulate(KEY, (1.0,))
+    loaded = pickle.loads(pickle.dumps(trace))
+    assert loaded.get_gen_fn() == model
+    np.testing.assert_array_equal(loaded.get_choices()["y", "z"], trace.get_choices()["y", "z"])
+    assert loaded.update(KEY, C["x"].set(0.0))[0].get_choices()["x"] == 0.0
+
+
+def test_traces_of_local_models_can_be_copied():
+    """F.39."""
+    trace = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(KEY, ())
+    assert copy.deepcopy(trace).get_choices()["x"] == trace.get_choices()["x"]
+
+
+def test_traces_survive_jit_vmap_scan_and_cond():
+    """F.39."""
+    trace = model.simulate(KEY, (1.0,))
+    again = jax.jit(lambda t: t)(trace)
+    assert again.get_score() == trace.get_score()
+    batch = jax.vmap(lambda key: model.simulate(key, (1.0,)))(jr.split(KEY, 4))
+    assert batch.get_score().shape == (4,)
+    assert batch.get_choices()["y", "z"].shape == (4, 3)
+    np.testing.assert_array_equal(batch.get_retval(), batch.get_choices()["x"])
+
+    def body(t, key):
+        new = t.edit(key, genjax.Regenerate(Selection.at["x"]))[0]
+        return jax.lax.cond(new.get_score() > t.get_score(), lambda: new, lambda: t), t.get_score()
+
+    _, scores = jax.lax.scan(body, again, jr.split(KEY, 20))
+    assert jnp.all(jnp.diff(scores) >= 0)
+    assert scores[-1] > scores[0]
+
+
+def test_traces_and_choice_maps_print_as_trees():
+    trace = model.simulate(KEY, (1.0,))
+    assert "'y':\n    'z': [" in repr(trace)
+    assert repr(C["x", "y"].set(1.0)) == "'x':\n  'y': 1.0"
+    assert repr(C.n()) == "(empty)"

@@ -1,0 +1,160 @@
+"""Section G: inference on traces, each method on a conjugate model with a known answer."""
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import jax.scipy.stats as st
+import numpy as np
+
+import bayesmap.gen as genjax
+from bayesmap.gen import HMC, Diff, EmptyRequest, ImportanceK, Regenerate, Selection, Target
+from bayesmap.gen import ChoiceMapBuilder as C
+
+KEY = jr.key(0)
+DATA = jnp.array([2.0, 1.5, 2.5, 3.0])
+
+
+@genjax.gen
+def model():
+    mu = genjax.normal(0.0, 1.0) @ "mu"
+    return genjax.normal(mu, 1.0) @ "y"
+
+
+@genjax.gen
+def tempered(precision):
+    """Mu ~ N(0, 1) seen as 2 with a given precision: evidence N(2; 0, 1 + 1 / precision)."""
+    mu = genjax.normal(0.0, 1.0) @ "mu"
+    return genjax.normal(mu, precision**-0.5) @ "y"
+
+
+@genjax.gen
+def walk(state, scale):
+    x = genjax.normal(state, scale) @ "x"
+    genjax.normal(x, 1.0) @ "y"
+    return x, x
+
+
+def kalman(data):
+    """Log evidence, and the last state's mean and variance, of `walk` with scale 1 from state 0."""
+    mean, variance, evidence = 0.0, 0.0, 0.0
+    for y in np.asarray(data, np.float64):
+        variance += 1.0
+        evidence += st.norm.logpdf(y, mean, (variance + 1) ** 0.5)
+        gain = variance / (variance + 1)
+        mean, variance = mean + gain * (y - mean), variance * (1 - gain)
+    return float(evidence), mean, variance
+
+
+def unbiased(log_estimates, log_truth):
+    """The mean of exp(estimate) is the truth within 5 standard errors: false alarm rate 1e-6."""
+    ratio = np.exp(np.asarray(log_estimates, np.float64) - log_truth)
+    assert abs(ratio.mean() - 1) < 5 * ratio.std() / len(ratio) ** 0.5
+
+
+def test_k_particle_importance_estimates_the_evidence():
+    target = Target(model, (), C["y"].set(2.0))
+    estimate = ImportanceK(target, k_particles=20).log_marginal_likelihood_estimate
+    unbiased(jax.jit(jax.vmap(estimate))(jr.split(KEY, 2000)), st.norm.logpdf(2.0, 0.0, 2**0.5))
+
+
+def test_a_target_tells_its_open_choices():
+    target = Target(model, (), C["y"].set(2.0))
+    trace, _ = target.importance(KEY, C.n())
+    left = target.filter_to_unconstrained(trace.get_choices())
+    assert "mu" in left
+    assert "y" not in left
+
+
+def test_resampled_particles_are_draws_from_the_posterior():
+    """Posterior N(1, 1/2), within five standard errors of 5000 draws: the effective sample size is more."""
+    collection = jax.jit(ImportanceK(Target(model, (), C["y"].set(2.0)), k_particles=20_000).run_smc)(KEY)
+    assert collection.effective_sample_size() > 5000
+    after = collection.resample(KEY)
+    mu = after.get_particles().get_choices()["mu"]
+    assert abs(float(mu.mean()) - 1.0) < 5 * (0.5 / 5000) ** 0.5
+    assert abs(float(mu.var()) - 0.5) < 5 * 0.5 * (2 / 5000) ** 0.5
+    np.testing.assert_allclose(
+        after.get_log_marginal_likelihood_estimate(),
+        collection.get_log_marginal_likelihood_estimate(),
+        rtol=1e-5,
+    )
+    assert after.sample_particle(KEY).get_choices()["y"] == 2.0
+
+
+def test_annealed_smc_estimates_the_evidence():
+    """Reweight to the next precision, resample, move by HMC: from precision 0.25 to 4."""
+
+    def run(key):
+        keys = jr.split(key, 13)
+        start = Target(tempered, (0.25,), C["y"].set(2.0))
+        particles = ImportanceK(start, k_particles=50).run_smc(keys[0])
+        move = genjax.metropolis_hastings(HMC(Selection.at["mu"], 0.5, 3))
+        for k, precision in enumerate((0.5, 1.0, 2.0, 4.0)):
+            particles = particles.edit(keys[3 * k + 1], EmptyRequest(), Diff.unknown_change((precision,)))
+            particles = particles.resample(keys[3 * k + 2])
+            moved, _ = jax.vmap(move)(jr.split(keys[3 * k + 3], 50), particles.particles)
+            particles = particles.replace(particles=moved)
+        return particles.get_log_marginal_likelihood_estimate()
+
+    unbiased(jax.jit(jax.vmap(run))(jr.split(KEY, 500)), st.norm.logpdf(2.0, 0.0, 1.25**0.5))
+
+
+def test_the_particle_filter_estimates_the_evidence_of_a_state_space_model():
+    """Against the Kalman filter; with resampling at every step and at none, as the threshold says."""
+    evidence, mean, variance = kalman(DATA)
+
+    @jax.jit
+    def run(threshold):
+        one = lambda key: genjax.particle_filter(  # noqa: E731
+            key, walk, (0.0, jnp.ones(4)), C["y"].set(DATA), 100, threshold
+        )
+        return jax.vmap(one)(jr.split(KEY, 400))
+
+    for threshold in (0.0, 0.5, 1.1):
+        particles, estimates = run(threshold)
+        unbiased(estimates, evidence)
+        states = np.asarray(particles.particles.get_choices()["x"], np.float64)
+        weights = np.exp(np.asarray(particles.log_weights, np.float64) - evidence)
+        for moment, truth in ((states - mean, 0.0), ((states - mean) ** 2, variance)):
+            error = (weights * (moment - truth)).mean(axis=1)
+            assert abs(error.mean()) < 5 * error.std() / 400**0.5
+
+
+def test_the_chain_driver_gives_draws_acceptance_and_the_last_trace():
+    trace, _ = model.importance(KEY, C["y"].set(2.0), ())
+    kernel = genjax.metropolis_hastings(Regenerate(Selection.at["mu"]))
+    chain = genjax.run_chain(KEY, trace, kernel, 50)
+    mu = chain.draws["mu"]
+    assert mu.shape == (50,)
+    assert chain.last.get_choices()["mu"] == mu[-1]
+    moved = jnp.concatenate([trace.get_choices()["mu"][None], mu])
+    np.testing.assert_array_equal(jnp.diff(moved) != 0, chain.accepted)
+    np.testing.assert_array_equal(genjax.run_chain(KEY, trace, kernel, 20).draws["mu"], mu[:20])
+
+
+def test_rhat_and_ess_of_well_mixed_chains():
+    """MALA on the posterior N(1, 1/2): R-hat near 1, the mean within 5 standard errors by the ESS."""
+    starts = jr.normal(KEY, (4,)) * 3
+    trace_at = lambda mu: model.importance(KEY, C["mu"].set(mu) | C["y"].set(2.0), ())[0]  # noqa: E731
+    kernel = genjax.metropolis_hastings(genjax.mala(Selection.at["mu"], 0.9))
+    run = lambda key, mu: genjax.run_chain(key, trace_at(mu), kernel, 2100).draws["mu"]  # noqa: E731
+    draws = jax.jit(jax.vmap(run))(jr.split(KEY, 4), starts)[:, 100:]
+    ess = genjax.effective_sample_size(draws)
+    assert genjax.split_rhat(draws) < 1.01
+    assert 1000 < ess < 9000
+    assert abs(float(draws.mean()) - 1.0) < 5 * (0.5 / float(ess)) ** 0.5
+
+
+def test_rhat_tells_chains_that_disagree():
+    draws = jr.normal(KEY, (4, 1000))
+    assert genjax.split_rhat(draws) < 1.01
+    assert genjax.split_rhat(draws + jnp.arange(4.0)[:, None]) > 1.5
+    assert jnp.isnan(genjax.split_rhat(jnp.ones((4, 100))))
+
+
+def test_ess_of_an_autoregressive_chain_is_the_textbooks():
+    """With coefficient 0.8 a draw is worth (1 - 0.8) / (1 + 0.8) = 1/9 of an independent one."""
+    noise = jr.normal(KEY, (4, 20_000))
+    _, draws = jax.lax.scan(lambda x, e: (0.8 * x + e, 0.8 * x + e), jnp.zeros(4), noise.T)
+    np.testing.assert_allclose(genjax.effective_sample_size(draws.T), 80_000 / 9, rtol=0.1)
+    np.testing.assert_allclose(genjax.effective_sample_size(noise), 80_000, rtol=0.1)

@@ -1,0 +1,262 @@
+"""The tutorial runs with only its imports changed, and draws what it drew on GenJAX 0.10.3 (A.4)."""
+
+import hashlib
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+import jax.random as jrand
+import numpy as np
+import pytest
+from gen_tutorial_model import (
+    CENTER,
+    GRID_SIZE,
+    PARAMS,
+    ModelParams,
+    angles,
+    full_model,
+    sensor_model,
+    true_walls,
+)
+from gen_tutorial_model import walls_prior as prior
+
+import bayesmap.gen as genjax
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.gen import pretty
+
+ARGS = (CENTER, PARAMS)
+# The tutorial calls genjax.categorical with positional logits, which warns here as it does in GenJAX.
+# It also writes a float into walls, which are bool here throughout: JAX warns of the cast.
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:categorical takes its positional:DeprecationWarning"),
+    pytest.mark.filterwarnings("ignore:scatter inputs have incompatible types:FutureWarning"),
+]
+
+
+def fingerprint(walls):
+    return hashlib.sha256(np.asarray(walls).astype(np.uint8).tobytes()).hexdigest()[:12]
+
+
+@pytest.fixture(scope="module")
+def readings():
+    args = (CENTER, true_walls, PARAMS.sensor_noise, angles(PARAMS.num_angles))
+    return sensor_model.simulate(jrand.key(0), args).get_retval()
+
+
+@pytest.fixture(scope="module")
+def basic_chain(readings):
+    return run_chain(jrand.key(0), gibbs_sweep, ARGS, readings, num_samples=6)
+
+
+assess = jax.jit(full_model.assess)
+
+
+def gibbs_update_pixel(key, args, readings, walls, i, j):
+    false_weight, _ = assess(C["readings"].set(readings) | C["walls"].set(walls.at[i, j].set(0)), args)
+    true_weight, _ = assess(C["readings"].set(readings) | C["walls"].set(walls.at[i, j].set(1)), args)
+    return genjax.categorical.sample(key, jnp.array([false_weight, true_weight])).astype(jnp.float32)
+
+
+def over_pixels(update, state):
+    rows = lambda i, s: jax.lax.fori_loop(0, GRID_SIZE, lambda j, s: update(i, j, s), s)  # noqa: E731
+    return jax.lax.fori_loop(0, GRID_SIZE, rows, state)
+
+
+def gibbs_sweep(key, args, readings, walls):
+    keys = jrand.split(key, walls.shape)
+    return over_pixels(
+        lambda i, j, w: w.at[i, j].set(gibbs_update_pixel(keys[i, j], args, readings, w, i, j)), walls
+    )
+
+
+def run_chain(key, sweep, args, readings, num_samples):
+    key, *subkeys = jrand.split(key, num_samples + 1)
+
+    @jax.jit
+    def inner():
+        step = lambda walls, key: (sweep(key, args, readings, walls), walls)  # noqa: E731
+        return jax.lax.scan(step, jnp.zeros((GRID_SIZE, GRID_SIZE)), jnp.array(subkeys))[1]
+
+    return inner()
+
+
+def start_trace(readings):
+    constraints = C["walls"].set(jnp.zeros((GRID_SIZE, GRID_SIZE))) | C["readings"].set(readings)
+    return full_model.importance(jrand.key(0), constraints, ARGS)[0]
+
+
+def incremental_update(request_of, key, trace, i, j):
+    walls = trace.get_choices()["walls"]
+    new_trace, weight, _retdiff, _backward = trace.edit(key, request_of(walls, i, j), None)
+    return jax.lax.cond(genjax.bernoulli.sample(key, logits=weight), lambda: new_trace, lambda: trace)
+
+
+def whole_map_request(walls, i, j):
+    return genjax.StaticRequest({"walls": genjax.Update(C.v(walls.at[i, j].set(1.0 - walls[i, j])))})
+
+
+def index_request(walls, i, j):
+    flipped = genjax.Update(C.v(1.0 - walls[i, j]))
+    inner = genjax.IndexRequest(jnp.array(j), flipped)
+    return genjax.StaticRequest({"walls": genjax.IndexRequest(jnp.array(i), inner)})
+
+
+def address_request(walls, i, j):
+    return genjax.Update(C["walls", i, j].set(1.0 - walls[i, j]))
+
+
+@partial(jax.jit, static_argnums=0)
+def incremental_sweep(request_of, key, trace):
+    keys = jrand.split(key, (GRID_SIZE, GRID_SIZE))
+    return over_pixels(lambda i, j, t: incremental_update(request_of, keys[i, j], t, i, j), trace)
+
+
+def test_prior_draws_the_golden_map():
+    """A.4: 227 walls, score -305.67792."""
+    trace = jax.jit(prior(prior_wall_prob=0.5).simulate)(jrand.key(0), ())
+    walls = trace.get_retval()
+    assert (int(walls.sum()), fingerprint(walls)) == (227, "30ec82c4549b")
+    np.testing.assert_allclose(trace.get_score(), -305.67792, rtol=2e-7)
+
+
+def test_sensor_draws_the_golden_readings(readings):
+    """A.4: the first readings and their sum; GenJAX 0.10.3 on the same machine agrees to the last bit."""
+    np.testing.assert_allclose(readings[:4], [6.2485046, 6.2457266, 4.1215606, 3.7695596], rtol=2e-7)
+    np.testing.assert_allclose(readings.sum(), 1225.6375, rtol=1e-7)
+
+
+def test_full_model_draws_the_golden_map():
+    """A.4: 221 walls, readings sum 146.18332."""
+    walls, readings = full_model.simulate(jrand.key(1), ARGS).get_retval()
+    assert (int(walls.sum()), fingerprint(walls)) == (221, "c2ad6e295ff2")
+    np.testing.assert_allclose(readings.sum(), 146.18332, rtol=1e-7)
+
+
+def test_basic_gibbs_visits_the_golden_states(basic_chain):
+    """A.4: wall counts of the first six states, and the hash of the sixth."""
+    assert [int(state.sum()) for state in basic_chain] == [0, 219, 203, 193, 203, 152]
+    assert fingerprint(basic_chain[5]) == "3337fc67e58b"
+
+
+@pytest.mark.parametrize("request_of", [whole_map_request, index_request, address_request])
+def test_incremental_gibbs_keeps_the_joint_density_as_its_score(request_of, readings):
+    """E.27 to E.29 in the tutorial's setting: edits agree with assess, and their traces with cond."""
+    trace = incremental_sweep(request_of, jrand.key(0), start_trace(readings))
+    assert trace.get_choices()["walls"].dtype == bool
+    assert 0 < int(trace.get_choices()["walls"].sum()) < GRID_SIZE**2
+    np.testing.assert_allclose(trace.get_score(), assess(trace.get_choices(), ARGS)[0], rtol=1e-6)
+
+
+def test_the_three_ways_to_flip_a_pixel_draw_the_same_chain(readings):
+    """The index forms that the tutorial left commented out say the same as the update of the whole map."""
+    sweeps = [
+        incremental_sweep(request_of, jrand.key(2), start_trace(readings)).get_choices()["walls"]
+        for request_of in (whole_map_request, index_request, address_request)
+    ]
+    np.testing.assert_array_equal(sweeps[0], sweeps[1])
+    np.testing.assert_array_equal(sweeps[0], sweeps[2])
+
+
+def test_importance_sampling_of_100_000_maps_stores_each_argument_once(readings):
+    """D.21 at the tutorial's N: nothing has the size of N x rays x map; and the weights collapse."""
+    n = 100_000
+    model_importance = jax.jit(full_model.importance)
+    constraints = C["readings"].set(readings)
+
+    @jax.jit
+    def sample(keys):
+        return jax.vmap(lambda key: model_importance(key, constraints, ARGS))(keys)
+
+    traces, log_weights = sample(jrand.split(jrand.key(3), n))
+    assert sum(leaf.nbytes for leaf in jax.tree.leaves(traces)) < 150e6
+    assert sample.lower(jrand.split(jrand.key(3), n)).compile().memory_analysis().temp_size_in_bytes < 200e6
+    log_weights = log_weights - jax.scipy.special.logsumexp(log_weights)
+    resampled = jax.vmap(lambda key: jrand.categorical(key, log_weights))(jrand.split(jrand.key(4), 100))
+    assert len(set(np.asarray(resampled).tolist())) == 1
+
+
+def test_importance_in_chunks_gives_what_single_runs_give(readings):
+    constraints = C["readings"].set(readings)
+    keys = jrand.split(jrand.key(3), 5)
+    run = jax.jit(lambda key: full_model.importance(key, constraints, ARGS))
+    traces, weights = jax.jit(jax.vmap(lambda key: full_model.importance(key, constraints, ARGS)))(keys)
+    for k, key in enumerate(keys):
+        trace, weight = run(key)
+        np.testing.assert_array_equal(trace.get_choices()["walls"], traces.get_choices()["walls"][k])
+        np.testing.assert_allclose(weight, weights[k], rtol=1e-6)
+
+
+def test_distance_ordered_gibbs_runs_at_a_low_prior(readings):
+    """The tutorial's diamonds, from the sensor outwards, at prior 0.05: far fewer walls than at 0.5."""
+
+    def update_ring(key, args, readings, walls, ring):
+        keys = jrand.split(key, (GRID_SIZE, GRID_SIZE))
+
+        def update(i, j, walls):
+            here = jnp.sum(jnp.abs(jnp.array([i, j]) - args[0])) == ring
+            new = jax.lax.cond(
+                here,
+                lambda: gibbs_update_pixel(keys[i, j], args, readings, walls, i, j),
+                lambda: walls[i, j],
+            )
+            return walls.at[i, j].set(new)
+
+        return over_pixels(update, walls)
+
+    def sweep(key, args, readings, walls):
+        keys = jrand.split(key, 2 * GRID_SIZE)
+        step = lambda ring, walls: update_ring(keys[ring], args, readings, walls, ring)  # noqa: E731
+        return jax.lax.fori_loop(0, 2 * GRID_SIZE, step, walls)
+
+    sparse = ModelParams(prior_wall_prob=0.05, sensor_noise=PARAMS.sensor_noise, num_angles=PARAMS.num_angles)
+    chain = run_chain(jrand.key(0), sweep, (CENTER, sparse), readings, num_samples=3)
+    assert 10 < int(chain[-1].sum()) < 100
+
+
+def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
+    """2 x 2 blocks, all sixteen patterns scored at once by a vmap over assess."""
+    patterns = jnp.array([[(k >> b) & 1 for b in range(4)] for k in range(16)], jnp.float32).reshape(16, 2, 2)
+
+    def update(key, walls, i, j):
+        candidates = jax.vmap(lambda p: jax.lax.dynamic_update_slice(walls, p, (i, j)))(patterns)
+        scores = jax.vmap(lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0])(
+            candidates
+        )
+        return candidates[genjax.categorical.sample(key, logits=scores)]
+
+    @jax.jit
+    def sweep(key, walls):
+        n = GRID_SIZE - 1
+        keys = jrand.split(key, n * n)
+        return jax.lax.fori_loop(0, n * n, lambda k, w: update(keys[k], w, k // n, k % n), walls)
+
+    walls = sweep(jrand.key(0), jnp.zeros((GRID_SIZE, GRID_SIZE)))
+    joint = lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0]  # noqa: E731
+    assert joint(walls) > joint(jnp.zeros_like(walls)) + 1000
+
+
+def test_angles_are_exactly_as_many_as_asked_for():
+    """H: arange(0, 1, 1 / n) has one too many for 49, 98, 103, 850, ...; the model takes exact counts."""
+    assert all(angles(n).shape == (n,) for n in (49, 98, 100, 103, 850))
+    np.testing.assert_array_equal(angles(100), jnp.arange(0, 1, 1 / 100) * 2 * jnp.pi)
+
+
+def test_penzai_dataclasses_can_inherit_from_pytree():
+    """F.38: `@pz.pytree_dataclass class ModelParams(Pytree)` as in the tutorial."""
+    pz = pytest.importorskip("penzai.pz", reason="penzai is an optional extra of its users")
+
+    @pz.pytree_dataclass
+    class Params(genjax.Pytree):
+        prior_wall_prob: float = genjax.Pytree.static()
+        sensor_noise: float
+
+    params = Params(prior_wall_prob=0.5, sensor_noise=0.2)
+    assert jax.tree.leaves(params) == [0.2]
+    assert jax.jit(lambda p: p.replace(sensor_noise=p.sensor_noise * 2))(params).prior_wall_prob == 0.5
+
+
+def test_pretty_shows_a_trace_by_address(readings):
+    pretty()
+    shown = repr(start_trace(readings))
+    assert "'walls': bool[21, 21]" in shown
+    assert "'readings': float32[100]" in shown

@@ -1,0 +1,148 @@
+"""A generative function with an edit of its own: how a sensor model recomputes only what one cell affects.
+
+The model here is a row of scales: scale b reads the total weight of its list of cells, plus noise. One
+cell's change touches one scale. It is the pattern of a map and its beams, in forty lines.
+"""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import numpy as np
+import pytest
+
+import bayesmap.gen as gen
+from bayesmap.gen import ChoiceMap, Diff, IndexChange, NoChange, Pytree, Update
+from bayesmap.gen import ChoiceMapBuilder as C
+
+KEY = jr.key(0)
+CELLS, PER_SCALE = 12, 3
+full_recomputations: list[str] = []
+
+
+@Pytree.dataclass
+class ScalesTrace(gen.Trace):
+    """Keeps the cells and the totals, so that a change of one cell is a change of one total."""
+
+    gen_fn: Any
+    args: Any
+    cells: Any
+    totals: Any
+    retval: Any
+    score: Any
+
+    def get_choices(self):
+        return ChoiceMap.choice(self.retval)
+
+
+@Pytree.dataclass
+class Scales(gen.GenerativeFunction):
+    """`scales(cells)`: cells of shape (12,), readings of shape (4,) ~ Normal(total of three cells, 0.5)."""
+
+    def totals(self, cells):
+        full_recomputations.append("totals")
+        return jnp.asarray(cells, float).reshape(-1, PER_SCALE).sum(axis=1)
+
+    def build(self, args, readings):
+        totals = self.totals(args[0])
+        score = gen.normal.assess(C.v(readings), (totals, 0.5))[0]
+        return ScalesTrace(self, args, jnp.asarray(args[0]), totals, readings, score)
+
+    def simulate(self, key, args):
+        return self.build(args, gen.normal.sample(key, self.totals(args[0]), 0.5))
+
+    def assess(self, choices, args):
+        return gen.normal.assess(choices, (self.totals(args[0]), 0.5))
+
+    def generate(self, key, constraint, args):
+        inner, weight = gen.normal.generate(key, constraint, (self.totals(args[0]), 0.5))
+        return self.build(args, inner.get_retval()), weight
+
+    def project(self, key, trace, selection):
+        return trace.score if selection.check() else jnp.zeros(())
+
+    def edit(self, key, trace, request, argdiffs):
+        (cells,) = argdiffs
+        if isinstance(request, Update) and request.constraint.static_is_empty():
+            match cells.tangent:
+                case IndexChange((i,)):
+                    return self.move_one(trace, i, cells.primal)
+        args = Diff.tree_primal(argdiffs)
+        constraint = request.constraint | trace.get_choices()
+        new = self.build(args, constraint[()])
+        undo = Update(request.constraint & trace.get_choices())
+        return new, new.score - trace.score, Diff.unknown_change(new.retval), undo
+
+    def move_one(self, trace, i, cells):
+        scale = i // PER_SCALE
+        old = trace.totals[scale]
+        new = old + jnp.asarray(cells[i], float) - jnp.asarray(trace.cells[i], float)
+        reading = trace.retval[scale]
+        density = lambda total: gen.normal.assess(C.v(reading), (total, 0.5))[0]  # noqa: E731
+        weight = density(new) - density(old)
+        moved = trace.replace(cells=cells, totals=trace.totals.at[scale].set(new), score=trace.score + weight)
+        return moved, weight, Diff.no_change(trace.retval), Update(C.n())
+
+
+scales = Scales()
+
+
+@gen.gen
+def model(p):
+    cells = gen.flip.repeat(n=CELLS)(p) @ "cells"
+    return scales(cells) @ "readings"
+
+
+def test_a_generative_function_of_ones_own_joins_a_larger_model():
+    trace = model.simulate(KEY, (0.5,))
+    score, _ = model.assess(trace.get_choices(), (0.5,))
+    np.testing.assert_allclose(trace.get_score(), score, rtol=1e-6)
+    constrained, weight = model.importance(KEY, C["readings"].set(jnp.ones(4)), (0.5,))
+    np.testing.assert_allclose(weight, constrained.get_subtrace("readings").get_score(), rtol=1e-6)
+
+
+@pytest.mark.parametrize("traced", [False, True])
+def test_a_change_of_one_element_reaches_its_edit_as_such(traced):
+    """The weight is the joint's, and the whole was not recomputed."""
+    trace = model.simulate(KEY, (0.5,))
+    cells = trace.get_choices()["cells"]
+
+    def edit(i):
+        request = gen.StaticRequest({"cells": gen.IndexRequest(i, Update(C.v(1.0 - cells[i])))})
+        return trace.edit(KEY, request)
+
+    full_recomputations.clear()
+    new, weight, retdiff, back = (jax.jit(edit) if traced else edit)(7)
+    assert full_recomputations == []
+    assert all(t == NoChange for t in Diff.tangents(retdiff))
+    joint = lambda t: model.assess(t.get_choices(), (0.5,))[0]  # noqa: E731
+    np.testing.assert_allclose(weight, joint(new) - joint(trace), rtol=1e-4)
+    restored, undone, _, _ = new.edit(KEY, back)
+    np.testing.assert_array_equal(restored.get_choices()["cells"], cells)
+    np.testing.assert_allclose(undone, -weight, rtol=1e-5)
+
+
+def test_any_other_change_is_recomputed():
+    trace = model.simulate(KEY, (0.5,))
+    full_recomputations.clear()
+    new, weight, _, _ = trace.update(KEY, C["cells"].set(jnp.ones(CELLS, bool)))
+    assert full_recomputations != []
+    np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
+
+
+def test_a_sweep_of_such_edits_keeps_the_score():
+    trace = model.simulate(KEY, (0.5,))
+
+    @jax.jit
+    def sweep(trace, key):
+        def step(i, trace):
+            cells = trace.get_choices()["cells"]
+            new, weight, _, _ = trace.edit(key, Update(C["cells", i].set(1.0 - cells[i])))
+            accept = jnp.log(jr.uniform(jr.fold_in(key, i))) < weight
+            return jax.lax.cond(accept, lambda: new, lambda: trace)
+
+        return jax.lax.fori_loop(0, CELLS, step, trace)
+
+    swept = sweep(trace, KEY)
+    np.testing.assert_allclose(swept.get_score(), model.assess(swept.get_choices(), (0.5,))[0], rtol=1e-4)

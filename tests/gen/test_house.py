@@ -1,0 +1,61 @@
+"""The room keeps its rules: small files, imports that point one way, nothing but JAX."""
+
+import ast
+import pathlib
+
+import bayesmap.gen
+
+ROOM = pathlib.Path(bayesmap.gen.__file__).parent
+FILES = {path.stem: path.read_text() for path in ROOM.glob("*.py") if path.stem != "__init__"}
+
+
+def imports(text):
+    """What a file imports when it is itself imported: not what its functions look up later."""
+    for node in ast.parse(text).body:
+        if isinstance(node, ast.ImportFrom):
+            yield node.module
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+
+
+def test_no_file_is_longer_than_350_lines():
+    assert {name: text.count("\n") for name, text in FILES.items() if text.count("\n") > 350} == {}
+
+
+def test_imports_point_one_way():
+    """Every file can be put after all that it imports."""
+    needs = {
+        name: {m.rsplit(".", 1)[1] for m in imports(text) if m.startswith("bayesmap.gen.")}
+        for name, text in FILES.items()
+    }
+    placed: set[str] = set()
+    while len(placed) < len(needs):
+        ready = {name for name, below in needs.items() if name not in placed and below <= placed}
+        assert ready, f"these import each other: {sorted(set(needs) - placed)}"
+        placed |= ready
+
+
+def test_the_room_knows_jax_and_nothing_else():
+    allowed = ("jax", "bayesmap.gen", "bayesmap.errors")
+    standard = {
+        "ast",
+        "collections",
+        "contextlib",
+        "dataclasses",
+        "functools",
+        "importlib",
+        "math",
+        "threading",
+        "types",
+        "typing",
+        "warnings",
+    }
+    for name, text in FILES.items():
+        for module in imports(text):
+            assert module.startswith(allowed) or module.split(".")[0] in standard, (name, module)
+
+
+def test_every_public_name_has_a_docstring_or_is_a_value():
+    for name in bayesmap.gen.__all__:
+        value = getattr(bayesmap.gen, name)
+        assert not isinstance(value, type) or value.__doc__, name
