@@ -148,8 +148,10 @@ def _stranger(attributes: dict[str, Any]) -> str | None:
     version = int(attributes["format_version"])
     if version <= FORMAT_VERSION:
         return None
-    by = attributes.get("inference_library_version")
-    return f"saved by bayesmap {by} in format {version}, newer than this version's {FORMAT_VERSION}; update bayesmap"
+    return (
+        f"saved by bayesmap {attributes.get('inference_library_version')}, in a newer format ({version}) "
+        f"than this version reads ({FORMAT_VERSION}); update bayesmap"
+    )
 
 
 def _read(file: Any, header: dict[str, Any]) -> Posterior:
