@@ -105,7 +105,5 @@ sensor_model = sensor_model_single.vmap(in_axes=(None, None, None, 0))
 @genjax.gen
 def full_model(pos, model_params):
     walls = walls_prior(model_params.prior_wall_prob) @ "walls"
-    readings = (
-        sensor_model(pos, walls, model_params.sensor_noise, angles(model_params.num_angles)) @ "readings"
-    )
+    readings = sensor_model(pos, walls, model_params.sensor_noise, angles(model_params.num_angles)) @ "readings"
     return (walls, readings)

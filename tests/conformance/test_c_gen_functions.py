@@ -55,9 +55,7 @@ def test_keyword_arguments_reach_the_body():
         return nested(1.0, scale=2.0) @ "n"
 
     np.testing.assert_array_equal(nested(1.0, scale=2.0)(KEY), nested(1.0, 2.0)(KEY))
-    assert (
-        caller.simulate(KEY, ()).get_score() == caller.assess(caller.simulate(KEY, ()).get_choices(), ())[0]
-    )
+    assert caller.simulate(KEY, ()).get_score() == caller.assess(caller.simulate(KEY, ()).get_choices(), ())[0]
 
 
 def test_at_the_empty_address_the_choice_is_the_bare_value():
@@ -208,6 +206,4 @@ def test_a_subtrace_knows_the_arguments_that_it_was_called_with():
     trace = nested.simulate(KEY, (1.0, 2.0))
     assert trace.get_subtrace("z").get_args() == (trace.get_subtrace("inner").get_retval(), 2.0)
     batch = jax.vmap(lambda key: nested.simulate(key, (1.0, 2.0)))(jr.split(KEY, 3))
-    np.testing.assert_array_equal(
-        batch.get_subtrace("z").get_args()[0], batch.get_subtrace("inner").get_retval()
-    )
+    np.testing.assert_array_equal(batch.get_subtrace("z").get_args()[0], batch.get_subtrace("inner").get_retval())

@@ -96,9 +96,7 @@ def test_an_index_out_of_range_raises():
 def test_some_elements_can_be_constrained():
     """D.20: the others draw what they would have drawn."""
     model, free = genjax.normal.repeat(n=4), genjax.normal.repeat(n=4)(0.0, 1.0)(KEY)
-    trace, weight = model.importance(
-        KEY, C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0])), (0.0, 1.0)
-    )
+    trace, weight = model.importance(KEY, C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0])), (0.0, 1.0))
     np.testing.assert_array_equal(trace.get_retval(), jnp.array([free[0], 0.5, 1.0, 2.0]))
     expected = sum(genjax.normal.assess(C.v(v), (0.0, 1.0))[0] for v in (0.5, 1.0, 2.0))
     np.testing.assert_allclose(weight, expected, rtol=1e-6)

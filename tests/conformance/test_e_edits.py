@@ -76,9 +76,7 @@ def test_argdiffs_change_the_arguments():
 
 EDITS = {
     "static": lambda i, j: StaticRequest({"table": Update(C.v(TABLE.at[i, j].set(~TABLE[i, j])))}),
-    "index": lambda i, j: StaticRequest(
-        {"table": IndexRequest(i, IndexRequest(j, Update(C.v(~TABLE[i, j]))))}
-    ),
+    "index": lambda i, j: StaticRequest({"table": IndexRequest(i, IndexRequest(j, Update(C.v(~TABLE[i, j]))))}),
     "address": lambda i, j: Update(C["table", i, j].set(~TABLE[i, j])),
     "float": lambda i, j: Update(C["table", i, j].set(1.0 - TABLE[i, j])),
 }
@@ -122,9 +120,7 @@ def test_one_step_of_a_scan_can_be_changed(t):
 def test_all_steps_of_a_scan_can_be_changed():
     """E.27."""
     trace = step.scan(n=5).simulate(KEY, (0.0, jnp.arange(5.0)))
-    new, weight, _, back = trace.edit(
-        KEY, Update(C["y"].set(jnp.ones(5))), Diff.unknown_change((1.0, jnp.arange(5.0)))
-    )
+    new, weight, _, back = trace.edit(KEY, Update(C["y"].set(jnp.ones(5))), Diff.unknown_change((1.0, jnp.arange(5.0))))
     changes_by_the_joint(trace, new, weight)
     np.testing.assert_array_equal(back.constraint["y"], trace.get_choices()["y"])
     same_types(new, trace)

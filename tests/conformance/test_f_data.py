@@ -24,9 +24,7 @@ def model(loc):
     return x
 
 
-@pytest.mark.parametrize(
-    "join", [lambda a, b: a | b, lambda a, b: a + b, lambda a, b: a ^ b, lambda a, b: a.merge(b)]
-)
+@pytest.mark.parametrize("join", [lambda a, b: a | b, lambda a, b: a + b, lambda a, b: a ^ b, lambda a, b: a.merge(b)])
 def test_joining_prefers_the_left_value(join):
     """F.32."""
     both = join(C["x"].set(1.0) | C["y"].set(2.0), C["x"].set(3.0) | C["z", "w"].set(4.0))
@@ -156,9 +154,7 @@ def test_unmask():
     assert Mask(1.0, False).unmask(default=5.0) == 5.0
     mixed = Mask(value, jnp.array([True, False, True]))
     np.testing.assert_array_equal(mixed.unmask(default=jnp.full(3, -1.0)), [0.0, -1.0, 2.0])
-    np.testing.assert_array_equal(
-        (mixed | Mask(value + 10, jnp.array([True, True, True]))).value, [0.0, 11.0, 2.0]
-    )
+    np.testing.assert_array_equal((mixed | Mask(value + 10, jnp.array([True, True, True]))).value, [0.0, 11.0, 2.0])
     with pytest.raises(ValueError, match=r"shape \(3,\) cannot mask"):
         Mask(jnp.zeros(2), jnp.ones(3, bool))
 

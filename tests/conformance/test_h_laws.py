@@ -227,9 +227,7 @@ def test_regenerate_works_on_vmap_scan_and_products():
     new, weight, _, back = trace.edit(jr.key(5), Regenerate(MU))
     old_mu, mu = trace.get_choices()["mu"], new.get_choices()["mu"]
     assert jnp.all(mu != old_mu)
-    np.testing.assert_allclose(
-        weight, (st.norm.logpdf(data, mu) - st.norm.logpdf(data, old_mu)).sum(), rtol=1e-5
-    )
+    np.testing.assert_allclose(weight, (st.norm.logpdf(data, mu) - st.norm.logpdf(data, old_mu)).sum(), rtol=1e-5)
     np.testing.assert_array_equal(new.edit(KEY, back)[0].get_choices()["mu"], old_mu)
 
     step = genjax.gen(lambda s, x: (lambda m: (m, genjax.normal(m, 1.0) @ "y"))(genjax.normal(s, 1.0) @ "mu"))

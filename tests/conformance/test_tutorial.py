@@ -64,9 +64,7 @@ def over_pixels(update, state):
 
 def gibbs_sweep(key, args, readings, walls):
     keys = jrand.split(key, walls.shape)
-    return over_pixels(
-        lambda i, j, w: w.at[i, j].set(gibbs_update_pixel(keys[i, j], args, readings, w, i, j)), walls
-    )
+    return over_pixels(lambda i, j, w: w.at[i, j].set(gibbs_update_pixel(keys[i, j], args, readings, w, i, j)), walls)
 
 
 def run_chain(key, sweep, args, readings, num_samples):
@@ -219,9 +217,7 @@ def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
 
     def update(key, walls, i, j):
         candidates = jax.vmap(lambda p: jax.lax.dynamic_update_slice(walls, p, (i, j)))(patterns)
-        scores = jax.vmap(lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0])(
-            candidates
-        )
+        scores = jax.vmap(lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0])(candidates)
         return candidates[genjax.categorical.sample(key, logits=scores)]
 
     @jax.jit

@@ -175,7 +175,7 @@ def test_a_flipped_bit_is_refused_or_makes_no_difference(saved, tmp_path):
     script = [sys.executable, "-c", FLIPS, str(saved[1]), str(tmp_path / "flipped.nc"), str(here), str(here.parent)]
     done = subprocess.run(script, check=False, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr[-600:]
-    assert int(done.stdout) > 20
+    assert int(done.stdout) > 10  # else the flips missed all that matters
 
 
 def rewrite(path, change):

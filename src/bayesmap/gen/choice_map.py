@@ -290,9 +290,7 @@ class Switch(ChoiceMap):
         return reduce(lambda a, b: a | b, present) if present else None
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
-        index = (
-            self.index if isinstance(component, str) or jnp.ndim(self.index) == 0 else self.index[component]
-        )
+        index = self.index if isinstance(component, str) or jnp.ndim(self.index) == 0 else self.index[component]
         maps = tuple(chm.get_inner_map(component) for chm in self.maps)
         return Static({}) if all(chm.static_is_empty() for chm in maps) else Switch(index, maps)
 

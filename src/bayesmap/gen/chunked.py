@@ -56,8 +56,6 @@ def _largest_array(jaxpr: Any) -> int:
     """Bytes of the largest array that a jaxpr computes."""
     sizes = [1]
     for eqn in jaxpr.eqns:
-        sizes += [
-            math.prod(v.aval.shape) * v.aval.dtype.itemsize for v in eqn.outvars if hasattr(v.aval, "shape")
-        ]
+        sizes += [math.prod(v.aval.shape) * v.aval.dtype.itemsize for v in eqn.outvars if hasattr(v.aval, "shape")]
         sizes += [_largest_array(inner) for inner in jaxprs_in_params(eqn.params)]
     return max(sizes)

@@ -59,9 +59,7 @@ def dataflow(fn: Callable[..., Any], *inputs: Any) -> Dataflow | None:
         images = frozenset[int]()
         if eqn.primitive.name in _ELEMENTWISE:
             images = frozenset(
-                k
-                for k in sources
-                if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
+                k for k in sources if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
             )
         for out in eqn.outvars:
             origins[out] = _Origin(sources, images)

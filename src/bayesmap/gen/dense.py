@@ -41,9 +41,7 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             return _put(value, index, shape[0]), jnp.zeros(shape, bool).at[index].set(present)
         case Or() | Switch():
             parts = [chm.left, chm.right] if isinstance(chm, Or) else chm.branches()
-            found = [
-                Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))
-            ]
+            found = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))]
             joined = reduce(lambda a, b: a | b, found)
             return joined.value, jnp.broadcast_to(joined.flag, shape)
     raise UnknownAddress(next(chm.paths()), "the model has a bare value or an array there")

@@ -159,9 +159,7 @@ _FAMILIES: dict[str, Family] = {
         support=_counts,
         batch=_event_batch,
     ),
-    "normal": Family(
-        _two, lambda key, shape, loc, scale: loc + scale * jr.normal(key, shape), st.norm.logpdf
-    ),
+    "normal": Family(_two, lambda key, shape, loc, scale: loc + scale * jr.normal(key, shape), st.norm.logpdf),
     "uniform": Family(
         lambda low, high: (low, high),
         lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
@@ -220,9 +218,7 @@ _FAMILIES: dict[str, Family] = {
         lambda key, shape, df, m, s: m + s * jr.t(key, df, shape),
         st.t.logpdf,
     ),
-    "log_normal": Family(
-        _two, lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)), _log_normal_logpdf
-    ),
+    "log_normal": Family(_two, lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)), _log_normal_logpdf),
     "half_normal": Family(
         lambda scale: (scale,),
         lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
@@ -243,9 +239,7 @@ _FAMILIES: dict[str, Family] = {
         lambda key, shape, k, s: jr.weibull_min(key, s, k, shape),
         _weibull_logpdf,
     ),
-    "chi2": Family(
-        lambda df: (df,), lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf
-    ),
+    "chi2": Family(lambda df: (df,), lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf),
     "dirichlet": Family(
         lambda concentration: (concentration,),
         lambda key, shape, a: jr.dirichlet(key, a, shape),

@@ -54,9 +54,7 @@ class Dimap(GenerativeFunction):
     def _inner_args(self, *args: Any) -> tuple[Any, ...]:
         inner_args = self.pre(*args)
         if not isinstance(inner_args, tuple):
-            raise TypeError(
-                f"the function of the arguments must return a tuple, not {type(inner_args).__name__}"
-            )
+            raise TypeError(f"the function of the arguments must return a tuple, not {type(inner_args).__name__}")
         return inner_args
 
     def _trace(self, args: Arguments, inner_args: Arguments, inner: Trace) -> DimapTrace:

@@ -85,9 +85,7 @@ class ExactDensity(GenerativeFunction):
         if given is None:
             return self.score(value, args) + penalty, value
         if is_concrete(given) and not bool(jnp.all(given)):
-            raise MissingAddress(
-                (), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}"
-            )
+            raise MissingAddress((), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}")
         return jnp.where(jnp.all(given), self.score(value, args) + penalty, jnp.nan), value
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:

@@ -97,14 +97,10 @@ class Trace(Pytree):
             (new trace, weight, retdiff, backward request)
         """
         if not isinstance(request, EditRequest):
-            raise TypeError(
-                f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}"
-            )
+            raise TypeError(f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}")
         return request.edit(key, self, Diff.no_change(self.get_args()) if argdiffs is None else argdiffs)
 
-    def update(
-        self, key: PRNGKey, constraint: ChoiceMap, argdiffs: Any = None
-    ) -> tuple[Self, Weight, Any, ChoiceMap]:
+    def update(self, key: PRNGKey, constraint: ChoiceMap, argdiffs: Any = None) -> tuple[Self, Weight, Any, ChoiceMap]:
         """Change the choices in `constraint`: (new trace, weight, retdiff, the choices replaced)."""
         trace, weight, retdiff, backward = self.edit(key, Update(constraint), argdiffs)
         if not isinstance(backward, Update):
@@ -157,9 +153,7 @@ class GenerativeFunction(Fluent, Pytree):
         trace = self.simulate(key, args)
         return trace.get_choices(), trace.get_score(), trace.get_retval()
 
-    def update(
-        self, key: PRNGKey, trace: Trace, constraint: ChoiceMap, argdiffs: Any
-    ) -> tuple[Any, Weight, Any, Any]:
+    def update(self, key: PRNGKey, trace: Trace, constraint: ChoiceMap, argdiffs: Any) -> tuple[Any, Weight, Any, Any]:
         """The same as `trace.update(key, constraint, argdiffs)`."""
         return trace.update(key, constraint, argdiffs)
 

@@ -62,9 +62,7 @@ def visit(address: Any, gen_fn: Any, args: tuple[Any, ...]) -> Any:
     stack = getattr(_local, "stack", [])
     path = as_path(address)
     if not stack:
-        raise AddressError(
-            path, "`@` is for the body of a @gen function; call the closure with a key instead"
-        )
+        raise AddressError(path, "`@` is for the body of a @gen function; call the closure with a key instead")
     stack[-1].enter(path)
     return stack[-1].visit(path, gen_fn, args)
 

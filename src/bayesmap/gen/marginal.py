@@ -70,17 +70,13 @@ class Marginal(GenerativeFunction):
         shown = trace.get_choices().filter(self.selection)
         missing = shown.filter(~constraint.get_selection())
         if not missing.static_is_empty():
-            raise NotImplementedError(
-                f"a marginal needs all its choices or none; missing: {list(missing.paths())}"
-            )
+            raise NotImplementedError(f"a marginal needs all its choices or none; missing: {list(missing.paths())}")
         score = logsumexp(weights) - jnp.log(self.particles)
         return MarginalTrace(self, args, shown, trace.get_retval(), score), score
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         trace, score = self.generate(jax.random.key(0), choices, args)
-        hidden = (
-            jax.eval_shape(self.inner.simulate, jax.random.key(0), args).get_choices().filter(~self.selection)
-        )
+        hidden = jax.eval_shape(self.inner.simulate, jax.random.key(0), args).get_choices().filter(~self.selection)
         if not hidden.static_is_empty():
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
         return score, trace.get_retval()
@@ -107,9 +103,7 @@ class Marginal(GenerativeFunction):
         return trace.score  # type: ignore[no-any-return]
 
 
-def marginal(
-    *, selection: Selection | None = None, particles: int = 1
-) -> Callable[[GenerativeFunction], Marginal]:
+def marginal(*, selection: Selection | None = None, particles: int = 1) -> Callable[[GenerativeFunction], Marginal]:
     """A decorator: keep the selected choices, and sum the others out.
 
     The score is exact where nothing is summed out; else it is estimated by importance sampling with

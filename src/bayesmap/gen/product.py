@@ -71,8 +71,6 @@ class Product(ExactDensity):
         edited, weight, retdiff, back = request.edit(key, element, Diff.no_change(here))
         new_value = trace.value.at[i].set(edited.get_retval())
         below = retdiff.tangent.index if isinstance(retdiff.tangent, IndexChange) else ()
-        score = replace_term(
-            trace.score, element.score, edited.get_score(), lambda: self.score(new_value, args)
-        )
+        score = replace_term(trace.score, element.score, edited.get_score(), lambda: self.score(new_value, args))
         new = DistributionTrace(self, args, new_value, score)
         return new, before + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, back)

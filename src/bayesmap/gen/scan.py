@@ -110,9 +110,7 @@ class Scan(GenerativeFunction):
             case IndexRequest(t, inner):
                 return self._edit_step(key, trace, check_index(t, n), inner, argdiffs)
             case Update(Indexed(inner, t)) if jnp.ndim(t) == 0:
-                new, weight, retdiff, back = self._edit_step(
-                    key, trace, check_index(t, n), Update(inner), argdiffs
-                )
+                new, weight, retdiff, back = self._edit_step(key, trace, check_index(t, n), Update(inner), argdiffs)
                 undo = back.request.constraint.extend(back.idx)  # type: ignore[attr-defined]
                 return new, weight, retdiff, Update(undo)
             case Update(constraint):
@@ -192,9 +190,7 @@ def _last(args: Any, inner_args: Any, retval: Any) -> Any:
 
 
 def _all(args: Any, inner_args: Any, retval: Any) -> Any:
-    return jax.tree.map(
-        lambda first, rest: jnp.concatenate([jnp.asarray(first)[None], rest]), inner_args[0], retval[1]
-    )
+    return jax.tree.map(lambda first, rest: jnp.concatenate([jnp.asarray(first)[None], rest]), inner_args[0], retval[1])
 
 
 def _first_only(state: Any) -> tuple[Any, None]:
@@ -217,13 +213,9 @@ def reduce() -> Callable[[GenerativeFunction], Any]:
 
 def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `state -> state` make `state -> ` all n + 1 states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_all)(
-        scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn)))
-    )
+    return lambda gen_fn: dimap(pre=_first_only, post=_all)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))
 
 
 def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `state -> state` make `state -> ` the last of n states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_last)(
-        scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn)))
-    )
+    return lambda gen_fn: dimap(pre=_first_only, post=_last)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))

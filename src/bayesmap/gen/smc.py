@@ -165,9 +165,7 @@ def particle_filter(
         return (states, log_weights + weights), traces
 
     start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
-    (_, log_weights), traces = jax.lax.scan(
-        step, (start, jnp.zeros(k)), (jnp.arange(n), xs, vectorise(constraint, n))
-    )
+    (_, log_weights), traces = jax.lax.scan(step, (start, jnp.zeros(k)), (jnp.arange(n), xs, vectorise(constraint, n)))
     result = ParticleCollection(jax.tree.map(lambda x: x[-1], traces), log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
 

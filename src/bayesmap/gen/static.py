@@ -88,9 +88,7 @@ class _Assess(Handler):
 class _Edit(_Run):
     """A run that edits each site's trace, telling it which of its arguments changed."""
 
-    def __init__(
-        self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any
-    ):
+    def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
         super().__init__(key)
         self.old, self.request = old, request
         self.backward: dict[StaticAddress, EditRequest] = {}

@@ -71,9 +71,7 @@ class Switch(GenerativeFunction):
         """(Index clamped to the branches, arguments of each)."""
         index, *rest = args
         if len(rest) != len(self.branches):
-            raise TypeError(
-                f"switch takes an index and {len(self.branches)} tuples of arguments, not {len(rest)}"
-            )
+            raise TypeError(f"switch takes an index and {len(self.branches)} tuples of arguments, not {len(rest)}")
         return jnp.clip(jnp.asarray(Diff.tree_primal(index)), 0, len(self.branches) - 1), rest
 
     def _build(self, args: Arguments, thunks: Sequence[Callable[[], Any]]) -> tuple[SwitchTrace, Weight]:
@@ -109,9 +107,7 @@ class Switch(GenerativeFunction):
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
         _, rest = self._read(args)
-        thunks = [
-            lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, rest, strict=True)
-        ]
+        thunks = [lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, rest, strict=True)]
         return self._build(args, thunks)[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[SwitchTrace, Weight]:

@@ -141,9 +141,7 @@ class Vmap(GenerativeFunction):
         inner = jax.tree.map(store, trace.inner, element, new.with_args(None))
         retval = inner.get_retval()
         moved = [_at(i, t) for t in Diff.tangents(retdiff)]
-        score = replace_term(
-            trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score())
-        )
+        score = replace_term(trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score()))
         return (
             VmapTrace(self, args, inner, score),
             before + weight,
