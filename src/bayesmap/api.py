@@ -128,7 +128,7 @@ def infer(
     settings: dict[str, Any] = {
         "method": method, "order": order, "chains": chains, "warmup": schedule.warmup, "draws": schedule.draws,
         "thin": schedule.thin, "seed": seed, "start": start if isinstance(start, str) else "given map",
-        "particles": particles, "rounds": rounds, "hit_depth": hit_depth, "prior": prior.describe(),
+        "particles": int(particles), "rounds": int(rounds), "hit_depth": float(hit_depth), "prior": prior.describe(),
         "sensor": describe(sensor),
     }  # fmt: skip
     settings["fingerprint"] = _fingerprint(settings, scans, grid, problem, start)

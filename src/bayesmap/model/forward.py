@@ -86,6 +86,12 @@ def simulate(
                 f"simulate: pose {scan} at ({x:g}, {y:g}) m stands in the occupied cell {cell}; "
                 "move the robot, or clear that cell"
             )
+    if opacity is not None:
+        opacity = np.asarray(opacity, dtype=np.float64)
+        if opacity.shape != grid.shape or not ((opacity >= 0) & (opacity <= 1)).all():
+            raise BadInput(
+                f"simulate: opacity must be {grid.shape} numbers in [0, 1], one a cell; got shape {opacity.shape}"
+            )
     rng = np.random.default_rng(seed)
     if opacity is None:
         distances = _distances(solid, grid, many, angles, np.inf, device)

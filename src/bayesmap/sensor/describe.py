@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
+import numpy as np
+
 from bayesmap.errors import BadInput
 from bayesmap.sensor.mixture import BeamMixture
 from bayesmap.sensor.model import SensorModel
@@ -17,11 +19,16 @@ def describe(sensor: SensorModel) -> dict[str, Any]:
     """The model's kind and parameters. A model that is not one of ours is described by its name alone."""
     for kind, cls in KINDS.items():
         if type(sensor) is cls:
-            values: dict[str, Any] = {f.name: getattr(sensor, f.name) for f in fields(cls)}  # type: ignore[arg-type]
+            values: dict[str, Any] = {f.name: _plain(getattr(sensor, f.name)) for f in fields(cls)}  # type: ignore[arg-type]
             if isinstance(sensor, BeamMixture):
                 values["noise"] = describe(sensor.noise)
             return {"kind": kind, **values}
     return {"kind": type(sensor).__name__}
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers as Python's, which JSON can hold."""
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def from_description(description: dict[str, Any]) -> SensorModel | None:
