@@ -236,7 +236,7 @@ def test_a_newer_format_is_refused_with_the_remedy(saved, tmp_path):
     copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
     with netCDF4.Dataset(copy, "a") as file:
         file.setncattr("format_version", 99)
-    with pytest.raises(bm.BadInput, match=r"damaged\.nc: saved by bayesmap .* newer format \(99\).*update bayesmap"):
+    with pytest.raises(bm.BadInput, match=r"damaged\.nc: saved by bayesmap .*newer.*update bayesmap"):
         bm.load(copy)
 
 
