@@ -34,6 +34,10 @@ WORLDS += [
     for noise in (0.1, 0.4)
     for robust in (False, True)
 ]
+# Beams along lines and through corners, 8 a pose: there a beam touches three cells at once, and ties are many.
+LATTICE = 8
+WORLDS += [(prior, noise, robust, (4, 4), 3, LATTICE) for prior, noise, robust in ((0.3, 0.1, False), (0.5, 0.5, True))]
+WORLDS += [("cells", 0.3, False, (3, 4), 2, LATTICE), (0.2, 0.2, False, (2, 5), 3, LATTICE)]
 NAMES = [
     f"{'mixture' if robust else 'gaussian'}-noise{noise}-prior{prior}-{shape[0]}x{shape[1]}-{poses}poses-{beams}beams"
     for prior, noise, robust, shape, poses, beams in WORLDS
@@ -44,7 +48,15 @@ NAMES = [
 def world(number):
     prior, noise, robust, shape, poses, beams = WORLDS[number]
     sensor = bm.BeamMixture(bm.Gaussian(noise)) if robust else bm.Gaussian(noise)
-    return make_case([number, 77], shape=shape, n_poses=poses, prior=prior, sensor=sensor, beams_per_pose=beams)
+    return make_case(
+        [number, 77],
+        shape=shape,
+        n_poses=poses,
+        prior=prior,
+        sensor=sensor,
+        beams_per_pose=beams,
+        lattice=beams == LATTICE,
+    )
 
 
 def draw_maps(rng, p, n, count):

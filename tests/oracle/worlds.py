@@ -60,16 +60,21 @@ def random_prior(rng, kind, shape):
     return p
 
 
-def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_per_pose=9, max_range_m=None):
-    """Draw a map from the prior and scans from the map; the poses stand anywhere, in walls and outside too."""
+def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_per_pose=9, lattice=False):
+    """Draw a map from the prior and scans from the map; the poses stand anywhere, in walls and outside too.
+
+    On a ``lattice`` they stand on corners, lines and in the middle of cells, and look along multiples of 45 degrees.
+    """
     rng = np.random.default_rng(seed)
     sensor = bm.Gaussian(0.5) if sensor is None else sensor
     grid = bm.Grid(shape, resolution=0.5, origin=(-1.0, 2.0))
     size = np.array(shape) * grid.resolution
     xy = np.array(grid.origin) + rng.uniform(-0.1, 1.1, (n_poses, 2)) * size
     poses = np.column_stack([xy, rng.uniform(-np.pi, np.pi, n_poses)])
+    if lattice:
+        poses = np.round(poses / [0.25, 0.25, np.pi / 4]) * [0.25, 0.25, np.pi / 4]  # half cells
     angles = np.linspace(0, 2 * np.pi, beams_per_pose, endpoint=False)
-    limits = (0.1, 3.0 if max_range_m is None else max_range_m)
+    limits = (0.1, 3.0)
     p_wall = random_prior(rng, prior, shape)
     walls = rng.random(shape) < p_wall
     starts, directions = beams(poses, angles, grid)
