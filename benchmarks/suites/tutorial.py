@@ -63,22 +63,23 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     yield importance
     if not with_peers:
         return
-    for peer, case, name, ours in (
-        ("genjax", "raster", "tutorial/genjax_raster", raster.value * 1e-6),
-        ("genjax", "radial", "tutorial/genjax_radial", radial.value * 1e-6),
-        ("genjax", "block", "tutorial/genjax_block", block.value * 1e-6),
-        ("genjax", "importance", "tutorial/genjax_importance", None),
-        ("numpyro", "dense", "tutorial/numpyro_dense", raster.value * 1e-6),
-        ("numpyro", "sparse", "tutorial/numpyro_sparse", raster.value * 1e-6),
+    truth = {p.p_wall[0]: p.log_joint(tutorial_data()[0]) for p in (likely, rare)}
+    for peer, case, cores, ours in (
+        ("genjax", "raster", 1, raster),
+        ("genjax", "radial", 1, radial),
+        ("genjax", "incremental", 1, raster),
+        ("genjax", "block", 1, block),
+        ("genjax", "importance", None, importance),
+        ("numpyro", "dense", 1, raster),
+        ("numpyro", "dense", None, raster),
+        ("numpyro", "sparse", 1, raster),
     ):
-        result = run_peer(peer, case, repeats=5)
+        result = run_peer(peer, case, repeats=5, cores=cores)
         if isinstance(result, Unavailable):
             print(f"skipped: {result.reason}", flush=True)
             continue
-        versions = " ".join(f"{k} {v}" for k, v in result.versions.items() if k.lower() == peer)
-        against = f"{versions or peer}, {case}: {result.median_s * 1e3:.1f} ms per {result.what}"
-        if ours is None:
-            maps = 10_000
-            yield ratio(name, result.median_s, maps / importance.value, against)
-        else:
-            yield ratio(name, result.median_s, ours, against)
+        assert abs(result.log_joint_of_truth - truth[result.prior]) < 0.01, f"{peer} solves another problem"
+        ours_s = 10_000 / ours.value if ours is importance else ours.value * 1e-6
+        where = "all cores" if cores is None else "1 core"
+        against = f"{peer} {case}, {where}: {result.median_s * 1e3:.2f} ms; cpu/wall {result.cpu_per_wall:.2f}"
+        yield ratio(f"tutorial/{peer}_{case}_{'all' if cores is None else 1}", result.median_s, ours_s, against)

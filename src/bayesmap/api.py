@@ -118,6 +118,8 @@ def infer(
     )
     chains = check_count("infer", "chains", chains, 1)
     seed = check_count("infer", "seed", seed, 0)
+    particles = check_count("infer", "particles", particles, 1)
+    rounds = check_count("infer", "rounds", rounds, 1)
     if threads is not None:
         threads = check_count("infer", "threads", threads, 1)
     if not 0.0 <= hit_depth <= 1.0:
@@ -128,7 +130,7 @@ def infer(
     settings: dict[str, Any] = {
         "method": method, "order": order, "chains": chains, "warmup": schedule.warmup, "draws": schedule.draws,
         "thin": schedule.thin, "seed": seed, "start": start if isinstance(start, str) else "given map",
-        "particles": int(particles), "rounds": int(rounds), "hit_depth": float(hit_depth), "prior": prior.describe(),
+        "particles": particles, "rounds": rounds, "hit_depth": float(hit_depth), "prior": prior.describe(),
         "sensor": describe(sensor),
     }  # fmt: skip
     settings["fingerprint"] = _fingerprint(settings, scans, grid, problem, start)
