@@ -129,3 +129,12 @@ def test_a_stopped_run_keeps_its_particles():
     assert not found.finished
     assert 0 < len(found.log_weights) < 10**7
     assert np.exp(found.log_weights).sum() == pytest.approx(1.0)
+
+
+def test_neighbouring_particles_have_no_random_number_in_common():
+    """No cell of a particle is correlated with any cell of the next: 256 correlations within 5.5 / sqrt(20 000)."""
+    case = world(next(i for i, w in enumerate(WORLDS) if w[0] == 0.5 and w[3] == (4, 4)))
+    found = sample_importance(case.problem(), 20_000, seed=6)
+    maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
+    correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
+    assert abs(correlations).max() < 5.5 / np.sqrt(20_000)
