@@ -82,12 +82,13 @@ def test_imports_point_one_way(path):
             assert LEVEL[target] < LEVEL[here], f"{path}:{line}: {here} may not import {module}"
 
 
-@pytest.mark.parametrize(("library", "room"), [("warp", "kernels"), ("jax", "gen"), ("matplotlib", "viz")])
-def test_heavy_libraries_have_one_room_each(library, room):
+# The mapping model is a generative function, so `model` computes on JAX too.
+@pytest.mark.parametrize(("library", "rooms"), [("warp", "kernels"), ("jax", "gen model"), ("matplotlib", "viz")])
+def test_heavy_libraries_have_a_room_each(library, rooms):
     for path in FILES:
         for line, module in imports(path):
             if module.split(".")[0] == library:
-                assert home(path) == room, f"{path}:{line}: only {room} imports {library}"
+                assert home(path) in rooms.split(), f"{path}:{line}: only {rooms} imports {library}"
 
 
 def test_every_room_is_known():

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.model.forward import ranges as ranges
     from bayesmap.model.forward import simulate as simulate
+    from bayesmap.model.mapping import mapping_model as mapping_model
     from bayesmap.model.priors import Independent as Independent
     from bayesmap.run import Run as Run
     from bayesmap.run import load as load
@@ -42,6 +43,7 @@ _HOME = {
     "StudentT": "bayesmap.sensor.noise",
     "infer": "bayesmap.api",
     "load": "bayesmap.run",
+    "mapping_model": "bayesmap.model.mapping",
     "ranges": "bayesmap.model.forward",
     "read_log": "bayesmap.io.logs",
     "simulate": "bayesmap.model.forward",
