@@ -29,7 +29,7 @@ class Beliefs:
         self._beyond = wp.empty(beams, dtype=wp.float32, device=device)
         self._ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
         self._behind = wp.empty(incidences, dtype=wp.float32, device=device)
-        self._logit = devices.to_device(np.clip(logit, -60.0, 60.0), wp.float64, device)
+        self._logit = devices.to_device(logit, wp.float64, device)
         self._product = wp.empty((parts, cells), dtype=wp.float32, device=device)
         self._received = wp.zeros((parts, cells), dtype=wp.float32, device=device)
         self._odds = wp.empty(cells, dtype=wp.float32, device=device)

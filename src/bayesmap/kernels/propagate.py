@@ -21,6 +21,7 @@ wp.set_module_options({"enable_backward": False})
 TINY = wp.constant(wp.float32(1.0e-30))
 LARGEST_RATIO = wp.constant(wp.float32(1.0e6))
 LARGEST_PRODUCT = wp.constant(wp.float32(1.0e30))
+FIXED = wp.constant(wp.float32(1.0e12))  # prior log-odds past any beam's
 LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
 
 
@@ -121,7 +122,8 @@ def cell_beliefs(
     """One thread a cell: prior log-odds plus all messages."""
     c = first + wp.tid()
     total = wp.float32(logit[c])
-    for part in range(received.shape[0]):
-        total += received[part, c]
+    if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the beams say
+        for part in range(received.shape[0]):
+            total += received[part, c]
     belief[c] = total
     odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))

@@ -77,7 +77,7 @@ class BeamSensor(GenerativeFunction):
         """The position of each beam's first wall, (B,), all beams looked at."""
         geometry = self.geometry
         cells = geometry.cells[:, : geometry.longest]
-        known = jnp.append(self._flat(walls), True)  # the sentinel is a wall
+        known = jnp.append(self._flat(walls) != 0, True)  # the sentinel is a wall
         positions = jnp.arange(geometry.longest, dtype=geometry.position_dtype)
         return jnp.where(known[cells], positions, positions[-1]).min(axis=1)
 
@@ -90,7 +90,7 @@ class BeamSensor(GenerativeFunction):
             raise BadInput(
                 f"sensor model: the argument walls has shape {jnp.shape(walls)}, expected {self.geometry.shape}"
             )
-        return jnp.asarray(walls).reshape(-1) != 0
+        return jnp.asarray(walls).reshape(-1)
 
     def _law_args(self, first_hit: Any) -> Arguments:
         return (self.distances_at(first_hit).reshape(self.readings_shape),)
@@ -125,7 +125,7 @@ class BeamSensor(GenerativeFunction):
             return EmptyRequest().edit(key, trace, argdiffs)
         match tangents:
             case [IndexChange((i, j))] if keeps:
-                first_hit, weight = self._change_cell(trace, args[0], i, j)
+                first_hit, weight = self._change_cells(trace, args[0], i, j)
                 new = BeamTrace(self, args, first_hit, trace.readings)
                 return new, weight, Diff.no_change(new.readings), Update(ChoiceMap.empty())
         first_hit = trace.first_hit if Diff.static_check_no_change(argdiffs) else self.first_hits(*args)
@@ -134,16 +134,29 @@ class BeamSensor(GenerativeFunction):
         inner, weight, retdiff, backward = self.law.edit(key, old, request, law_diffs)
         return BeamTrace(self, args, first_hit, inner.get_retval()), weight, retdiff, backward
 
-    # One cell -------------------------------------------------------------------------------------
+    # Some cells -----------------------------------------------------------------------------------
 
-    def _change_cell(self, trace: BeamTrace, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
-        """First hits, and the change of the log-likelihood, now that cell (i, j) is what `walls` says it is."""
-        geometry, flat = self.geometry, self._flat(walls)
-        nx, ny = geometry.shape
-        cell = jnp.where(i < 0, i + nx, i) * ny + jnp.where(j < 0, j + ny, j)
-        is_wall = flat[cell]
+    def _change_cells(self, trace: BeamTrace, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
+        """First hits, and the change of the log-likelihood, now that the cells (i, j) are what `walls` says they are.
+
+        One cell after the other, each against the new map: a beam that loses its hit goes to the next wall of that
+        map, and a wall that appears before a hit takes it over, in whatever order.
+        """
+        # No operation here may touch the whole map, not even to compare it: `flat` is the same memory.
+        flat, (nx, ny) = self._flat(walls), self.geometry.shape
+        i, j = (jnp.atleast_1d(jnp.asarray(at, jnp.int32)) for at in (i, j))
+        cells = jnp.where(i < 0, i + nx, i) * ny + jnp.where(j < 0, j + ny, j)
+        first_hit, weight = trace.first_hit, jnp.zeros((), trace.readings.dtype)
+        readings = trace.readings.reshape(-1)
+        for cell in jnp.ravel(cells):
+            first_hit, gain = self._change_cell(flat, cell, first_hit, readings)
+            weight += gain
+        return first_hit, weight
+
+    def _change_cell(self, flat: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
+        geometry, is_wall = self.geometry, flat[cell] != 0
         offsets, beams, positions = map(jnp.asarray, (geometry.offsets, geometry.beam, geometry.position))
-        distance_m, readings = jnp.asarray(geometry.distance_m), trace.readings.reshape(-1)
+        distance_m = jnp.asarray(geometry.distance_m)
         end = offsets[cell + 1]
 
         def group(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
@@ -158,11 +171,11 @@ class BeamSensor(GenerativeFunction):
             gain = self.law.logpdf(readings[beam], distance_m[beam, new])
             gain -= self.law.logpdf(readings[beam], distance_m[beam, old])
             weight += jnp.where(new != old, gain, 0.0).sum()
-            where_to = jnp.where(here, beam, geometry.n_beams)
-            first_hit = first_hit.at[where_to].set(new.astype(first_hit.dtype), mode="drop", unique_indices=False)
+            where_to = jnp.where(here, beam, geometry.n_beams)  # outside: dropped
+            first_hit = first_hit.at[where_to].set(new.astype(first_hit.dtype), mode="drop")
             return k + GROUP, first_hit, weight
 
-        start = (offsets[cell], trace.first_hit, jnp.zeros((), readings.dtype))
+        start = (offsets[cell], first_hit, jnp.zeros((), readings.dtype))
         _, first_hit, weight = jax.lax.while_loop(lambda state: state[0] < end, group, start)
         return first_hit, weight
 
@@ -174,7 +187,7 @@ class BeamSensor(GenerativeFunction):
         def look(state: tuple[Any, Any]) -> tuple[Any, Any]:
             position, searching = state
             seen = cells[beam[:, None], position[:, None] + 1 + ahead]
-            wall = (seen == n_cells) | flat[jnp.minimum(seen, n_cells - 1)]
+            wall = (seen == n_cells) | (flat[jnp.minimum(seen, n_cells - 1)] != 0)
             step = jnp.where(wall, ahead, LOOK).min(axis=1)
             found = step < LOOK
             position = jnp.where(searching, position + jnp.where(found, step + 1, LOOK), position)

@@ -21,6 +21,7 @@ from bayesmap.model.beam_geometry import beam_geometry
 from bayesmap.model.beam_sensor import BeamSensor
 from bayesmap.model.priors import Independent
 from bayesmap.model.reading_law import reading_law
+from bayesmap.model.set_cells import SetCells as SetCells
 from bayesmap.sensor.model import RangeLimits, SensorModel
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import as_angles, as_poses, check_limits

@@ -80,7 +80,8 @@ def plain_ess(chains: Floats) -> Floats:
     monotone = np.minimum.accumulate(sums, axis=0)
     before = np.arange(pairs)[:, None] < stop
     tau = -1.0 + 2.0 * np.where(before, monotone, 0.0).sum(axis=0)
-    tau += np.maximum(np.take_along_axis(even, stop[None], axis=0)[0], 0.0)
+    last = np.take_along_axis(even, stop[None], axis=0)[0]
+    tau += np.where(positive.all(axis=0), last, np.maximum(last, 0.0))
     tau = np.maximum(tau, 1.0 / np.log10(m * n))
     return np.asarray(m * n / tau).reshape(chains.shape[2:])
 
@@ -98,8 +99,9 @@ def tail_ess(values: Floats) -> float:
     if values.shape[1] < 4:
         return float("nan")
     low, high = np.quantile(values, [0.05, 0.95])
-    both = [plain_ess(split_chains((values <= q).astype(np.float64))) for q in (low, high)]
-    return float(np.nanmin(both))
+    halves = [split_chains((values <= q).astype(np.float64)) for q in (low, high)]
+    # An indicator without variation, as short chains have, counts as fully effective: the other one decides.
+    return float(min(half.size if half.min() == half.max() else plain_ess(half) for half in halves))
 
 
 @dataclass(frozen=True)
@@ -149,6 +151,6 @@ def diagnose_cells(
             halves = split_chains(bits[:, :, place].astype(np.float64))
             rhats = plain_rhat(halves)
             high += int((rhats > RHAT_LIMIT).sum())
-            worst_rhat = float(np.fmax(worst_rhat, np.nanmax(rhats)))
-            least_ess = float(np.fmin(least_ess, np.nanmin(plain_ess(halves))))
+            worst_rhat = float(np.fmax(worst_rhat, np.fmax.reduce(rhats)))
+            least_ess = float(np.fmin(least_ess, np.fmin.reduce(plain_ess(halves))))
     return CellDiagnostics(worst_rhat, least_ess, int(unchanged.sum()), disagreeing, high)
