@@ -90,8 +90,8 @@ def test_all_starts_agree_on_the_tutorial_s_map_where_walls_are_rare():
     prior = bm.Independent(0.05)
     runs = [
         bm.infer(
-            scans, grid, prior=prior, sensor=bm.Gaussian(0.2), method="block", order="radial", chains=2, warmup=2000,
-            draws=2000, start=start, seed=seed,
+            scans, grid, prior=prior, sensor=bm.Gaussian(0.2), method="block", order="radial", chains=2, warmup=1000,
+            draws=1000, start=start, seed=seed,
         )
         for seed, start in enumerate(["zeros", "ones", "prior"])
     ]  # fmt: skip

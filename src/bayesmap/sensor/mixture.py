@@ -75,28 +75,37 @@ class BeamMixture(SensorModel):
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
         """The logarithm of the three formulas above, by the kind of the reading."""
         z, d = np.broadcast_arrays(range_m, distance_m)
-        seen = d <= limits.max_m
+        p = np.ones(z.shape)  # an invalid reading says nothing
+        finite, none, close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
+        p[finite] = self._hit(z[finite], d[finite], limits)
+        p[none] = self._no_return(d[none], limits)
+        p[close] = self._too_close(d[close], limits)
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.maximum(np.log(p), LOG_IMPOSSIBLE))
+
+    def _returned(self, d: Floats, limits: RangeLimits) -> Floats:
+        """The chance that the wall at d is what comes back: q(d) (1 - p_no_return), and 0 out of range."""
+        return np.where(d <= limits.max_m, self.unblocked(d) * (1.0 - self.p_no_return), 0.0)
+
+    def _hit(self, z: Floats, d: Floats, limits: RangeLimits) -> Floats:
         wall_m = np.minimum(d, limits.max_m)
         scale = self.noise.scale_at(wall_m)
-        blocked = 1.0 - self.unblocked(np.minimum(wall_m, limits.min_m))
-        returned = np.where(seen, self.unblocked(wall_m) * (1.0 - self.p_no_return), 0.0)
-        lost = self.unblocked(wall_m) - returned
-
-        finite = np.isfinite(z)
-        reading = np.where(finite, z, limits.max_m)
-        noise = np.exp(self.noise.log_density((reading - wall_m) / scale)) / scale
+        noise = np.exp(self.noise.log_density((z - wall_m) / scale)) / scale
         rate = self.rate_short_per_m
-        short = np.where(reading < wall_m, self.p_short * rate * np.exp(-rate * np.maximum(reading, 0.0)), 0.0)
-        hit = self.p_random / (limits.max_m - limits.min_m) + (1 - self.p_random) * (short + returned * noise)
-        above = self.noise.tail((limits.max_m - wall_m) / scale)
-        below = 1.0 - self.noise.tail((limits.min_m - wall_m) / scale)
-        none = (1 - self.p_random) * (lost + returned * above)
-        close = (1 - self.p_random) * (blocked + returned * below)
-        with np.errstate(divide="ignore"):
-            by_kind = np.select(
-                [finite, np.isposinf(z), np.isneginf(z)], [np.log(hit), np.log(none), np.log(close)], 0.0
-            )
-        return np.asarray(np.maximum(by_kind, LOG_IMPOSSIBLE))
+        short = np.where(z < wall_m, self.p_short * rate * np.exp(-rate * np.maximum(z, 0.0)), 0.0)
+        uniform = self.p_random / (limits.max_m - limits.min_m)
+        return np.asarray(uniform + (1 - self.p_random) * (short + self._returned(d, limits) * noise))
+
+    def _no_return(self, d: Floats, limits: RangeLimits) -> Floats:
+        wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        above = self.noise.tail((limits.max_m - wall_m) / self.noise.scale_at(wall_m))
+        return np.asarray((1 - self.p_random) * (self.unblocked(wall_m) - returned * (1.0 - above)))
+
+    def _too_close(self, d: Floats, limits: RangeLimits) -> Floats:
+        wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        blocked = 1.0 - self.unblocked(np.minimum(wall_m, limits.min_m))
+        below = 1.0 - self.noise.tail((limits.min_m - wall_m) / self.noise.scale_at(wall_m))
+        return np.asarray((1 - self.p_random) * (blocked + returned * below))
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
         """A finite reading is flat where the wall's noise has sunk under `FLAT_NATS` of the random floor."""
@@ -110,7 +119,7 @@ class BeamMixture(SensorModel):
         finite = np.isfinite(z)
         z = np.where(finite, np.maximum(z, 0.0), 0.0)
         low, high = z, np.full(z.shape, limits.max_m)
-        for _ in range(40):
+        for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
             enough = negligible(middle)
             low, high = np.where(enough, low, middle), np.where(enough, middle, high)
@@ -146,6 +155,9 @@ class BeamMixture(SensorModel):
             rate_short_per_m=self.rate_short_per_m,
         )
 
+
+BISECTIONS = 16
+"""To find where a reading is flat within 1/65536 of the sensor's range; what is left over lies on the safe side."""
 
 LOG_IMPOSSIBLE = -30.0
 """Least log-likelihood of a typed reading, so that one odd beam never makes a whole map impossible."""
