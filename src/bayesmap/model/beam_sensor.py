@@ -8,6 +8,7 @@ and is removed, which moves the hit to the next wall behind it. No other beam, a
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import jax
@@ -125,7 +126,7 @@ class BeamSensor(GenerativeFunction):
             return EmptyRequest().edit(key, trace, argdiffs)
         match tangents:
             case [IndexChange((i, j))] if keeps:
-                first_hit, weight = self._change_cells(trace, args[0], i, j)
+                first_hit, weight = self._change_cells(trace.first_hit, trace.readings, args[0], i, j)
                 new = BeamTrace(self, args, first_hit, trace.readings)
                 return new, weight, Diff.no_change(new.readings), Update(ChoiceMap.empty())
         first_hit = trace.first_hit if Diff.static_check_no_change(argdiffs) else self.first_hits(*args)
@@ -136,7 +137,8 @@ class BeamSensor(GenerativeFunction):
 
     # Some cells -----------------------------------------------------------------------------------
 
-    def _change_cells(self, trace: BeamTrace, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
+    @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
+    def _change_cells(self, first_hit: Any, readings: Any, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
         """First hits, and the change of the log-likelihood, now that the cells (i, j) are what `walls` says they are.
 
         One cell after the other, each against the new map: a beam that loses its hit goes to the next wall of that
@@ -144,14 +146,17 @@ class BeamSensor(GenerativeFunction):
         """
         # No operation here may touch the whole map, not even to compare it: `flat` is the same memory.
         flat, (nx, ny) = self._flat(walls), self.geometry.shape
-        i, j = (jnp.atleast_1d(jnp.asarray(at, jnp.int32)) for at in (i, j))
-        cells = jnp.where(i < 0, i + nx, i) * ny + jnp.where(j < 0, j + ny, j)
-        first_hit, weight = trace.first_hit, jnp.zeros((), trace.readings.dtype)
-        readings = trace.readings.reshape(-1)
-        for cell in jnp.ravel(cells):
-            first_hit, gain = self._change_cell(flat, cell, first_hit, readings)
-            weight += gain
-        return first_hit, weight
+        i, j = jnp.asarray(i, jnp.int32), jnp.asarray(j, jnp.int32)
+        cells = jnp.ravel(jnp.where(i < 0, i + nx, i) * ny + jnp.where(j < 0, j + ny, j))
+        readings = readings.reshape(-1)
+        if len(cells) == 1:
+            return self._change_cell(flat, cells[0], first_hit, readings)
+
+        def one(k: Any, state: tuple[Any, Any]) -> tuple[Any, Any]:
+            first_hit, gain = self._change_cell(flat, cells[k], state[0], readings)
+            return first_hit, state[1] + gain
+
+        return jax.lax.fori_loop(0, len(cells), one, (first_hit, jnp.zeros((), readings.dtype)))  # type: ignore[no-any-return]
 
     def _change_cell(self, flat: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
         geometry, is_wall = self.geometry, flat[cell] != 0

@@ -16,7 +16,7 @@ from jax.scipy.special import betainc, ndtr
 from bayesmap.errors import BadInput
 from bayesmap.gen.distribution import ExactDensity
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.typing import PRNGKey
+from bayesmap.gen.typing import Arguments, PRNGKey
 from bayesmap.sensor.mixture import LOG_IMPOSSIBLE
 from bayesmap.sensor.model import KernelParameters, RangeLimits, SensorModel
 
@@ -51,6 +51,9 @@ class ReadingLaw(ExactDensity):
         reading = jnp.where(reading < limits.min_m, -jnp.inf, reading)
         uniform = jr.uniform(keys[4], d.shape, minval=limits.min_m, maxval=limits.max_m)
         return jnp.where(jr.uniform(keys[5], d.shape) < s.p_random, uniform, reading)
+
+    def index_shape(self, args: Arguments) -> tuple[int, ...]:
+        return jnp.shape(args[0])
 
     def logpdf(self, value: Any, distance_m: Any, /) -> Any:
         """Elementwise over readings and distances in metres: nats."""
