@@ -1,0 +1,87 @@
+"""One model, two engines: chains of edits through `gen`, and `infer`, have the law that enumeration gives."""
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import numpy as np
+import pytest
+from oracle.transitions import sweeps
+from oracle.verdict import ALPHA, least_p_value
+from oracle.worlds import make_case
+
+import bayesmap as bm
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.gen import IndexRequest, StaticRequest, Update
+
+TESTS = 3  # statistical tests in this module: together they fail for one in ten thousand seeds (ALPHA)
+CHAINS = 20_000
+
+
+@pytest.fixture(scope="module")
+def case():
+    return make_case(21, shape=(3, 3), n_poses=2, prior=0.3)
+
+
+@pytest.fixture(scope="module")
+def model(case):
+    scans = case.scans
+    return bm.mapping_model(
+        case.grid, scans.poses, scans.angles_rad, case.prior, case.sensor, max_range_m=scans.max_range_m,
+        min_range_m=scans.min_range_m,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def chains(case, model):
+    """Final maps (CHAINS, 9) of that many independent chains from the empty map, after a number of raster sweeps."""
+    choices = C["walls"].set(jnp.zeros((3, 3), bool)) | C["readings"].set(jnp.asarray(case.scans.ranges_m))
+    start, _ = model.importance(jr.key(0), choices, ())
+
+    def step(k, trace, key):
+        i, j = k // 3 % 3, k % 3
+        value = ~trace.get_choices()["walls"][i, j]
+        request = StaticRequest({"walls": IndexRequest(i, IndexRequest(j, Update(C.v(value))))})
+        new, weight, _, _ = trace.edit(key, request)
+        accept = jr.bernoulli(jr.fold_in(key, k), jax.nn.sigmoid(weight))  # two outcomes: this is Gibbs
+        return jax.lax.cond(accept, lambda: new, lambda: trace)
+
+    @jax.jit
+    def run(keys, updates):
+        one = lambda key: jax.lax.fori_loop(0, updates, lambda k, t: step(k, t, key), start)  # noqa: E731
+        return jax.vmap(one)(keys).get_choices()["walls"]
+
+    return lambda n: np.asarray(run(jr.split(jr.key(n), CHAINS), 9 * n)).reshape(CHAINS, 9)
+
+
+@pytest.mark.parametrize("n", [2, 30])
+def test_gibbs_by_edits_has_the_law_of_gibbs(case, chains, n):
+    """After any number of sweeps, not only in the end: 2, and 30, where it is the posterior."""
+    p = sweeps(np.eye(512)[0], case.exact.log_joint, 9, [[c] for c in range(9)], n)
+    if n == 30:
+        np.testing.assert_allclose(p, case.exact.p, atol=1e-4)
+    assert least_p_value(chains(n), p) > ALPHA / TESTS
+
+
+def test_infer_has_the_same_posterior(case):
+    """Thinned by 30 sweeps, after which a chain has forgotten where it was (the test above)."""
+    run = bm.infer(
+        case.scans, case.grid, prior=case.prior, sensor=case.sensor, order="raster", chains=4, warmup=30, draws=5000,
+        thin=30, seed=0,
+    )  # fmt: skip
+    assert least_p_value(run.draws.reshape(-1, 9), case.exact.p) > ALPHA / TESTS
+
+
+def test_any_posterior_draw_is_a_trace(case, model):
+    run = bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, warmup=5, draws=50, seed=1)
+
+    @jax.jit
+    @jax.vmap
+    def as_trace(walls):
+        return model.importance(
+            jr.key(0), C["walls"].set(walls) | C["readings"].set(jnp.asarray(case.scans.ranges_m)), ()
+        )
+
+    traces, weights = as_trace(run.draws.reshape(-1, 3, 3))
+    np.testing.assert_array_equal(traces.get_choices()["walls"], run.draws.reshape(-1, 3, 3))
+    np.testing.assert_allclose(traces.get_score(), run.log_joint.ravel(), rtol=1e-5)
+    np.testing.assert_allclose(weights, run.log_joint.ravel(), rtol=1e-5)
