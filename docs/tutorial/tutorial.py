@@ -3,20 +3,21 @@
 #   jupytext:
 #     formats: py:percent
 # ---
+# ruff: noqa: D100
 
 # %% [markdown]
 # # Where are the walls?
 #
 # A robot stands in a room that it has never seen. It measures the distance to the nearest wall in a hundred
-# directions, with some noise. It knows where it stands. It wants to know two things: where the walls are, and how sure
-# it can be of each.
+# directions, with some noise. It knows where it stands. It wants to know two things: where the walls are, and how
+# sure it can be of each.
 #
 # We write down a probabilistic model of this story, and then infer the walls by one method after another: importance
 # sampling, which fails; Gibbs sampling, which works, and can be made to work faster; block Gibbs, for maps on which
 # single cells get stuck; belief propagation, for an answer at once. At the end stands a building.
 #
-# Every number in the text is computed in a cell near it. The story follows a tutorial that was written for GenJAX; the
-# code here runs on bayesmap alone.
+# Every number in the text is computed in a cell near it. The story follows a tutorial that was written for GenJAX;
+# the code here runs on bayesmap alone.
 #
 # This page is made from [`tutorial.py`](tutorial.py), which is a notebook (jupytext opens it) and a plain script. In
 # its lines that begin with `time:`, this page rounds measured figures to powers of ten.
@@ -39,6 +40,7 @@ from bayesmap import gen, viz
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.model.defaults import default_sensor
 from bayesmap.posterior.diagnostics import rhat
+from bayesmap.viz.palette import CHAINS
 
 FIGURES = Path(os.environ.get("BAYESMAP_TUTORIAL_FIGURES") or Path(globals().get("__file__", "x")).parent / "figures")
 
@@ -87,9 +89,9 @@ show(figure, "map.png", "The true map. Dark cells are walls; the arrow is the ro
 # Before it measures, what does the robot believe? To begin with: nothing. Each cell is a wall with probability 0.5,
 # whatever its neighbours are.
 #
-# In `bayesmap.gen` a *generative function* is a program that makes random choices. `flip` makes one choice;
-# `repeat` makes many independent ones. To run the program is to `simulate` it. What comes back is a *trace*: the choices
-# that were made, the value returned, and the score, which is the log probability of those choices.
+# In `bayesmap.gen` a *generative function* is a program that makes random choices. `flip` makes one choice; `repeat`
+# makes many independent ones. To run the program is to `simulate` it. What comes back is a *trace*: the choices that
+# were made, the value returned, and the score, which is the log probability of those choices.
 
 # %%
 P_WALL = 0.5
@@ -105,8 +107,9 @@ print(trace)
 print(f"score {trace.get_score():.3f}; 441 log(0.5) is {441 * np.log(0.5):.3f}")
 assert np.isclose(trace.get_score(), 441 * np.log(0.5), rtol=1e-5)
 
-prior_maps = jax.vmap(lambda key: walls_prior(P_WALL).simulate(key, ()).get_retval())(jrand.split(jrand.key(1), 1000))
-print(f"walls in 1000 prior maps: {prior_maps.mean():.1%} of all cells")
+draw_prior = jax.jit(jax.vmap(lambda key: walls_prior(P_WALL).simulate(key, ()).get_retval()))
+prior_maps = draw_prior(jrand.split(jrand.key(1), 200))
+print(f"walls in 200 prior maps: {prior_maps.mean():.1%} of all cells")
 
 figure, axes = panels("prior draw 1", "prior draw 2", "prior draw 3")
 for ax, drawn in zip(axes, prior_maps, strict=False):
@@ -121,12 +124,12 @@ show(
 # ## The exact sensor
 #
 # A beam leaves the robot in some direction and stops at the first wall that it meets. So there are two questions, and
-# it pays to keep them apart. How far along the beam is each cell? That is geometry; it does not depend on the walls. And
-# which cell is the first wall? That is a minimum over the cells that are walls.
+# it pays to keep them apart. How far along the beam is each cell? That is geometry; it does not depend on the walls.
+# And which cell is the first wall? That is a minimum over the cells that are walls.
 #
 # A cell is a square. A beam enters it through its later entry into the two strips that make the square, and leaves it
-# through its earlier exit. If the entry comes before the exit, the beam crosses the cell. A beam that meets no wall reads
-# 42 m.
+# through its earlier exit. If the entry comes before the exit, the beam crosses the cell. A beam that meets no wall
+# reads 42 m.
 
 # %%
 N_BEAMS, MAX_RANGE_M = 100, 42.0
@@ -160,9 +163,9 @@ assert agree
 # %% [markdown]
 # ## The noisy sensor
 #
-# A real reading is not exact. Ours is normally distributed around the exact range, with a standard deviation of 0.2 m.
-# The generative function for one beam makes one choice, the reading; `@ ()` says that this choice is all there is, so it
-# needs no name of its own. `vmap` makes a scan of it, a beam for each angle.
+# A real reading is not exact. Ours is normally distributed around the exact range, with a standard deviation of 0.2
+# m. The generative function for one beam makes one choice, the reading; `@ ()` says that this choice is all there is,
+# so it needs no name of its own. `vmap` makes a scan of it, a beam for each angle.
 
 # %%
 SIGMA_M = 0.2
@@ -193,8 +196,8 @@ show(figure, "readings.png", "Exact readings, noisy readings, and the noisy ones
 # %% [markdown]
 # ## The full model
 #
-# The prior makes the walls, the sensor makes the readings: that is the model. The two parts get addresses, `"walls"` and
-# `"readings"`, under which their choices can be found, fixed or changed.
+# The prior makes the walls, the sensor makes the readings: that is the model. The two parts get addresses, `"walls"`
+# and `"readings"`, under which their choices can be found, fixed or changed.
 
 # %%
 
@@ -234,15 +237,16 @@ assert np.isclose(log_joint(true_walls), by_hand, atol=0.1)
 # %% [markdown]
 # ## Importance sampling, and why it collapses
 #
-# What we want is the posterior: maps, given the readings. The plainest idea is to draw many maps from the prior and to
-# weigh each by how well it explains the readings. `importance` does that. It fixes the choices that we give it, draws
-# the others, and returns the log weight, here log p(readings | walls). Divided by their sum, the weights say how much
-# each map counts.
+# What we want is the posterior: maps, given the readings. The plainest idea is to draw many maps from the prior and
+# to weigh each by how well it explains the readings. `importance` does that. It fixes the choices that we give it,
+# draws the others, and returns the log weight, here log p(readings | walls). Divided by their sum, the weights say
+# how much each map counts.
 #
-# The *effective sample size*, one over the sum of the squared weights, says how many equally weighted maps they are worth.
+# The *effective sample size*, one over the sum of the squared weights, says how many equally weighted maps they are
+# worth.
 
 # %%
-N_PARTICLES = 20_000
+N_PARTICLES = 10_000
 
 
 @jax.jit
@@ -262,8 +266,8 @@ print(f"the second-best map is {best - second:.0f} nats behind the best")
 assert len(set(resampled.tolist())) == 1
 
 # %% [markdown]
-# All hundred are the same map. Perhaps more maps help? bayesmap's kernels do the same work on a compiled table of beams
-# and cells, so we can afford more. `bm.infer` is the door to all of them.
+# All hundred are the same map. Perhaps more maps help? bayesmap's kernels do the same work on a compiled table of
+# beams and cells, so we can afford more. `bm.infer` is the door to all of them.
 
 # %%
 sensor = bm.Gaussian(SIGMA_M)
@@ -290,8 +294,8 @@ show(figure, "importance.png", "The map that has all the weight. Outlined: the t
 
 # %% [markdown]
 # A thousand times as many maps, and the answer is still one map, and a bad one. A map that explains the readings must
-# have its first wall right in a hundred directions at once. How often does the prior draw that? At the least, every cell
-# that the beams pass on their way must be free:
+# have its first wall right in a hundred directions at once. How often does the prior draw that? At the least, every
+# cell that the beams pass on their way must be free:
 
 # %%
 passed = np.asarray((to_cells < exact[:, None, None] - 1e-3).any(axis=0))
@@ -349,10 +353,9 @@ for ax, n in zip(axes, (1, 3, 6, 12), strict=True):
 show(figure, "gibbs.png", "The chain after some sweeps, from an empty map. Outlined: the true walls.")
 
 # %% [markdown]
-# The walls close to the robot go first. Behind a wall that should not be there, nothing is seen, so cells there are
+# The free space grows from sweep to sweep. Behind a wall that should not be there nothing is seen, so cells there are
 # drawn from the prior: half of them are walls. When the wall in front falls, those stand in the light, and must go in
-# turn. So the free space grows sweep by sweep. How many sweeps does that take? One chain is an anecdote; below we
-# count over hundreds.
+# turn. How many sweeps does that take? One chain is an anecdote; below we count over hundreds.
 #
 # ## Incremental edits
 #
@@ -400,9 +403,9 @@ assert same
 assert np.isclose(by_index.get_score(), log_joint(by_index.get_choices()["walls"]), rtol=1e-5)
 
 # %% [markdown]
-# An edit by index visits one element of the prior, not 441. But it still computes all hundred beams, for the sensor sees
-# only that its argument `walls` has changed. It could do better: a cell concerns only the beams that cross it. How many
-# are those?
+# An edit by index visits one element of the prior, not 441. But it still computes all hundred beams, for the sensor
+# sees only that its argument `walls` has changed. It could do better: a cell concerns only the beams that cross it.
+# How many are those?
 
 # %%
 crossing = np.isfinite(np.asarray(to_cells)).sum(axis=0)
@@ -413,13 +416,13 @@ assert crossing.mean() < 10
 # ## The same posterior from the kernels
 #
 # This is what bayesmap's kernels are built on. For every beam they keep a list of the cells on its way, and for each
-# the log-likelihood of the reading if that cell is the first wall. To update a cell, they visit the beams that cross it
-# and nothing else ([beam-table.md](../beam-table.md)).
+# the log-likelihood of the reading if that cell is the first wall. To update a cell, they visit the beams that cross
+# it and nothing else ([beam-table.md](../beam-table.md)).
 #
 # It is the same model. Here is the same map scored by both:
 
 # %%
-run = bm.infer(**problem, method="gibbs", order="raster", chains=4, warmup=200, draws=10_000)
+run = bm.infer(**problem, method="gibbs", order="raster", chains=4, warmup=200, draws=5_000)
 both = np.array([[log_joint(walls), run.log_joint[c, 0]] for c, walls in enumerate(run.draws[:, 0])])
 print("log joint of four draws, by gen and by the kernels:")
 print(np.array2string(both.T, precision=2))
@@ -446,7 +449,7 @@ assert np.abs(z).max() < 5.0
 print(f"the long run: R-hat {run.summary().rhat_log_joint:.4f}, worst cell {run.summary().rhat_max:.4f}")
 assert run.summary().rhat_max < 1.01
 
-figure, axes = panels("gen, 180 sweeps", "kernels, 40 000 sweeps", "uncertainty")
+figure, axes = panels("gen, 180 sweeps", "kernels, 20 000 sweeps", "uncertainty")
 for ax, mean in zip(axes[:2], (kept.mean(axis=0), run.occupancy), strict=True):
     viz.draw_probability(ax, grid, mean)
     viz.draw_truth_outline(ax, grid, true_walls)
@@ -454,8 +457,8 @@ viz.draw_entropy(axes[2], grid, run.occupancy)
 show(figure, "posterior.png", "Posterior probability of a wall, twice, and its entropy: bright is uncertain.")
 
 # %% [markdown]
-# The inside of the room is free and its walls stand. Behind the walls the posterior is the prior, 0.5: no beam has been
-# there. A single best map could not say so.
+# The inside of the room is free and its walls stand. Behind the walls the posterior is the prior, 0.5: no beam has
+# been there. A single best map could not say so.
 
 # %%
 unseen = ~np.asarray(to_cells <= exact[:, None, None] + 1.0).any(axis=0)
@@ -467,12 +470,13 @@ assert np.abs(run.occupancy[unseen] - 0.5).max() < 0.03
 # ## A better order
 #
 # Gibbs may visit the cells in any order. Raster order begins at a corner of the map. But we saw that free space grows
-# outwards from the robot: what lies in the shadow of a wall has to wait until the wall falls. If the sweep itself goes
-# outwards (`order="radial"`), then a wall falls first, and the cells that come to light behind it are drawn in the same
-# sweep.
+# outwards from the robot: what lies in the shadow of a wall has to wait until the wall falls. If the sweep itself
+# goes outwards (`order="radial"`), then a wall falls first, and the cells that come to light behind it are drawn in
+# the same sweep.
 #
-# We count. The cells below the robot (y < 10) that are free with a posterior probability over 0.999 are to be cleared;
-# a chain is done at the first sweep after which none of them is a wall. Each order gets 400 chains from an empty map.
+# We count. The cells below the robot (y < 10) that are free with a posterior probability over 0.999 are to be
+# cleared; a chain is done at the first sweep after which none of them is a wall. Each order gets 400 chains from an
+# empty map.
 
 # %%
 below = run.occupancy < 1e-3
@@ -492,24 +496,24 @@ cleared = {order: sweeps_to_clear(order) for order in ("raster", "random", "radi
 for order, counts in cleared.items():
     low, middle, high = np.percentile(counts, [5, 50, 95])
     print(f"{order:6s}: mean {counts.mean():5.2f} sweeps, median {middle:.0f}, 90 % of chains {low:.0f} to {high:.0f}")
-assert cleared["radial"].mean() < cleared["random"].mean() < cleared["raster"].mean()
+assert 4 < cleared["radial"].mean() < 5 < cleared["random"].mean() < 9 < cleared["raster"].mean() < 11
 
 figure, (ax,) = panels("sweeps until clear", size_in=4.0)
-for order, counts in cleared.items():
-    ax.hist(counts, bins=np.arange(0.5, 18.5), histtype="step", linewidth=1.6, label=order)
-ax.set(xlabel="sweeps", ylabel="chains of 400")
+for color, (order, counts) in zip(CHAINS, cleared.items(), strict=False):
+    ax.hist(counts, bins=np.arange(0.5, 18.5), histtype="step", linewidth=1.6, label=order, color=color)
+ax.set(xlabel="sweeps", ylabel="chains of 400", xticks=range(0, 19, 3))
 ax.legend(frameon=False)
 show(figure, "order.png", "Sweeps until the space below the robot is clear, by order of the cells.")
 
 # %% [markdown]
-# Raster order takes about ten sweeps, radial order about five. It is the default.
+# Raster order takes about ten sweeps, radial order between four and five. It is the default.
 #
 # ## Where walls are rare
 #
-# A prior of 0.5 is not how buildings are. Say that walls are rare: 0.05. We start chains from an empty map, from a map
-# full of walls, and from prior draws, and let each run. If they have converged, they agree. R-hat compares the spread
-# between chains with the spread within them: 1 means agreement, and over 1.05 is not to be trusted. It is computed here of the log
-# joint, over the second half of the first n sweeps.
+# A prior of 0.5 is not how buildings are. Say that walls are rare: 0.05. We start chains from an empty map, from a
+# map full of walls, and from prior draws, and let each run. If they have converged, they agree. R-hat compares the
+# spread between chains with the spread within them: 1 means agreement, and over 1.05 is not to be trusted. It is
+# computed here of the log joint, over the second half of the first n sweeps.
 
 # %%
 RARE = 0.05
@@ -538,9 +542,11 @@ for n, value in single.items():
 assert all(single[n] > 1.5 for n in (16, 64, 256, 1024))
 
 # %% [markdown]
-# After a thousand sweeps the chains still disagree, by thousands of nats. Only with many thousands do they meet. A user who
-# looks at one chain for a hundred sweeps sees a map that hardly moves, and takes it for the answer. (The chains that
-# start full of walls fare best: the first sweep, going outwards, carves free space until it meets the readings.)
+# After a thousand sweeps the chains still disagree, by thousands of nats. Only after some thousand more do they meet.
+# One chain that is watched for a hundred sweeps is flat (the figure below shows it), and looks as if it had arrived.
+#
+# The chains that start full of walls fare best: their first sweep, going outwards, carves free space until it meets
+# the readings. The line `ones` shows it. That is luck of the start, not a cure.
 #
 # Why do they stick? Here is where a chain that started empty stands after 200 sweeps, and what it would cost to take
 # away the wall that is in the way.
@@ -555,10 +561,11 @@ assert stuck[10, 10]
 assert log_joint(stuck, RARE) > log_joint(without, RARE) + 10_000
 
 # %% [markdown]
-# The robot has walled itself in. In an empty map beams fly on to 42 m; the first cell that the sweep visits can stop them
-# all, and to stop them too early is the lesser evil. Now that cell throws its shadow over the whole map. To take it away
-# alone sends the beams off to whatever stands behind; and behind, in the shadow, cells are drawn from the prior. Where
-# half of all cells are walls, something catches the beams. Where one in twenty is, many fly on, which their readings forbid.
+# The robot has walled itself in. In an empty map beams fly on to 42 m; the first cell that the sweep visits can stop
+# them all, and to stop them too early is the lesser evil. Now that cell throws its shadow over the whole map. To take
+# it away alone sends the beams off to whatever stands behind; and behind, in the shadow, cells are drawn from the
+# prior. Where half of all cells are walls, something catches the beams. Where one in twenty is, many fly on, which
+# their readings forbid.
 #
 # So the chain waits for a lucky shadow. We can compute how long: fill the shadow from the prior, many times, and
 # average the probability that one update takes the wall away. We do it for an update of the cell alone, and for one
@@ -581,7 +588,7 @@ def chance_to_leave(maps, states, p_wall):
 one_cell = np.array([False, True]).reshape(2, 1, 1)
 two_by_two = (np.arange(16)[:, None] >> np.arange(4) & 1).astype(bool).reshape(16, 2, 2)
 for p_wall, name, states in ((0.5, "cell", one_cell), (RARE, "cell", one_cell), (RARE, "block", two_by_two)):
-    shadows = np.random.default_rng(0).random((4_000, 21, 21)) < p_wall
+    shadows = np.random.default_rng(0).random((2_000, 21, 21)) < p_wall
     chance = float(chance_to_leave(jnp.asarray(shadows), jnp.asarray(states), p_wall))
     print(f"prior {p_wall:4}: one update of the {name:5s} frees the robot's cell with probability {chance:.4f}")
 
@@ -597,8 +604,9 @@ for n, value in block.items():
 assert all(block[n] < 1.05 for n in (128, 256, 512, 1024))
 
 # %% [markdown]
-# How long does one chain take to arrive? Say that it has when its log joint is as high as all but the lowest thousandth
-# of the posterior's. And since a sweep over blocks costs more than one over cells, we give the ratio of their times too.
+# How long does one chain take to arrive? Say that it has when its log joint is as high as all but the lowest
+# thousandth of the posterior's. And since a sweep over blocks costs more than one over cells, we give the ratio of
+# their times too.
 
 # %%
 reference = bm.infer(**rare, method="block", chains=4, warmup=200, draws=3_000, seed=4)
@@ -620,11 +628,11 @@ figure, axes = panels("single cells: log joint", "2 x 2 blocks: log joint", "R-h
 top = reference.log_joint.max() + 10
 for ax, trace in zip(axes[:2], traces.values(), strict=True):
     for chain_number, line in enumerate(trace):
-        color = ("C0", "C1", "C2")[chain_number // 4]
+        color = CHAINS[chain_number // 4]
         label = ("zeros", "ones", "prior")[chain_number // 4] if chain_number % 4 == 0 else None
         ax.loglog(1 + np.arange(len(line)), top - line, color=color, linewidth=0.7, alpha=0.8, label=label)
     ax.set(xlabel="sweep", ylim=(1e6, 1.0))
-axes[0].set_ylabel("nats below the best")
+axes[0].set_ylabel("nats below the top")
 axes[0].legend(frameon=False, title="start", fontsize=8)
 for name, values in (("single cells", single), ("2 x 2 blocks", block)):
     axes[2].semilogx(list(values), list(values.values()), marker="o", markersize=3, label=name)
@@ -646,10 +654,11 @@ show(
 # %% [markdown]
 # ## Belief propagation
 #
-# Sampling is one road. Belief propagation is another: beams and cells exchange messages, "given what I have heard from
-# the others, this is what I think of you", until nobody changes its mind. It gives marginals in a few rounds, and nothing
-# else. They are exact where no two beams share a cell, and approximate otherwise. How good are they here? Block Gibbs, long
-# converged, is the judge. Then we ask again with a worse sensor, 0.5 m of noise, where the readings leave more open.
+# Sampling is one road. Belief propagation is another: beams and cells exchange messages, "given what I have heard
+# from the others, this is what I think of you", until nobody changes its mind. It gives marginals in a few rounds,
+# and nothing else. They are exact where no two beams share a cell, and approximate otherwise. How good are they here?
+# Block Gibbs, long converged, is the judge. Then we ask again with a worse sensor, 0.5 m of noise, where the readings
+# leave more open.
 
 # %%
 figure, axes = panels("noise 0.2 m", "noise 0.5 m", size_in=3.6)
@@ -663,17 +672,14 @@ for ax, sigma_m in zip(axes, (0.2, 0.5), strict=True):
     worst = np.unravel_index(off.argmax(), off.shape)
     sure = (belief.occupancy < 0.01) | (belief.occupancy > 0.99)
     wrong = int((sure & (off > 0.05)).sum())
+    rounds, settled = len(belief.posterior.belief_changes), gibbs.summary().rhat_max
+    print(f"noise {sigma_m} m, {rounds} rounds of beliefs; R-hat of block Gibbs {settled:.3f}")
     print(
-        f"noise {sigma_m} m, {len(belief.posterior.belief_changes)} rounds; block Gibbs R-hat {gibbs.summary().rhat_max:.3f}"
-    )
-    print(
-        f"  difference of the marginals: mean {off.mean():.4f}, largest {off.max():.3f}, over 0.1 in {(off > 0.1).sum()} cells"
+        f"  marginals differ by {off.mean():.4f} on average, {off.max():.3f} at most, {(off > 0.1).sum()} by over 0.1"
     )
     print(f"  worst cell: {belief.occupancy[worst]:.3f} by beliefs, {gibbs.occupancy[worst]:.3f} by block Gibbs")
     print(f"  sure by beliefs to 1 %, and off by more than 5 %: {wrong} cells")
-    print(
-        f"  entropy of all marginals: {belief.entropy.sum():.1f} bits by beliefs, {gibbs.entropy.sum():.1f} by block Gibbs"
-    )
+    print(f"  entropy of the marginals: {belief.entropy.sum():.1f} bits, by block Gibbs {gibbs.entropy.sum():.1f}")
     typical = np.median(gibbs.log_joint) - np.median(belief.log_joint)
     print(f"  whole maps drawn from the beliefs are {typical:.0f} nats less likely than draws (medians)")
     ax.plot([0, 1], [0, 1], color="grey", linewidth=0.8)
@@ -681,19 +687,22 @@ for ax, sigma_m in zip(axes, (0.2, 0.5), strict=True):
     ax.set(xlabel="block Gibbs", ylabel="belief propagation", aspect="equal")
     assert gibbs.summary().rhat_max < 1.02
     assert typical > 1000
-    assert off.max() < 0.03 if sigma_m == 0.2 else off.max() > 0.2
+    assert off.max() < 0.03 if sigma_m == 0.2 else (off.max() > 0.2 and belief.entropy.sum() < gibbs.entropy.sum())
 show(figure, "beliefs.png", "Wall probability of each cell, by beliefs and by block Gibbs. On the line they agree.")
 
 # %% [markdown]
-# With the good sensor the marginals are right to a percent. With the worse one, beliefs are too sure: cells that the posterior
-# leaves open are called walls. Beams that share cells count the same evidence twice. And in both cases marginals are
-# not maps: "the wall is here or there" cannot be said cell by cell, and maps drawn from them have gaps and doubled walls.
-# So bayesmap uses belief propagation to start chains on large maps, and for a preview.
+# With the good sensor the marginals are right to about a percent. With the worse one, beliefs are too sure: the cells
+# off the line at the top of the figure are walls for certain, by beliefs, while the posterior leaves them open. Beams
+# that share cells pass for independent witnesses. And in both cases marginals are not maps. "The wall is here or
+# there" cannot be said cell by cell: whole maps drawn from the beliefs are less likely than the posterior's own draws
+# by thousands of nats.
+#
+# So bayesmap uses belief propagation to start chains on large maps, and where marginals are all that is asked for.
 #
 # ## More than one place
 #
-# From the middle of the room some corners are not to be seen. Nothing in the model says that there is one pose only: more
-# poses are more beams. The noise is 0.5 m again.
+# From the middle of the room some corners are not to be seen. Nothing in the model says that there is one pose only:
+# more poses are more beams. The noise is 0.5 m again.
 
 # %%
 stops = np.array([pose, [6.0, 9.0, 0.0], [13.0, 10.0, 0.0], [9.0, 5.0, 0.0], [9.0, 14.0, 0.0]])
@@ -713,11 +722,11 @@ show(figure, "poses.png", "The posterior and its entropy after a scan from one p
 # %% [markdown]
 # ## A building
 #
-# A robot's log is the same thing, only larger: thousands of beams, cells of 10 cm, and readings that no wall explains,
-# because people walk by and glass lets beams through. `bm.read_log` reads one; here we simulate a robot's round through an
-# office, so that there is a truth to compare with. The sensor model is a mixture with room for outliers
-# ([defaults.md](../defaults.md)). The chains start from belief propagation. Every tenth scan is held out, and the
-# posterior is asked to predict it.
+# A robot's log is the same thing, only larger: thousands of beams, cells of 10 cm, and readings that no wall
+# explains, because people walk by and glass lets beams through. `bm.read_log` reads one; here we simulate a robot's
+# round through an office, so that there is a truth to compare with. The sensor model is a mixture with room for
+# outliers ([defaults.md](../defaults.md)). The chains start from belief propagation. Every tenth scan is held out,
+# and the posterior is asked to predict it.
 
 # %%
 office = bm.worlds.building(seed=3, size_m=(14.0, 9.0), resolution=0.1)
@@ -750,13 +759,19 @@ print(
 )
 print(f"  {mapped.occupancy[free_seen].mean():.3f} where there is none")
 assert mapped.log_score(held_out) > nothing.log_score(held_out)
-show(
-    mapped.plot(truth=office.walls, draw=None),
-    "building.png",
-    "An office: probability of a wall, its entropy, and the readings with the true walls. Hatched: no beam came there.",
-)
+assert mapped.log_score(held_out) > guess.log_score(held_out) - 0.05
+figure, axes = panels("probability of a wall", "entropy", size_in=4.0)
+viz.draw_probability(axes[0], office.grid, mapped.occupancy, mapped.observed)
+viz.draw_truth_outline(axes[0], office.grid, office.walls)
+viz.draw_sensor(axes[0], route)
+viz.draw_entropy(axes[1], office.grid, mapped.occupancy, mapped.observed)
+show(figure, "building.png", "An office, with the robot's way. Outlined: the true walls. Hatched: no beam came there.")
 
 # %% [markdown]
+# Most of the map is certain; what is not lies at the rims of what was seen, and at the glass. The summary names the
+# cells on which the chains have not settled after 400 sweeps: it is there to be read. Beliefs predict the held-out
+# beams about as well as the chains, in a fraction of the time.
+#
 # ## Where to go from here
 #
 # - Your own log: `bayesmap infer my.log.gz -o runs/mine`; the [README](../../README.md) has the commands.
