@@ -51,6 +51,16 @@ class Summary:
             for name, value in asdict(self).items()
         }
 
+    def __str__(self) -> str:
+        """One line a diagnostic that the method has, then what is wrong, if anything."""
+        lines = []
+        for name, value in asdict(self).items():
+            if isinstance(value, float) and math.isnan(value):
+                continue
+            shown = f"{value:.4g}" if isinstance(value, float) else str(value)
+            lines.append(f"{name.replace('_', ' '):26} {shown}")
+        return "\n".join([*lines, *(f"! {problem}" for problem in self.problems())])
+
     def problems(self) -> list[str]:
         """Reasons not to trust the run, in words; empty where there are none."""
         found = []

@@ -1,0 +1,31 @@
+import numpy as np
+
+import bayesmap as bm
+
+
+def run_of(method, **options):
+    grid = bm.Grid((4, 3))
+    scans = bm.simulate(
+        np.zeros((4, 3)), grid, [1.5, 1.5, 0.0], np.linspace(0, 6, 20), sensor=bm.Gaussian(0.5), max_range_m=5.0
+    )
+    return bm.infer(scans, grid, prior=bm.Independent(0.3), sensor=bm.Gaussian(0.5), method=method, **options)
+
+
+def test_a_sound_run_has_no_problems_and_prints_a_line_for_each_of_its_diagnostics():
+    summary = run_of("gibbs", draws=4000).summary()
+    assert summary.problems() == []
+    assert "rhat log joint" in str(summary)
+    assert "effective sample size" not in str(summary)  # of weights, which chains do not have
+
+
+def test_a_collapsed_importance_sampler_says_so():
+    summary = run_of("importance", particles=3, draws=10).summary()
+    assert summary.effective_sample_size <= 3
+    assert any("importance" in problem for problem in summary.problems())
+    assert "! importance sampling" in str(summary)
+
+
+def test_a_run_too_short_to_judge_is_not_called_converged():
+    summary = run_of("gibbs", draws=20).summary()
+    assert any("effective sample size" in problem for problem in summary.problems())
+    assert summary.as_json()["effective_sample_size"] is None
