@@ -122,8 +122,8 @@ def test_the_work_on_one_cell_does_not_grow_with_the_map():
                 yield from (v.aval.size for v in eqn.outvars)
 
     first_hit = jnp.zeros(9, sensor.geometry.position_dtype)
-    flat = jnp.zeros(50 * 51, bool)
-    program = jax.make_jaxpr(lambda f, h: sensor._change_cell(f, 7, h, jnp.ones(9)))(flat, first_hit)
+    walls = jnp.zeros((50, 51), bool)
+    program = jax.make_jaxpr(lambda w, h: sensor._change_cell(w, 7, h, jnp.ones(9)))(walls, first_hit)
     sizes = list(computed(program.jaxpr))
     assert len(sizes) > 30
     assert max(sizes) < 50 * 51

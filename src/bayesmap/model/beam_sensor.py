@@ -78,7 +78,7 @@ class BeamSensor(GenerativeFunction):
         """The position of each beam's first wall, (B,), all beams looked at."""
         geometry = self.geometry
         cells = geometry.cells[:, : geometry.longest]
-        known = jnp.append(self._flat(walls) != 0, True)  # the sentinel is a wall
+        known = jnp.append(self._checked(walls).reshape(-1) != 0, True)  # the sentinel is a wall
         positions = jnp.arange(geometry.longest, dtype=geometry.position_dtype)
         return jnp.where(known[cells], positions, positions[-1]).min(axis=1)
 
@@ -86,12 +86,12 @@ class BeamSensor(GenerativeFunction):
         """Metres to the first walls, inf where there is none, (..., B)."""
         return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
 
-    def _flat(self, walls: Any) -> Any:
+    def _checked(self, walls: Any) -> Any:
         if jnp.shape(walls) != self.geometry.shape:
             raise BadInput(
                 f"sensor model: the argument walls has shape {jnp.shape(walls)}, expected {self.geometry.shape}"
             )
-        return jnp.asarray(walls).reshape(-1)
+        return jnp.asarray(walls)
 
     def _law_args(self, first_hit: Any) -> Arguments:
         return (self.distances_at(first_hit).reshape(self.readings_shape),)
@@ -144,22 +144,23 @@ class BeamSensor(GenerativeFunction):
         One cell after the other, each against the new map: a beam that loses its hit goes to the next wall of that
         map, and a wall that appears before a hit takes it over, in whatever order.
         """
-        # No operation here may touch the whole map, not even to compare it: `flat` is the same memory.
-        flat, (nx, ny) = self._flat(walls), self.geometry.shape
+        # No operation here may touch the whole map: not to compare it, and not to flatten it either, for XLA would
+        # fuse that with the write that made the map, and write twice, into two copies.
+        walls, (nx, ny) = self._checked(walls), self.geometry.shape
         i, j = jnp.asarray(i, jnp.int32), jnp.asarray(j, jnp.int32)
         cells = jnp.ravel(jnp.where(i < 0, i + nx, i) * ny + jnp.where(j < 0, j + ny, j))
         readings = readings.reshape(-1)
         if len(cells) == 1:
-            return self._change_cell(flat, cells[0], first_hit, readings)
+            return self._change_cell(walls, cells[0], first_hit, readings)
 
         def one(k: Any, state: tuple[Any, Any]) -> tuple[Any, Any]:
-            first_hit, gain = self._change_cell(flat, cells[k], state[0], readings)
+            first_hit, gain = self._change_cell(walls, cells[k], state[0], readings)
             return first_hit, state[1] + gain
 
         return jax.lax.fori_loop(0, len(cells), one, (first_hit, jnp.zeros((), readings.dtype)))  # type: ignore[no-any-return]
 
-    def _change_cell(self, flat: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
-        geometry, is_wall = self.geometry, flat[cell] != 0
+    def _change_cell(self, walls: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
+        geometry, is_wall = self.geometry, self._wall_at(walls, cell)
         offsets, beams, positions = map(jnp.asarray, (geometry.offsets, geometry.beam, geometry.position))
         distance_m = jnp.asarray(geometry.distance_m)
         end = offsets[cell + 1]
@@ -172,7 +173,7 @@ class BeamSensor(GenerativeFunction):
             old = first_hit[beam].astype(jnp.int32)
             uncovered = here & ~is_wall & (at == old)
             new = jnp.where(here & is_wall, jnp.minimum(at, old), old)
-            new = self._next_walls(flat, beam, new, uncovered)
+            new = self._next_walls(walls, beam, new, uncovered)
             gain = self.law.logpdf(readings[beam], distance_m[beam, new])
             gain -= self.law.logpdf(readings[beam], distance_m[beam, old])
             weight += jnp.where(new != old, gain, 0.0).sum()
@@ -184,7 +185,12 @@ class BeamSensor(GenerativeFunction):
         _, first_hit, weight = jax.lax.while_loop(lambda state: state[0] < end, group, start)
         return first_hit, weight
 
-    def _next_walls(self, flat: Any, beam: Any, position: Any, uncovered: Any) -> Any:
+    def _wall_at(self, walls: Any, cell: Any) -> Any:
+        """Is there a wall in the cells with these flat indices?"""
+        ny = self.geometry.shape[1]
+        return walls[cell // ny, cell % ny] != 0
+
+    def _next_walls(self, walls: Any, beam: Any, position: Any, uncovered: Any) -> Any:
         """Where beams first hit behind `position`, for those that are uncovered; the others stay. All (GROUP,)."""
         cells, n_cells = jnp.asarray(self.geometry.cells), self.geometry.n_cells
         ahead = jnp.arange(LOOK, dtype=jnp.int32)
@@ -192,7 +198,7 @@ class BeamSensor(GenerativeFunction):
         def look(state: tuple[Any, Any]) -> tuple[Any, Any]:
             position, searching = state
             seen = cells[beam[:, None], position[:, None] + 1 + ahead]
-            wall = (seen == n_cells) | (flat[jnp.minimum(seen, n_cells - 1)] != 0)
+            wall = (seen == n_cells) | self._wall_at(walls, jnp.minimum(seen, n_cells - 1))
             step = jnp.where(wall, ahead, LOOK).min(axis=1)
             found = step < LOOK
             position = jnp.where(searching, position + jnp.where(found, step + 1, LOOK), position)

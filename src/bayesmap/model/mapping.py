@@ -120,8 +120,11 @@ class _Walls(Pytree):
     p_wall: _Fixed = static()
 
     def draw(self) -> Any:
-        """The call that draws them; with equal probabilities the same numbers as `flip.repeat(n=ny).repeat(n=nx)`."""
-        return flip.vmap(in_axes=(0,)).vmap(in_axes=(0,))(jnp.asarray(self.p_wall.array, jnp.result_type(float)))
+        """The call that draws them. One probability is kept as one number: edits then touch no array of them."""
+        p = self.p_wall.array
+        if (p == p[0, 0]).all():
+            return flip.repeat(n=p.shape[1]).repeat(n=p.shape[0])(float(p[0, 0]))
+        return flip.vmap(in_axes=(0,)).vmap(in_axes=(0,))(jnp.asarray(p, jnp.result_type(float)))
 
 
 @gen
