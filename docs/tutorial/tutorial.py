@@ -337,13 +337,13 @@ def gibbs_chain(keys, walls):
 
 
 empty = jnp.zeros((21, 21), bool)
-sweep_keys = jrand.split(jrand.key(0), 150)
+sweep_keys = jrand.split(jrand.key(0), 120)
 compiled = gibbs_chain.lower(sweep_keys, empty).compile()
 began = time.perf_counter()
 chain = np.asarray(compiled(sweep_keys, empty))
 gen_seconds = (time.perf_counter() - began) / len(chain)
 print(f"time: {1 / gen_seconds:.0f} sweeps a second, by assess")
-for n in (1, 2, 5, 10, 20, 150):
+for n in (1, 2, 5, 10, 20, 120):
     print(f"after sweep {n:3d}: log joint {log_joint(chain[n - 1]):10.1f}, {chain[n - 1].sum():3d} walls")
 
 figure, axes = panels(*(f"sweep {n}" for n in (1, 3, 6, 12)))
@@ -429,7 +429,7 @@ print(np.array2string(both.T, precision=2))
 assert np.allclose(both[:, 0], both[:, 1], atol=0.05)
 
 # %% [markdown]
-# And the same posterior. The 150 sweeps above are few, so we compare each cell's share of walls with its long-run
+# And the same posterior. The 120 sweeps above are few, so we compare each cell's share of walls with its long-run
 # value, measured in standard errors. If the two agree, the scores have a standard deviation of about one.
 
 # %%
@@ -449,7 +449,7 @@ assert np.abs(z).max() < 5.0
 print(f"the long run: R-hat {run.summary().rhat_log_joint:.4f}, worst cell {run.summary().rhat_max:.4f}")
 assert run.summary().rhat_max < 1.01
 
-figure, axes = panels("gen, 130 sweeps", "kernels, 20 000 sweeps", "uncertainty")
+figure, axes = panels("gen, 100 sweeps", "kernels, 20 000 sweeps", "uncertainty")
 for ax, mean in zip(axes[:2], (kept.mean(axis=0), run.occupancy), strict=True):
     viz.draw_probability(ax, grid, mean)
     viz.draw_truth_outline(ax, grid, true_walls)
@@ -588,7 +588,7 @@ def chance_to_leave(maps, states, p_wall):
 one_cell = np.array([False, True]).reshape(2, 1, 1)
 two_by_two = (np.arange(16)[:, None] >> np.arange(4) & 1).astype(bool).reshape(16, 2, 2)
 for p_wall, name, states in ((0.5, "cell", one_cell), (RARE, "cell", one_cell), (RARE, "block", two_by_two)):
-    shadows = np.random.default_rng(0).random((2_000, 21, 21)) < p_wall
+    shadows = np.random.default_rng(0).random((1_000, 21, 21)) < p_wall
     chance = float(chance_to_leave(jnp.asarray(shadows), jnp.asarray(states), p_wall))
     print(f"prior {p_wall:4}: one update of the {name:5s} frees the robot's cell with probability {chance:.4f}")
 
@@ -752,9 +752,8 @@ print(
     f"held-out beams, nats each: {mapped.log_score(held_out):.3f} by chains, {guess.log_score(held_out):.3f} by beliefs"
 )
 print(f"  and {nothing.log_score(held_out):.3f} by a chain after a single sweep")
-print(
-    f"time: {mapped.posterior.seconds['sampling']:.2f} s in sweeps, {guess.posterior.seconds['sampling']:.2f} s in beliefs"
-)
+seconds = [some.posterior.seconds["sampling"] for some in (mapped, guess)]
+print(f"time: {seconds[0]:.2f} s in sweeps, {seconds[1]:.2f} s in beliefs")
 certain = (mapped.entropy < 0.1)[mapped.observed].mean()
 print(f"of the observed cells {certain:.1%} are certain to 0.1 bits")
 walls_seen, free_seen = mapped.observed & office.walls, mapped.observed & ~office.walls
