@@ -89,7 +89,7 @@ def sweep() -> Figure:
 
 def curve(side: int) -> Figure:
     """Microseconds of an edit on a larger map, at cells with four beams through them each."""
-    model = model_of(side, beams=BEAMS * side // 21)
+    model = model_of(side)
     trace = start(model, np.random.default_rng(0).random((side, side)) < 0.5)
     offsets = trace.get_subtrace("readings").get_gen_fn().geometry.offsets
     chosen = np.nonzero(np.diff(offsets) == 4)[0]
@@ -112,33 +112,39 @@ import jax, jax.random as jr
 from bayesmap.gen import ChoiceMapBuilder as C
 from benchmarks.peer_runner import tutorial_data
 from benchmarks.suites.programs import model_of
-maps, repeats = int(sys.argv[1]), int(sys.argv[2])
+maps, repeats, keep = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]
 # Not ru_maxrss, which a process inherits from the one that started it.
 memory_mb = lambda: int(open("/proc/self/status").read().split("VmHWM:")[1].split()[0]) / 1024
 model, readings, seconds = model_of(21), tutorial_data()[1], []
 jax.block_until_ready(jax.jit(lambda k: jr.uniform(k))(jr.key(0)))
 before = memory_mb()
-draw = lambda key, z: model.importance(key, C["readings"].set(z), ())
+draw = lambda key, z: model.importance(key, C["readings"].set(z), ())[0 if keep == "traces" else 1 :]
 run = jax.jit(lambda key, z: jax.vmap(lambda k: draw(k, z))(jr.split(key, maps)))
 for repeat in range(repeats + 1):
     began = time.perf_counter()
-    traces, log_weights = jax.block_until_ready(run(jr.key(repeat), readings))
+    found = jax.block_until_ready(run(jr.key(repeat), readings))
     seconds.append(time.perf_counter() - began)
-    del traces
+    del found
 print(json.dumps({"seconds": seconds[1:], "before_mb": before, "peak_mb": memory_mb()}))
 """
 
 
-def importance() -> Iterator[Figure]:
-    """Seconds and memory of weighted traces, in a process of its own, on one core as the peer's."""
-    command = [sys.executable, "-c", IMPORTANCE, str(MAPS), "5"]
+def importance(keep: str) -> tuple[Figure, Figure]:
+    """Seconds and peak memory of weighted maps, in a process of its own, on one core as the peer's.
+
+    Args:
+        keep: "traces", or "weights" alone: any map can be drawn again from its key.
+    """
+    command = [sys.executable, "-c", IMPORTANCE, str(MAPS), "5", keep]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     found = json.loads(done.stdout.splitlines()[-1])
     seconds = found["seconds"]
-    spread = (min(seconds), max(seconds))
-    what = f"{MAPS} weighted traces, one core"
-    yield Figure("programs/importance", statistics.median(seconds), "s", spread=spread, against=what)
-    yield Figure("programs/importance_memory", found["peak_mb"], "MB", against=f"{found['before_mb']:.0f} MB before it")
+    spread, what = (min(seconds), max(seconds)), f"{MAPS} maps, {keep} kept, one core"
+    before = f"{what}; {found['before_mb']:.0f} MB before"
+    return (
+        Figure(f"programs/importance_{keep}", statistics.median(seconds), "s", spread=spread, against=what),
+        Figure(f"programs/memory_{keep}", found["peak_mb"], "MB", against=before),
+    )
 
 
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
@@ -147,9 +153,10 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     yield edits
     for side in SIDES:
         yield curve(side)
-    weighted, memory = importance()
+    weighted, memory = importance("traces")
     yield weighted
     yield memory
+    yield from importance("weights")
     if not with_peers:
         return
     ours = {"incremental": edits.value * 1e-3, "importance": weighted.value * PEER_MAPS / MAPS}
