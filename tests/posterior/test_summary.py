@@ -4,11 +4,10 @@ import bayesmap as bm
 
 
 def run_of(method, **options):
-    grid = bm.Grid((4, 3))
-    scans = bm.simulate(
-        np.zeros((4, 3)), grid, [1.5, 1.5, 0.0], np.linspace(0, 6, 20), sensor=bm.Gaussian(0.5), max_range_m=5.0
-    )
-    return bm.infer(scans, grid, prior=bm.Independent(0.3), sensor=bm.Gaussian(0.5), method=method, **options)
+    grid, noisy = bm.Grid((4, 3)), bm.Gaussian(2.0)
+    angles = np.linspace(0, 6, 20)
+    scans = bm.simulate(np.eye(4, 3), grid, [2.5, 1.5, 0.0], angles, sensor=noisy, max_range_m=5.0)
+    return bm.infer(scans, grid, prior=bm.Independent(0.3), sensor=noisy, method=method, **options)
 
 
 def test_a_sound_run_has_no_problems_and_prints_a_line_for_each_of_its_diagnostics():

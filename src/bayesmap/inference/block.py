@@ -14,8 +14,9 @@ from bayesmap.inference.sampler import WallSampler, radial_distance
 class BlockGibbs(WallSampler):
     """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
 
-    Where walls are rare this converges and single-site sampling does not: there, a wall can only move sideways through
-    a state without it, which a beam that needs the wall forbids.
+    Where walls are rare this converges fast and single-site sampling hardly at all: a wall that stands too near the
+    sensor can only go once the beams that it stops have a wall to meet behind it, and in the almost empty map behind a
+    wall there is none. A block takes the wall away and puts another beside or behind it in one step.
     """
 
     def ordered_sites(self) -> NDArray[np.int32]:
