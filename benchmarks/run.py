@@ -22,7 +22,7 @@ from bayesmap import __version__
 from benchmarks.figure import Figure
 
 BASELINE = Path(__file__).with_name("baseline.json")
-SUITES = ("ranges", "tutorial", "scaling", "building")
+SUITES = ("ranges", "tutorial", "scaling", "building", "programs")
 WORSE = 1.5
 TIMES = {"us/sweep", "ms/sweep", "s"}
 

@@ -22,8 +22,9 @@ from benchmarks.figure import Figure, timed
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 RESOLUTION_M, MAX_RANGE_M = 0.1, 20.0
 
-WHOLE_RUN = """
-import resource, sys, time
+WHOLE_RUN = r"""
+import re, sys, time
+from pathlib import Path
 import bayesmap as bm
 from bayesmap.model.defaults import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.posterior.diagnostics import rhat
@@ -34,7 +35,7 @@ arguments = dict(prior=bm.Independent(P_WALL), sensor=default_sensor({resolution
 run = bm.infer(scans, grid, warmup=20, draws=80, **arguments)
 seconds = time.perf_counter() - began
 joint, likelihood = rhat(run.log_joint), rhat(run.posterior.log_likelihood)
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+peak = int(re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())[1]) / 1024
 print(f"seconds={{seconds}} rhat={{joint}} rhat_likelihood={{likelihood}} peak_mb={{peak}}")
 """
 
