@@ -24,7 +24,7 @@ from benchmarks.figure import Figure
 BASELINE = Path(__file__).with_name("baseline.json")
 SUITES = ("ranges", "tutorial", "scaling", "building", "programs")
 WORSE = 1.5
-TIMES = {"us/sweep", "ms/sweep", "s"}
+TIMES = {"us/sweep", "us/edit", "ms/sweep", "s"}
 
 
 def yardstick_seconds() -> float:
