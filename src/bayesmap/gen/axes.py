@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
+from bayesmap.gen.mask import is_concrete
 from bayesmap.gen.typing import InAxes
 
 
@@ -69,4 +70,6 @@ def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> An
     finite is taken afresh.
     """
     moved = sum_ + (new - old)
+    if is_concrete(moved):  # outside jit, a cond of fresh closures would be compiled at every edit
+        return moved if bool(jnp.isfinite(moved)) else afresh()
     return jax.lax.cond(jnp.isfinite(moved), lambda: moved, afresh)

@@ -43,6 +43,7 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
         if chunk >= axis_size:
             out = jax.vmap(one)(moving)
         else:
+            chunk = _even_share(axis_size, chunk)
             out = jax.lax.map(one, moving, batch_size=chunk if chunk > 1 else None)
         return out, jax.tree.map(lambda _: True, out)
 
@@ -50,6 +51,14 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     differentiable = jax.custom_jvp(chunked)
     differentiable.defjvp(lambda primals, tangents: jax.jvp(of_traced, primals, tangents))
     return differentiable(*(leaves[k] for k in traced))
+
+
+def _even_share(size: int, most: int) -> int:
+    """A chunk that divides the batch, if one is near the limit: a remainder would copy all results once more."""
+    for chunk in range(most, max(1, most // 4), -1):
+        if size % chunk == 0:
+            return chunk
+    return most
 
 
 def _largest_array(jaxpr: Any) -> int:
