@@ -73,7 +73,7 @@ class Summary:
             worst = f"the worst is {self.rhat_max:.3f}"
             found.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
         if self.disagreeing_cells:
-            found.append(f"cells stuck at different values in different chains: {self.disagreeing_cells}")
+            found.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
         if self.ess_min < ESS_LIMIT:
             found.append(f"effective sample size of some cell is {self.ess_min:.0f}, under {ESS_LIMIT:.0f}")
         if self.effective_sample_size < ESS_LIMIT:
