@@ -72,8 +72,8 @@ def infer(
 ) -> Run:
     """Infer the walls from scans.
 
-    The result depends on the arguments up to ``hit_depth`` alone: neither on the number of threads nor on how often
-    the run was stopped and resumed.
+    The result depends on the arguments up to ``hit_depth`` alone, and on the kind of device in the last bits: neither
+    on the number of threads nor on how often the run was stopped and resumed.
 
     Args:
         scans: what the sensor reported, and from where.
@@ -94,7 +94,8 @@ def infer(
         particles: of "importance".
         rounds: of belief propagation, at most.
         hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
-        threads: CPU threads; all cores if None.
+        threads: chains that run at once, and threads of belief propagation; all cores if None. Building the beam
+            table uses all cores in any case.
         device: "cpu" or a CUDA device such as "cuda:0".
         resume: a run with the same arguments that was stopped early: go on where it stopped.
         on_progress: told how far the run is, about four times a second.
@@ -231,9 +232,11 @@ def _fingerprint(
     settings: dict[str, Any], scans: Scans, grid: Grid, problem: Problem, start: Start | NDArray[np.bool_]
 ) -> str:
     """What a run is determined by: settings, data, prior and start."""
-    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
+    digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
-    for array in (scans.poses, scans.angles_rad, scans.ranges_m, problem.p_wall):
+    # The table's likelihoods stand for the sensor, which may be of the user's own making.
+    table = problem.table
+    for array in (scans.poses, scans.angles_rad, scans.ranges_m, problem.p_wall, table.loglik, table.beyond):
         digest.update(np.ascontiguousarray(array).tobytes())
     if not isinstance(start, str):
         digest.update(np.ascontiguousarray(start, dtype=np.bool_).tobytes())
@@ -244,5 +247,5 @@ def _difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str:
     """Which settings differ, in words."""
     names = [name for name in wanted if name != "fingerprint" and saved.get(name) != wanted[name]]
     if not names:
-        return "scans or on another grid"
+        return "scans or on another grid, or with another sensor"
     return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names)

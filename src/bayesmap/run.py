@@ -15,6 +15,7 @@ from bayesmap.posterior.packing import unpack
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.score import log_score
 from bayesmap.posterior.summary import Summary, summarise
+from bayesmap.sensor.model import SensorModel
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
@@ -82,9 +83,12 @@ class Run:
     def _summary(self) -> Summary:
         return summarise(self.posterior)
 
-    def log_score(self, heldout_scans: Scans) -> float:
-        """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws."""
-        return log_score(self.posterior, heldout_scans)
+    def log_score(self, heldout_scans: Scans, sensor: SensorModel | None = None) -> float:
+        """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
+
+        ``sensor`` is needed only for a loaded run whose sensor model is of your own making.
+        """
+        return log_score(self.posterior, heldout_scans, sensor)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one netCDF file, whole or not at all."""

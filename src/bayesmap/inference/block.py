@@ -1,4 +1,4 @@
-"""2 x 2 block Gibbs sampling of binary walls (DESIGN section 3; the kernel's file has the update)."""
+"""2 x 2 block Gibbs sampling of binary walls (docs/inference.md; the kernel's file has the update)."""
 
 from __future__ import annotations
 

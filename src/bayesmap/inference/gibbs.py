@@ -1,4 +1,4 @@
-"""Single-site Gibbs sampling of binary walls (DESIGN section 3; the kernel's file has the update)."""
+"""Single-site Gibbs sampling of binary walls (docs/inference.md; the kernel's file has the update)."""
 
 from __future__ import annotations
 

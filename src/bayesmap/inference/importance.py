@@ -18,7 +18,7 @@ from bayesmap.errors import check_count
 from bayesmap.inference.problem import Problem
 from bayesmap.inference.sampler import STREAM_PARTICLES
 
-BATCH = 4096
+BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
 NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
@@ -57,8 +57,9 @@ class Particles:
         """Weighted mean of the maps, (nx, ny), in batches; cells that no beam touches have the prior's mean."""
         matter = np.nonzero(self.log_weights > self.log_weights.max() - NEGLIGIBLE_NATS)[0]
         mean = np.zeros(self.problem.table.grid.shape)
-        for i in range(0, len(matter), BATCH):
-            some = matter[i : i + BATCH]
+        batch = max(1, BATCH_CELLS // mean.size)
+        for i in range(0, len(matter), batch):
+            some = matter[i : i + batch]
             mean += np.tensordot(np.exp(self.log_weights[some]), self.maps(some), axes=1)
         mean /= np.exp(self.log_weights[matter]).sum()
         return np.where(self.problem.table.observed(), mean, self.problem.p_wall.reshape(mean.shape))

@@ -29,7 +29,7 @@ from bayesmap.world.scans import Scans
 
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
-DRAWS_AT_ONCE = 64
+CHUNK_BYTES = 16 << 20  # of draws that are unpacked, and compressed, at a time
 
 
 def save(posterior: Posterior, path: str | os.PathLike[str]) -> None:
@@ -74,15 +74,15 @@ def _write(posterior: Posterior, file: Any) -> None:
         group.createDimension(name, size)
     for name, values in (("chain", np.arange(chains)), ("draw", np.arange(draws)), ("x", x), ("y", y)):
         group.createVariable(name, values.dtype, (name,))[:] = values
+    at_once = _draws_at_once(grid)
     walls = group.createVariable(
         "walls", "i1", tuple(sizes), zlib=True, complevel=1, shuffle=False,
-        chunksizes=(1, max(1, min(draws, DRAWS_AT_ONCE)), nx, ny),
+        chunksizes=(1, max(1, min(draws, at_once)), nx, ny),
     )  # fmt: skip
     walls.setncatts({"dtype": "bool", "long_name": "wall in this cell"})
     for chain in range(chains):
-        for i in range(0, draws, DRAWS_AT_ONCE):
-            some = unpack(posterior.packed[chain, i : i + DRAWS_AT_ONCE], grid.shape)
-            walls[chain, i : i + DRAWS_AT_ONCE] = some.view(np.int8)
+        for i in range(0, draws, at_once):
+            walls[chain, i : i + at_once] = unpack(posterior.packed[chain, i : i + at_once], grid.shape).view(np.int8)
 
     _arrays(
         file.createGroup("sample_stats"),
@@ -104,6 +104,10 @@ def _write(posterior: Posterior, file: Any) -> None:
         _arrays(constant, ("particle",), log_weight=posterior.log_weights)
     if posterior.belief_changes is not None:
         _arrays(constant, ("round",), belief_change=posterior.belief_changes)
+
+
+def _draws_at_once(grid: Grid) -> int:
+    return max(1, CHUNK_BYTES // grid.n_cells)
 
 
 def _arrays(group: Any, dimensions: tuple[str, ...], **arrays: NDArray[Any]) -> None:
@@ -158,10 +162,11 @@ def _read(file: Any, header: dict[str, Any]) -> Posterior:
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     walls = file["posterior"]["walls"]
     chains, draws = walls.shape[:2]
+    at_once = _draws_at_once(grid)
     packed = np.zeros((chains, draws, (grid.n_cells + 7) // 8), dtype=np.uint8)
     for chain in range(chains):
-        for i in range(0, draws, DRAWS_AT_ONCE):
-            packed[chain, i : i + DRAWS_AT_ONCE] = pack(walls[chain, i : i + DRAWS_AT_ONCE] != 0)
+        for i in range(0, draws, at_once):
+            packed[chain, i : i + at_once] = pack(walls[chain, i : i + at_once] != 0)
     stats, constant = file["sample_stats"], file["constant_data"]
 
     def optional(name: str) -> NDArray[np.float64] | None:

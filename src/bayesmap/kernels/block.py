@@ -12,6 +12,7 @@ order in which it meets them, before the first wall outside the block, and l_out
 import numpy as np
 import warp as wp
 
+from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import available_cores, launch
 from bayesmap.kernels.random import random_bits, to_uniform
@@ -30,7 +31,7 @@ from bayesmap.kernels.state import (
     put_wall,
     remove_wall,
 )
-from bayesmap.sensor.table import BeamTable
+from bayesmap.sensor.table import MAX_INCIDENCES, BeamTable
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
@@ -122,6 +123,12 @@ def list_blocks(table: BeamTable, device: str) -> Blocks:
         launch(list_block_beams, threads, [*inputs, *shared], "cpu")
 
     run(0, counts, empty, empty, empty)
+    total = int(counts.sum(dtype=np.int64))
+    if total > MAX_INCIDENCES:
+        raise BadInput(
+            f"block: the beams meet {total:,} blocks, over the limit of {MAX_INCIDENCES:,}; "
+            "use method 'gibbs', a coarser resolution, or fewer scans"
+        )
     offsets = np.zeros(len(counts) + 1, dtype=np.int32)
     np.cumsum(counts, out=offsets[1:])
     beam, begin, end = (np.empty(offsets[-1], dtype=np.int32) for _ in range(3))

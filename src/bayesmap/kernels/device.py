@@ -3,6 +3,7 @@
 import contextlib
 import os
 import sys
+import threading
 from collections.abc import Iterator
 from functools import cache
 from typing import Any
@@ -12,11 +13,18 @@ import warp as wp
 
 from bayesmap.errors import BadInput
 
+_STARTING = threading.Lock()
 
-@cache
+
 def start() -> None:
     """Start Warp once, quietly: its greeting and its lament about a missing GPU driver are not our output."""
-    wp.config.log_level = wp.LOG_WARNING
+    with _STARTING:
+        _start()
+
+
+@cache
+def _start() -> None:
+    wp.config.log_level = max(wp.config.log_level, wp.LOG_WARNING)
     with _no_stderr():
         wp.init()
 

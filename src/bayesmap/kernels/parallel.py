@@ -30,6 +30,10 @@ def thread_pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="bayesmap")
 
 
+if hasattr(os, "register_at_fork"):  # a forked child has the pools, but none of their threads
+    os.register_at_fork(after_in_child=thread_pool.cache_clear)
+
+
 def launch(kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None) -> None:
     """Run ``kernel(first, *inputs)`` over ``size`` elements: on the CPU in one slice a thread."""
     if size == 0:

@@ -12,13 +12,12 @@ from bayesmap.kernels.likelihood import fill_likelihood, sensor_parameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.sensor.model import RangeLimits, SensorModel
-from bayesmap.sensor.table import BeamTable
+from bayesmap.sensor.table import MAX_INCIDENCES, BeamTable
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
-MAX_INCIDENCES = 2**31 - 1
 SLICE = 1 << 20  # entries handed to NumPy at a time, where a model has no compiled likelihood
 
 

@@ -128,7 +128,7 @@ def diagnose_cells(
 ) -> CellDiagnostics:
     """Diagnose the cells of packed draws, (chains, draws, bytes).
 
-    R-hat and effective sample size are the worst ``among`` some cells, (nx, ny); all if None. Pass the observed ones:
+    Everything but ``unchanged`` is the worst ``among`` some cells, (nx, ny); all if None. Pass the observed ones:
     the others are independent prior draws, and the worst of a hundred thousand of those is bad by chance.
     """
     draws = packed.shape[1]
@@ -138,9 +138,10 @@ def diagnose_cells(
     walls = np.stack([count_walls(chain, cells) for chain in packed])  # (chains, N)
     constant = ((walls == 0) | (walls == draws)).all(axis=0)
     unchanged = constant & (walls == walls[0]).all(axis=0)
-    changed = np.nonzero(~constant if among is None else ~constant & among.ravel())[0]
+    judged = np.ones(cells, dtype=np.bool_) if among is None else among.ravel()
+    changed = np.nonzero(~constant & judged)[0]
     worst_rhat, least_ess = float("nan"), float("nan")
-    disagreeing = int((constant & ~unchanged).sum())
+    disagreeing = int((constant & ~unchanged & judged).sum())
     high = disagreeing
     if draws >= 4:
         for i in range(0, len(changed), CELLS_AT_ONCE):

@@ -7,13 +7,15 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
+from bayesmap.sensor.model import SensorModel
 from bayesmap.world.scans import Reading, Scans
 
 
-def beam_log_scores(posterior: Posterior, scans: Scans) -> NDArray[np.float64]:
+def beam_log_scores(posterior: Posterior, scans: Scans, sensor: SensorModel | None = None) -> NDArray[np.float64]:
     """Log predictive density of every reading, log mean over draws of p(reading | draw), in nats.
 
-    Densities are per metre for hits, probabilities for typed readings. Invalid readings are left out.
+    Densities are per metre for hits, probabilities for typed readings. Invalid readings are left out. ``sensor`` is the
+    law of the readings; that of the run if None.
 
     Returns:
         One number for each valid beam.
@@ -24,7 +26,8 @@ def beam_log_scores(posterior: Posterior, scans: Scans) -> NDArray[np.float64]:
     from bayesmap.kernels.score import log_mean_density
     from bayesmap.kernels.trace import trace
 
-    if posterior.sensor is None:
+    sensor = posterior.sensor if sensor is None else sensor
+    if sensor is None:
         raise BadInput(
             f"score: the sensor model of this run, {posterior.settings['sensor'].get('kind')!r}, is not one of "
             "bayesmap's; pass sensor="
@@ -34,11 +37,11 @@ def beam_log_scores(posterior: Posterior, scans: Scans) -> NDArray[np.float64]:
     valid = (scans.readings != Reading.INVALID).ravel()
     if not valid.any():
         raise BadInput("score: none of the scans has a valid reading")
-    table = trace(scans, posterior.grid, posterior.sensor, hit_depth=posterior.settings["hit_depth"])
+    table = trace(scans, posterior.grid, sensor, hit_depth=posterior.settings["hit_depth"])
     scores = log_mean_density(table, posterior.packed.reshape(-1, posterior.packed.shape[-1]))
     return np.asarray(scores[valid])
 
 
-def log_score(posterior: Posterior, scans: Scans) -> float:
+def log_score(posterior: Posterior, scans: Scans, sensor: SensorModel | None = None) -> float:
     """Mean of `beam_log_scores`: nats per beam."""
-    return float(beam_log_scores(posterior, scans).mean())
+    return float(beam_log_scores(posterior, scans, sensor).mean())

@@ -20,6 +20,9 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.world.grid import Grid
 
+MAX_INCIDENCES = 2**31 - 1
+"""Indices into the table have 32 bits."""
+
 
 @dataclass(frozen=True, eq=False)
 class BeamTable:
