@@ -133,7 +133,6 @@ assert "infer" in out.getvalue()
 """
 
 
-@pytest.mark.skipif(not (SOURCE / "cli" / "main.py").exists(), reason="there is no command line yet")
 def test_asking_for_help_loads_nothing_heavy():
     assert not loaded_after(HELP) & {"jax", "warp", "matplotlib"}
 

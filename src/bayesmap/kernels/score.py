@@ -13,6 +13,30 @@ from bayesmap.sensor.table import BeamTable
 wp.set_module_options({"enable_backward": False})
 
 
+@wp.func
+def beam_term(
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    beyond: wp.array(dtype=wp.float32),
+    packed: wp.array2d(dtype=wp.uint8),
+    d: int,
+    b: int,
+) -> wp.float32:
+    """What beam b's reading is worth under packed map d: the log-likelihood of its first wall."""
+    for k in range(offsets[b], offsets[b + 1]):
+        c = cells[k]
+        if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
+            return loglik[k]
+    return beyond[b]
+
+
+def _on_device(table: BeamTable, device: str) -> list[Any]:
+    """The table's arrays, as both kernels take them."""
+    indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
+    return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.beyond)]
+
+
 @wp.kernel
 def add_densities(
     first: int,
@@ -27,13 +51,7 @@ def add_densities(
     """One thread a beam: add exp(log-likelihood) under each packed map to a running log-sum-exp."""
     b = first + wp.tid()
     for d in range(packed.shape[0]):
-        term = beyond[b]
-        for k in range(offsets[b], offsets[b + 1]):
-            c = cells[k]
-            if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
-                term = loglik[k]
-                break
-        value = wp.float64(term)
+        value = wp.float64(beam_term(offsets, cells, loglik, beyond, packed, d, b))
         if value > most[b]:
             total[b] = total[b] * wp.exp(most[b] - value) + wp.float64(1.0)
             most[b] = value
@@ -47,8 +65,7 @@ def log_mean_density(table: BeamTable, packed: NDArray[np.uint8], device: str = 
     beams = table.n_beams
     most: Any = wp.full(beams, -1.0e300, dtype=wp.float64, device=device)
     total = wp.zeros(beams, dtype=wp.float64, device=device)
-    inputs = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
-    inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.beyond)]
+    inputs = _on_device(table, device)
     inputs += [devices.to_device(packed, wp.uint8, device), most, total]
     launch(add_densities, beams, inputs, device)
     return np.asarray(most.numpy() + np.log(total.numpy() / len(packed)))
@@ -68,13 +85,7 @@ def sum_log_likelihoods(
     d = first + wp.tid()
     value = wp.float64(0.0)
     for b in range(beyond.shape[0]):
-        term = beyond[b]
-        for k in range(offsets[b], offsets[b + 1]):
-            c = cells[k]
-            if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
-                term = loglik[k]
-                break
-        value += wp.float64(term)
+        value += wp.float64(beam_term(offsets, cells, loglik, beyond, packed, d, b))
     total[d] = value
 
 
@@ -82,7 +93,6 @@ def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "
     """Log p(all readings | map) of each packed map (draws, bytes), shape (draws,)."""
     device = devices.resolve(device)
     total = wp.empty(len(packed), dtype=wp.float64, device=device)
-    inputs = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
-    inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.beyond)]
+    inputs = _on_device(table, device)
     launch(sum_log_likelihoods, len(packed), [*inputs, devices.to_device(packed, wp.uint8, device), total], device)
     return np.array(total.numpy())
