@@ -98,6 +98,8 @@ def _write(posterior: Posterior, file: Any) -> None:
     _arrays(constant, ("beam",), angle_rad=scans.angles_rad)
     if scans.stamps_s is not None:
         _arrays(constant, ("scan",), stamp_s=scans.stamps_s)
+    if scans.beam_poses is not None:
+        _arrays(constant, ("scan", "beam", "pose_part"), beam_pose_world=scans.beam_poses)
     _arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
     _arrays(constant, ("chain", "cell"), state=posterior.walls)
     if posterior.log_weights is not None:
@@ -179,6 +181,7 @@ def _read(file: Any, header: dict[str, Any]) -> Posterior:
         min_range_m=header["limits"][0],
         max_range_m=header["limits"][1],
         stamps_s=optional("stamp_s"),
+        beam_poses=optional("beam_pose_world"),
     )
     return Posterior(
         grid=grid,
@@ -209,7 +212,7 @@ def _checksum(posterior: Posterior, header: dict[str, Any]) -> str:
     for array in (
         posterior.packed, posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.walls,
         posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m,
-        posterior.log_weights, posterior.belief_changes, scans.stamps_s,
+        posterior.log_weights, posterior.belief_changes, scans.stamps_s, scans.beam_poses,
     ):  # fmt: skip
         if array is not None:
             digest.update(np.ascontiguousarray(array).tobytes())

@@ -95,7 +95,7 @@ def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0
     ranges = scans.ranges_m.ravel()
     longest = np.minimum(sensor.reach_m(ranges, limits), limits.max_m) / grid.resolution
     longest[np.isnan(ranges)] = -1.0  # an invalid reading has no entry at all
-    starts = np.repeat(grid.to_cells(scans.poses[:, :2]), len(scans.angles_rad), axis=0)
+    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
     rays = [
         devices.to_device(column, wp.float64, device)
         for column in (starts[:, 0], starts[:, 1], scans.beam_angles_world().ravel(), longest)

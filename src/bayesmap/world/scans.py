@@ -39,6 +39,8 @@ class Scans:
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
         stamps_s: time of each scan in seconds, shape (S,), or None.
+        beam_poses: pose of the sensor in the world frame as each beam left it, shape (S, A, 3), where it moved
+            while it turned; None if every beam of a scan left from the scan's pose.
 
     Raises:
         BadInput: shapes that do not fit together, poses or angles that are not finite, or a range limit that
@@ -51,6 +53,7 @@ class Scans:
     max_range_m: float
     min_range_m: float = 0.0
     stamps_s: NDArray[np.float64] | None = None
+    beam_poses: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
@@ -72,6 +75,16 @@ class Scans:
             if stamps.shape != (len(poses),):
                 raise BadInput(f"scans: stamps_s has shape {stamps.shape}, expected ({len(poses)},)")
             object.__setattr__(self, "stamps_s", stamps)
+        if self.beam_poses is not None:
+            beam_poses = _as_floats(self.beam_poses, "beam_poses")
+            if beam_poses.shape != (*ranges.shape, 3):
+                raise BadInput(f"scans: beam_poses has shape {beam_poses.shape}, expected {(*ranges.shape, 3)}")
+            if not np.isfinite(beam_poses).all():
+                scan, beam, _ = np.argwhere(~np.isfinite(beam_poses))[0]
+                raise BadInput(
+                    f"scans: pose of beam {beam} of scan {scan} is not finite: {beam_poses[scan, beam].tolist()}"
+                )
+            object.__setattr__(self, "beam_poses", beam_poses)
 
     def __len__(self) -> int:
         return len(self.poses)
@@ -97,21 +110,30 @@ class Scans:
 
     def beam_angles_world(self) -> NDArray[np.float64]:
         """Direction of every beam in the world frame, radians, shape (S, A)."""
-        return np.asarray(self.poses[:, 2:3] + self.angles_rad[None, :])
+        yaw = self.poses[:, 2:3] if self.beam_poses is None else self.beam_poses[..., 2]
+        return np.asarray(yaw + self.angles_rad[None, :])
+
+    def beam_starts_world(self) -> NDArray[np.float64]:
+        """Where every beam leaves the sensor, metres in the world frame, shape (S, A, 2)."""
+        if self.beam_poses is not None:
+            return self.beam_poses[..., :2]
+        return np.broadcast_to(self.poses[:, None, :2], (*self.ranges_m.shape, 2))
 
     def hit_points_world(self) -> NDArray[np.float64]:
         """End points of the beams that hit something, metres, shape (H, 2)."""
         angles = self.beam_angles_world()
         hit = np.isfinite(self.ranges_m)
         ranges = self.ranges_m[hit]
-        scan = np.nonzero(hit)[0]
         ends = np.stack([np.cos(angles[hit]), np.sin(angles[hit])], axis=-1) * ranges[:, None]
-        return np.asarray(self.poses[scan, :2] + ends)
+        return np.asarray(self.beam_starts_world()[hit] + ends)
 
     def select(self, scans: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Scans:
         """The scans at the given indices, or where the mask is true, or in the slice."""
         stamps = None if self.stamps_s is None else self.stamps_s[scans]
-        return replace(self, poses=self.poses[scans], ranges_m=self.ranges_m[scans], stamps_s=stamps)
+        beam_poses = None if self.beam_poses is None else self.beam_poses[scans]
+        return replace(
+            self, poses=self.poses[scans], ranges_m=self.ranges_m[scans], stamps_s=stamps, beam_poses=beam_poses
+        )
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
         """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
