@@ -1,7 +1,6 @@
-import re
-
 import numpy as np
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -9,6 +8,7 @@ from PIL import Image
 
 from bayesmap.errors import BadInput
 from bayesmap.io.map_server import read_map, write_map
+from bayesmap.io.percent import MODES
 from bayesmap.world.grid import Grid
 
 shapes = hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=8)
@@ -18,10 +18,10 @@ corners = st.tuples(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5))
 
 
 def nav2_reads(path_yaml):
-    """OccupancyGrid data, shape (height, width), row 0 the bottom: nav2's rules, written again."""
-    entries = dict(line.split(": ", 1) for line in path_yaml.read_text().splitlines())
+    """OccupancyGrid data, shape (height, width), row 0 the bottom: nav2's rules, written again, by other libraries."""
+    entries = yaml.safe_load(path_yaml.read_text())
     image = Image.open(path_yaml.parent / entries["image"])
-    occupied, free = float(entries["occupied_thresh"]), float(entries["free_thresh"])
+    occupied, free = entries["occupied_thresh"], entries["free_thresh"]
     has_alpha = "A" in image.getbands()
     data = np.empty((image.height, image.width), dtype=int)
     for y in range(image.height):
@@ -31,8 +31,10 @@ def nav2_reads(path_yaml):
             if entries["mode"] == "trinary" and has_alpha:
                 channels.append(alpha)
             shade = sum(channels) / len(channels) / 255
-            occ = shade if int(entries["negate"]) else 1 - shade
-            if entries["mode"] == "scale" and has_alpha and alpha != 255:
+            occ = shade if entries["negate"] else 1 - shade
+            if entries["mode"] == "raw":
+                cell = round(shade * 255) if round(shade * 255) <= 100 else -1
+            elif entries["mode"] == "scale" and has_alpha and alpha != 255:
                 cell = -1
             elif occupied < occ:
                 cell = 100
@@ -43,17 +45,32 @@ def nav2_reads(path_yaml):
             else:
                 cell = round((occ - free) / (occupied - free) * 100)
             data[image.height - y - 1, x] = cell
-    resolution = float(entries["resolution"])
-    origin = [float(v) for v in re.fullmatch(r"\[(.*)\]", entries["origin"])[1].split(",")]
-    return data, resolution, origin
+    return data, entries["resolution"], entries["origin"]
+
+
+def newer_nav2_reads(path_yaml):
+    """The same by the rules of nav2 from 2025 on: single precision, bounds included, transparent is unknown."""
+    entries = yaml.safe_load(path_yaml.read_text())
+    with Image.open(path_yaml.parent / entries["image"]) as image:
+        has_alpha = "A" in image.getbands()
+        grey = np.asarray(image.convert("L"))
+        alpha = np.asarray(image.convert("RGBA"))[..., 3]
+    if entries["mode"] == "raw":
+        signed = grey.view(np.int8)  # greys over 127 turn negative: out of bounds, as those over 100 are
+        return np.where((signed < 0) | (signed > 100), -1, signed)[::-1]
+    occ = np.float32(1) - grey.astype(np.float32) / np.float32(255)
+    occupied, free = np.float32(entries["occupied_thresh"]), np.float32(entries["free_thresh"])
+    between = np.floor((occ - free) / (occupied - free) * 100 + 0.5) if entries["mode"] == "scale" else -1
+    cells = np.where(occ >= occupied, 100, np.where(occ <= free, 0, between)).astype(int)
+    return (np.where(alpha < 255, -1, cells) if has_alpha else cells)[::-1]
 
 
 @given(probabilities, resolutions, corners, st.data())
 def test_nav2_reads_a_trinary_map_as_occupied_free_unknown(tmp_path_factory, occupancy, resolution, origin, data):
     observed = data.draw(hnp.arrays(bool, occupancy.shape))
     grid = Grid(occupancy.shape, resolution, origin)
-    yaml, image = write_map(tmp_path_factory.mktemp("map") / "map.yaml", occupancy, grid, observed)
-    cells, read_resolution, read_origin = nav2_reads(yaml)
+    path, image = write_map(tmp_path_factory.mktemp("map") / "map.yaml", occupancy, grid, observed)
+    cells, read_resolution, read_origin = nav2_reads(path)
     expected = np.where(occupancy > 0.65, 100, np.where(occupancy < 0.25, 0, -1))
     np.testing.assert_array_equal(cells.T, np.where(observed, expected, -1))
     assert read_resolution == grid.resolution
@@ -65,8 +82,8 @@ def test_nav2_reads_a_trinary_map_as_occupied_free_unknown(tmp_path_factory, occ
 def test_nav2_reads_a_scaled_map_as_the_probability_in_per_cent(tmp_path_factory, occupancy, data):
     observed = data.draw(hnp.arrays(bool, occupancy.shape))
     grid = Grid(occupancy.shape, 0.1, (0.0, 0.0))
-    yaml, image = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode="scale")
-    cells, _, _ = nav2_reads(yaml)
+    path, image = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode="scale")
+    cells, _, _ = nav2_reads(path)
     np.testing.assert_array_equal(cells.T == -1, ~observed)
     # One step of a grey is 0.4 %, and nav2 rounds to a whole per cent.
     assert (np.abs(cells.T - 100 * occupancy)[observed] <= 0.5 + 100 * 0.5 / 255 + 1e-9).all()
@@ -76,18 +93,40 @@ def test_nav2_reads_a_scaled_map_as_the_probability_in_per_cent(tmp_path_factory
 def test_nav2_saturates_a_scaled_map_beyond_given_thresholds(tmp_path):
     occupancy = np.array([[0.1, 0.2, 0.5, 0.8, 0.9]])
     grid = Grid((1, 5))
-    yaml, _ = write_map(tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25)
-    np.testing.assert_array_equal(nav2_reads(yaml)[0].T, [[0, 0, 50, 100, 100]])
+    path, _ = write_map(tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25)
+    np.testing.assert_array_equal(nav2_reads(path)[0].T, [[0, 0, 50, 100, 100]])
 
 
-@pytest.mark.parametrize("mode", ["trinary", "scale"])
+@given(probabilities, st.data())
+def test_nav2_reads_a_raw_map_as_whole_per_cents(tmp_path_factory, occupancy, data):
+    observed = data.draw(hnp.arrays(bool, occupancy.shape))
+    grid = Grid(occupancy.shape, 0.1, (0.0, 0.0))
+    path, image = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode="raw")
+    np.testing.assert_array_equal(nav2_reads(path)[0].T, np.where(observed, np.rint(100 * occupancy), -1))
+    assert image.suffix == ".pgm"
+
+
+@pytest.mark.parametrize("mode", MODES)
+@given(occupancy=probabilities, data=st.data())
+def test_older_and_newer_nav2_read_the_same_map(tmp_path_factory, mode, occupancy, data):
+    observed = data.draw(hnp.arrays(bool, occupancy.shape))
+    path, _ = write_map(
+        tmp_path_factory.mktemp("map") / "m.yaml", occupancy, Grid(occupancy.shape, 0.1), observed, mode=mode
+    )
+    # Older versions round halves to even and in double precision: they may differ by one per cent.
+    difference = np.abs(nav2_reads(path)[0] - newer_nav2_reads(path))
+    assert difference.max() <= (1 if mode == "scale" else 0)
+    np.testing.assert_array_equal(nav2_reads(path)[0] == -1, newer_nav2_reads(path) == -1)
+
+
+@pytest.mark.parametrize("mode", MODES)
 @given(occupancy=probabilities, data=st.data())
 def test_what_is_written_is_read_back_as_nav2_reads_it(tmp_path_factory, mode, occupancy, data):
     observed = data.draw(hnp.arrays(bool, occupancy.shape))
     grid = Grid(occupancy.shape, 0.05, (-1.5, 2.25))
-    yaml, _ = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode=mode)
-    cells, read_grid = read_map(yaml)
-    as_nav2 = nav2_reads(yaml)[0].T
+    path, _ = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode=mode)
+    cells, read_grid = read_map(path)
+    as_nav2 = nav2_reads(path)[0].T
     np.testing.assert_array_equal(cells, np.where(as_nav2 == -1, np.nan, as_nav2 / 100))
     assert read_grid == grid
 
@@ -103,9 +142,9 @@ def test_the_first_row_of_the_image_is_the_top_of_the_map(tmp_path):
 
 def test_unknown_cells_are_grey_205_and_not_free_for_nav2(tmp_path):
     occupancy = np.array([[0.1, np.nan, 0.5]])
-    yaml, image = write_map(tmp_path / "m.yaml", occupancy, Grid((1, 3)))
+    path, image = write_map(tmp_path / "m.yaml", occupancy, Grid((1, 3)))
     np.testing.assert_array_equal(np.asarray(Image.open(image))[::-1, 0], [254, 205, 205])
-    np.testing.assert_array_equal(nav2_reads(yaml)[0][:, 0], [0, -1, -1])
+    np.testing.assert_array_equal(nav2_reads(path)[0][:, 0], [0, -1, -1])
 
 
 @pytest.mark.parametrize("name", ["plain.yaml", "two words.yaml", "colon: and # hash.yaml", "día.yml", "0.yaml"])
@@ -160,7 +199,7 @@ def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):
         ({"occupancy": np.full((2, 3), 1.5)}, r"cell \(0, 0\) is 1.5"),
         ({"occupancy": np.zeros((3, 2))}, "occupancy has shape"),
         ({"observed": np.ones((3, 2))}, "observed has shape"),
-        ({"mode": "raw"}, "mode 'raw' is not known"),
+        ({"mode": "fuzzy"}, "mode 'fuzzy' is not known"),
         ({"occupied_thresh": 0.1}, "free_thresh < occupied_thresh"),
         ({"path_yaml": "map.png"}, r"must end in \.yaml"),
     ],

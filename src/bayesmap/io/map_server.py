@@ -7,6 +7,9 @@ How nav2 decodes an image (row 0 is the top), with ``occ = 1 - grey / 255`` (``g
              unknown is a pixel that is not opaque
     raw:     the grey itself if it is 0..100, otherwise -1
 
+(nav2 from 2025 on takes ``>=`` and ``<=`` in the first two, and unknown is a pixel that is not opaque in trinary maps
+too; what is written here means the same to both.)
+
 Two consequences, where map_saver itself loses information:
 
 - Unknown is written as grey 205, that is occ = 0.19608; a file that also says ``free_thresh: 0.25`` reads it
@@ -27,11 +30,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
+from bayesmap.io.layers import as_observed, as_occupancy
+from bayesmap.io.percent import in_percent, thresholds_of
 from bayesmap.world.grid import Grid
 from bayesmap.world.image import brightness, check_thresholds
 
-MODES = ("trinary", "scale")
 OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
+RAW_UNKNOWN_GREY = 255
 TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
 """Occupied and free thresholds by which nav2 tells the three greys apart."""
 
@@ -60,9 +65,10 @@ def write_map(
         observed: cells that some beam reached, shape (nx, ny); the others are written as unknown. All by
             default.
         mode: ``"trinary"``: occupied above ``occupied_thresh``, free below ``free_thresh``, unknown between;
-            or ``"scale"``: nav2 reads the probability in per cent.
-        occupied_thresh: 0.65 for trinary. For scale 1: nav2 reads all above as 100.
-        free_thresh: 0.25 for trinary. For scale 0: nav2 reads all below as 0.
+            ``"scale"``: nav2 reads the probability in per cent; or ``"raw"``: the same, and the greys are the
+            per cents themselves, so that no rounding of greys comes between (an image viewer shows them nearly black).
+        occupied_thresh: 0.65 for trinary. For scale 1: nav2 reads all above as 100. No effect in raw.
+        free_thresh: 0.25 for trinary. For scale 0: nav2 reads all below as 0. No effect in raw.
 
     Returns:
         Paths of the YAML file and of the image.
@@ -77,24 +83,20 @@ def write_map(
     target = Path(path_yaml)
     if target.suffix not in (".yaml", ".yml"):
         raise BadInput(f"map {target}: the name must end in .yaml; the image is named after it")
-    if mode not in MODES:
-        raise BadInput(f"map: mode {mode!r} is not known; use one of {', '.join(MODES)}")
-    trinary = mode == "trinary"
-    occupied = (0.65 if trinary else 1.0) if occupied_thresh is None else float(occupied_thresh)
-    free = (0.25 if trinary else 0.0) if free_thresh is None else float(free_thresh)
-    check_thresholds(occupied, free)
-    probability = _probability(occupancy, grid)
-    known = ~np.isnan(probability) & _mask(observed, grid)
+    occupied, free = thresholds_of(mode, occupied_thresh, free_thresh)
+    percent = in_percent(occupancy, grid, observed, mode=mode, occupied_thresh=occupied, free_thresh=free)
+    known = ~np.isnan(as_occupancy(occupancy, grid)) & as_observed(observed, grid)
 
-    if trinary:
-        cells = np.full(grid.shape, UNKNOWN_GREY)
-        cells[known & (probability > occupied)] = OCCUPIED_GREY
-        cells[known & (probability < free)] = FREE_GREY
+    if mode == "trinary":
+        cells = np.select([percent == 100, percent == 0], [OCCUPIED_GREY, FREE_GREY], UNKNOWN_GREY)
         occupied, free = TRINARY_FILE_THRESHOLDS
+    elif mode == "raw":
+        cells = np.where(known, percent, RAW_UNKNOWN_GREY)
     else:
-        cells = np.rint(255 * (1 - np.where(known, probability, 0.5)))
+        # Not from the per cents: 256 greys are finer, for readers that look at the greys.
+        cells = np.rint(255 * (1 - np.where(known, np.asarray(occupancy, dtype=np.float64), 0.5)))
     rows = np.ascontiguousarray(cells.T[::-1].astype(np.uint8))
-    if trinary or known.all():
+    if mode != "scale" or known.all():
         image, suffix = Image.fromarray(rows), ".pgm"
     else:
         opacity = np.where(known, 255, 0).astype(np.uint8).T[::-1]
@@ -171,24 +173,6 @@ def _read_image(path: Path, with_alpha: bool) -> tuple[NDArray[np.float64], NDAr
         raise BadInput(f"{path}: cannot be read as an image: {error}") from None
     # In trinary mode map_server averages opacity in with the colours, as a fourth channel.
     return rgba[..., : 4 if with_alpha else 3].mean(axis=2), rgba[..., 3] == 1
-
-
-def _probability(occupancy: ArrayLike, grid: Grid) -> NDArray[np.float64]:
-    array = np.asarray(occupancy, dtype=np.float64)
-    if array.shape != grid.shape:
-        raise BadInput(f"map: occupancy has shape {array.shape}, but the grid has {grid.shape}")
-    bad = ~(np.isnan(array) | ((array >= 0) & (array <= 1)))
-    if bad.any():
-        i, j = (int(k) for k in np.argwhere(bad)[0])
-        raise BadInput(f"map: occupancy of cell ({i}, {j}) is {array[i, j]:g}; a probability is in [0, 1]")
-    return array
-
-
-def _mask(observed: ArrayLike | None, grid: Grid) -> NDArray[np.bool_]:
-    mask = np.ones(grid.shape, dtype=bool) if observed is None else np.asarray(observed).astype(bool)
-    if mask.shape != grid.shape:
-        raise BadInput(f"map: observed has shape {mask.shape}, but the grid has {grid.shape}")
-    return mask
 
 
 def _number(value: float) -> str:
