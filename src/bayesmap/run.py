@@ -111,19 +111,22 @@ class Run:
         options.setdefault("scans", posterior.scans)
         return posterior_figure(posterior.grid, posterior.occupancy, posterior.observed, **options)
 
-    def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, Any]:
-        """Write the occupancy as a map_server YAML and image; options as in `bayesmap.io.map_server.write_map`.
+    def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, ...]:
+        """Write the map, or the trajectory, for other programs; the path's ending chooses the format.
+
+        A map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun, TUM; options as in
+        `bayesmap.io.exports.export_run`.
 
         Returns:
-            The paths of the two files.
+            The paths of what was written.
 
         Raises:
-            BadInput: a run that was stopped before its first draw, or a file that cannot be written.
+            BadInput: a run that was stopped before its first draw, an unknown ending, or a file that cannot be written.
         """
-        from bayesmap.io.map_server import write_map
+        from bayesmap.io.exports import export_run
 
         self._need_marginals()
-        return write_map(path, self.posterior.occupancy, self.posterior.grid, self.posterior.observed, **options)
+        return export_run(path, self, self.posterior.scans, **options)
 
     def _need_marginals(self) -> None:
         if np.isnan(self.posterior.occupancy).any():

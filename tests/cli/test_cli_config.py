@@ -96,5 +96,6 @@ def test_a_missing_file_is_named(tmp_path):
 def test_only_one_section_is_printed_where_only_one_is_given():
     assert as_toml({"export": {"mode": "scale", "free_thresh": None}}).splitlines()[:2] == [
         "[export]",
-        'mode = "scale"   # How map_server shall read it: three values, or per cent. One of trinary, scale.',
+        'mode = "scale"   # Occupied, free and unknown; or per cent. One of trinary, scale, raw. '
+        "Default: trinary for map-server, scale for recordings.",
     ]

@@ -81,10 +81,40 @@ def test_export(office_run, tmp_path):
         if mode == "scale":
             np.testing.assert_array_equal(known, run.observed)
             np.testing.assert_allclose(occupancy[known], run.occupancy[known], atol=0.011)
-    assert call("export", office_run / "run.nc", "-o", tmp_path / "map.txt").exit_code == 3
+    unknown = call("export", office_run / "run.nc", "-o", tmp_path / "map.txt")
+    assert unknown.exit_code == 3
+    assert ".yaml, .yml, .bag, .mcap, .db3, .rrd, .tum, .tif, .tiff" in unknown.stderr
     missing = call("export", office_run / "run.nc", "-o", tmp_path / "nowhere" / "map.yaml")
     assert missing.exit_code == 3
     assert "no such folder; make it first" in missing.stderr
+
+
+@pytest.mark.parametrize("name", ["map.yaml", "map.bag", "map.mcap", "map.db3", "map", "map.rrd", "map.tum", "map.tif"])
+def test_export_to_every_format_and_never_over_an_old_file_unasked(office_run, tmp_path, name):
+    if name in ("map.rrd", "map.tif"):
+        pytest.importorskip({"map.rrd": "rerun", "map.tif": "rasterio"}[name])
+    target = tmp_path / name
+    result = call("export", office_run / "run.nc", "-o", target, "--json")
+    assert result.exit_code == 0, result.stderr
+    outputs = json.loads(result.stdout)["outputs"]
+    assert outputs[name] == str(target)
+    assert set(outputs) == {path.name for path in tmp_path.iterdir()}
+    again = call("export", office_run / "run.nc", "-o", target)
+    assert again.exit_code == 3
+    assert "exists already; --force replaces it" in again.stderr
+    assert call("export", office_run / "run.nc", "-o", target, "--force").exit_code == 0
+
+
+def test_export_of_layers_in_a_recording(office_run, tmp_path):
+    from mcap.reader import make_reader
+
+    result = call("export", office_run / "run.nc", "-o", tmp_path / "map.mcap", "--format", "gridmap")
+    assert result.exit_code == 0, result.stderr
+    with open(tmp_path / "map.mcap", "rb") as file:
+        assert [schema.name for schema, _, _ in make_reader(file).iter_messages()] == ["grid_map_msgs/msg/GridMap"]
+    refused = call("export", office_run / "run.nc", "-o", tmp_path / "map.tum", "--mode", "raw")
+    assert refused.exit_code == 3
+    assert "tum keeps the numbers and takes no mode" in refused.stderr
 
 
 def test_simulated_truth_is_found_again(office, office_run):

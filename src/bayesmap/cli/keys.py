@@ -17,6 +17,7 @@ Value = bool | int | float | str | None
 METHODS = ("gibbs", "block", "propagate", "importance", "exact")
 ORDERS = ("radial", "raster", "random")
 STARTS = ("prior", "zeros", "ones", "propagate")
+EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "geotiff")
 
 
 @dataclass(frozen=True)
@@ -121,11 +122,13 @@ RENDER = (
 )
 
 EXPORT = (
+    Key("format", click.Choice(EXPORTS), "auto", "What to write; auto: by the ending of -o."),
     Key(
         "mode",
-        click.Choice(("trinary", "scale")),
-        "trinary",
-        "How map_server shall read it: three values, or per cent.",
+        click.Choice(("trinary", "scale", "raw")),
+        None,
+        "Occupied, free and unknown; or per cent.",
+        "trinary for map-server, scale for recordings",
     ),
     Key("occupied_thresh", float, None, "Above it a cell is occupied.", "0.65, or 1 with scale"),
     Key("free_thresh", float, None, "Below it a cell is free.", "0.25, or 0 with scale"),

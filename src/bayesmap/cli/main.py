@@ -25,7 +25,7 @@ COMMANDS = {
     "simulate": "Draw the scans of a robot in a known world.",
     "infer": "Infer the walls from a log of range scans.",
     "render": "Draw a saved run.",
-    "export": "Write a saved run as a map for nav2's map_server.",
+    "export": "Write a saved run for robots and other programs.",
     "config": "Print the effective settings as TOML.",
 }
 """In the order of use; each lives in the module of its name, loaded when it is called."""

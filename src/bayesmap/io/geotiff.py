@@ -62,7 +62,7 @@ def write_geotiff(
             nodata=float("nan"),
             transform=Affine(grid.resolution, 0.0, x0, 0.0, -grid.resolution, y1),
             compress="deflate",
-            predictor=3,
+            interleave="band",
         ) as file,
     ):
         for band, (name, values) in enumerate(checked.items(), start=1):

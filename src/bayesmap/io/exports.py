@@ -1,0 +1,178 @@
+"""A posterior as a file that other programs read: which writer an ending, or a format's name, calls.
+
+    format           endings                           what
+    map-server       .yaml, .yml                       YAML and image, for nav2's map_server
+    occupancy-grid   .bag, .mcap, .db3, or a folder    nav_msgs/OccupancyGrid in a recording
+    gridmap          the same, if asked for            grid_map_msgs/GridMap: all layers in a recording
+    rerun            .rrd                              layers, trajectory and scans for the rerun viewer
+    tum              .tum                              the scans' poses
+    geotiff          .tif, .tiff                       all layers, a band each
+
+The layers are ``mean``, ``entropy`` in bits, and, where a cell's state is a number with an interval (reflectivity),
+``lower`` and ``upper``, the bounds of its central 90 % interval. A wall is there or not: quantiles of a Bernoulli are 0
+or 1 and say less than its mean, so runs on binary walls have no such layers.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.recording_writer import ENDINGS, FOLDER
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
+FORMATS = {
+    "map-server": (".yaml", ".yml"),
+    "occupancy-grid": RECORDINGS,
+    "gridmap": (),
+    "rerun": (".rrd",),
+    "tum": (".tum",),
+    "geotiff": (".tif", ".tiff"),
+}
+"""Formats, and the endings by which each is chosen; a name without ending is an occupancy grid in a folder."""
+
+THRESHOLDED = ("map-server", "occupancy-grid")
+"""Formats that turn probabilities into per cent, and take a mode and thresholds."""
+
+INTERVAL = 0.9
+
+
+class Mapped(Protocol):
+    """What an export needs of a run; one with intervals also has ``interval(level) -> (lower, upper)``."""
+
+    @property
+    def grid(self) -> Grid:
+        """Where the cells are."""
+
+    @property
+    def occupancy(self) -> NDArray[np.float64]:
+        """Posterior mean per cell, (nx, ny)."""
+
+    @property
+    def entropy(self) -> NDArray[np.float64]:
+        """Entropy per cell, (nx, ny)."""
+
+    @property
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that some beam reached, (nx, ny)."""
+
+
+def format_of(path: str | os.PathLike[str], format: str | None = None) -> str:
+    """The format that a path's ending calls for, unless one is named.
+
+    Raises:
+        BadInput: an unknown ending or format; the message lists the known.
+    """
+    if format is not None:
+        if format not in FORMATS:
+            raise BadInput(f"export: format {format!r} is not known; use one of {', '.join(FORMATS)}")
+        return format
+    ending = Path(path).suffix.lower()
+    if os.fspath(path).endswith(os.sep) or Path(path).is_dir() or ending == FOLDER:
+        return "occupancy-grid"
+    for name, endings in FORMATS.items():
+        if ending in endings:
+            return name
+    known = ", ".join(ending for endings in FORMATS.values() for ending in endings)
+    raise BadInput(
+        f"{path}: no format is known by the ending {ending!r}; the known endings are {known}, and a name without "
+        "ending is the folder of a ROS 2 bag"
+    )
+
+
+def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
+    """A file or folder that an export to this path would replace, if there is one.
+
+    Raises:
+        BadInput: an unknown ending or format.
+    """
+    target = Path(path)
+    images = [target.with_suffix(e) for e in (".pgm", ".png")] if format_of(path, format) == "map-server" else []
+    there = [place for place in (target, *images) if os.path.lexists(place)]
+    # An empty folder was made for this; only what is in it can be lost.
+    if there == [target] and target.is_dir() and not any(target.iterdir()):
+        return None
+    return there[0] if there else None
+
+
+def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
+    """The layers of a run, each (nx, ny): mean, entropy, and lower and upper where a cell's state has an interval."""
+    layers = {"mean": run.occupancy, "entropy": run.entropy}
+    # Not part of the protocol: runs on binary walls need not have it, or may refuse.
+    interval = getattr(run, "interval", None)
+    if interval is not None:
+        with contextlib.suppress(BadInput):
+            layers["lower"], layers["upper"] = interval(INTERVAL)
+    return layers
+
+
+def export_run(
+    path: str | os.PathLike[str],
+    run: Mapped,
+    scans: Scans,
+    *,
+    format: str | None = None,
+    mode: str | None = None,
+    occupied_thresh: float | None = None,
+    free_thresh: float | None = None,
+) -> tuple[Path, ...]:
+    """Write a run in another program's format; what was there of that name is replaced.
+
+    Args:
+        path: the file to write, or the folder of a ROS 2 bag.
+        run: the posterior.
+        scans: what it was inferred from: their poses are the trajectory, and the stamp of the last is the map's.
+        format: one of `FORMATS`; by the path's ending if None.
+        mode: trinary, scale or raw, see `bayesmap.io.percent`; if None, trinary for map-server and scale, which is
+            the probability in per cent, for occupancy-grid. Other formats keep the numbers and take no mode.
+        occupied_thresh: above it a cell is occupied; 0.65 in trinary, 1 in scale.
+        free_thresh: below it a cell is free; 0.25 in trinary, 0 in scale.
+
+    Returns:
+        The paths of what was written.
+
+    Raises:
+        BadInput: an unknown ending, format or mode, a mode or threshold that the format does not take, an optional
+            package that is not installed, or a file that cannot be written; the message says what would be right.
+    """
+    chosen = format_of(path, format)
+    given = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
+    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    if options and chosen not in THRESHOLDED:
+        raise BadInput(
+            f"{path}: {chosen} keeps the numbers and takes no {next(iter(options))}; leave it out, or choose "
+            f"{' or '.join(THRESHOLDED)}"
+        )
+    grid, observed = run.grid, run.observed
+    stamp_s = float(scans.stamps_s[-1]) if scans.stamps_s is not None and len(scans) else None
+    if chosen == "map-server":
+        from bayesmap.io.map_server import write_map
+
+        return write_map(path, run.occupancy, grid, observed, **options)
+    if chosen == "occupancy-grid":
+        from bayesmap.io.occupancy_grid import write_occupancy_grid
+
+        return (write_occupancy_grid(path, run.occupancy, grid, observed, stamp_s=stamp_s, **options),)
+    if chosen == "gridmap":
+        from bayesmap.io.grid_map import write_grid_map
+
+        return (write_grid_map(path, layers_of(run), grid, observed, stamp_s=stamp_s),)
+    if chosen == "rerun":
+        from bayesmap.io.rerun_recording import write_rerun
+
+        return (write_rerun(path, layers_of(run), grid, observed, scans=scans),)
+    if chosen == "tum":
+        from bayesmap.io.tum import write_trajectory
+
+        return (write_trajectory(path, scans.poses, scans.stamps_s),)
+    from bayesmap.io.geotiff import write_geotiff
+
+    return (write_geotiff(path, layers_of(run), grid, observed),)

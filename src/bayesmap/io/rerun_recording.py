@@ -1,0 +1,120 @@
+"""Maps, trajectory and scans as a recording of the rerun viewer (.rrd). Needs the extra ``rerun`` (rerun-sdk).
+
+    /map/NAME      picture of a layer: grey, transparent where no beam reached; mean: dark is wall; others: bright is 1
+    /values/NAME   the layer's numbers, a tensor (row from the top, column), NaN where no beam reached
+    /trajectory    the scans' poses, a line
+    /sensor, /scan position and hits of each scan, on the timelines ``scan`` (its number) and ``stamp`` (where known)
+    /about         where the pixels are in the map's frame, in words
+
+Everything lies in the plane of the picture, whose unit is the cell: a point x, y in metres is at
+((x - x_min) / resolution, (y_max - y) / resolution), y downwards, as pictures have it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.atomic import write_whole
+from bayesmap.io.layers import as_layers
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+EPOCH_FROM_S = 1e8
+"""Later stamps are dates, earlier ones count from some start."""
+
+SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213, 94, 0)
+
+
+def write_rerun(
+    path: str | os.PathLike[str],
+    layers: Mapping[str, ArrayLike],
+    grid: Grid,
+    observed: ArrayLike | None = None,
+    *,
+    scans: Scans | None = None,
+) -> Path:
+    """Write layers, and the scans that they came from, for the rerun viewer, whole or not at all.
+
+    Args:
+        path: the file to write.
+        layers: by name, each of shape (nx, ny), within [0, 1], NaN where unknown.
+        grid: the grid of the map.
+        observed: cells that some beam reached, shape (nx, ny); all by default.
+        scans: drawn over the layers; none by default.
+
+    Returns:
+        The path.
+
+    Raises:
+        BadInput: rerun-sdk is not installed, no layer, shapes that do not fit, infinite numbers, or a file that cannot
+            be written.
+    """
+    try:
+        import rerun as rr
+        import rerun.blueprint as rrb
+    except ImportError:
+        raise BadInput(f"{path}: .rrd needs rerun-sdk: pip install 'bayesmap[rerun]'") from None
+
+    checked = as_layers(layers, grid, observed)
+    drawn = ["/trajectory", "/sensor", "/scan"]
+    views = [rrb.Spatial2DView(origin="/", contents=[f"/map/{name}", *drawn], name=name) for name in checked]
+    target = Path(path)
+    with write_whole(target) as partial:
+        recording = rr.RecordingStream("bayesmap", send_properties=False)
+        recording.save(partial, default_blueprint=rrb.Blueprint(rrb.Grid(*views)))
+        recording.log("about", rr.TextDocument(_about(grid)), static=True)
+        for name, values in checked.items():
+            recording.log(f"map/{name}", rr.Image(_picture(values, dark_is_one=name == "mean")), static=True)
+            tensor = rr.Tensor(np.ascontiguousarray(values.T[::-1]), dim_names=("row", "column"))
+            recording.log(f"values/{name}", tensor, static=True)
+        if scans is not None and len(scans):
+            _log_scans(rr, recording, scans, grid)
+        recording.flush()
+        recording.disconnect()
+    return target
+
+
+def to_pixels(points_world: NDArray[np.float64], grid: Grid) -> NDArray[np.float64]:
+    """Metres of the map frame to the picture's plane, (..., 2): columns from the left, rows from the top."""
+    cells = grid.to_cells(points_world)
+    return np.stack([cells[..., 0], grid.shape[1] - cells[..., 1]], axis=-1)
+
+
+def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
+    at = to_pixels(scans.poses[:, :2], grid)
+    line = rr.LineStrips2D([at], colors=[TRAJECTORY_COLOR], radii=[0.3])
+    recording.log("trajectory", line, static=True)
+    times = [rr.TimeColumn("scan", sequence=np.arange(len(scans)))]
+    if scans.stamps_s is not None:
+        kind = "timestamp" if scans.stamps_s.min() > EPOCH_FROM_S else "duration"
+        times.append(rr.TimeColumn("stamp", **{kind: scans.stamps_s}))
+    hits = np.isfinite(scans.ranges_m).sum(axis=1)
+    ends = to_pixels(scans.hit_points_world(), grid)
+    recording.log("sensor", rr.Points2D.from_fields(colors=[SENSOR_COLOR], radii=[1.5]), static=True)
+    recording.log("scan", rr.Points2D.from_fields(colors=[SCAN_COLOR], radii=[0.6]), static=True)
+    recording.send_columns("sensor", times, rr.Points2D.columns(positions=at))
+    recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=hits))
+
+
+def _picture(values: NDArray[np.float32], *, dark_is_one: bool) -> NDArray[np.uint8]:
+    """Grey and opacity as RGBA, shape (ny, nx, 4), the first row on top."""
+    unknown = np.isnan(values)
+    level = np.clip(np.where(unknown, 0.0, values), 0.0, 1.0)
+    grey = np.rint(255 * (1 - level if dark_is_one else level)).astype(np.uint8)
+    opacity = np.where(unknown, 0, 255).astype(np.uint8)
+    return np.ascontiguousarray(np.stack([grey, grey, grey, opacity], axis=-1).transpose(1, 0, 2)[::-1])
+
+
+def _about(grid: Grid) -> str:
+    x0, _, _, y1 = grid.extent_m
+    return (
+        f"A map by bayesmap: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m. Pictures count in cells "
+        f"from their upper left corner, which is x = {x0:g} m, y = {y1:g} m of the map's frame; y points up there."
+    )

@@ -1,0 +1,85 @@
+"""Recordings read back without bayesmap: containers and messages each by a library that did not write them, if any."""
+
+import sqlite3
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+from mcap.reader import make_reader
+from mcap.records import Schema
+from mcap_ros1.decoder import DecoderFactory as Ros1
+from mcap_ros2.decoder import DecoderFactory as Ros2
+
+
+@dataclass(frozen=True)
+class Recorded:
+    topic: str
+    type_name: str
+    time_ns: int
+    message: Any
+    qos: Any
+    """Quality of service as a list of dicts; in ROS 1 whether the topic is latched."""
+
+
+def read_mcap(path):
+    """MCAP by the format's own library."""
+    with open(path, "rb") as file:
+        reader = make_reader(file, decoder_factories=[Ros2()])
+        assert reader.get_header().profile == "ros2"
+        return [
+            Recorded(
+                channel.topic, schema.name, record.log_time, message,
+                yaml.safe_load(channel.metadata["offered_qos_profiles"]),
+            )
+            for schema, channel, record, message in reader.iter_decoded_messages()
+        ]  # fmt: skip
+
+
+def read_db3(path):
+    """Sqlite by Python, messages by mcap_ros2."""
+    database = sqlite3.connect(path)
+    try:
+        rows = database.execute(
+            "SELECT name, type, timestamp, data, offered_qos_profiles, encoded_message_definition, encoding"
+            " FROM messages JOIN topics ON topics.id = topic_id JOIN message_definitions ON topic_type = type"
+        ).fetchall()
+    finally:
+        database.close()
+    found = []
+    for topic, type_name, time_ns, data, qos, definition, encoding in rows:
+        decode = Ros2().decoder_for("cdr", Schema(id=1, data=definition.encode(), encoding=encoding, name=type_name))
+        found.append(Recorded(topic, type_name, time_ns, decode(data), yaml.safe_load(qos)))
+    return found
+
+
+def read_folder(path):
+    """A ROS 2 bag: the file that its metadata names."""
+    about = yaml.safe_load((path / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    assert about["storage_identifier"] == "sqlite3"
+    assert {file.name for file in path.iterdir()} == {"metadata.yaml", *about["relative_file_paths"]}
+    (topic,) = about["topics_with_message_count"]
+    (file,) = about["relative_file_paths"]
+    (found,) = read_db3(path / file)
+    assert topic["message_count"] == about["message_count"] == 1
+    assert topic["topic_metadata"]["name"] == found.topic
+    assert yaml.safe_load(topic["topic_metadata"]["offered_qos_profiles"]) == found.qos
+    assert about["starting_time"]["nanoseconds_since_epoch"] == found.time_ns
+    return [found]
+
+
+def read_bag(path):
+    """ROS 1: the container by rosbags, which wrote it (no other reader runs without ROS); messages by mcap_ros1."""
+    from rosbags.rosbag1 import Reader
+
+    found = []
+    with Reader(path) as bag:
+        for connection, time_ns, data in bag.messages():
+            name = connection.msgtype.replace("/msg/", "/")
+            schema = Schema(id=1, data=connection.msgdef.data.encode(), encoding="ros1msg", name=name)
+            message = Ros1().decoder_for("ros1", schema)(data)
+            assert message._md5sum == connection.digest
+            found.append(Recorded(connection.topic, name, time_ns, message, connection.ext.latching))
+    return found
+
+
+READERS = {".bag": read_bag, ".mcap": read_mcap, ".db3": read_db3, "": read_folder}

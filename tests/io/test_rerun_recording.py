@@ -1,0 +1,96 @@
+"""Recordings for rerun, read back by rerun's own reader: there is no other."""
+
+import builtins
+
+import numpy as np
+import pytest
+from map_case import GRID, observed, occupancy, scans
+
+from bayesmap.errors import BadInput
+from bayesmap.io.rerun_recording import to_pixels, write_rerun
+
+LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}
+
+
+def columns_of(path):
+    """Every column of the recording, by entity and component, as lists of rows."""
+    chunk = pytest.importorskip("rerun.chunk")
+    found = {}
+    for piece in chunk.RrdReader(path).stream():
+        batch = piece.to_record_batch()
+        for name, column in zip(batch.schema.names, batch.columns, strict=True):
+            found.setdefault((piece.entity_path, name), []).extend(column.to_pylist())
+    return found
+
+
+def find(columns, entity, ending):
+    (rows,) = [rows for (at, name), rows in columns.items() if at == entity and name.endswith(ending)]
+    return rows
+
+
+def test_the_layers_numbers_come_back(tmp_path):
+    columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, observed()))
+    for name, values in LAYERS.items():
+        ((tensor,),) = find(columns, f"/values/{name}", "Tensor:data")
+        assert tensor["shape"] == [3, 5]
+        np.testing.assert_array_equal(
+            np.reshape(tensor["buffer"], (3, 5)), np.where(observed(), values, np.nan).T[::-1].astype(np.float32)
+        )
+
+
+def test_pictures_are_upright_dark_where_there_is_wall_and_transparent_where_nobody_looked(tmp_path):
+    columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, observed()))
+    pictures = {}
+    for name in LAYERS:
+        ((buffer,),) = find(columns, f"/map/{name}", "Image:buffer")
+        ((about,),) = find(columns, f"/map/{name}", "Image:format")
+        assert (about["width"], about["height"]) == (5, 3)
+        pictures[name] = np.array(buffer, dtype=np.uint8).reshape(3, 5, 4)
+    np.testing.assert_array_equal(pictures["mean"][..., 3] > 0, observed().T[::-1])
+    dark = pictures["mean"][..., 0].astype(float)
+    seen = observed().T[::-1]
+    np.testing.assert_allclose(dark[seen], 255 * (1 - occupancy().T[::-1][seen]), atol=0.51)
+    np.testing.assert_allclose(pictures["entropy"][..., 0][seen], dark[seen], atol=1)  # of 1 - p, the other way round
+
+
+def test_scans_lie_on_the_picture_at_their_numbers_and_times(tmp_path):
+    log = scans()
+    columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, scans=log))
+    at = find(columns, "/sensor", "Points2D:positions")
+    np.testing.assert_allclose(np.concatenate(at), to_pixels(log.poses[:, :2], GRID), atol=1e-6)
+    ends = find(columns, "/scan", "Points2D:positions")
+    assert [len(points) for points in ends] == [1, 2, 0]
+    np.testing.assert_allclose(np.concatenate(ends[:2]), to_pixels(log.hit_points_world(), GRID), atol=1e-6)
+    assert find(columns, "/scan", "scan") == [0, 1, 2]
+    ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
+    assert len(line) == 3
+    # From the numbers alone: the first pose is 0.1 m from the left edge and 0.65 m under the top.
+    np.testing.assert_allclose(line[0], [0.4, 2.6], atol=1e-6)
+
+
+def test_stamps_that_count_from_a_start_are_durations(tmp_path):
+    for stamps, kind in (((1.0, 2.0, 3.0), "duration"), ((1e9, 1e9 + 1, 1e9 + 2), "timestamp"), (None, None)):
+        path = write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, scans=scans(stamps))
+        chunk = pytest.importorskip("rerun.chunk")
+        types = {
+            str(field.type)
+            for piece in chunk.RrdReader(path).stream()
+            for field in piece.to_record_batch().schema
+            if field.name == "stamp"
+        }
+        assert len(types) == (kind is not None)
+        assert all(kind in text for text in types)
+
+
+def test_without_rerun_the_remedy_is_named(tmp_path, monkeypatch):
+    real = builtins.__import__
+
+    def absent(name, *rest, **named):
+        if name.split(".")[0] == "rerun":
+            raise ImportError(name)
+        return real(name, *rest, **named)
+
+    monkeypatch.setattr(builtins, "__import__", absent)
+    with pytest.raises(BadInput, match=r"pip install 'bayesmap\[rerun\]'"):
+        write_rerun(tmp_path / "floor.rrd", LAYERS, GRID)
+    assert list(tmp_path.iterdir()) == []
