@@ -72,7 +72,7 @@ def test_nan_is_unknown():
         ({"mode": "fuzzy"}, "use one of trinary, scale, raw"),
         ({"path": "floor.txt"}, r"\.bag \(ROS 1\), \.mcap or \.db3 \(ROS 2\)"),
         ({"path": "nowhere/floor.mcap"}, "cannot be written"),
-        ({"path": "nowhere/floor"}, "no folder .*make it first"),
+        ({"path": "nowhere/floor"}, "cannot be written .*name a folder inside one"),
     ],
 )
 def test_what_cannot_be_written_leaves_no_file(tmp_path, change, says):

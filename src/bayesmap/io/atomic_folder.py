@@ -31,10 +31,14 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
         raise BadInput(f"{path}: is there already and holds other things; name a folder that is not there yet")
     mark = secrets.token_hex(4)
     temporary, old = (target.with_name(f".{target.name}.{mark}.{what}") for what in ("partial", "old"))
-    if not target.parent.is_dir():
-        raise BadInput(f"{path}: cannot be written (no folder {target.parent}); make it first")
-    if not os.access(target.parent, os.W_OK):
-        raise BadInput(f"{path}: cannot be written (no permission); choose a folder that is yours")
+    # Tried, not asked: only making a folder tells whether one can be made.
+    try:
+        temporary.mkdir()
+        temporary.rmdir()
+    except OSError as error:
+        raise BadInput(
+            f"{path}: cannot be written ({error.strerror}); name a folder inside one that is there, and yours"
+        ) from None
     try:
         yield temporary
         if target.exists():
