@@ -6,7 +6,7 @@ from matplotlib.patches import PathPatch
 from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 
 from bayesmap.errors import BadInput
-from bayesmap.viz import draw_deviation, draw_entropy, draw_probability, draw_sample, palette
+from bayesmap.viz import draw_deviation, draw_entropy, draw_probability, draw_sample, draw_width, palette
 from bayesmap.viz.maps import entropy_bits
 from bayesmap.world.grid import Grid
 
@@ -130,3 +130,12 @@ def test_a_speckled_mask_of_a_large_map_is_one_artist_not_one_for_each_cell():
     ax = panel()
     draw_probability(ax, grid, np.zeros(grid.shape), seen)
     assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10
+
+
+def test_the_width_of_an_interval_runs_from_none_to_all():
+    ax = panel()
+    image = draw_width(ax, GRID, occupancy(), observed())
+    assert image.get_clim() == (0.0, 1.0)
+    np.testing.assert_allclose(cell(ax, *CORNER), palette.uncertainty_colormap()(1.0)[:3], atol=0.01)
+    with pytest.raises(BadInput, match="give upper minus lower"):
+        draw_width(panel(), GRID, -occupancy())

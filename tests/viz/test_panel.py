@@ -20,7 +20,10 @@ def colour_at(figure, pixels, x, y):
     return pixels[int(pixels.shape[0] - row), int(column)]
 
 
-@pytest.mark.parametrize(("what", "label"), [("mean", "probability"), ("entropy", "bits"), ("deviation", "deviation")])
+@pytest.mark.parametrize(
+    ("what", "label"),
+    [("mean", "probability"), ("entropy", "bits"), ("deviation", "deviation"), ("width", "90 % interval")],
+)
 def test_a_panel_says_what_it_shows(what, label):
     figure, _ = picture(what, np.full(GRID.shape, 0.3))
     assert any(label in axes.get_ylabel() for axes in figure.axes[1:])
@@ -55,3 +58,8 @@ def test_the_truth_is_outlined():
 def test_values_of_another_shape_are_refused():
     with pytest.raises(BadInput, match="shape"):
         panel_figure(GRID, "mean", np.zeros((6, 8)))
+
+
+def test_a_draw_of_reflectivities_is_drawn_in_shades():
+    figure, _ = picture("draw", np.linspace(0, 1, 48).reshape(GRID.shape))
+    assert any("one draw" in axes.get_ylabel() for axes in figure.axes[1:])

@@ -88,10 +88,10 @@ def posterior_figure(
 
     titles = {"data": "readings", "mean": "posterior mean", "entropy": "uncertainty", "draw": "one draw"}
     for position, (name, panel) in enumerate(panels.items()):
-        _letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
+        letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
     ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
-    _color_bar(figure, layout, layout.corners[0], mean, "probability of wall", ticks)
-    _color_bar(figure, layout, layout.corners[1], entropy, "entropy [bits]", ticks)
+    color_bar(figure, layout, layout.corners[0], mean, "probability of wall", ticks)
+    color_bar(figure, layout, layout.corners[1], entropy, "entropy [bits]", ticks)
     _legend(figure, keys, walls="draw" in panels, unobserved=not seen.all())
     if title is not None:
         top = 1.0 - 0.12 * layout.dpi / layout.figure[1]
@@ -138,7 +138,7 @@ def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
     return keys
 
 
-def _letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
+def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
     """Set the panel's type, and label the y axis, which all panels share, only at the left."""
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
     panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
@@ -150,7 +150,7 @@ def _letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: b
         panel.set_ylabel("")
 
 
-def _color_bar(
+def color_bar(
     figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str, ticks: list[float]
 ) -> None:
     """A thin horizontal bar under the panel's x label, never too narrow to read."""
@@ -175,6 +175,18 @@ def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool
         hatched.set_label("unobserved")
         handles.append(hatched)
     handles += keys
+    place_legend(figure, handles)
+
+
+def unobserved_legend(figure: Figure) -> None:
+    """The one key of figures that show nothing else to explain."""
+    hatched = maps.hatch_patch()
+    hatched.set_label("unobserved")
+    place_legend(figure, [hatched])
+
+
+def place_legend(figure: Figure, handles: list[Artist]) -> None:
+    """Keys under the panels, in as many rows as they need; none if there is none."""
     if not handles:
         return
     # Two rows where one would be wider than the figure: a key takes about 0.95 inch.

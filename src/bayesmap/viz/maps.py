@@ -85,6 +85,30 @@ def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLi
     return _show(ax, grid, spread, as_observed(grid, observed), palette.uncertainty_colormap(), 0.5)
 
 
+def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans all reflectivities.
+
+    Args:
+        ax: where to draw.
+        grid: where the cells are.
+        width: upper bound minus lower bound per cell, shape (nx, ny).
+        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+
+    Returns:
+        The image, from 0 to 1, for a colour bar.
+
+    Raises:
+        BadInput: shapes that differ from the grid's, or a number outside [0, 1].
+    """
+    widths = as_numbers(grid, width, "width")
+    if widths.min() < -ROUNDING or widths.max() > 1.0 + ROUNDING:
+        raise BadInput(
+            f"picture: width runs from {widths.min():g} to {widths.max():g}, and the bounds of a number in [0, 1] are "
+            "0 to 1 apart; give upper minus lower"
+        )
+    return _show(ax, grid, widths, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
+
+
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """One map drawn from the posterior; where no beam reached it is the prior's, and shown faded.
 

@@ -7,6 +7,9 @@
   red-green deficiency; bright is uncertain.
 - **Unobserved** is a warm paper colour under a hatch. Both maps above are cool where they are light or
   grey, so "nobody looked here" is never taken for "free", nor for "as likely as not".
+- **Residuals** run from blue (shorter than predicted) over a light grey to vermilion (longer): the two hues of Okabe
+  and Ito that differ for every kind of colour vision, equally far from the grey. **Surprise** is their warm half,
+  deepened.
 - **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008), which stay apart for all
   common kinds of colour vision.
 """
@@ -36,6 +39,11 @@ NO_RETURN: Final = "#CC79A7"
 SENSOR: Final = "#009E73"
 TEXT: Final = "#2B2F36"
 FRAME: Final = "#6B7078"
+
+SHORTER_LAB: Final = (46.0, -2.0, -44.0)
+NEUTRAL_LAB: Final = (88.0, 0.0, -1.0)
+LONGER_LAB: Final = (50.0, 48.0, 60.0)
+ALARMING_LAB: Final = (28.0, 40.0, 30.0)
 
 CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """Lines of separate chains, in order; more chains than colours start again."""
@@ -77,6 +85,22 @@ def uncertainty_colormap() -> Colormap:
     """Certain is dark, uncertain is bright, unobserved (masked) is `UNOBSERVED`."""
     cividis = colormaps["cividis"](np.linspace(0.0, 1.0, 256))
     return ListedColormap(cividis.tolist(), name="bayesmap.uncertainty").with_extremes(bad=UNOBSERVED)
+
+
+def residual_colormap() -> Colormap:
+    """Of -limit to limit: shorter than predicted, as predicted, longer."""
+    return ListedColormap(_through(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB).tolist(), name="bayesmap.residual")
+
+
+def surprise_colormap() -> Colormap:
+    """Expected is light grey; the more surprising, the darker and redder."""
+    return ListedColormap(_through(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB).tolist(), name="bayesmap.surprise")
+
+
+def _through(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
+    """256 colours in equal steps along straight lines in CIELAB, sRGB in [0, 1], shape (256, 3)."""
+    at, knots = np.linspace(0.0, len(ends) - 1.0, 256), np.arange(len(ends))
+    return lab_to_srgb(np.stack([np.interp(at, knots, part) for part in np.array(ends).T], axis=1))
 
 
 def draw_colormap() -> ListedColormap:

@@ -29,7 +29,8 @@ def panel_figure(
     Args:
         grid: the map's grid.
         what: "mean" and "entropy" (values: probabilities of a wall), "deviation" (values: the same; drawn is the
-            standard deviation of a cell), or "draw" (values: walls).
+            standard deviation of a cell), "width" (values: upper minus lower bound of the interval), or "draw"
+            (values: walls, or numbers in [0, 1]).
         values: shape (nx, ny).
         observed: cells to draw; the others are hatched. All if None.
         truth: true walls, (nx, ny), to be outlined.
@@ -49,8 +50,12 @@ def panel_figure(
     elif what == "deviation":
         spread = np.sqrt(values * (1.0 - values))
         image, label = maps.draw_deviation(axes, grid, spread, observed), "standard deviation"
-    else:
+    elif what == "width":
+        image, label = maps.draw_width(axes, grid, values, observed), "width of the 90 % interval"
+    elif np.isin(values, (0, 1)).all():
         image, label = maps.draw_sample(axes, grid, values, observed), ""
+    else:
+        image, label = maps.draw_probability(axes, grid, values, observed), "one draw"
     if label:
         figure.colorbar(image, ax=axes, label=label, shrink=0.8)
     if truth is not None:
