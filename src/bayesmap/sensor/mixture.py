@@ -19,7 +19,13 @@ With q(d) = 1 - p_short (1 - exp(-rate_short d)), the chance that no passing obj
     P(no return | d) = (1 - p_random) q(d) [p_no_return + (1 - p_no_return) P(d + noise > max)]
     P(too close | d) = (1 - p_random) [1 - q(min(d, min)) + q(d) (1 - p_no_return) P(d + noise < min)]
 
-and the three add up to one for every d.
+and the three add up to one for every d. Added up from below, with wall = min(d, max) and the noise's cumulative N,
+
+    P(reading <= z | d) = p_random (z - min) / (max - min)
+                          + (1 - p_random) [p_short (1 - exp(-rate_short min(z, wall)))
+                                            + q(d) (1 - p_no_return) 1(d <= max) N(z - d)]
+
+for min <= z <= max: at z = min it is P(too close), and what it lacks at z = max is P(no return).
 """
 
 from __future__ import annotations
@@ -106,6 +112,17 @@ class BeamMixture(SensorModel):
         blocked = 1.0 - self.unblocked(np.minimum(wall_m, limits.min_m))
         below = 1.0 - self.noise.tail((limits.min_m - wall_m) / self.noise.scale_at(wall_m))
         return np.asarray((1 - self.p_random) * (blocked + returned * below))
+
+    def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
+        """P(reading <= range | distance) by the last formula above; NaN for an invalid reading."""
+        z, d = np.broadcast_arrays(range_m, distance_m)
+        reading, wall_m = np.clip(z, limits.min_m, limits.max_m), np.minimum(d, limits.max_m)
+        uniform = (reading - limits.min_m) / (limits.max_m - limits.min_m)
+        short = self.p_short * -np.expm1(-self.rate_short_per_m * np.minimum(reading, wall_m))
+        standard = (reading - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m)
+        below = self._returned(d, limits) * self.noise.tail(-standard)  # the noise is symmetric
+        p = self.p_random * uniform + (1 - self.p_random) * (short + below)
+        return np.asarray(np.where(np.isposinf(z), 1.0, p))
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
         """A finite reading is flat where the wall's noise has sunk under `FLAT_NATS` of the random floor."""

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.errors import BadInput
+
 Floats = NDArray[np.float64]
 
 
@@ -45,6 +47,17 @@ class SensorModel(ABC):
     @abstractmethod
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Draw a reading for every distance; the law is the one that `log_likelihood` scores."""
+
+    def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
+        """P(reading <= range | distance), broadcast over both; too close counts as -inf, no return as +inf.
+
+        ``spread_m`` is a further standard deviation of where the beam stops. A model of your own needs this only for
+        `bayesmap.score`, whose calibration asks how often readings fall below a range.
+
+        Raises:
+            BadInput: the model does not say.
+        """
+        raise BadInput(f"{type(self).__name__}: no cumulative distribution; add a method cumulative() to the model")
 
     def kernel_parameters(self) -> KernelParameters | None:
         """The numbers with which the compiled likelihood computes this model, or None if it cannot."""

@@ -54,6 +54,13 @@ class AdditiveNoise(SensorModel):
         expected = np.minimum(distance_m, limits.max_m)
         return np.asarray(expected + self.scale_at(expected) * self.draw(rng, np.shape(expected)))
 
+    def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
+        """P(noise <= (range - min(distance, max)) / scale); typed readings stand for the limits, as in the density."""
+        reading = np.clip(range_m, _finite_or(limits.min_m, range_m), _finite_or(limits.max_m, range_m))
+        expected = np.minimum(distance_m, limits.max_m)
+        standard = (reading - expected) / np.hypot(self.scale_at(expected), spread_m)
+        return self.tail(-standard)  # the noise is symmetric
+
 
 def _finite_or(limit_m: float, range_m: Floats) -> Floats:
     """The limit for readings that stand for it (no return, too close), no limit for finite ones."""

@@ -1,0 +1,67 @@
+"""Hits and passes of every cell: what classic mappers keep of the scans."""
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.crossings import rays
+from bayesmap.kernels.parallel import available_cores, launch
+from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.kernel
+def count_hits_and_passes(
+    first: int,
+    nx: int,
+    ny: int,
+    start_x: wp.array(dtype=wp.float64),
+    start_y: wp.array(dtype=wp.float64),
+    angle_rad: wp.array(dtype=wp.float64),
+    longest: wp.array(dtype=wp.float64),
+    hit: wp.array(dtype=wp.uint8),
+    bounds: wp.array(dtype=wp.int32),
+    hits: wp.array2d(dtype=wp.int32),
+    passes: wp.array2d(dtype=wp.int32),
+):
+    """One thread a share of the beams, counting in rows of its own: no two threads write to the same number."""
+    t = first + wp.tid()
+    for b in range(bounds[t], bounds[t + 1]):
+        w = walk_begin(start_x[b], start_y[b], wp.cos(angle_rad[b]), wp.sin(angle_rad[b]), nx, ny, longest[b])
+        ends_inside = w.end >= longest[b]
+        last = int(-1)
+        while w.distance <= w.end:
+            if is_inside(w, nx, ny):
+                if last >= 0:
+                    passes[t, last] = passes[t, last] + 1
+                last = w.cell_x * ny + w.cell_y
+            w = walk_next(w)
+        if last >= 0:
+            if hit[b] != wp.uint8(0) and ends_inside:
+                hits[t, last] = hits[t, last] + 1
+            else:
+                passes[t, last] = passes[t, last] + 1
+
+
+def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """How often beams stopped in each cell, and how often they passed it, both (nx * ny,).
+
+    A hit beam stops in the last cell that it has touched at its range, and passes those before; if the range lies
+    outside the grid it passes all. No return passes all cells up to the sensor's range. Too close and invalid count
+    nowhere.
+    """
+    device = devices.resolve(device)
+    ranges = scans.ranges_m.ravel()
+    hit = np.isfinite(ranges)
+    longest = np.where(hit, ranges, np.where(np.isposinf(ranges), scans.max_range_m, -1.0))
+    threads = available_cores()
+    bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
+    counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
+    inputs = [*grid.shape, *rays(scans, grid, longest, device), devices.to_device(hit, wp.uint8, device)]
+    launch(count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device)
+    hits, passes = (a.numpy().sum(axis=0, dtype=np.int32) for a in counts)
+    return hits, passes

@@ -1,0 +1,67 @@
+"""Tracing beams for prediction: every cell up to the sensor's range, whatever was read."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.trace import count_cells, fill_cells
+from bayesmap.sensor.crossings import Crossings
+from bayesmap.sensor.table import MAX_INCIDENCES
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+
+def rays(scans: Scans, grid: Grid, longest_m: NDArray[np.float64], device: str) -> list[Any]:
+    """Start, direction and length of every beam in units of cells, as the walks take them; beam ``s * A + a``."""
+    starts = np.repeat(grid.to_cells(scans.poses[:, :2]), len(scans.angles_rad), axis=0)
+    longest = np.broadcast_to(longest_m, (scans.n_beams,)) / grid.resolution
+    columns = (starts[:, 0], starts[:, 1], scans.beam_angles_world().ravel(), longest)
+    return [devices.to_device(column, wp.float64, device) for column in columns]
+
+
+def trace_crossings(
+    scans: Scans, grid: Grid, longest_m: NDArray[np.float64] | None = None, device: str = "cpu"
+) -> Crossings:
+    """The cells that each beam touches, up to the sensor's range.
+
+    A prediction must not look at the reading, and so needs the whole length. An invalid reading is never scored: its
+    beam has no entry.
+
+    Args:
+        scans: S scans of A beams; beam ``s * A + a`` is beam a of scan s.
+        grid: whose cells.
+        longest_m: another length for each beam, (B,): where only the density of a known reading is asked for, nothing
+            past its reach matters.
+        device: where to trace.
+
+    Raises:
+        BadInput: more incidences than 32-bit indices can count.
+    """
+    device = devices.resolve(device)
+    beams = scans.n_beams
+    longest = np.full(beams, scans.max_range_m) if longest_m is None else np.minimum(longest_m, scans.max_range_m)
+    longest = np.where(np.isnan(scans.ranges_m.ravel()), -1.0, longest)
+    lines = rays(scans, grid, longest, device)
+    counts = wp.empty(beams, dtype=wp.int32, device=device)
+    launch(count_cells, beams, [*grid.shape, *lines, counts], device)
+    ends = np.cumsum(counts.numpy(), dtype=np.int64)
+    total = int(ends[-1]) if beams else 0
+    if total > MAX_INCIDENCES:
+        raise BadInput(
+            f"scans: {beams:,} beams to predict cross {total:,} cells, over the limit of {MAX_INCIDENCES:,}; "
+            "score fewer scans, or use a coarser resolution"
+        )
+    offsets = np.concatenate([[0], ends]).astype(np.int32)
+    on_device = devices.to_device(offsets, wp.int32, device)
+    cells = wp.empty(total, dtype=wp.int32, device=device)
+    edges = [wp.empty(total, dtype=wp.float32, device=device) for _ in range(2)]
+    for depth, where in zip((0.0, 1.0), edges, strict=True):
+        geometry = [wp.float64(grid.resolution), wp.float64(depth)]
+        launch(fill_cells, beams, [*grid.shape, *lines, on_device, *geometry, cells, where], device)
+    entry, leave = (where.numpy() for where in edges)
+    return Crossings(grid=grid, offsets=offsets, cells=cells.numpy(), entry_m=entry, chord_m=leave - entry)

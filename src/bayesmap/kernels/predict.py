@@ -1,0 +1,212 @@
+"""What the model says of readings before they are seen: densities and cumulative probabilities, averaged over draws.
+
+To a prediction a map is a stop probability m in [0, 1] for every cell. A beam stops in the i-th cell that it meets with
+probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere in the map, and
+
+    p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
+
+under one draw of the map; the predictive law is its mean over draws. Binary walls are maps of 0 and 1.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
+from bayesmap.kernels.reading_law import additive_log_density, clipped, cumulative, mixture_density
+from bayesmap.sensor.crossings import Crossings
+from bayesmap.sensor.model import RangeLimits, SensorModel
+
+wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
+GONE = wp.constant(wp.float64(1.0e-30))  # a beam less likely than this to get so far is at its end
+
+
+@wp.func
+def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
+    """A running log-sum-exp: (greatest so far, sum of exp(value - greatest))."""
+    if value > sums[0]:
+        return wp.vec2d(value, sums[1] * wp.exp(sums[0] - value) + wp.float64(1.0))
+    return wp.vec2d(sums[0], sums[1] + wp.exp(value - sums[0]))
+
+
+@wp.kernel
+def add_forecasts(
+    first: int,
+    s: SensorParameters,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    places: Places,
+    draws: int,
+    range_m: wp.array(dtype=wp.float64),
+    with_cumulative: int,
+    most: wp.array(dtype=wp.float64),
+    total: wp.array(dtype=wp.float64),
+    below: wp.array(dtype=wp.float64),
+    below_max: wp.array(dtype=wp.float64),
+    below_min: wp.array(dtype=wp.float64),
+):
+    """One thread a beam: add the law of its reading under each draw of a batch to running sums."""
+    b = first + wp.tid()
+    z = range_m[b]
+    if wp.isnan(z):
+        return
+    one = wp.float64(1.0)
+    nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
+    sums = wp.vec2d(most[b], total[b])
+    at = clipped(s, z)
+    for d in range(draws):
+        survive = wp.float64(1.0)
+        for i in range(offsets[b + 1] - offsets[b] + 1):
+            k = offsets[b] + i
+            weight = survive
+            place = nowhere
+            if k < offsets[b + 1]:
+                place = meet_cell(places, d, b, k, cells[k])
+                weight = survive * place[0]
+                survive = survive * (one - place[0])
+            if weight > wp.float64(0.0):
+                if s.robust != 0:
+                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, place[1], place[2]))
+                else:
+                    sums = add_log(sums, wp.log(weight) + additive_log_density(s, z, place[1], place[2]))
+                if with_cumulative != 0:
+                    below[b] = below[b] + weight * cumulative(s, at, place[1], place[2])
+                    if s.robust != 0:
+                        below_max[b] = below_max[b] + weight * cumulative(s, s.max_m, place[1], place[2])
+                        below_min[b] = below_min[b] + weight * cumulative(s, s.min_m, place[1], place[2])
+                if survive < GONE:
+                    break
+    most[b] = sums[0]
+    total[b] = sums[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Forecast:
+    """What was predicted of each beam's reading; NaN where the reading is invalid.
+
+    Attributes:
+        log_density: log predictive density of a range in nats per metre, log probability of a typed reading, (B,).
+        pit_low, pit_high: P(reading < the one that came) and P(reading <= it): equal for ranges, (B,).
+        p_no_return, p_too_close: predictive probabilities of the two, (B,); 0 for a sensor that is noise alone.
+    """
+
+    log_density: Floats
+    pit_low: Floats
+    pit_high: Floats
+    p_no_return: Floats
+    p_too_close: Floats
+
+
+def compiled(sensor: SensorModel, limits: RangeLimits) -> Any:
+    """The sensor's numbers as kernels take them.
+
+    Raises:
+        BadInput: a model of the user's own, which kernels do not know.
+    """
+    parameters = sensor.kernel_parameters()
+    if parameters is None:
+        raise BadInput(
+            f"score: {type(sensor).__name__} has no compiled form, so only its log score can be had (Run.log_score); "
+            "calibration works with Gaussian, StudentT and BeamMixture"
+        )
+    return sensor_parameters(parameters, limits)
+
+
+def _sums(
+    crossings: Crossings,
+    distance_m: NDArray[np.float32],
+    batches: Iterable[Maps],
+    ranges_m: Floats,
+    sensor: SensorModel,
+    limits: RangeLimits,
+    spread_m: NDArray[np.float32] | None,
+    device: str,
+    with_cumulative: bool,
+) -> tuple[Floats, list[Floats]]:
+    """Log densities, and mean cumulative probabilities at the reading and at both limits."""
+    device = devices.resolve(device)
+    s, beams = compiled(sensor, limits), crossings.n_beams
+    most: Any = wp.full(beams, 0.0 if s.robust else -1.0e300, dtype=wp.float64, device=device)
+    total = wp.zeros(beams, dtype=wp.float64, device=device)
+    cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
+    fixed = [devices.to_device(a, wp.int32, device) for a in (crossings.offsets, crossings.cells)]
+    ranges = devices.to_device(ranges_m.ravel(), wp.float64, device)
+    draws = 0
+    for batch in batches:
+        draws += len(batch)
+        places = put_places(batch, distance_m, spread_m, device)
+        inputs = [s, *fixed, places, len(batch), ranges, int(with_cumulative), most, total, *cumulatives]
+        launch(add_forecasts, beams, inputs, device)
+    if draws == 0:
+        raise BadInput("score: there is no draw to predict from")
+    with np.errstate(divide="ignore"):
+        log_density = most.numpy() + np.log(total.numpy() / draws)
+    log_density[np.isnan(ranges_m.ravel())] = np.nan
+    return log_density, [c.numpy() / draws for c in cumulatives]
+
+
+def log_densities(
+    crossings: Crossings,
+    distance_m: NDArray[np.float32],
+    batches: Iterable[Maps],
+    ranges_m: Floats,
+    sensor: SensorModel,
+    limits: RangeLimits,
+    *,
+    spread_m: NDArray[np.float32] | None = None,
+    device: str = "cpu",
+) -> Floats:
+    """Log predictive density of every reading alone, (B,): see `forecast`.
+
+    Here, and here alone, beams may have been traced no further than their reading reaches.
+    """
+    values, _ = _sums(crossings, distance_m, batches, ranges_m, sensor, limits, spread_m, device, False)
+    return values
+
+
+def forecast(
+    crossings: Crossings,
+    distance_m: NDArray[np.float32],
+    batches: Iterable[Maps],
+    ranges_m: Floats,
+    sensor: SensorModel,
+    limits: RangeLimits,
+    *,
+    spread_m: NDArray[np.float32] | None = None,
+    device: str = "cpu",
+) -> Forecast:
+    """Predict the reading of every beam under the mean over draws of the law above.
+
+    Args:
+        crossings: of beams traced over their whole length.
+        distance_m: where a beam stops in each cell, (K,): ``crossings.distance_m(hit_depth)``.
+        batches: draws of the map, some at a time.
+        ranges_m: the readings, B of them in any shape.
+        sensor: the law of a reading given where its beam stops.
+        limits: of the sensor.
+        spread_m: standard deviation of where the beam stops, (K,); none if None.
+        device: where to compute.
+
+    Raises:
+        BadInput: a sensor model without compiled form, or no draws.
+    """
+    log_density, (at, at_max, at_min) = _sums(
+        crossings, distance_m, batches, ranges_m, sensor, limits, spread_m, device, True
+    )
+    z = ranges_m.ravel()
+    robust = bool(compiled(sensor, limits).robust)
+    nan = np.where(np.isnan(z), np.nan, 0.0)
+    none, close = (1.0 - at_max, at_min) if robust else (np.zeros_like(at), np.zeros_like(at))
+    low = np.where(np.isneginf(z) & robust, 0.0, np.where(np.isposinf(z) & robust, at_max, at))
+    high = np.where(np.isposinf(z) & robust, 1.0, at)
+    return Forecast(log_density, *(np.clip(a, 0.0, 1.0) + nan for a in (low, high, none, close)))

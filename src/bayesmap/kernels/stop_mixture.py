@@ -1,0 +1,267 @@
+"""Where beams stop, averaged over draws, and what follows from that: quantiles of ranges, chances of first hits.
+
+All that a prediction needs of many draws of a map is the mean weight of each stop, since the predictive law is linear
+in the weights. Where draws also differ in *where* a cell is hit, the places of one cell are merged into one, with their
+mean and with their scatter added to the spread.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.likelihood import SensorParameters
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
+from bayesmap.kernels.predict import GONE, compiled
+from bayesmap.kernels.reading_law import cumulative
+from bayesmap.sensor.crossings import Crossings
+from bayesmap.sensor.model import RangeLimits, SensorModel
+
+wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
+HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at most a 30 000th of it
+LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # of an event, and of getting to it
+MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
+
+
+@wp.kernel
+def add_stops(
+    first: int,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    places: Places,
+    draws: int,
+    weight: wp.array(dtype=wp.float32),
+    shift: wp.array(dtype=wp.float32),
+    square: wp.array(dtype=wp.float32),
+    beyond: wp.array(dtype=wp.float64),
+):
+    """One thread a beam: add the weight of each stop, and the moments of its place about ``distance_m``."""
+    b = first + wp.tid()
+    for d in range(draws):
+        survive = wp.float64(1.0)
+        for k in range(offsets[b], offsets[b + 1]):
+            place = meet_cell(places, d, b, k, cells[k])
+            w = survive * place[0]
+            survive = survive * (wp.float64(1.0) - place[0])
+            if w > wp.float64(0.0):
+                away = place[1] - wp.float64(places.distance_m[k])
+                weight[k] = weight[k] + wp.float32(w)
+                shift[k] = shift[k] + wp.float32(w * away)
+                square[k] = square[k] + wp.float32(w * (away * away + place[2] * place[2]))
+                if survive < GONE:
+                    break
+        beyond[b] = beyond[b] + survive
+
+
+@dataclass(frozen=True, eq=False)
+class StopMixture:
+    """Where each beam stops: a mixture over the cells that it meets.
+
+    Attributes:
+        crossings: the beams; entries below are theirs.
+        weight: probability that the beam stops there, (K,), float32.
+        distance_m, spread_m: mean and standard deviation of where, metres, (K,), float32.
+        beyond: probability that it stops nowhere in the map, (B,).
+    """
+
+    crossings: Crossings
+    weight: NDArray[np.float32]
+    distance_m: NDArray[np.float32]
+    spread_m: NDArray[np.float32]
+    beyond: Floats
+
+
+def mix_stops(
+    crossings: Crossings,
+    distance_m: NDArray[np.float32],
+    batches: Iterable[Maps],
+    *,
+    spread_m: NDArray[np.float32] | None = None,
+    device: str = "cpu",
+) -> StopMixture:
+    """Average over draws; arguments as of `bayesmap.kernels.predict.forecast`.
+
+    Raises:
+        BadInput: no draws.
+    """
+    device = devices.resolve(device)
+    size = len(crossings.cells)
+    sums = [wp.zeros(size, dtype=wp.float32, device=device) for _ in range(3)]
+    beyond = wp.zeros(crossings.n_beams, dtype=wp.float64, device=device)
+    fixed = [devices.to_device(a, wp.int32, device) for a in (crossings.offsets, crossings.cells)]
+    draws = 0
+    for batch in batches:
+        draws += len(batch)
+        places = put_places(batch, distance_m, spread_m, device)
+        launch(add_stops, crossings.n_beams, [*fixed, places, len(batch), *sums, beyond], device)
+    if draws == 0:
+        raise BadInput("score: there is no draw to predict from")
+    weight, shift, square = (a.numpy() for a in sums)
+    some = np.where(weight > 0, weight, np.float32(1.0))
+    mean = shift / some
+    spread = np.sqrt(np.maximum(square / some - mean * mean, 0.0))
+    return StopMixture(crossings, weight / np.float32(draws), distance_m + mean, spread, beyond.numpy() / draws)
+
+
+@wp.struct
+class Stops:
+    """A `StopMixture` on a device."""
+
+    offsets: wp.array(dtype=wp.int32)
+    weight: wp.array(dtype=wp.float32)
+    distance_m: wp.array(dtype=wp.float32)
+    spread_m: wp.array(dtype=wp.float32)
+    beyond: wp.array(dtype=wp.float64)
+
+
+@wp.func
+def mixture_below(s: SensorParameters, stops: Stops, b: int, range_m: wp.float64) -> wp.float64:
+    """P(reading <= range) of a beam."""
+    p = stops.beyond[b] * cumulative(s, range_m, wp.float64(wp.inf), wp.float64(0.0))
+    for k in range(stops.offsets[b], stops.offsets[b + 1]):
+        weight = wp.float64(stops.weight[k])
+        if weight > wp.float64(0.0):
+            p += weight * cumulative(s, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.spread_m[k]))
+    return p
+
+
+@wp.kernel
+def find_quantiles(
+    first: int,
+    s: SensorParameters,
+    stops: Stops,
+    levels: wp.array(dtype=wp.float64),
+    low_m: wp.float64,
+    high_m: wp.float64,
+    quantiles: wp.array2d(dtype=wp.float64),
+):
+    """One thread a beam: halve the span of ranges until each quantile is found; levels rise."""
+    b = first + wp.tid()
+    at_low = mixture_below(s, stops, b, low_m)
+    at_high = mixture_below(s, stops, b, high_m)
+    start = low_m
+    for i in range(levels.shape[0]):
+        level = levels[i]
+        if level <= at_low:
+            quantiles[b, i] = wp.float64(-wp.inf)
+        elif level > at_high:
+            quantiles[b, i] = wp.float64(wp.inf)
+        else:
+            low = start
+            high = high_m
+            for _j in range(HALVINGS):
+                middle = wp.float64(0.5) * (low + high)
+                if mixture_below(s, stops, b, middle) < level:
+                    low = middle
+                else:
+                    high = middle
+            quantiles[b, i] = high
+            start = low
+
+
+@wp.kernel
+def find_events(
+    first: int,
+    s: SensorParameters,
+    stops: Stops,
+    entry_m: wp.array(dtype=wp.float32),
+    end_m: wp.array(dtype=wp.float32),
+    range_m: wp.array(dtype=wp.float64),
+    chance: wp.array(dtype=wp.float32),
+    stopped: wp.array(dtype=wp.int8),
+):
+    """One thread a beam: for each stretch that its reading gets to, the chance that it ends there, and whether it did.
+
+    ``stopped`` is -1 where the reading never gets, or where there is no stretch.
+    """
+    b = first + wp.tid()
+    z = range_m[b]
+    one = wp.float64(1.0)
+    if wp.isnan(z):
+        return
+    before = wp.float64(-1.0)
+    for k in range(stops.offsets[b], stops.offsets[b + 1]):
+        enter = wp.float64(entry_m[k])
+        leave = wp.min(wp.float64(end_m[k]), s.max_m)
+        if enter > z:
+            break
+        if leave > enter:
+            if before < wp.float64(0.0):
+                before = mixture_below(s, stops, b, enter)
+            after = mixture_below(s, stops, b, leave)
+            p = (after - before) / wp.max(one - before, LEAST_CHANCE)
+            chance[k] = wp.float32(wp.clamp(p, LEAST_CHANCE, MOST_CHANCE))
+            stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
+            before = after
+
+
+def _put(stops: StopMixture, device: str) -> Any:
+    packed = Stops()
+    packed.offsets = devices.to_device(stops.crossings.offsets, wp.int32, device)
+    packed.weight = devices.to_device(stops.weight, wp.float32, device)
+    packed.distance_m = devices.to_device(stops.distance_m, wp.float32, device)
+    packed.spread_m = devices.to_device(stops.spread_m, wp.float32, device)
+    packed.beyond = devices.to_device(stops.beyond, wp.float64, device)
+    return packed
+
+
+def range_quantiles(
+    stops: StopMixture, levels: Floats, sensor: SensorModel, limits: RangeLimits, device: str = "cpu"
+) -> Floats:
+    """The least range below which the reading falls with each probability, metres, shape (B, levels).
+
+    No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
+    are looked for from one range below zero to two ranges.
+
+    Args:
+        stops: where the beams stop.
+        levels: rising probabilities.
+        sensor: the law of a reading given where its beam stops.
+        limits: of the sensor.
+        device: where to compute.
+    """
+    device = devices.resolve(device)
+    s = compiled(sensor, limits)
+    low, high = (limits.min_m, limits.max_m) if s.robust else (-limits.max_m, 2.0 * limits.max_m)
+    beams = stops.crossings.n_beams
+    out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
+    inputs = [s, _put(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
+    launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
+    return np.asarray(out.numpy())
+
+
+def first_hit_events(
+    stops: StopMixture, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits, device: str = "cpu"
+) -> tuple[NDArray[np.float32], NDArray[np.int8]]:
+    """Of each stretch of a beam in a cell that its reading gets to: does the reading end there?
+
+    With F the beam's predictive cumulative and [a, b) the stretch, the chance is ``(F(b) - F(a)) / (1 - F(a))``: the
+    probability of a reading in it, if it got there. The product over a beam's events is the probability of its cell.
+
+    Args:
+        stops: where the beams stop.
+        ranges_m: the readings, B of them.
+        sensor: the law of a reading given where its beam stops.
+        limits: of the sensor.
+        device: where to compute.
+
+    Returns:
+        The chances, and 1 where the reading ended, 0 where it went on, -1 where there is no event; both (K,).
+    """
+    device = devices.resolve(device)
+    size = len(stops.weight)
+    chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
+    stopped = wp.full(size, -1, dtype=wp.int8, device=device)
+    edges = (stops.crossings.entry_m, stops.crossings.ends_m())
+    inputs = [compiled(sensor, limits), _put(stops, device), *(devices.to_device(a, wp.float32, device) for a in edges)]
+    inputs += [devices.to_device(ranges_m.ravel(), wp.float64, device), chance, stopped]
+    launch(find_events, stops.crossings.n_beams, inputs, device)
+    return chance.numpy(), stopped.numpy()

@@ -1,0 +1,217 @@
+"""Predictive densities, cumulatives, quantiles and first-hit events against plain sums over cells and draws."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import bayesmap as bm
+from bayesmap.kernels.crossings import trace_crossings
+from bayesmap.kernels.predict import forecast, log_densities
+from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
+from bayesmap.sensor.model import RangeLimits
+
+GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))
+LIMITS = RangeLimits(0.2, 5.0)
+SENSORS = {
+    "gaussian": bm.Gaussian(0.2, 0.02),
+    "student-t": bm.StudentT(0.2, 3.0, 0.01),
+    "mixture": bm.BeamMixture(bm.Gaussian(0.1, 0.02), 0.05, 0.1, 0.2, 0.4),
+    "mixture of student-t": bm.BeamMixture(bm.StudentT(0.1, 4.0), 0.02, 0.05, 0.1, 0.5),
+    "mixture of odd student-t": bm.BeamMixture(bm.StudentT(0.1, 2.5), 0.02, 0.05, 0.1, 0.5),
+}
+ROBUST = [name for name in SENSORS if "mixture" in name]
+DEPTH = 0.3
+
+
+def world(seed, *, poses=2, rays=12, binary=False):
+    """Scans with readings of all kinds, and three draws of a map."""
+    rng = np.random.default_rng(seed)
+    size = np.array(GRID.shape) * GRID.resolution
+    xy = np.array(GRID.origin) + rng.uniform(-0.1, 1.1, (poses, 2)) * size
+    readings = rng.uniform(0.2, 4.9, (poses, rays))
+    kinds = rng.random(readings.shape)
+    readings[kinds < 0.2] = np.inf
+    readings[(kinds >= 0.2) & (kinds < 0.3)] = -np.inf
+    readings[(kinds >= 0.3) & (kinds < 0.35)] = np.nan
+    pose = np.column_stack([xy, rng.uniform(-4, 4, poses)])
+    scans = bm.Scans(pose, rng.uniform(0, 7, rays), readings, max_range_m=LIMITS.max_m, min_range_m=LIMITS.min_m)
+    stop = rng.beta(0.3, 1.0, (3, GRID.n_cells))
+    stop[rng.random(stop.shape) < 0.1] = 1.0
+    stop[rng.random(stop.shape) < 0.2] = 0.0
+    return scans, (np.round(stop) if binary else stop).astype(np.float32)
+
+
+def stops(crossings, b, m):
+    """Weights of a beam's stops, nowhere last, under one draw: the formula of the module."""
+    cells = crossings.cells[crossings.offsets[b] : crossings.offsets[b + 1]]
+    at = m[cells].astype(float)
+    free = np.concatenate([[1.0], np.cumprod(1.0 - at)])
+    return np.append(free[:-1] * at, free[-1])
+
+
+def mean_over_draws(crossings, maps, of_stop):
+    """Sum over stops of weight x of_stop(beam, distance), averaged over draws, (B,)."""
+    d = crossings.distance_m(DEPTH).astype(float)
+    out = np.zeros(crossings.n_beams)
+    for b in range(crossings.n_beams):
+        places = np.append(d[crossings.offsets[b] : crossings.offsets[b + 1]], np.inf)
+        worth = of_stop(b, places)
+        out[b] = np.mean([(stops(crossings, b, m) * worth).sum() for m in maps])
+    return out
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("name", SENSORS)
+def test_densities_are_the_plain_sums(name, binary):
+    sensor = SENSORS[name]
+    for seed in range(4):
+        scans, maps = world(seed, binary=binary)
+        crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
+        found = forecast(crossings, crossings.distance_m(DEPTH), [maps[:1], maps[1:]], z, sensor, LIMITS)
+
+        def worth(b, d, z=z):
+            return np.exp(sensor.log_likelihood(np.full(len(d), z[b]), d, LIMITS))
+
+        plain = mean_over_draws(crossings, maps, worth)
+        valid = ~np.isnan(z)
+        np.testing.assert_allclose(found.log_density[valid], np.log(plain[valid]), atol=1e-6)
+        assert np.isnan(found.log_density[~valid]).all()
+        alone = log_densities(crossings, crossings.distance_m(DEPTH), [maps], z, sensor, LIMITS)
+        np.testing.assert_allclose(alone, found.log_density, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_cumulatives_are_the_plain_sums(name):
+    sensor = SENSORS[name]
+    scans, maps = world(10)
+    crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
+    found = forecast(crossings, crossings.distance_m(DEPTH), [maps], z, sensor, LIMITS)
+
+    def below(r):
+        return mean_over_draws(crossings, maps, lambda b, d: sensor.cumulative(np.full(len(d), r[b]), d, LIMITS))
+
+    valid = ~np.isnan(z)
+    np.testing.assert_allclose(found.pit_high[valid], below(z)[valid], atol=1e-9)
+    robust = name in ROBUST
+    top, bottom = (below(np.full(len(z), x)) for x in (LIMITS.max_m, LIMITS.min_m))
+    np.testing.assert_allclose(found.p_no_return[valid], (1 - top)[valid] * robust, atol=1e-9)
+    np.testing.assert_allclose(found.p_too_close[valid], bottom[valid] * robust, atol=1e-9)
+    low = found.pit_high.copy()
+    if robust:
+        low[np.isposinf(z)], low[np.isneginf(z)] = top[np.isposinf(z)], 0.0
+    np.testing.assert_allclose(found.pit_low[valid], low[valid], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ROBUST)
+def test_the_cumulative_is_the_integral_of_the_density(name):
+    """One beam, asked for every range at once: its pieces between jumps by the trapezoidal rule."""
+    sensor = SENSORS[name]
+    r = np.linspace(LIMITS.min_m, LIMITS.max_m, 40_001)
+    _, maps = world(20)
+    scans = bm.Scans([0.1, 3.3, 0.3], np.zeros(len(r)), r[None], max_range_m=LIMITS.max_m, min_range_m=LIMITS.min_m)
+    crossings = trace_crossings(scans, GRID)
+    found = forecast(crossings, crossings.distance_m(DEPTH), [maps], r, sensor, LIMITS)
+    p = np.exp(found.log_density)
+    integral = found.p_too_close[0] + np.append(0.0, np.cumsum((p[1:] + p[:-1]) / 2 * np.diff(r)))
+    np.testing.assert_allclose(found.pit_high, integral, atol=2e-5)
+    assert found.pit_high[-1] + found.p_no_return[0] == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_spread_widens_the_noise_of_its_own_cells():
+    scans, maps = world(30)
+    crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
+    spread = np.full(len(crossings.cells), 0.4, np.float32)
+    where = crossings.distance_m(DEPTH)
+    narrow, wide = (bm.BeamMixture(bm.Gaussian(s)) for s in (0.3, 0.5))
+    spread_out = forecast(crossings, where, [maps], z, narrow, LIMITS, spread_m=spread)
+    as_wide = forecast(crossings, where, [maps], z, wide, LIMITS)
+    for a, b in zip(dataclasses.astuple(spread_out), dataclasses.astuple(as_wide), strict=True):
+        np.testing.assert_allclose(a, b, atol=1e-6)
+    q = np.array([0.2, 0.8])
+    mixed = mix_stops(crossings, where, [maps], spread_m=spread)
+    np.testing.assert_allclose(mixed.spread_m[mixed.weight > 1e-6], 0.4, rtol=1e-3)
+    plain = mix_stops(crossings, where, [maps])
+    spread_q, wide_q = range_quantiles(mixed, q, narrow, LIMITS), range_quantiles(plain, q, wide, LIMITS)
+    np.testing.assert_allclose(spread_q, wide_q, atol=1e-3)
+
+
+def test_weights_of_stops_are_their_means_over_draws():
+    scans, maps = world(40)
+    crossings = trace_crossings(scans, GRID)
+    mixed = mix_stops(crossings, crossings.distance_m(DEPTH), [maps[:2], maps[2:]])
+    for b in range(crossings.n_beams):
+        expected = np.mean([stops(crossings, b, m) for m in maps], axis=0)
+        mine = slice(crossings.offsets[b], crossings.offsets[b + 1])
+        np.testing.assert_allclose(np.append(mixed.weight[mine], mixed.beyond[b]), expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_quantiles_rise_and_belong_to_the_cumulative(name):
+    sensor, robust = SENSORS[name], name in ROBUST
+    scans, maps = world(50)
+    scans = dataclasses.replace(scans, ranges_m=np.full(scans.ranges_m.shape, 1.0))
+    crossings = trace_crossings(scans, GRID)
+    where, levels = crossings.distance_m(DEPTH), np.array([0.025, 0.1, 0.25, 0.5, 0.75, 0.9, 0.975])
+    q = range_quantiles(mix_stops(crossings, where, [maps]), levels, sensor, LIMITS)
+    with np.errstate(invalid="ignore"):
+        assert not (np.diff(q, axis=1) < 0).any()
+    for i, level in enumerate(levels):
+        at, before = (
+            forecast(crossings, where, [maps], q[:, i] - back, sensor, LIMITS) for back in (0.0, 0.002)
+        )  # at the quantile the cumulative has reached the level, just before it has not
+        inner = np.isfinite(q[:, i])
+        assert (at.pit_high[inner] >= level - 1e-6).all()
+        assert (before.pit_low[inner] <= level + 1e-6).all()
+        if robust:
+            np.testing.assert_array_equal(np.isposinf(q[:, i]), 1 - at.p_no_return < level)
+            np.testing.assert_array_equal(np.isneginf(q[:, i]), at.p_too_close >= level)
+        else:
+            assert inner.all()
+
+
+@pytest.mark.parametrize("name", ["mixture", "gaussian"])
+def test_events_multiply_to_the_chance_of_the_cell(name):
+    sensor = SENSORS[name]
+    scans, maps = world(60, poses=4)
+    scans = dataclasses.replace(scans, ranges_m=np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 3.0))
+    crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
+    where = crossings.distance_m(DEPTH)
+    chance, stopped = first_hit_events(mix_stops(crossings, where, [maps]), z, sensor, LIMITS)
+    checked = 0
+    for b in range(crossings.n_beams):
+        mine = slice(crossings.offsets[b], crossings.offsets[b + 1])
+        event = stopped[mine] >= 0
+        entry, end, p, y = (a[mine][event] for a in (crossings.entry_m, crossings.ends_m(), chance, stopped))
+        assert (entry <= z[b]).all()
+        np.testing.assert_array_equal(y, (entry <= z[b]) & (z[b] < np.minimum(end, LIMITS.max_m)))
+        if not y.any():
+            continue
+        assert y.sum() == y[-1] == 1
+
+        def below(r, b=b):
+            return mean_over_draws(
+                crossings, maps, lambda i, d: sensor.cumulative(np.full(len(d), r), d, LIMITS) * (i == b)
+            )[b]
+
+        whole = (below(end[-1]) - below(entry[-1])) / (1 - below(entry[0]))
+        product = np.prod(np.where(y == 1, p, 1 - p).astype(float))
+        assert product == pytest.approx(whole, rel=2e-4, abs=1e-7)
+        checked += 1
+    assert checked > 10
+
+
+def test_what_cannot_be_predicted_is_refused():
+    class Own(bm.Gaussian):
+        def kernel_parameters(self):
+            return None
+
+    scans, maps = world(70)
+    crossings = trace_crossings(scans, GRID)
+    arguments = (crossings, crossings.distance_m(0.0))
+    with pytest.raises(bm.BadInput, match=r"Own has no compiled form, so only its log score can be had"):
+        forecast(*arguments, [maps], scans.ranges_m, Own(0.1), LIMITS)
+    with pytest.raises(bm.BadInput, match="there is no draw to predict from"):
+        forecast(*arguments, [], scans.ranges_m, bm.Gaussian(0.1), LIMITS)
+    with pytest.raises(bm.BadInput, match="there is no draw to predict from"):
+        mix_stops(*arguments, [])
