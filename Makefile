@@ -26,13 +26,20 @@ demo: .venv/core          ## infer the tutorial's map; pictures, the saved run a
 test: .venv/dev           ## all tests, on all cores
 	$(BIN)/python -m pytest -n auto
 
-lint: .venv/dev           ## style and types
+lint: .venv/dev           ## style and types; the page's too where there is npm
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	@if ! command -v npm >/dev/null; then echo "skipped: the page's types, for want of npm"; \
+	elif ! $(MAKE) --no-print-directory tools/node_modules; then echo "skipped: the page's types, npm cannot install TypeScript"; \
+	else tools/node_modules/.bin/tsc --project tools; fi
+
+tools/node_modules: tools/package-lock.json
+	npm --prefix tools ci --silent
+	@touch $@
 
 bench: .venv/dev          ## speed against peers and against the committed baseline; DEVICE=cuda:0 for a GPU
 	$(BIN)/python -m benchmarks.run --device $(or $(DEVICE),cpu) $(BENCH)
 
 clean:                    ## remove what the commands above made
-	rm -rf .venv .bench runs build dist .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf .venv .bench runs build dist tools/node_modules .pytest_cache .ruff_cache .mypy_cache .hypothesis
