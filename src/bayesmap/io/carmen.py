@@ -31,24 +31,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.io.laser_lines import (
+    IMPLICIT,
+    LASERS,
+    STEP_DEG,
+    BeamLayout,
+    LaserLine,
+    Malformed,
+    parse_floats,
+    parse_laser,
+)
 from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.returns import NoReturn, decode
 from bayesmap.world.scans import Scans
 
-IMPLICIT = ("FLASER", "RLASER")
-EXPLICIT = ("ROBOTLASER1", "ROBOTLASER2")
-LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
-"""Messages that hold a scan with its pose, in order of preference where several are equally frequent."""
-
 OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "RAWLASER1", "RAWLASER2", "LASER3", "LASER4", "MARKER")
 """Other messages by which a CARMEN log is recognised."""
 
 KNOWN = LASERS + OTHERS
-MAX_BEAMS = 100_000
 
 _NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
-_STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
 
 
 def read_carmen(
@@ -90,10 +93,10 @@ def read_carmen(
                 kind = _message_name(line)
                 messages[kind] += 1
                 if kind in lasers:
-                    lasers[kind].add(number, _parse_scan(kind, line.split()))
+                    lasers[kind].add(number, parse_laser(kind, line.split()))
                 elif kind == "ODOM":
                     _check_odometry(line.split())
-            except _Malformed as problem:
+            except Malformed as problem:
                 bad(number, str(problem))
     except DamagedFile:
         if not skip_bad_lines:
@@ -118,7 +121,7 @@ def read_carmen(
     order = np.argsort(stamps, kind="stable")
     stated_max_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
     ranges, coded = decode(np.array([scan.readings_m for scan in scans]), no_return, stated_max_m)
-    limit_m = _largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
+    limit_m = largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
     result = Scans(laser_poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
     return LogReading(
         path=name,
@@ -129,39 +132,10 @@ def read_carmen(
         skipped=tuple(skipped),
         no_return=coded,
         max_range_origin="readings" if max_range_m is None else "given",
-        laser_offset=_offset(laser_poses, robot_poses),
+        laser_offset=laser_offset(laser_poses, robot_poses),
         reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
         notes=tuple(_notes(kind, lasers, layout)),
     )
-
-
-class _Malformed(Exception):
-    """A line that does not follow its format; the text is the reason."""
-
-
-@dataclass(frozen=True)
-class _Layout:
-    """Where the beams of a scan point: equal layouts can share one `Scans`."""
-
-    beams: int
-    first_rad: float
-    step_rad: float
-
-    def angles_rad(self) -> NDArray[np.float64]:
-        return np.asarray(self.first_rad + self.step_rad * np.arange(self.beams))
-
-    def __str__(self) -> str:
-        first, step = math.degrees(self.first_rad), math.degrees(self.step_rad)
-        return f"{self.beams} beams {step:.4g} degrees apart from {first:.4g}"
-
-
-@dataclass(frozen=True)
-class _Scan:
-    layout: _Layout
-    readings_m: NDArray[np.float64]
-    numbers: NDArray[np.float64]
-    """Laser pose, robot pose, time: shape (7,), all finite."""
-    max_range_m: float | None
 
 
 @dataclass
@@ -169,106 +143,41 @@ class _Laser:
     """The scans of one kind of message, as they come."""
 
     lines: list[int] = field(default_factory=list)
-    scans: list[_Scan] = field(default_factory=list)
+    scans: list[LaserLine] = field(default_factory=list)
 
-    def add(self, line: int, scan: _Scan) -> None:
+    def add(self, line: int, scan: LaserLine) -> None:
         self.lines.append(line)
         self.scans.append(scan)
 
-    def commonest_layout(self) -> _Layout:
+    def commonest_layout(self) -> BeamLayout:
         return Counter(scan.layout for scan in self.scans).most_common(1)[0][0]
 
 
 def _message_name(line: bytes) -> str:
     """The line's first word; empty for comments and blank lines."""
     if b"\0" in line:
-        raise _Malformed("binary data; a log is text")
+        raise Malformed("binary data; a log is text")
     words = line.split(None, 1)
     if not words or words[0].startswith((b"#", b"//")):
         return ""
     word = words[0]
     if len(word) > 64 or not _NAME.fullmatch(word):
         start = word[:20].decode("ascii", "backslashreplace")
-        raise _Malformed(f"starts with '{start}', which is not the name of a message")
+        raise Malformed(f"starts with '{start}', which is not the name of a message")
     name = word.decode("ascii")
     if name not in KNOWN and any(known.startswith(name) for known in KNOWN):
-        raise _Malformed(f"starts with '{name}': a message cut short")
+        raise Malformed(f"starts with '{name}': a message cut short")
     return name
-
-
-def _parse_scan(kind: str, words: list[bytes]) -> _Scan:
-    count_at = 1 if kind in IMPLICIT else 8
-    beams = _count(kind, words, count_at, "readings")
-    readings_end = count_at + 1 + beams
-    if kind in IMPLICIT:
-        poses_at, total = readings_end, readings_end + 9
-    else:
-        poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions", least=0)
-        total = poses_at + 14
-    if len(words) != total:
-        raise _Malformed(
-            f"{kind} with {beams} readings has {len(words)} fields where {total} are needed "
-            "(is the line cut short, or joined with another?)"
-        )
-    readings = _floats(kind, words[count_at + 1 : readings_end], count_at + 1)
-    # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
-    numbers = _floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
-    numbers = np.append(numbers[:6], numbers[-2])
-    if not np.isfinite(numbers).all():
-        raise _Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
-    if kind in IMPLICIT:
-        return _Scan(_implicit_layout(kind, beams), readings, numbers, None)
-    first, _, step, max_range = _floats(kind, words[2:6], 2)
-    if not (math.isfinite(first) and math.isfinite(step) and step > 0):
-        raise _Malformed(f"{kind} has start angle {first:g} and angular resolution {step:g}")
-    stated = float(max_range) if math.isfinite(max_range) and max_range > 0 else None
-    return _Scan(_Layout(beams, float(first), float(step)), readings, numbers, stated)
-
-
-def _implicit_layout(kind: str, beams: int) -> _Layout:
-    if beams < 2:
-        raise _Malformed(f"{kind} with a single reading: its angle is not known")
-    step = math.radians(_STEP_DEG[beams]) if beams in _STEP_DEG else math.pi / (beams - 1)
-    return _Layout(beams, -math.pi / 2, step)
 
 
 def _check_odometry(words: list[bytes]) -> None:
     if len(words) != 10:
-        raise _Malformed(f"ODOM has {len(words)} fields where 10 are needed")
-    if not all(map(math.isfinite, _floats("ODOM", [*words[1:8], words[9]], 1))):
-        raise _Malformed("ODOM has a number that is not finite")
+        raise Malformed(f"ODOM has {len(words)} fields where 10 are needed")
+    if not all(map(math.isfinite, parse_floats("ODOM", [*words[1:8], words[9]], 1))):
+        raise Malformed("ODOM has a number that is not finite")
 
 
-def _count(kind: str, words: list[bytes], at: int, what: str, least: int = 1) -> int:
-    if at >= len(words):
-        raise _Malformed(f"{kind} ends after {len(words)} fields, before its number of {what}")
-    word = words[at]
-    if not word.isdigit() or not least <= int(word[:9]) <= MAX_BEAMS:
-        shown = word[:20].decode("ascii", "backslashreplace")
-        raise _Malformed(f"{kind} says '{shown}' for its number of {what}")
-    return int(word)
-
-
-def _floats(kind: str, words: list[bytes], at: int) -> NDArray[np.float64]:
-    try:
-        # Python would read 1_0 as ten; no logger writes that.
-        if b"_" not in b"".join(words):
-            return np.array(words, dtype=np.float64)
-    except ValueError:
-        pass
-    for position, word in enumerate(words, start=at + 1):
-        try:
-            if b"_" not in word:
-                float(word)
-                continue
-        except ValueError:
-            pass
-        shown = word[:20].decode("ascii", "backslashreplace")
-        raise _Malformed(f"{kind} has '{shown}' for a number, in field {position}")
-    raise AssertionError("numpy refused numbers that Python reads")
-
-
-def _largest_range_m(name: str, ranges: NDArray[np.float64], coded: NoReturn) -> float:
+def largest_range_m(name: str, ranges: NDArray[np.float64], coded: NoReturn) -> float:
     """The largest hit, rounded up to a whole metre, but no more than the no-return code."""
     hits = ranges[np.isfinite(ranges)]
     code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
@@ -278,7 +187,8 @@ def _largest_range_m(name: str, ranges: NDArray[np.float64], coded: NoReturn) ->
     return float(largest)
 
 
-def _offset(laser_poses: NDArray[np.float64], robot_poses: NDArray[np.float64]) -> tuple[float, float, float]:
+def laser_offset(laser_poses: NDArray[np.float64], robot_poses: NDArray[np.float64]) -> tuple[float, float, float]:
+    """Median pose of the laser in the robot's frame, from poses of both, shape (S, 3)."""
     dx, dy, dyaw = (laser_poses - robot_poses).T
     cos, sin = np.cos(robot_poses[:, 2]), np.sin(robot_poses[:, 2])
     yaw = np.arctan2(np.sin(dyaw), np.cos(dyaw))
@@ -286,13 +196,13 @@ def _offset(laser_poses: NDArray[np.float64], robot_poses: NDArray[np.float64]) 
     return x, y, turn
 
 
-def _notes(kind: str, lasers: dict[str, _Laser], layout: _Layout) -> list[str]:
+def _notes(kind: str, lasers: dict[str, _Laser], layout: BeamLayout) -> list[str]:
     notes = [
         f"the log also holds {len(other.scans)} {name} scans, which were not used: {kind} has more or as many"
         for name, other in lasers.items()
         if other.scans and name != kind
     ]
-    if kind in IMPLICIT and layout.beams not in _STEP_DEG:
+    if kind in IMPLICIT and layout.beams not in STEP_DEG:
         notes.append(f"the log does not say its beams' angles; taken as {layout} (180 degrees in all)")
     if kind in IMPLICIT and layout.beams in (400, 401):
         notes.append(f"the log does not say its beams' angles; taken as {layout}, by CARMEN's rule")

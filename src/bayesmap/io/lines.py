@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import zlib
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -21,7 +21,7 @@ class DamagedFile(BadInput):
     """A compressed file that breaks off, or whose content is damaged, after the lines read so far."""
 
 
-def read_lines(path: str | os.PathLike[str]) -> Iterator[tuple[int, bytes]]:
+def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], None, None]:
     """The lines of a file with their numbers, counted from 1, without their line ends.
 
     Whether the file is gzipped is decided by its first two bytes, not by its name.

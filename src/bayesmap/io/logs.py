@@ -4,15 +4,33 @@ from __future__ import annotations
 
 import itertools
 import os
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
 
 from bayesmap.errors import BadInput
 from bayesmap.io.carmen import KNOWN, read_carmen
-from bayesmap.io.lines import read_lines
+from bayesmap.io.csv_scans import is_header, read_csv
+from bayesmap.io.g2o import KNOWN as KNOWN_G2O
+from bayesmap.io.g2o import read_g2o
+from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading
+from bayesmap.io.npz_scans import MAGIC as NPZ_MAGIC
+from bayesmap.io.npz_scans import read_npz
 from bayesmap.world.scans import Scans
+from bayesmap.world.travel import jumps, steps_m, thinned
 
-FORMATS = ("CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",)
+FORMATS = (
+    "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",
+    "ROS 1 bag",
+    "ROS 2 bag (a folder, .db3 or .mcap)",
+    "g2o (VERTEX_SE2 with laser lines)",
+    "CSV (a header with x, y, yaw, r_0 ..)",
+    "NumPy .npz",
+)
 LINES_LOOKED_AT = 1000
+TEXT_FORMATS = ("carmen", "g2o", "csv")
+RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
 
 def read_log(
@@ -21,20 +39,42 @@ def read_log(
     no_return: float | None = None,
     skip_bad_lines: bool = False,
     max_range_m: float | None = None,
+    scan_topic: str | None = None,
+    pose_topic: str | None = None,
+    fixed_frame: str | None = None,
+    deskew: bool = False,
+    thin_m: float = 0.0,
 ) -> Scans:
     """The scans of a log, in order of time, with poses of the laser in the world frame.
 
     Args:
-        path: the log; its format is recognised by its content.
+        path: the log, a file or the folder of a ROS 2 bag; its format is recognised by its content.
         no_return: the number, in metres, that the log writes for "no return"; found if not given.
-        skip_bad_lines: leave out malformed lines instead of refusing the log.
-        max_range_m: the sensor's maximum range; longer readings become no return. By default the largest
-            hit, rounded up to a whole metre.
+        skip_bad_lines: leave out malformed lines or messages, and what cannot be read of a damaged recording, instead
+            of refusing the log.
+        max_range_m: the sensor's maximum range; longer readings become no return. By default what the log states, or
+            the largest hit, rounded up to a whole metre.
+        scan_topic: of a recording: the topic of the scans; needed only where there are several.
+        pose_topic: of a recording: the topic of the poses; by default /tf, or the only one where that does not help.
+        fixed_frame: of a recording: the frame of /tf in which to map; by default map, else odom, else world.
+        deskew: of a recording: give each beam the sensor's pose at the time when it was sent.
+        thin_m: keep the first scan and then each by which the robot has travelled so far; 0 keeps all.
 
     Raises:
-        BadInput: a file that cannot be read, an unknown format, no scans, or a malformed line.
+        BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, or a topic or
+            frame that is not there or must be chosen; the message lists what there is.
     """
-    return describe_log(path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m).scans
+    return describe_log(
+        path,
+        no_return=no_return,
+        skip_bad_lines=skip_bad_lines,
+        max_range_m=max_range_m,
+        scan_topic=scan_topic,
+        pose_topic=pose_topic,
+        fixed_frame=fixed_frame,
+        deskew=deskew,
+        thin_m=thin_m,
+    ).scans
 
 
 def describe_log(
@@ -43,22 +83,116 @@ def describe_log(
     no_return: float | None = None,
     skip_bad_lines: bool = False,
     max_range_m: float | None = None,
+    scan_topic: str | None = None,
+    pose_topic: str | None = None,
+    fixed_frame: str | None = None,
+    deskew: bool = False,
+    thin_m: float = 0.0,
 ) -> LogReading:
     """As `read_log`, with an account of how the scans were come by: skipped lines, no-return code, notes."""
-    _require_carmen(path)
-    return read_carmen(path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m)
+    kind = format_of(path)
+    chosen = {"scan_topic": scan_topic, "pose_topic": pose_topic, "fixed_frame": fixed_frame}
+    if kind in RECORDINGS:
+        from bayesmap.io.robot_log import read_recording  # loads rosbags
+
+        reading = read_recording(
+            path,
+            no_return=no_return,
+            skip_bad_lines=skip_bad_lines,
+            max_range_m=max_range_m,
+            deskew=deskew,
+            **chosen,
+        )
+    else:
+        named = next((name for name, value in chosen.items() if value is not None), None)
+        if named is not None:
+            flag = "--" + named.replace("_", "-")
+            raise BadInput(f"{os.fspath(path)}: {flag} {chosen[named]}: a {kind} file has no topics and no frames")
+        if kind == "npz":
+            reading = read_npz(path, no_return=no_return, max_range_m=max_range_m)
+        else:
+            read = {"carmen": read_carmen, "g2o": read_g2o, "csv": read_csv}[kind]
+            reading = read(path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m)
+        if deskew and not reading.deskewed:
+            note = f"nothing to de-skew: a {kind} file does not say when each beam was sent"
+            reading = replace(reading, notes=(*reading.notes, note))
+    return _thinned(_with_jumps(reading), thin_m)
 
 
-def _require_carmen(path: str | os.PathLike[str]) -> None:
-    known = {name.encode() for name in KNOWN}
-    some = False
-    for _, line in itertools.islice(read_lines(path), LINES_LOOKED_AT):
-        some = True
-        if line.split(None, 1)[:1] and line.split(None, 1)[0] in known:
-            return
+def format_of(path: str | os.PathLike[str]) -> str:
+    """What a log is, by what is in it: one of `TEXT_FORMATS`, ``"npz"`` or of `RECORDINGS`.
+
+    Raises:
+        BadInput: a file that cannot be read, is empty, or is of no known format.
+    """
+    name, where = os.fspath(path), Path(path)
+    try:
+        if where.is_dir():
+            inside = sorted(entry.name for entry in where.iterdir())
+            if not inside or not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd")) for n in inside):
+                raise BadInput(
+                    f"{name}: cannot be read: Is a directory, without the metadata.yaml, .db3 or .mcap of a ROS 2 bag"
+                )
+            return "folder"
+        with where.open("rb") as file:
+            start = file.read(16)
+    except OSError as error:
+        raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
+    if start.startswith(b"#ROSBAG V"):
+        return "rosbag1"
+    if start.startswith(b"SQLite format 3\0"):
+        return "rosbag2-sqlite3"
+    if start.startswith(b"\x89MCAP0\r\n"):
+        return "mcap"
+    if start.startswith(NPZ_MAGIC):
+        return "npz"
+    return _text_format(name)
+
+
+def _text_format(name: str) -> str:
+    carmen, some = {word.encode() for word in KNOWN}, False
+    found = None
+    try:
+        with closing(read_lines(name)) as lines:
+            for _, line in itertools.islice(lines, LINES_LOOKED_AT):
+                some = True
+                words = line.split(None, 1)
+                if words and words[0] in KNOWN_G2O:
+                    return "g2o"  # whose laser lines are CARMEN's: hence not earlier
+                if words and words[0] in carmen:
+                    found = found or "carmen"
+                if found is None and not line.startswith(b"#") and is_header(line):
+                    return "csv"
+    except DamagedFile:
+        if found is None:
+            raise
+    if found is not None:
+        return found
     if not some:
-        raise BadInput(f"{os.fspath(path)}: the file is empty")
+        raise BadInput(f"{name}: the file is empty")
     raise BadInput(
-        f"{os.fspath(path)}: not a log of a known format; known are: {'; '.join(FORMATS)}. "
+        f"{name}: not a log of a known format; known are: {'; '.join(FORMATS)}. "
         f"None of its first {LINES_LOOKED_AT} lines starts with a CARMEN message"
     )
+
+
+def _with_jumps(reading: LogReading) -> LogReading:
+    found = jumps(reading.scans)
+    if not len(found):
+        return reading
+    scan, scans = int(found[0]), reading.scans
+    step = float(steps_m(scans.poses)[scan - 1])
+    when = "" if scans.stamps_s is None else f" in {scans.stamps_s[scan] - scans.stamps_s[scan - 1]:.3g} s"
+    where = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
+    note = (
+        f"{len(found):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
+        "walls will appear twice if the poses are wrong"
+    )
+    return replace(reading, notes=(*reading.notes, note))
+
+
+def _thinned(reading: LogReading, spacing_m: float) -> LogReading:
+    kept = thinned(reading.scans, spacing_m)
+    if spacing_m == 0:
+        return reading
+    return replace(reading, scans=kept, thin_m=spacing_m, scans_read=len(reading.scans))

@@ -1,0 +1,256 @@
+"""Opening a recording: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
+
+What rosbags refuses although it is sound (MCAP of ROS 1 messages, MCAP without an index and out of order) is read
+record by record. So is, if the user asks for it, what is left of a recording that breaks off.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import closing
+from functools import partial
+from heapq import merge
+from pathlib import Path
+from typing import Any
+
+from bayesmap.errors import BadInput
+from bayesmap.io import bag_records, mcap_records, sqlite_records
+from bayesmap.io.record import Connection, OnDamage, Record, messages_of, refuse, topics_of
+from bayesmap.io.recording import Damaged, Message, Recording, Topic
+
+Records = Callable[[str | os.PathLike[str], OnDamage], Iterator[Connection | Record]]
+
+FORMATS: dict[str, tuple[bytes, Records]] = {
+    "rosbag1": (bag_records.MAGIC, bag_records.bag_records),
+    "rosbag2-sqlite3": (sqlite_records.MAGIC, sqlite_records.sqlite_records),
+    "mcap": (mcap_records.MAGIC, mcap_records.mcap_records),
+}
+"""Format, how its files begin, and what reads their records one by one."""
+
+ENDINGS = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
+METADATA = "metadata.yaml"
+REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read what is there with --skip-bad-lines"
+
+
+def container_of(path: str | os.PathLike[str]) -> str | None:
+    """The format of a recording by its first bytes; ``"folder"`` for one of rosbag2's; None for anything else."""
+    where = Path(path)
+    if where.is_dir():
+        inside = sorted(entry.name for entry in where.iterdir())
+        return "folder" if METADATA in inside or any(name.endswith(ENDINGS) for name in inside) else None
+    with where.open("rb") as file:
+        start = file.read(16)
+    if start.startswith(b"#ROSBAG V"):  # of whatever version: rosbags says which it cannot read
+        return "rosbag1"
+    return next((name for name, (magic, _) in FORMATS.items() if start.startswith(magic)), None)
+
+
+def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
+    """Open a recording.
+
+    Args:
+        path: a file of one of the `FORMATS`, or a folder of rosbag2's.
+        salvage: if the recording is damaged, read what is there, and note what was wrong.
+        types: message types that will be read; with ``salvage`` their messages decide whether there is damage.
+
+    Raises:
+        BadInput: a recording that is damaged (without ``salvage``), or of which nothing can be read.
+    """
+    name = os.fspath(path)
+    try:
+        recording = _whole(path)
+        if salvage:  # damage within may show only in reading
+            for _ in recording.read(frozenset(t.name for t in recording.topics.values() if t.type in types)):
+                pass
+    except Damaged as problem:
+        if not salvage:
+            raise BadInput(f"{name}: the recording is damaged or cut short ({problem}); {REMEDY}") from None
+        recording = _salvaged(path, str(problem))
+    if not recording.topics:
+        raise BadInput(f"{name}: the recording holds no topic at all" + "".join(f"; {n}" for n in recording.notes))
+    return recording
+
+
+def _whole(path: str | os.PathLike[str]) -> Recording:
+    container = container_of(path)
+    files = [Path(path)]
+    notes: tuple[str, ...] = ()
+    if container == "folder":
+        if (Path(path) / METADATA).exists():
+            from rosbags.rosbag2 import Reader
+
+            return _by_rosbags(path, _folder_format(path), partial(Reader, Path(path)), None)
+        files, container = _files_of(path)
+        notes = (f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read",)
+    assert container is not None
+    parts = [_by_rosbags(file, container, _rosbags_reader(file, container), FORMATS[container][1]) for file in files]
+    return _joined(os.fspath(path), container, parts, notes)
+
+
+def _folder_format(path: str | os.PathLike[str]) -> str:
+    return "mcap" if any(".mcap" in entry.name for entry in Path(path).iterdir()) else "rosbag2-sqlite3"
+
+
+def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
+    """The storage files of a folder without metadata, in the order of their names."""
+    files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith((".db3", ".mcap"))]
+    files = [file for file in files if container_of(file) is not None]
+    formats = {container_of(file) for file in files}
+    if len(formats) != 1:
+        raise Damaged(f"the folder has no {METADATA}, and no .db3 or .mcap files of one kind that can be read")
+    found = formats.pop()
+    assert found is not None
+    return files, found
+
+
+def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
+    if container == "rosbag1":
+        from rosbags.rosbag1 import Reader as Reader1
+
+        return partial(Reader1, path)
+    from rosbags.rosbag2.reader import Reader as Reader2
+
+    return partial(Reader2.STORAGE_PLUGINS[".mcap" if container == "mcap" else ".db3"], path)
+
+
+def _by_rosbags(
+    path: str | os.PathLike[str], container: str, reader: Callable[[], Any], records: Records | None
+) -> Recording:
+    """A recording by rosbags; if that refuses, record by record, provided that no damage is found so."""
+    try:
+        topics, start_ns, end_ns = _rosbags_topics(reader, container)
+    except Damaged as problem:
+        if container != "mcap" or records is None:
+            raise
+        return _by_records(path, container, records, problem)
+
+    def read(names: frozenset[str]) -> Iterable[Message]:
+        try:
+            return list(_rosbags_messages(reader, container, topics, names))
+        except Damaged:
+            if container != "mcap" or records is None:
+                raise
+            return list(messages_of(records(path, refuse), topics, names))
+
+    return Recording(os.fspath(path), container, topics, read, start_ns, end_ns)
+
+
+def _by_records(path: str | os.PathLike[str], container: str, records: Records, problem: Damaged) -> Recording:
+    try:
+        topics, start_ns, end_ns = topics_of(records(path, refuse))
+    except Damaged as damage:
+        raise Damaged(str(damage) or str(problem)) from None
+    return Recording(
+        os.fspath(path),
+        container,
+        topics,
+        lambda names: list(messages_of(records(path, refuse), topics, names)),
+        start_ns,
+        end_ns,
+    )
+
+
+def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], int | None, int | None]:
+    found: dict[str, Topic] = {}
+    try:
+        with closing(_opened(make)) as reader:
+            for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
+                before = found.get(connection.topic)
+                if before is not None and before.type != connection.msgtype:
+                    continue
+                found[connection.topic] = Topic(
+                    connection.topic,
+                    connection.msgtype,
+                    connection.msgcount + (before.count if before else 0),
+                    connection.msgdef.data,
+                    "idl" if connection.msgdef.format.name == "IDL" else "msg",
+                    "ros1" if container == "rosbag1" else connection.ext.serialization_format,
+                )
+            about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
+            start_ns, end_ns = about.start_time, about.end_time - 1
+    except Exception as error:  # rosbags raises whatever its parsing meets
+        raise Damaged(_reason(error)) from None
+    some = any(topic.count for topic in found.values())
+    return found, (start_ns if some else None), (end_ns if some else None)
+
+
+def _rosbags_messages(
+    make: Callable[[], Any], container: str, topics: dict[str, Topic], names: frozenset[str]
+) -> Iterator[Message]:
+    try:
+        with closing(_opened(make)) as reader:
+            wanted = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
+            if wanted:
+                for connection, received_ns, data in reader.messages(wanted):
+                    yield Message(connection.topic, received_ns, bytes(data))
+    except Exception as error:  # rosbags raises whatever its parsing meets
+        raise Damaged(_reason(error)) from None
+
+
+def _opened(make: Callable[[], Any]) -> Any:
+    reader = make()
+    reader.open()
+    return reader
+
+
+def _reason(error: Exception) -> str:
+    return " ".join(str(error).split()).rstrip(".") or type(error).__name__
+
+
+def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str, ...]) -> Recording:
+    """Several files as one recording."""
+    topics: dict[str, Topic] = {}
+    for part in parts:
+        for name, topic in part.topics.items():
+            before = topics.get(name)
+            count = topic.count + (before.count if before else 0)
+            topics[name] = Topic(name, topic.type, count, topic.definition, topic.language, topic.encoding)
+    starts = [part.start_ns for part in parts if part.start_ns is not None]
+    ends = [part.end_ns for part in parts if part.end_ns is not None]
+
+    def read(names: frozenset[str]) -> Iterable[Message]:
+        if len(parts) == 1:
+            return parts[0].read(names)
+        return list(merge(*(part.read(names & part.topics.keys()) for part in parts), key=lambda m: m.received_ns))
+
+    return Recording(
+        path,
+        container,
+        dict(sorted(topics.items())),
+        read,
+        min(starts, default=None),
+        max(ends, default=None),
+        notes + tuple(note for part in parts for note in part.notes),
+    )
+
+
+def _salvaged(path: str | os.PathLike[str], problem: str) -> Recording:
+    """What can be read of a damaged recording, record by record."""
+    name = os.fspath(path)
+    container = container_of(path)
+    files = [Path(path)]
+    try:
+        if container == "folder":
+            files, container = _files_of(path)
+    except Damaged as damage:
+        raise BadInput(f"{name}: the recording cannot be read ({problem}); {damage}") from None
+    assert container is not None
+    records = FORMATS[container][1]
+    parts = [_part(file, container, records) for file in files]
+    reasons = list(dict.fromkeys(note for part in parts for note in part.notes)) or [problem]
+    more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
+    joined = _joined(name, container, parts, ())
+    held = sum(topic.count for topic in joined.topics.values())
+    note = f"the recording is damaged or cut short ({reasons[0]}{more}); {held:,} messages of it could be read"
+    return Recording(name, container, joined.topics, joined.read, joined.start_ns, joined.end_ns, (note,))
+
+
+def _part(file: Path, container: str, records: Records) -> Recording:
+    reasons: list[str] = []
+    topics, start_ns, end_ns = topics_of(records(file, reasons.append))
+
+    def read(names: frozenset[str]) -> Iterable[Message]:
+        return messages_of(records(file, lambda reason: None), topics, names)
+
+    return Recording(os.fspath(file), container, topics, read, start_ns, end_ns, tuple(reasons))

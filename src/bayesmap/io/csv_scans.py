@@ -1,0 +1,246 @@
+"""Scans in a CSV table, one row a scan or one row a beam.
+
+One row a scan; comment lines before the header say where the beams point, and may say the sensor's limits:
+
+    # angle_min: -1.5708
+    # angle_increment: 0.0174533
+    # range_min: 0.1
+    # range_max: 30
+    stamp,x,y,yaw,r_0,r_1,r_2
+    0.0,1.0,2.0,0.5,3.25,inf,nan
+
+One row a beam, for tables that come from elsewhere (a scan's rows stand together, told apart by ``scan`` or ``stamp``):
+
+    scan,stamp,x,y,yaw,angle,range
+
+There a scan's rows may differ in their poses: then each beam has a pose of its own. Columns may stand in any order, and
+others are ignored; ``stamp`` is optional. Metres, radians, seconds; commas, semicolons or tabs; inf is no return, -inf
+too close, nan or an empty field invalid. What other numbers may mean no return is told by `bayesmap.io.rep117`.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.lines import DamagedFile, read_lines
+from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.rep117 import judge
+from bayesmap.world.scans import Scans
+
+DELIMITERS = (b",", b";", b"\t")
+POSE = ("x", "y", "yaw")
+SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")
+FURTHEST_M = 1e7
+SAME_ANGLE_RAD = 1e-6
+
+_SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")
+_BEAM = re.compile(r"r_(\d+)")
+
+
+@dataclass
+class _Table:
+    """What lies in the file: settings from comments, the header, and the rows with their line numbers."""
+
+    settings: dict[str, list[float]] = field(default_factory=dict)
+    columns: list[str] = field(default_factory=list)
+    lines: list[int] = field(default_factory=list)
+    rows: list[NDArray[np.float64]] = field(default_factory=list)
+
+
+def is_header(line: bytes) -> bool:
+    """Whether a line is the header of such a table."""
+    names = _names(line, _delimiter(line))
+    return set(POSE) <= set(names) and ("r_0" in names or {"angle", "range"} <= set(names))
+
+
+def read_csv(
+    path: str | os.PathLike[str],
+    *,
+    no_return: float | None = None,
+    skip_bad_lines: bool = False,
+    max_range_m: float | None = None,
+) -> LogReading:
+    """Read scans from a CSV table, plain or gzipped.
+
+    Raises:
+        BadInput: a file that cannot be read, no scan, no angles, or a malformed row (without ``skip_bad_lines``).
+    """
+    name = os.fspath(path)
+    skipped: list[SkippedLine] = []
+
+    def bad(line: int, reason: str) -> None:
+        if not skip_bad_lines:
+            raise BadInput(f"{name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
+        skipped.append(SkippedLine(line, reason))
+
+    table = _read(name, bad, skip_bad_lines, skipped)
+    wide = "r_0" in table.columns
+    poses, angles, readings, stamps = (_one_row_a_scan if wide else _one_row_a_beam)(name, table, bad)
+    if not len(readings):
+        first = f"; {len(skipped)} rows were malformed, first line {skipped[0].line}" if skipped else ""
+        raise BadInput(f"{name}: the table has a header, but no scan{first}")
+    order = np.arange(len(readings)) if stamps is None else np.argsort(stamps, kind="stable")
+    limits = [
+        table.settings.get(key, [math.inf if key == "range_max" else 0.0])[0] for key in ("range_min", "range_max")
+    ]
+    judged = judge(name, readings[order], *limits, no_return=no_return, max_range_m=max_range_m)
+    moving = poses.ndim == 3
+    scans = Scans(
+        poses[order, 0] if moving else poses[order], angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
+        stamps_s=None if stamps is None else stamps[order], beam_poses=poses[order] if moving else None,
+    )  # fmt: skip
+    reordered = 0 if stamps is None else int((stamps < np.maximum.accumulate(stamps)).sum())
+    return LogReading(
+        path=name,
+        format="csv",
+        message="row of a scan" if wide else "row of a beam",
+        scans=scans.limited(judged.max_range_m),
+        messages={"rows": len(table.rows)},
+        skipped=tuple(sorted(skipped, key=lambda skip: skip.line)),
+        no_return=judged.no_return,
+        max_range_origin=judged.max_range_origin,
+        laser_offset=(0.0, 0.0, 0.0),
+        reordered=reordered,
+        notes=judged.notes,
+        deskewed=moving,
+    )
+
+
+Bad = Callable[[int, str], None]
+Parts = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], "NDArray[np.float64] | None"]
+"""Poses (S, 3) or (S, A, 3), angles (A,), readings (S, A), stamps (S,)."""
+
+
+def _read(name: str, bad: Bad, lenient: bool, skipped: list[SkippedLine]) -> _Table:
+    table, delimiter, number = _Table(), b",", 0
+    try:
+        for number, line in read_lines(name):
+            text = line.strip()
+            if text.startswith(b"#"):
+                setting = _SETTING.fullmatch(text)
+                if setting and (key := setting[1].decode()) in SETTINGS:
+                    table.settings[key] = _setting(name, number, key, setting[2])
+            elif text and not table.columns:
+                delimiter = _delimiter(line)
+                table.columns = _names(line, delimiter)
+            elif text:
+                fields = line.rstrip(b"\r").split(delimiter)
+                if len(fields) != len(table.columns):
+                    bad(number, f"the row has {len(fields)} fields where the header has {len(table.columns)}")
+                    continue
+                values = _numbers(fields)
+                if isinstance(values, str):
+                    bad(number, values)
+                    continue
+                table.lines.append(number)
+                table.rows.append(values)
+    except DamagedFile:
+        if not lenient:
+            raise
+        skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
+    return table
+
+
+def _delimiter(line: bytes) -> bytes:
+    return max(DELIMITERS, key=line.count)
+
+
+def _names(line: bytes, delimiter: bytes) -> list[str]:
+    text = line.removeprefix(b"\xef\xbb\xbf")  # spreadsheets write a mark of their encoding
+    return [part.decode("utf-8", "replace").strip().strip('"').lower() for part in text.split(delimiter)]
+
+
+def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
+    try:
+        values = [float(word) for word in re.split(rb"[\s,;]+", text.strip()) if word]
+    except ValueError:
+        values = []
+    if not values or (len(values) > 1 and key != "angles"):
+        raise BadInput(f"{name}: line {line}: {key} must be a number, got {text[:40].decode('utf-8', 'replace')!r}")
+    return values
+
+
+def _numbers(fields: list[bytes]) -> NDArray[np.float64] | str:
+    """A row's fields as numbers, an empty one as NaN; or what is wrong with them."""
+    words = [part.strip() or b"nan" for part in fields]
+    try:
+        if b"_" not in b"".join(words):
+            return np.array(words, dtype=np.float64)
+    except ValueError:
+        pass
+    for position, word in enumerate(words, start=1):
+        try:
+            float(word if b"_" not in word else b"?")
+        except ValueError:
+            return f"field {position} is '{word[:20].decode('ascii', 'backslashreplace')}', not a number"
+    return "the row cannot be read"
+
+
+def _checked(table: _Table, needed: tuple[str, ...], bad: Bad) -> NDArray[np.float64]:
+    """All rows as one table; rows without a finite pose, stamp or angle are bad."""
+    rows = np.array(table.rows).reshape(-1, len(table.columns))
+    columns = [table.columns.index(name) for name in needed if name in table.columns]
+    fine = np.asarray((np.abs(rows[:, columns]) < FURTHEST_M * (1e6 if "stamp" in needed else 1)).all(axis=1))
+    for i in np.nonzero(~fine)[0]:
+        named = dict(zip(needed, rows[i, columns].tolist(), strict=False))
+        bad(table.lines[i], f"a number that must be finite is not, or is too large: {named}")
+    table.lines = [line for line, good in zip(table.lines, fine, strict=True) if good]
+    return rows[fine]
+
+
+def _one_row_a_scan(name: str, table: _Table, bad: Bad) -> Parts:
+    beams = sorted(int(match[1]) for column in table.columns if (match := _BEAM.fullmatch(column)))
+    if beams != list(range(len(beams))):
+        raise BadInput(f"{name}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
+    at = [table.columns.index(f"r_{beam}") for beam in beams]
+    rows = _checked(table, (*POSE, *(("stamp",) if "stamp" in table.columns else ())), bad)
+    poses = rows[:, [table.columns.index(column) for column in POSE]]
+    stamps = rows[:, table.columns.index("stamp")] if "stamp" in table.columns else None
+    return poses, _angles(name, table.settings, len(beams)), rows[:, at], stamps
+
+
+def _angles(name: str, settings: dict[str, list[float]], beams: int) -> NDArray[np.float64]:
+    angles = np.array(settings.get("angles", []))
+    if not len(angles) and "angle_min" in settings and ("angle_increment" in settings or beams == 1):
+        angles = settings["angle_min"][0] + settings.get("angle_increment", [0.0])[0] * np.arange(beams)
+    if len(angles) != beams or not np.isfinite(angles).all():
+        raise BadInput(
+            f"{name}: the directions of {beams} beams are not said: add comment lines '# angle_min: RADIANS' and "
+            f"'# angle_increment: RADIANS', or '# angles:' with {beams} numbers"
+        )
+    return angles
+
+
+def _one_row_a_beam(name: str, table: _Table, bad: Bad) -> Parts:
+    key = next((column for column in ("scan", "stamp") if column in table.columns), None)
+    if key is None:
+        raise BadInput(f"{name}: a table of one row a beam needs a column 'scan' or 'stamp', to tell the scans apart")
+    stamped = ("stamp",) if "stamp" in table.columns else ()
+    rows = _checked(table, (*POSE, "angle", key, *stamped), bad)
+    at = {column: table.columns.index(column) for column in (*POSE, "angle", "range", key, *stamped)}
+    starts = np.nonzero(np.append(True, np.diff(rows[:, at[key]]) != 0))[0] if len(rows) else np.empty(0, int)
+    groups = np.split(rows, starts[1:]) if len(rows) else []
+    if not groups:
+        return np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None
+    sizes = np.array([len(group) for group in groups])
+    beams = int(np.bincount(sizes).argmax())
+    angles = groups[int(np.argmax(sizes == beams))][:, at["angle"]]
+    kept = []
+    for start, group in zip(starts, groups, strict=True):
+        if len(group) != beams or np.abs(group[:, at["angle"]] - angles).max() > SAME_ANGLE_RAD:
+            bad(table.lines[start], f"the scan that starts here has other beams than the first of {beams}")
+        else:
+            kept.append(group)
+    block = np.array(kept)
+    poses = block[:, :, [at[column] for column in POSE]]
+    still = (poses == poses[:, :1]).all()
+    stamps = block[:, 0, at["stamp"]] if stamped else None
+    return (poses[:, 0] if still else poses), angles, block[:, :, at["range"]], stamps

@@ -1,0 +1,149 @@
+"""g2o files of a graph in the plane whose vertices carry laser scans, as g2o's slam2d writes them.
+
+    VERTEX_SE2 id x y yaw
+    ROBOTLASER1 ...                        (or FLASER: CARMEN's lines, see `bayesmap.io.carmen`)
+    EDGE_SE2 id id dx dy dyaw ...
+
+A laser line belongs to the last vertex before it. The two poses in the line say where the laser is on the robot; the
+vertex, which an optimiser has moved, says where the robot is: the laser's pose is vertex * robot^-1 * laser. Edges and
+other elements are counted and left alone.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.carmen import largest_range_m, laser_offset
+from bayesmap.io.laser_lines import LASERS, LaserLine, Malformed, parse_floats, parse_laser
+from bayesmap.io.lines import DamagedFile, read_lines
+from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.returns import decode
+from bayesmap.world.scans import Scans
+
+VERTEX = b"VERTEX_SE2"
+KNOWN = (VERTEX, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
+"""Words by which a g2o file is recognised."""
+
+FURTHEST_M = 1e7
+
+
+@dataclass(frozen=True, eq=False)
+class _Scan:
+    line: int
+    kind: str
+    laser: LaserLine
+    pose: NDArray[np.float64]
+
+
+def read_g2o(
+    path: str | os.PathLike[str],
+    *,
+    no_return: float | None = None,
+    skip_bad_lines: bool = False,
+    max_range_m: float | None = None,
+) -> LogReading:
+    """Read the scans of a g2o file, plain or gzipped. Arguments and errors are those of `bayesmap.io.carmen`."""
+    name = os.fspath(path)
+    scans: list[_Scan] = []
+    counts: Counter[str] = Counter()
+    skipped: list[SkippedLine] = []
+    vertex: NDArray[np.float64] | None = None
+
+    def bad(line: int, reason: str) -> None:
+        if not skip_bad_lines:
+            raise BadInput(f"{name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
+        skipped.append(SkippedLine(line, reason))
+
+    number = 0
+    try:
+        for number, line in read_lines(path):
+            words = line.split()
+            if not words or words[0].startswith(b"#"):
+                continue
+            kind = words[0][:64].decode("ascii", "backslashreplace")
+            counts[kind] += 1
+            try:
+                if words[0] == VERTEX:
+                    vertex = None  # should this one be malformed, its scans must not go to the one before
+                    vertex = _vertex(words)
+                elif kind in LASERS:
+                    laser = parse_laser(kind, words)
+                    if vertex is None:
+                        raise Malformed(f"{kind} does not follow a VERTEX_SE2 that says where it was taken")
+                    scans.append(_Scan(number, kind, laser, _on(vertex, laser.numbers)))
+            except Malformed as problem:
+                bad(number, str(problem))
+    except DamagedFile:
+        if not skip_bad_lines:
+            raise
+        skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
+
+    if not scans:
+        held = ", ".join(f"{count} {kind}" for kind, count in counts.most_common(5)) or "nothing"
+        raise BadInput(
+            f"{name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds {held}"
+            + (f"; {len(skipped)} lines were malformed, first line {skipped[0].line}" if skipped else "")
+        )
+    kind = max(LASERS, key=lambda kind: sum(scan.kind == kind for scan in scans))
+    notes = [
+        f"the file also holds {n} {other} scans, which were not used: {kind} has more or as many"
+        for other in LASERS
+        if other != kind and (n := sum(scan.kind == other for scan in scans))
+    ]
+    scans = [scan for scan in scans if scan.kind == kind]
+    layout = Counter(scan.laser.layout for scan in scans).most_common(1)[0][0]
+    for scan in scans:
+        if scan.laser.layout != layout:
+            bad(scan.line, f"{kind} has {scan.laser.layout}, but most scans of this file have {layout}")
+    scans = [scan for scan in scans if scan.laser.layout == layout]
+    skipped.sort(key=lambda skip: skip.line)
+
+    numbers = np.array([scan.laser.numbers for scan in scans])
+    stamps = numbers[:, 6]
+    order = np.argsort(stamps, kind="stable")
+    stated = max((s.laser.max_range_m for s in scans if s.laser.max_range_m is not None), default=None)
+    ranges, coded = decode(np.array([scan.laser.readings_m for scan in scans]), no_return, stated)
+    limit_m = largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
+    poses = np.array([scan.pose for scan in scans])
+    result = Scans(poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
+    return LogReading(
+        path=name,
+        format="g2o",
+        message=kind,
+        scans=result.limited(limit_m),
+        messages=dict(counts),
+        skipped=tuple(skipped),
+        no_return=coded,
+        max_range_origin="readings" if max_range_m is None else "given",
+        laser_offset=laser_offset(numbers[:, :3], numbers[:, 3:6]),
+        reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
+        notes=tuple(notes),
+        pose_source="VERTEX_SE2",
+    )
+
+
+def _vertex(words: list[bytes]) -> NDArray[np.float64]:
+    if len(words) != 5:
+        raise Malformed(f"VERTEX_SE2 has {len(words)} fields where 5 are needed: an id, x, y and yaw")
+    pose = parse_floats("VERTEX_SE2", words[2:5], 2)
+    if not (np.isfinite(pose).all() and np.abs(pose).max() < FURTHEST_M):
+        raise Malformed(f"VERTEX_SE2 has the pose {pose.tolist()}")
+    return pose
+
+
+def _on(vertex: NDArray[np.float64], numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """vertex * robot^-1 * laser, from the poses in the line."""
+    laser, robot = numbers[:3], numbers[3:6]
+    if np.abs(numbers[:6]).max() >= FURTHEST_M:
+        raise Malformed(f"the laser is at {laser.tolist()} and the robot at {robot.tolist()}")
+    turn = vertex[2] - robot[2]
+    dx, dy = laser[:2] - robot[:2]
+    cos, sin = math.cos(turn), math.sin(turn)
+    return np.array([vertex[0] + cos * dx - sin * dy, vertex[1] + sin * dx + cos * dy, turn + laser[2]])

@@ -1,0 +1,150 @@
+"""Scans with their poses from a robot's recording (ROS 1 bag, ROS 2 bag, MCAP).
+
+A scan's time is that of its first ray, and its pose is the sensor's at that time: along the chain of transforms from a
+fixed frame (map, odom or world, unless one is named) to the scan's frame, or by a topic of poses and the transform
+from the body to the sensor. Positions are interpolated along lines and rotations along the shorter arc; nothing is
+extrapolated: scans before the first pose and after the last are left out. The pose is projected to the plane; a sensor
+mounted upside down sweeps the other way.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+
+import numpy as np
+
+from bayesmap.errors import BadInput
+from bayesmap.io.containers import open_recording
+from bayesmap.io.frames import FrameTree
+from bayesmap.io.laser_messages import LaserMessage
+from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.pose_sources import (
+    POSE_TYPES,
+    PoseMessages,
+    PoseSource,
+    by_topic,
+    by_transforms,
+    no_poses,
+    pose_topic_of,
+    topics_of_type,
+)
+from bayesmap.io.recording import Recording, Topic
+from bayesmap.io.rep117 import judge
+from bayesmap.io.robot_messages import TYPES, Bad, read_messages, scan_topic_of, scans_and_poses
+from bayesmap.io.scan_poses import in_order_of_time, left_out, poses_at_first_rays, poses_of_rays, ray_times
+from bayesmap.world.scans import Scans
+
+
+def read_recording(
+    path: str | os.PathLike[str],
+    *,
+    no_return: float | None = None,
+    skip_bad_lines: bool = False,
+    max_range_m: float | None = None,
+    scan_topic: str | None = None,
+    pose_topic: str | None = None,
+    fixed_frame: str | None = None,
+    deskew: bool = False,
+) -> LogReading:
+    """The scans of one topic of a recording. The arguments are those of `bayesmap.io.logs.read_log`.
+
+    Raises:
+        BadInput: a damaged recording or message, a topic or frame that is not there, several to choose from, or no
+            scan with a pose; the message lists what there is and says what to give.
+    """
+    name = os.fspath(path)
+    recording = open_recording(path, salvage=skip_bad_lines, types=TYPES)
+    skipped: list[SkippedLine] = []
+
+    def bad(topic: str, number: int, reason: str) -> None:
+        if not skip_bad_lines:
+            raise BadInput(
+                f"{name}: message {number} on {topic} {reason}; leave such messages out with --skip-bad-lines"
+            )
+        skipped.append(SkippedLine(number, reason, f"message on {topic}"))
+
+    topic = scan_topic_of(recording, scan_topic)
+    chosen_poses = None if pose_topic is None else pose_topic_of(recording, pose_topic)
+    lasers, poses = scans_and_poses(recording, topic, chosen_poses, bad)
+    if not lasers.scans:
+        raise BadInput(f"{name}: no message on {topic.name} can be used" + _first(skipped))
+    layout, scans = lasers.of_one_layout(lambda number, reason: bad(topic.name, number, reason))
+    tree = FrameTree(poses.transforms)
+    source = _source(recording, chosen_poses, tree, layout.frame, fixed_frame, poses, bad)
+    notes = [*recording.notes, *source.notes, *_odd(scans)]
+
+    stamps, scans, reordered = in_order_of_time(scans, bad, topic.name, notes)
+    rays = ray_times(stamps, scans, layout.beams, deskew, notes)
+    inside = np.asarray(source.chain.covers(rays).all(axis=1))
+    notes += left_out(name, stamps, inside, source)
+    scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
+    at_first, sign = poses_at_first_rays(name, source.chain, stamps, layout, notes)
+    beam_poses = poses_of_rays(source.chain, rays) if deskew and rays.shape[1] > 1 else None
+
+    limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
+    readings = np.array([scan.ranges_m for scan in scans], dtype=np.float64)
+    judged = judge(name, readings, *limits, no_return=no_return, max_range_m=max_range_m)
+    result = Scans(
+        at_first, sign * layout.angles_rad(), judged.ranges_m, judged.max_range_m, judged.min_range_m,
+        stamps_s=np.asarray(stamps * 1e-9), beam_poses=beam_poses,
+    )  # fmt: skip
+    return LogReading(
+        path=name,
+        format=recording.format,
+        message=topic.type,
+        scans=result.limited(judged.max_range_m),
+        messages={t.name: t.count for t in recording.topics.values()},
+        skipped=tuple(skipped),
+        no_return=judged.no_return,
+        max_range_origin=judged.max_range_origin,
+        laser_offset=source.chain.sensor_on_body(),
+        reordered=reordered,
+        notes=(*notes, *judged.notes),
+        scan_topic=topic.name,
+        pose_source=source.label,
+        fixed_frame=source.fixed_frame,
+        sensor_frame=layout.frame,
+        deskewed=beam_poses is not None,
+    )
+
+
+def _source(
+    recording: Recording,
+    pose_topic: Topic | None,
+    tree: FrameTree,
+    sensor: str,
+    fixed_frame: str | None,
+    poses: PoseMessages,
+    bad: Bad,
+) -> PoseSource:
+    """Where the sensor is: by the topic that the user chose, else by /tf, else by the only topic of poses."""
+    if pose_topic is not None and pose_topic.type in POSE_TYPES:
+        return by_topic(recording.path, pose_topic, poses, tree, sensor)
+    found = by_transforms(recording.path, tree, sensor, fixed_frame)
+    others = topics_of_type(recording, POSE_TYPES)
+    if found is None and pose_topic is None and len(others) == 1:
+        read_messages(recording, others, None, poses, bad)
+        only = by_topic(recording.path, others[0], poses, tree, sensor)
+        note = (
+            f"/tf connects {sensor!r} with no fixed frame; poses were taken from {others[0].name}, "
+            "the only topic of poses"
+        )
+        return PoseSource(only.label, only.fixed_frame, only.chain, (note, *only.notes))
+    if found is None:
+        raise no_poses(recording.path, tree, sensor, others)
+    return found
+
+
+def _odd(scans: list[LaserMessage]) -> list[str]:
+    counts = Counter(scan.odd for scan in scans if scan.odd)
+    notes = [f"in {count:,} of {len(scans):,} scans {odd}" for odd, count in counts.items()]
+    limits = Counter(scan.limits_m for scan in scans)
+    if len(limits) > 1:
+        (low, high), _ = limits.most_common(1)[0]
+        notes.append(f"the scans state {len(limits)} different ranges; the commonest was used, {low:g} to {high:g} m")
+    return notes
+
+
+def _first(skipped: list[SkippedLine]) -> str:
+    return f"; the first: message {skipped[0].line} {skipped[0].reason}" if skipped else ""

@@ -1,0 +1,243 @@
+"""Recordings as robots write them, from a simulated robot: by rosbags' writers, and by those of the mcap packages.
+
+Messages are plain dictionaries here, so that each writer serialises them in its own way.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from rosbags.interfaces import Nodetype
+from rosbags.rosbag1 import Writer as Writer1
+from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import Writer as Writer2
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+import bayesmap as bm
+
+T0 = 1_700_000_000 * 10**9
+SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+TF, ODOM = "tf2_msgs/msg/TFMessage", "nav_msgs/msg/Odometry"
+POSE, POSE_COV = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped"
+
+ROS2 = get_typestore(Stores.ROS2_HUMBLE)
+ROS1 = get_typestore(Stores.ROS1_NOETIC)
+ROS1.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms\n", TF))
+
+WRITERS = ("rosbag1", "sqlite3", "db3", "mcap-folder", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "mcap-ros1")
+
+
+def ns(seconds):
+    return T0 + round(seconds * 1e9)
+
+
+def header(seconds, frame):
+    stamp = 0 if seconds is None else ns(seconds)
+    return {"stamp": {"sec": stamp // 10**9, "nanosec": stamp % 10**9}, "frame_id": frame}
+
+
+def quaternion(yaw, roll=0.0, pitch=0.0):
+    cr, sr, cp, sp = math.cos(roll / 2), math.sin(roll / 2), math.cos(pitch / 2), math.sin(pitch / 2)
+    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+    return {
+        "x": sr * cp * cy - cr * sp * sy, "y": cr * sp * cy + sr * cp * sy,
+        "z": cr * cp * sy - sr * sp * cy, "w": cr * cp * cy + sr * sp * sy,
+    }  # fmt: skip
+
+
+def point(x, y, z=0.0):
+    return {"x": float(x), "y": float(y), "z": float(z)}
+
+
+def transform(seconds, parent, child, x, y, yaw, z=0.0, **angles):
+    where = {"translation": point(x, y, z), "rotation": quaternion(yaw, **angles)}
+    return {"header": header(seconds, parent), "child_frame_id": child, "transform": where}
+
+
+def tf(*transforms):
+    return {"transforms": list(transforms)}
+
+
+def posed(x, y, yaw):
+    return {"position": point(x, y), "orientation": quaternion(yaw)}
+
+
+def odometry(seconds, x, y, yaw, frame="odom", child="base_link"):
+    still = {"twist": {"linear": point(0, 0), "angular": point(0, 0)}, "covariance": [0.0] * 36}
+    pose = {"pose": posed(x, y, yaw), "covariance": [0.0] * 36}
+    return {"header": header(seconds, frame), "child_frame_id": child, "pose": pose, "twist": still}
+
+
+def laser(seconds, ranges, angles, frame="laser", limits=(0.1, 42.0), ray_s=0.0, **changed):
+    step = (angles[-1] - angles[0]) / (len(angles) - 1) if len(angles) > 1 else 0.0
+    message = {
+        "header": header(seconds, frame), "angle_min": float(angles[0]), "angle_max": float(angles[-1]),
+        "angle_increment": float(step), "time_increment": ray_s, "scan_time": 0.1,
+        "range_min": limits[0], "range_max": limits[1],
+        "ranges": [float(v) for v in ranges], "intensities": [],
+    }  # fmt: skip
+    return {**message, **changed}
+
+
+def sonar(seconds, reading, frame="sonar"):
+    return {
+        "header": header(seconds, frame), "radiation_type": 0, "field_of_view": 0.1,
+        "min_range": 0.1, "max_range": 8.0, "range": float(reading),
+    }  # fmt: skip
+
+
+def written(path: Path, messages, writer="mcap", finish=True):
+    """Write (topic, type, seconds received, message) and return what to read: a file or a folder."""
+    return {"rosbag1": _rosbag1, "mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
+
+
+def _rosbag1(path, messages, _):
+    file = path / "recording.bag"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with Writer1(file) as bag:
+        connections = {}
+        for topic, kind, seconds, message in messages:
+            if topic not in connections:
+                connections[topic] = bag.add_connection(topic, kind, typestore=ROS1)
+            bag.write(connections[topic], ns(seconds), ROS1.serialize_ros1(_built(ROS1, kind, message), kind))
+    return file
+
+
+def _ros2(path, messages, writer):
+    if writer in ("mcap-zstd", "mcap-lz4", "mcap-plain"):
+        return _mcap_ros2(path, messages, writer.removeprefix("mcap-"))
+    folder = path / "recording"
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    storage = StoragePlugin.SQLITE3 if writer in ("sqlite3", "db3") else StoragePlugin.MCAP
+    with Writer2(folder, version=9, storage_plugin=storage) as bag:
+        connections = {}
+        for topic, kind, seconds, message in messages:
+            if topic not in connections:
+                connections[topic] = bag.add_connection(topic, kind, typestore=ROS2)
+            bag.write(connections[topic], ns(seconds), ROS2.serialize_cdr(_built(ROS2, kind, message), kind))
+    return {"db3": folder / "recording.db3", "mcap": folder / "recording.mcap"}.get(writer, folder)
+
+
+def _mcap_ros2(path, messages, compression):
+    from mcap.writer import CompressionType
+    from mcap_ros2.writer import Writer
+
+    path.mkdir(parents=True, exist_ok=True)
+    file = path / "recording.mcap"
+    chosen = {"zstd": CompressionType.ZSTD, "lz4": CompressionType.LZ4, "plain": CompressionType.NONE}[compression]
+    with file.open("wb") as out:
+        bag, schemas = Writer(out, chunk_size=20_000, compression=chosen), {}
+        for topic, kind, seconds, message in messages:
+            if kind not in schemas:
+                schemas[kind] = bag.register_msgdef(kind, ROS2.generate_msgdef(kind, ros_version=2)[0])
+            bag.write_message(topic, schemas[kind], message, log_time=ns(seconds), publish_time=ns(seconds))
+        bag.finish()
+    return file
+
+
+def _mcap_ros1(path, messages, _):
+    from mcap_ros1._vendor.genpy.dynamic import generate_dynamic
+    from mcap_ros1.writer import Writer
+
+    path.mkdir(parents=True, exist_ok=True)
+    file = path / "recording.mcap"
+    with file.open("wb") as out:
+        bag, classes = Writer(out), {}
+        for topic, kind, seconds, message in messages:
+            old = kind.replace("/msg/", "/")
+            if old not in classes:
+                classes[old] = generate_dynamic(old, ROS1.generate_msgdef(kind)[0])
+            bag.write_message(topic, _genpy(classes[old], classes[old][old](), message), log_time=ns(seconds))
+        bag.finish()
+    return file
+
+
+def _genpy(classes, empty, message):
+    for name, value in message.items():
+        if name == "stamp":
+            empty.stamp.secs, empty.stamp.nsecs = value["sec"], value["nanosec"]
+        elif isinstance(value, dict):
+            _genpy(classes, getattr(empty, name), value)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            kind = next(c for n, c in classes.items() if n.endswith("TransformStamped"))
+            setattr(empty, name, [_genpy(classes, kind(), entry) for entry in value])
+        else:
+            setattr(empty, name, value)
+    return empty
+
+
+def _built(store, kind, message):
+    values = {}
+    for name, (node, about) in store.fielddefs[kind][1]:
+        if name not in message:
+            values[name] = 0  # ROS 1's sequence number
+        elif node == Nodetype.NAME:
+            values[name] = _built(store, about, message[name])
+        elif node in (Nodetype.SEQUENCE, Nodetype.ARRAY):
+            inner, what = about[0]
+            if inner == Nodetype.NAME:
+                values[name] = [_built(store, what, entry) for entry in message[name]]
+            else:
+                values[name] = np.array(message[name], dtype=what[0])
+        else:
+            values[name] = message[name]
+    return store.types[kind](**values)
+
+
+# A robot in the tutorial's map.
+
+ANGLES = np.linspace(-2.0, 2.0, 41)
+MOUNT = (0.2, -0.1, 0.3)
+"""The laser on the robot: x, y, yaw."""
+
+
+def path_of(seconds):
+    """The robot's pose at some times: a slow arc through the tutorial's map, which turns past the angle pi."""
+    t = np.asarray(seconds, dtype=float)
+    return np.stack([9.0 + 0.3 * t, 10.0 + 0.2 * t, 2.8 + 0.25 * t], axis=-1)
+
+
+def on(poses, offset=MOUNT):
+    """Poses of something that is mounted on the robot."""
+    x, y, yaw = np.moveaxis(np.asarray(poses, dtype=float), -1, 0)
+    dx, dy, turn = offset
+    return np.stack([x + np.cos(yaw) * dx - np.sin(yaw) * dy, y + np.sin(yaw) * dx + np.cos(yaw) * dy, yaw + turn], -1)
+
+
+def simulated(seconds, sensor=None):
+    """The scans of the robot's laser at some times; ranges in single precision, as messages carry them."""
+    walls, _ = bm.worlds.tutorial()
+    grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
+    poses = on(path_of(seconds))
+    sensor = bm.BeamMixture(bm.Gaussian(0.03), p_no_return=0.1, p_short=0.0) if sensor is None else sensor
+    scans = bm.simulate(walls, grid, poses, ANGLES, sensor=sensor, max_range_m=42.0, min_range_m=0.1, seed=1)
+    stamps = np.array([ns(t) for t in seconds]) * 1e-9
+    ranges = scans.ranges_m.astype(np.float32).astype(np.float64)
+    ranges[ranges < 0.1] = 1.0
+    return bm.Scans(poses, ANGLES, ranges, 42.0, float(np.float32(0.1)), stamps_s=stamps)
+
+
+SCAN_TIMES = 0.5 + 0.37 * np.arange(10)
+POSE_TIMES = 0.25 * np.arange(21)
+"""Poses come four times a second, at other times than scans."""
+
+
+def robot(tf_poses=True, odom=False, static=True):
+    """The messages of a robot on its path, and the scans as they were simulated."""
+    scans = simulated(SCAN_TIMES)
+    messages = []
+    if static:
+        messages.append(("/tf_static", TF, 0.0, tf(transform(0.0, "base_link", "laser", *MOUNT, z=0.4))))
+    for t, (x, y, yaw) in zip(POSE_TIMES, path_of(POSE_TIMES), strict=True):
+        if tf_poses:
+            # The map's own frame is 1 m and a quarter turn from the odometry's.
+            odom_pose = (y - 1.0, -x, yaw - math.pi / 2)
+            messages.append(("/tf", TF, t, tf(transform(t, "odom", "base_link", *odom_pose))))
+            messages.append(("/tf", TF, t, tf(transform(t, "map", "odom", 0.0, 1.0, math.pi / 2))))
+        if odom:
+            messages.append(("/odom", ODOM, t, odometry(t, x, y, yaw)))
+    for t, row in zip(SCAN_TIMES, scans.ranges_m, strict=True):
+        messages.append(("/scan", SCAN, t + 0.02, laser(t, row, ANGLES)))
+    return sorted(messages, key=lambda m: m[2]), scans
