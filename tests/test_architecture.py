@@ -26,7 +26,8 @@ LEVELS = (
     {"run"},
     {"assembly"},  # the half of `api` that turns results into runs
     {"api"},
-    {"app", "cli"},
+    {"app"},
+    {"cli"},
     {"__main__"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}

@@ -24,8 +24,10 @@ COMMANDS = {
     "demo": "The tutorial's map, end to end: scan, infer, pictures.",
     "simulate": "Draw the scans of a robot in a known world.",
     "infer": "Infer the walls from a log of range scans.",
+    "score": "Score a saved run on held-out scans.",
     "render": "Draw a saved run.",
     "export": "Write a saved run for robots and other programs.",
+    "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
 }
 """In the order of use; each lives in the module of its name, loaded when it is called."""

@@ -1,0 +1,116 @@
+"""What an action does to the document: pure functions from a document and a checked message to another document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from bayesmap.app.document import SENSORS, Document, Refused, Sensor, WallMap, check_stand, wrap
+from bayesmap.app.worlds import new_document
+
+Message = Mapping[str, Any]
+Edit = Callable[[Document, Message], tuple[Document, str]]
+
+
+def edit(document: Document, message: Message) -> tuple[Document, str]:
+    """The document after a message, and a remark where not all of it could be done.
+
+    Raises:
+        Refused: nothing of it can be done.
+    """
+    return EDITS[message["type"]](document, message)
+
+
+def _set(document: Document, message: Message) -> tuple[Document, str]:
+    patch = dict(message["patch"])
+    fixed = sorted(set(patch) & set(FIXED_BY_FILE[document.source.kind]))
+    if fixed:
+        raise Refused(f"{fixed[0]} cannot be changed: it is that of {document.source.name}")
+    return replace(document, **patch), ""
+
+
+def _walls(document: Document, message: Message) -> tuple[Document, str]:
+    _need_simulation(document)
+    cells, wall = message["cells"], message["wall"]
+    if (cells >= document.grid.shape).any():
+        raise Refused("walls: a cell outside the map", f"the map has {document.grid.shape} cells")
+    solid = document.walls.cells.copy()
+    solid[cells[:, 0], cells[:, 1]] = wall
+    taken = [cell for cell in document.sensor_cells() if solid[cell]]
+    for cell in taken:
+        solid[cell] = False
+    after = document if np.array_equal(solid, document.walls.cells) else replace(document, walls=WallMap(solid))
+    return after, f"a sensor stands in cell ({taken[0][0]}, {taken[0][1]}): it stays free" if taken else ""
+
+
+def _sensor(document: Document, message: Message) -> tuple[Document, str]:
+    _need_simulation(document)
+    sensors = document.sensors
+    if message["op"] == "add":
+        if len(sensors) >= SENSORS[1]:
+            raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
+        number = max((sensor.id for sensor in sensors), default=0) + 1
+        placed = Sensor(number, message["x"], message["y"], wrap(message.get("yaw", 0.0)))
+        check_stand(document, placed)
+        return replace(document, sensors=(*sensors, placed)), ""
+    old = next((sensor for sensor in sensors if sensor.id == message["id"]), None)
+    if old is None:
+        raise Refused(f"there is no sensor {message['id']}")
+    if message["op"] == "remove":
+        if len(sensors) <= SENSORS[0]:
+            raise Refused("the last sensor cannot be removed", "add another first")
+        return replace(document, sensors=tuple(sensor for sensor in sensors if sensor is not old)), ""
+    placed = Sensor(old.id, message.get("x", old.x), message.get("y", old.y), wrap(message.get("yaw", old.yaw)))
+    check_stand(document, placed)
+    return replace(document, sensors=tuple(placed if sensor is old else sensor for sensor in sensors)), ""
+
+
+def _clear(document: Document, message: Message) -> tuple[Document, str]:
+    _need_simulation(document)
+    return replace(document, walls=WallMap(np.zeros(document.grid.shape, dtype=np.bool_))), ""
+
+
+def _new(document: Document, message: Message) -> tuple[Document, str]:
+    return new_document(message["world"], message["shape"], document), ""
+
+
+def _need_simulation(document: Document) -> None:
+    if not document.simulated:
+        raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
+
+
+FIXED_BY_FILE: Mapping[str, tuple[str, ...]] = {
+    "simulation": (),
+    "log": ("noise", "angles", "max_range"),
+    "run": ("prior", "noise", "angles", "max_range", "method", "order", "sweeps", "seed"),
+}
+"""Settings that are facts where the readings come from a file."""
+
+EDITS: Mapping[str, Edit] = {"set": _set, "walls": _walls, "sensor": _sensor, "clear": _clear, "new": _new}
+"""Messages that change the document, `clear` of walls among them."""
+
+
+def gesture_of(message: Message, client: int) -> tuple[Any, ...] | None:
+    """What a message is a part of: all messages of one stroke or drag are one step of undo."""
+    kind = message["type"]
+    if kind == "walls" and message["stroke"]:
+        return client, kind, message["stroke"]
+    if message.get("drag"):
+        return client, kind, message["drag"], message.get("id"), *sorted(message.get("patch", ()))
+    return None
+
+
+def merged(before: Message, after: Message) -> Message | None:
+    """One message that does what both do, where they are of one gesture; None where they are not to be merged."""
+    if before["type"] != after["type"]:
+        return None
+    if after["type"] == "set":
+        return {**after, "patch": {**before["patch"], **after["patch"]}}
+    if after["type"] == "walls" and (before["stroke"], before["wall"]) == (after["stroke"], after["wall"]):
+        return {**after, "cells": np.concatenate([before["cells"], after["cells"]])}
+    if after["type"] == "sensor" and before["op"] == after["op"] == "move" and before["id"] == after["id"]:
+        return {**before, **after}
+    return None

@@ -1,0 +1,254 @@
+"""The engine: from tasks to reports. One job at a time, done in short pieces, so that a new task never waits long.
+
+A job depends on its document alone: readings on the seed, the live chains' start on the beliefs that the readings lead
+to, every sweep's draws on (seed, chain, sweep, cell). The same document gives the same posterior, however fast the hand
+was and however often it was interrupted. Where the last chains stood depends on just that, so it is not used.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.document import Document
+from bayesmap.app.opened import Opened
+from bayesmap.app.preview import Preview
+from bayesmap.app.result import Result
+from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
+from bayesmap.app.stream import CHAINS, Stream
+from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
+from bayesmap.errors import BadInput
+from bayesmap.inference.block import BlockGibbs
+from bayesmap.inference.gibbs import Gibbs
+from bayesmap.inference.importance import sample_importance
+from bayesmap.inference.problem import Problem
+from bayesmap.inference.sampler import WallSampler
+from bayesmap.inference.start import start_maps
+
+PREVIEW_SECONDS = 0.020
+FEWEST_ROUNDS = 3
+FRAME_SECONDS = 0.08
+PAUSE_SECONDS = 0.03
+"""After a preview that took long, before the chains are set up: a moving hand will have sent the next edit by then."""
+
+Tell = Callable[[Report], None]
+
+
+class Engine:
+    """Holds the present job and its result.
+
+    Attributes:
+        busy: whether there is work to `advance`.
+    """
+
+    def __init__(self, tell: Tell, opened: Opened | None = None) -> None:
+        self._tell = tell
+        self._opened = opened
+        self._job: Iterator[None] | None = None
+        self._task: Infer | None = None
+        self._look = Look("mean")
+        self._scene: Scene | None = None
+        self._scene_of: Document | None = None
+        self._result: Result | None = None
+        self._began = 0.0
+        self._framed = 0.0
+
+    @property
+    def busy(self) -> bool:
+        """Whether a job is under way."""
+        return self._job is not None
+
+    def take(self, task: Task) -> None:
+        """Answer a question, or begin another job."""
+        if isinstance(task, Infer):
+            self._task, self._result = task, None
+            self._began = time.perf_counter()
+            self._job = self._work(task)
+        elif isinstance(task, Cancel):
+            self._cancel()
+        elif isinstance(task, Look):
+            self._look = task
+            if self._result is not None:
+                self._frame()
+        elif isinstance(task, ShowScan):
+            if self._scene is not None and self._opened is not None:
+                self._rays(self._scene, task.index)
+        elif isinstance(task, Inspect):
+            self._inspect(task)
+        elif isinstance(task, Export):
+            self._export(task)
+
+    def advance(self) -> None:
+        """A piece of the job: some milliseconds on a small map, one round or sweep on the largest."""
+        if self._job is None:
+            return
+        try:
+            next(self._job)
+        except StopIteration:
+            self._job = None
+        except (BadInput, MemoryError) as error:
+            self._job = None
+            self._report("failed", text=str(error) or "out of memory; use a smaller map")
+
+    # Jobs
+
+    def _work(self, task: Infer) -> Iterator[None]:
+        document = task.document
+        if document.source.kind == "run":
+            assert self._opened is not None
+            self._scene, self._scene_of = self._opened.scene(document), document
+            self._rays(self._scene, task.scan)
+            self._result = self._opened.result()
+            self._frame()
+            self._finish()
+            return
+        scene = self._readings(document)
+        self._rays(scene, None if document.simulated else task.scan)
+        if task.mode == "clear":
+            self._result = Result(scene, document, "none")
+            self._frame()
+            return
+        if task.mode == "run" and document.method == "importance":
+            yield from self._weigh(scene, document)
+            return
+        if task.mode == "run" and document.method in ("gibbs", "block") and document.simulated:
+            starts = start_maps(scene.problem, "prior", CHAINS, document.seed)
+            yield from self._sweep(scene, document, starts, keep=True)
+            return
+        preview = Preview(scene.problem)
+        yield from self._propagate(scene, document, preview)
+        if task.mode == "run" and document.method == "propagate":
+            self._finish()
+        elif document.method in ("gibbs", "block") and task.mode in ("run", "live"):
+            if time.perf_counter() - self._began > PREVIEW_SECONDS / 2:
+                yield from _pause(PAUSE_SECONDS)
+            starts = start_maps(scene.problem, "propagate", CHAINS, document.seed, preview.marginals())
+            yield from self._sweep(scene, document, starts, keep=task.mode == "run")
+
+    def _readings(self, document: Document) -> Scene:
+        """The scene of a document; what did not change is not made again."""
+        before = self._scene_of
+        if self._scene is not None and before is not None and same_readings(before, document):
+            scene = self._scene if before.prior == document.prior else self._scene.with_prior(document.prior)
+        elif document.simulated:
+            scene = simulated_scene(document)
+        else:
+            assert self._opened is not None
+            scene = self._opened.scene(document)
+        self._scene, self._scene_of = scene, document
+        return scene
+
+    def _propagate(self, scene: Scene, document: Document, preview: Preview) -> Iterator[None]:
+        """Rounds until the picture's time is up, then the picture, then the rest of the rounds."""
+        shown = -1
+        while True:
+            enough = preview.rounds >= FEWEST_ROUNDS and self._elapsed() > PREVIEW_SECONDS
+            if preview.converged or (enough and (shown < 0 or self._due())) or (shown >= 0 and self._due()):
+                self._result = Result(scene, document, "propagate", preview=preview)
+                self._frame()
+                shown = preview.rounds
+            if preview.converged:
+                return
+            preview.round()
+            # Until the first picture is out, a small map's rounds are too short to ask for tasks between them.
+            if shown >= 0 or self._elapsed() > PREVIEW_SECONDS:
+                yield
+
+    def _sweep(self, scene: Scene, document: Document, starts: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
+        """The chains, with a frame now and then and one at the end."""
+        yield
+        sampler = _sampler(scene.problem, document)
+        yield
+        stream = Stream(sampler, starts, document.sweeps, document.seed, keep=keep)
+        while not stream.done:
+            yield
+            stream.advance()
+            self._result = Result(scene, document, document.method, stream=stream)
+            if self._due() or stream.done:
+                self._frame()
+        self._finish()
+
+    def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:
+        """Importance sampling, in one piece."""
+        yield
+        particles = sample_importance(scene.problem, document.sweeps, document.seed)
+        self._result = Result(scene, document, "importance", particles=particles)
+        self._frame()
+        self._finish()
+
+    def _cancel(self) -> None:
+        """Stop the job; what there is stays and is shown once more."""
+        if self._job is None:
+            return
+        self._job = None
+        if self._result is not None:
+            self._frame()
+        self._finish()
+
+    # Reports
+
+    def _report(self, kind: str, buffers: dict[str, Any] | None = None, **fields: Any) -> None:
+        assert self._task is not None
+        self._tell(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}))
+
+    def _finish(self) -> None:
+        draws = {"chains": 0, "count": 0} if self._result is None else self._result.draws()
+        self._report("finished", draws=draws)
+
+    def _frame(self) -> None:
+        assert self._result is not None
+        header, buffers = self._result.field(self._look)
+        self._framed = time.perf_counter()
+        self._report("field", buffers, **header, milliseconds=round(1e3 * (self._framed - self._began), 1))
+
+    def _rays(self, scene: Scene, scan: int | None) -> None:
+        header, buffers = rays(scene, scan)
+        header.pop("type")
+        self._report("scan", buffers, **header)
+
+    def _elapsed(self) -> float:
+        return time.perf_counter() - self._began
+
+    def _due(self) -> bool:
+        """Whether the last frame is so old that another is due."""
+        return time.perf_counter() - self._framed > FRAME_SECONDS
+
+    # Questions
+
+    def _inspect(self, task: Inspect) -> None:
+        beams = 0
+        if self._scene is not None:
+            table = self._scene.problem.table
+            if task.x < table.grid.shape[0] and task.y < table.grid.shape[1]:
+                beams = int(np.count_nonzero(table.cells == task.x * table.grid.shape[1] + task.y))
+        self._tell(Report({"type": "cell", "x": task.x, "y": task.y, "beams": beams}, {}, task.client))
+
+    def _export(self, task: Export) -> None:
+        from bayesmap.app.exports import export
+
+        try:
+            if self._result is None:
+                raise BadInput("there is nothing to export yet; wait for the first picture")
+            name, mime, data = export(self._result, task.what)
+        except (BadInput, OSError) as error:
+            self._tell(Report({"type": "status", "text": str(error), "level": "warning"}, {}, task.client))
+            return
+        self._tell(Report({"type": "download", "name": name, "mime": mime}, {"data": data}, task.client))
+
+
+def _sampler(problem: Problem, document: Document) -> WallSampler:
+    cls = BlockGibbs if document.method == "block" else Gibbs
+    sampler = cls(problem, document.order)  # type: ignore[arg-type]
+    sampler.kernel()
+    return sampler
+
+
+def _pause(seconds: float) -> Iterator[None]:
+    until = time.perf_counter() + seconds
+    while time.perf_counter() < until:
+        time.sleep(0.002)
+        yield

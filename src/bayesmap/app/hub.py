@@ -1,0 +1,140 @@
+"""One session, one worker, any number of pages: passes effects on to whom they are for."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+from collections import deque
+from collections.abc import Mapping
+from typing import Any
+
+from bayesmap.app.document import Document, Refused
+from bayesmap.app.messages import Buffers, frame, parse, seq_of
+from bayesmap.app.session import Effects, Session, ToWorker, addressed, refusal
+from bayesmap.app.supervisor import Supervisor
+from bayesmap.app.tasks import Report
+from bayesmap.errors import BadInput
+
+REPLACED = ("field", "scan", "state")
+"""Of these only the newest is of interest to a page that is slow to read."""
+
+
+class Outbox:
+    """What waits to be sent to one page."""
+
+    def __init__(self) -> None:
+        self._waiting: deque[tuple[Mapping[str, Any], Buffers]] = deque()
+        self._some = asyncio.Event()
+
+    def put(self, header: Mapping[str, Any], buffers: Buffers) -> None:
+        """Add a message; it takes the place of an older one of its kind where only the newest matters."""
+        if header["type"] in REPLACED:
+            kept = [entry for entry in self._waiting if entry[0]["type"] != header["type"]]
+            if len(kept) < len(self._waiting):
+                self._waiting = deque(kept)
+        self._waiting.append((header, buffers))
+        self._some.set()
+
+    async def get(self) -> tuple[Mapping[str, Any], Buffers]:
+        """The oldest message, when there is one."""
+        while not self._waiting:
+            self._some.clear()
+            await self._some.wait()
+        return self._waiting.popleft()
+
+
+class Hub:
+    """Lives on one event loop; reports of the worker's threads come in through it.
+
+    Attributes:
+        session: what pages share.
+        pictured: set when the first field is there.
+    """
+
+    def __init__(self, document: Document, path: str | None = None) -> None:
+        self.session = Session(document)
+        self.pictured = asyncio.Event()
+        self._loop = asyncio.get_running_loop()
+        self._supervisor = Supervisor(self._on_thread, self._lost_on_thread, path)
+        self._pages: dict[int, Outbox] = {}
+        self._numbers = itertools.count(1)
+        self._unusable: str | None = None
+
+    async def start(self) -> None:
+        """Start the worker and wait for its first picture.
+
+        Raises:
+            BadInput: the file cannot be shown.
+        """
+        self._supervisor.start()
+        await self.pictured.wait()
+        if self._unusable is not None:
+            raise BadInput(self._unusable)
+
+    def stop(self) -> None:
+        """End the worker."""
+        self._supervisor.stop()
+
+    @property
+    def worker_pid(self) -> int | None:
+        """Process of the present worker."""
+        return self._supervisor.pid
+
+    def join(self) -> tuple[int, Outbox]:
+        """A page connects: its number, and what is to be sent to it."""
+        client = next(self._numbers)
+        self._pages[client] = Outbox()
+        self._do(self.session.join(client))
+        return client, self._pages[client]
+
+    def leave(self, client: int) -> None:
+        """A page has gone."""
+        self._pages.pop(client, None)
+        self.session.leave(client)
+
+    def receive(self, client: int, data: str | bytes) -> None:
+        """A message as it came from a page."""
+        try:
+            message = parse(data)
+        except Refused as refused:
+            self.refuse(client, refused, seq_of(data))
+            return
+        self._do(self.session.receive(client, message))
+
+    def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
+        """Tell a page that something was not understood."""
+        self._pages[client].put(refusal(refused, None, seq), {})
+
+    def wire(self, header: Mapping[str, Any], buffers: Buffers) -> str | bytes | None:
+        """A message as it is sent; None if it is of a generation that is no more."""
+        if header["type"] in ("field", "scan") and header["generation"] < self.session.generation:
+            return None
+        return frame(header, buffers)
+
+    def _do(self, effects: Effects) -> None:
+        for effect in effects:
+            if isinstance(effect, ToWorker):
+                self._supervisor.send(effect.task)
+                continue
+            for client, outbox in self._pages.items():
+                if effect.client is None or effect.client == client:
+                    outbox.put(addressed(effect.header, client), effect.buffers)
+
+    def _hear(self, report: Report) -> None:
+        if report.header["type"] == "unusable":
+            self._unusable = report.header["text"]
+            self.pictured.set()
+            return
+        self._do(self.session.hear(report))
+        if report.header["type"] in ("field", "failed"):
+            self.pictured.set()
+
+    def _on_thread(self, report: Report) -> None:
+        self._from_thread(self._hear, report)
+
+    def _lost_on_thread(self) -> None:
+        self._from_thread(lambda: self._do(self.session.worker_lost()))
+
+    def _from_thread(self, call: Any, *arguments: Any) -> None:
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(call, *arguments)

@@ -1,0 +1,160 @@
+"""A file that the page shows: a saved run, or a log from which the worker infers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from bayesmap.app.document import LARGEST_SIDE_OF_FILE, METHODS, Document, Source, WallMap
+from bayesmap.app.result import Result
+from bayesmap.app.scanning import Scene
+from bayesmap.errors import BadInput
+from bayesmap.inference.problem import Problem
+from bayesmap.model.priors import Independent
+from bayesmap.run import Run, load
+from bayesmap.sensor.noise import Gaussian
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+LOG_RESOLUTION_M = 0.1
+LOG_SWEEPS = 200
+LARGEST_SIDE_OF_LOG = 1000
+
+
+class Opened(Protocol):
+    """A file: the document that shows it, its scene, and its result where it has one."""
+
+    @property
+    def document(self) -> Document:
+        """What is shown at first."""
+
+    def scene(self, document: Document) -> Scene:
+        """Readings and problem."""
+
+    def result(self) -> Result:
+        """What is shown without inference."""
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedLog:
+    """Scans of a log, with the defaults for logs."""
+
+    document: Document
+    scans: Scans
+
+    def scene(self, document: Document) -> Scene:
+        """The log's readings under the document's prior; the beam table is traced once."""
+        return self._scene if document.prior == self.document.prior else self._scene.with_prior(document.prior)
+
+    @cached_property
+    def _scene(self) -> Scene:
+        from bayesmap.kernels.trace import trace
+        from bayesmap.model.defaults import HIT_DEPTH, default_sensor
+
+        grid = self.document.grid
+        sensor = default_sensor(grid.resolution)
+        table = trace(self.scans, grid, sensor, hit_depth=HIT_DEPTH)
+        problem = Problem(table, Independent(self.document.prior), self.scans.poses)
+        ids = tuple(range(1, len(self.scans) + 1))
+        return Scene(self.scans, np.zeros((0, len(self.scans.angles_rad))), ids, sensor, problem, HIT_DEPTH)
+
+    def result(self) -> Result:
+        """A log has none."""
+        raise AssertionError("a log is inferred from")
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedRun:
+    """A saved run, or one that is still in memory."""
+
+    document: Document
+    run: Run
+
+    def scene(self, document: Document) -> Scene:
+        """The run's readings; its beam table only counts beams."""
+        return self._scene
+
+    @cached_property
+    def _scene(self) -> Scene:
+        from bayesmap.kernels.trace import trace
+
+        posterior = self.run.posterior
+        sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)
+        depth = float(posterior.settings.get("hit_depth", 0.0))
+        table = trace(posterior.scans, posterior.grid, sensor, hit_depth=depth)
+        problem = Problem(table, Independent(self.document.prior), posterior.scans.poses)
+        ids = tuple(range(1, len(posterior.scans) + 1))
+        none = np.zeros((0, len(posterior.scans.angles_rad)))
+        return Scene(posterior.scans, none, ids, sensor, problem, depth)
+
+    def result(self) -> Result:
+        """The run."""
+        return Result(self._scene, self.document, str(self.run.posterior.settings.get("method", "gibbs")), run=self.run)
+
+
+def open_file(path: str) -> Opened:
+    """Open a saved run (``.nc``) or a log.
+
+    Raises:
+        BadInput: no such file, or one that cannot be read as either.
+    """
+    if not Path(path).is_file():
+        raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
+    if path.endswith(".nc"):
+        return opened_run(load(path), Path(path).name)
+    from bayesmap.io.logs import read_log
+
+    return opened_log(read_log(path), Path(path).name)
+
+
+def opened_run(run: Run, name: str) -> OpenedRun:
+    """Show a run.
+
+    Raises:
+        BadInput: a map that is too large for the page.
+    """
+    settings, scans = run.posterior.settings, run.posterior.scans
+    p = settings.get("prior", {}).get("p_wall", 0.5)
+    method = settings.get("method")
+    document = _document(run.grid, scans, Source("run", name, len(scans)), p if isinstance(p, int | float) else 0.5)
+    document = replace(
+        document,
+        method=method if method in METHODS else "gibbs",
+        order=settings.get("order", "radial"),
+        sweeps=max(1, min(100_000, int(run.posterior.sweep))),
+        seed=min(2**31 - 1, int(settings.get("seed", 0))),
+    )
+    return OpenedRun(document, run)
+
+
+def opened_log(scans: Scans, name: str) -> OpenedLog:
+    """Infer from a log, on cells of 10 cm, or larger where the map would have more than a thousand a side.
+
+    Raises:
+        BadInput: a log without scans.
+    """
+    from bayesmap.model.defaults import P_WALL
+
+    grid = Grid.covering(scans, LOG_RESOLUTION_M)
+    if max(grid.shape) > LARGEST_SIDE_OF_LOG:
+        grid = Grid.covering(scans, LOG_RESOLUTION_M * -(-max(grid.shape) // LARGEST_SIDE_OF_LOG))
+    document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
+    return OpenedLog(replace(document, sweeps=LOG_SWEEPS), scans)
+
+
+def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
+    if max(grid.shape) > LARGEST_SIDE_OF_FILE:
+        raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {LARGEST_SIDE_OF_FILE}")
+    return Document(
+        grid=grid,
+        walls=WallMap(np.zeros(grid.shape, dtype=np.bool_)),
+        sensors=(),
+        prior=float(prior),
+        angles=len(scans.angles_rad),
+        max_range=scans.max_range_m,
+        source=source,
+    )

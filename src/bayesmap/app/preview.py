@@ -1,0 +1,67 @@
+"""The answer while the hand is moving: belief propagation on the cells that beams touch."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bayesmap.app.scanning import Touched, touched
+from bayesmap.inference.problem import Problem
+from bayesmap.inference.propagate import DAMPING, ROUNDS, Marginals
+from bayesmap.kernels.beliefs import Beliefs
+from bayesmap.kernels.reach import reach_frequency
+
+TOLERANCE = 1e-3
+THREADS_FROM_INCIDENCES = 20_000
+"""Smaller tables are done before a second thread has begun."""
+
+
+class Preview:
+    """Rounds of belief propagation as in `bayesmap.inference.propagate`, one at a time.
+
+    Cells that no beam touches keep the prior exactly, so the rounds need not visit them: at 500 x 500 with one sensor
+    that is most of the map.
+
+    Attributes:
+        rounds: done so far.
+        converged: whether the last one changed no probability by more than the tolerance, or was the last allowed.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.part: Touched = touched(problem.table)
+        self.rounds = 0
+        self._threads = 1 if problem.table.n_incidences < THREADS_FROM_INCIDENCES else None
+        self._p = problem.p_wall[self.part.cells]
+        self._fixed = (self._p == 0) | (self._p == 1)
+        self.converged = len(self.part.cells) == 0 or bool(self._fixed.all())
+        if not self.converged:
+            self._beliefs = Beliefs(self.part.table, problem.logit[self.part.cells], problem.device)
+
+    def round(self) -> None:
+        """One more round."""
+        self._beliefs.round(DAMPING, self._threads)
+        before, p = self._p, special.expit(self._beliefs.log_odds())
+        self._p = np.where(self._fixed, before, p)
+        self.rounds += 1
+        change = float(np.abs(self._p - before).max())
+        self.converged = self.rounds >= ROUNDS or change < TOLERANCE
+
+    def p_wall(self) -> NDArray[np.float64]:
+        """Approximate posterior wall probability of every cell, (nx, ny)."""
+        p = self.problem.p_wall.copy()
+        p[self.part.cells] = self._p
+        return p.reshape(self.problem.table.grid.shape)
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that a beam reaches before the first likely wall, (nx, ny)."""
+        seen = np.zeros(self.problem.table.grid.n_cells, dtype=np.bool_)
+        if len(self.part.cells):
+            likely = (self._p > 0.5).reshape(1, *self.part.table.grid.shape)
+            seen[self.part.cells] = reach_frequency(self.part.table, likely).ravel() > 0
+        return seen.reshape(self.problem.table.grid.shape)
+
+    def marginals(self) -> Marginals:
+        """What the rounds found, for `bayesmap.inference.start.start_maps` and for a saved run."""
+        return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)

@@ -1,0 +1,140 @@
+"""What a job has found so far, and the field that shows it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.document import Document
+from bayesmap.app.preview import Preview
+from bayesmap.app.scanning import Scene
+from bayesmap.app.stream import Stream
+from bayesmap.app.tasks import Look
+from bayesmap.inference.importance import Particles
+from bayesmap.run import Run
+
+LEVELS = 255
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """One of: beliefs, chains, weighted particles, a saved run, or nothing (the prior).
+
+    Attributes:
+        scene: the readings.
+        document: what was asked.
+        method: what found it: a method's name, or "none".
+    """
+
+    scene: Scene
+    document: Document
+    method: str
+    preview: Preview | None = None
+    stream: Stream | None = None
+    particles: Particles | None = None
+    run: Run | None = None
+
+    def mean(self) -> NDArray[np.float64]:
+        """Posterior wall probability, (nx, ny)."""
+        if self.stream is not None:
+            return self.stream.mean()
+        if self.preview is not None:
+            return self.preview.p_wall()
+        if self.particles is not None:
+            return self.particles.occupancy()
+        if self.run is not None:
+            return np.nan_to_num(self.run.occupancy, nan=0.5)
+        return self.scene.problem.p_wall.reshape(self.document.grid.shape)
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that a beam reaches, (nx, ny)."""
+        if self.stream is not None:
+            return self.stream.observed()
+        if self.preview is not None:
+            return self.preview.observed()
+        if self.run is not None:
+            return self.run.observed
+        if self.particles is not None:
+            from bayesmap.kernels.reach import reach_frequency
+
+            return reach_frequency(self.scene.problem.table, self.mean()[None] > 0.5) > 0
+        return np.zeros(self.document.grid.shape, dtype=np.bool_)
+
+    def draws(self) -> dict[str, int]:
+        """How many maps are kept: {"chains", "count"}."""
+        packed = self.packed()
+        return {"chains": packed.shape[0] if packed.shape[1] else 0, "count": packed.shape[1]}
+
+    def packed(self) -> NDArray[np.uint8]:
+        """Kept maps, (chains, count, bytes)."""
+        if self.stream is not None:
+            return self.stream.packed
+        if self.run is not None:
+            return self.run.posterior.packed
+        return np.zeros((0, 0, 0), dtype=np.uint8)
+
+    def log_joint(self) -> NDArray[np.float64]:
+        """Of every sweep or kept draw, (chains, n)."""
+        if self.stream is not None:
+            return self.stream.log_joint()
+        if self.run is not None:
+            return self.run.log_joint
+        return np.zeros((0, 0))
+
+    def draw(self, look: Look) -> tuple[NDArray[np.bool_], int, int] | None:
+        """One map, its chain and its number; None where this method has none."""
+        if self.stream is not None:
+            return self.stream.draw(look.chain, look.draw)
+        packed = self.packed()
+        if packed.shape[1]:
+            from bayesmap.posterior.packing import unpack
+
+            chain = min(look.chain or 0, packed.shape[0] - 1)
+            last = packed.shape[1] - 1
+            number = last if look.draw is None else min(look.draw, last)
+            return unpack(packed[chain, number], self.document.grid.shape), chain, number
+        return None
+
+    def statistics(self) -> dict[str, Any]:
+        """Sweeps, effective sample size, R-hat and log joint of the field's header."""
+        sweeps, total, ess, rhat, joint = 0, 0, math.nan, math.nan, math.nan
+        if self.stream is not None:
+            sweeps, total = self.stream.sweep, self.stream.total
+            mixing = self.stream.mixing()
+            ess, rhat, joint = mixing.ess, mixing.rhat, mixing.log_joint
+        elif self.preview is not None:
+            sweeps = self.preview.rounds
+        elif self.particles is not None:
+            sweeps = total = len(self.particles.log_weights)
+            ess = self.particles.effective_sample_size
+        elif self.run is not None:
+            summary = self.run.summary()
+            sweeps = total = self.run.posterior.sweep
+            ess, rhat = summary.ess_log_joint_bulk, summary.rhat_log_joint
+            if self.run.log_joint.size:
+                joint = float(self.run.log_joint[:, -1].mean())
+        numbers = {"ess": ess, "rhat": rhat, "log_joint": joint}
+        finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
+        return {"sweeps": sweeps, "total": total, **finite}
+
+    def field(self, look: Look) -> tuple[dict[str, Any], dict[str, NDArray[np.uint8]]]:
+        """Header and buffers of the message `field`, but for its generation and its time."""
+        header: dict[str, Any] = {
+            "layer": look.layer,
+            "method": self.method,
+            "approximate": self.method == "propagate",
+            **self.statistics(),
+            "draws": self.draws(),
+        }
+        one = self.draw(look) if look.layer == "draw" else None
+        if one is not None:
+            walls, header["chain"], header["draw"] = one
+            p = walls.astype(np.uint8) * LEVELS
+        else:
+            header["layer"] = "mean" if look.layer == "draw" else look.layer
+            p = np.rint(self.mean() * LEVELS).astype(np.uint8)
+        return header, {"p": p, "observed": np.packbits(self.observed().ravel())}

@@ -1,0 +1,137 @@
+"""From the document to readings: simulated, each with noise of its own, and the problem that they pose."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.document import SMALLEST_NOISE_M, Document
+from bayesmap.inference.problem import Problem
+from bayesmap.model.forward import ranges
+from bayesmap.model.priors import Independent
+from bayesmap.sensor.model import SensorModel
+from bayesmap.sensor.noise import Gaussian
+from bayesmap.sensor.table import BeamTable
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+STREAM_NOISE = 11
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Readings, and what they say.
+
+    Attributes:
+        scans: what the sensors report.
+        exact_m: where the beams truly end, (S, A); empty, (0, A), where nobody knows.
+        ids: of the sensors, (S,).
+        sensor: the law of the readings.
+        problem: beam table and prior.
+        hit_depth: where in a cell a beam is expected to stop.
+    """
+
+    scans: Scans
+    exact_m: NDArray[np.float64]
+    ids: tuple[int, ...]
+    sensor: SensorModel
+    problem: Problem
+    hit_depth: float = 0.0
+
+    def with_prior(self, p_wall: float) -> Scene:
+        """The same readings under another prior; the beam table is shared, and its index if it is there."""
+        return replace(self, problem=reprior(self.problem, p_wall))
+
+
+def reprior(problem: Problem, p_wall: float) -> Problem:
+    """The same table and index with another prior."""
+    other = Problem(problem.table, Independent(p_wall), problem.poses, problem.device)
+    for name in ("index", "device_table"):
+        if name in problem.__dict__:
+            other.__dict__[name] = problem.__dict__[name]
+    return other
+
+
+def fan(angles: int) -> NDArray[np.float64]:
+    """Angles of a full turn, (A,)."""
+    return np.arange(angles) * 2 * math.pi / angles
+
+
+def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
+    """Standard normal numbers, (A,): that of a beam depends on the seed, the sensor and the beam's number alone."""
+    return np.random.default_rng([seed, sensor, STREAM_NOISE]).standard_normal(angles)
+
+
+def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
+    """Scans of all sensors, and the noise-free ranges, (S, A)."""
+    poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
+    angles = fan(document.angles)
+    exact = ranges(document.walls.cells, document.grid, poses, angles, document.max_range)
+    noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
+    readings = exact + max(document.noise, SMALLEST_NOISE_M) * noise
+    return Scans(poses, angles, readings, max_range_m=document.max_range), exact
+
+
+def simulated_scene(document: Document) -> Scene:
+    """What the sensors of a simulation see."""
+    from bayesmap.kernels.trace import trace
+
+    scans, exact = simulate_document(document)
+    sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))
+    table = trace(scans, document.grid, sensor)
+    problem = Problem(table, Independent(document.prior), scans.poses)
+    return Scene(scans, exact, tuple(s.id for s in document.sensors), sensor, problem)
+
+
+def same_readings(before: Document, after: Document) -> bool:
+    """Whether two simulations have the same readings and the same law: all but prior and method is alike."""
+    return before == replace(
+        after,
+        prior=before.prior,
+        method=before.method,
+        order=before.order,
+        sweeps=before.sweeps,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Touched:
+    """A beam table on the cells alone that beams touch: on a large map a small part of it.
+
+    Attributes:
+        cells: flat indices of those cells, (M,).
+        table: the same beams over cells 0..M-1.
+    """
+
+    cells: NDArray[np.intp]
+    table: BeamTable
+
+
+def touched(table: BeamTable) -> Touched:
+    """Leave out the cells that no beam touches."""
+    seen = np.zeros(table.grid.n_cells, dtype=np.bool_)
+    seen[table.cells] = True
+    cells = np.flatnonzero(seen)
+    place = np.zeros(table.grid.n_cells, dtype=np.int32)
+    place[cells] = np.arange(len(cells), dtype=np.int32)
+    small = Grid((max(1, len(cells)), 1))
+    return Touched(cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.beyond))
+
+
+def rays(scene: Scene, scan: int | None) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Header and buffers of the message `scan`: all scans of a simulation, one of a file."""
+    some = slice(None) if scan is None else slice(scan, scan + 1)
+    header: dict[str, Any] = {"type": "scan", "ids": list(scene.ids[some])}
+    if scan is not None:
+        header |= {"index": scan, "ids": [scan + 1]}
+    exact = scene.exact_m[some] if len(scene.exact_m) else scene.exact_m
+    return header, {
+        "pose": scene.scans.poses[some],
+        "angles": scene.scans.angles_rad.astype(np.float32),
+        "ranges": scene.scans.ranges_m[some].astype(np.float32),
+        "exact": exact.astype(np.float32),
+    }

@@ -1,0 +1,297 @@
+"""The session: applies what pages ask for, decides what the worker does and what pages are told. No sockets, no clocks.
+
+While the first picture of a generation is being computed, edits of a gesture that arrive are merged and wait; so a fast
+hand sees every picture that there is time for, and never starves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from numpy.typing import NDArray
+
+from bayesmap.app.document import LIMITS, VERSION, Document, Refused
+from bayesmap.app.edits import EDITS, edit, gesture_of, merged
+from bayesmap.app.history import History
+from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Mode, Report, ShowScan, Task
+
+Message = Mapping[str, Any]
+REPLAYED = ("scan", "field")
+"""What a page that connects late is sent again."""
+
+
+@dataclass(frozen=True)
+class ToPage:
+    """A message to one page, or to all where client is None."""
+
+    header: dict[str, Any]
+    buffers: Mapping[str, NDArray[Any] | bytes] = field(default_factory=dict)
+    client: int | None = None
+
+
+@dataclass(frozen=True)
+class ToWorker:
+    """A task for the worker."""
+
+    task: Task
+
+
+Effect = ToPage | ToWorker
+Effects = list[Effect]
+
+
+class Session:
+    """One document, shown on any number of pages.
+
+    Attributes:
+        history: of the document.
+        generation: of the present picture; see docs/app.md.
+        live: whether edits restart Gibbs.
+        running: whether a run is under way.
+        draws: {"chains", "count"} of the present result.
+        view: which field is shown.
+    """
+
+    def __init__(self, document: Document) -> None:
+        self.history = History(document)
+        self.generation = 0
+        self.live = True
+        self.running = False
+        self.draws = {"chains": 0, "count": 0}
+        self.view: dict[str, Any] = {"layer": "mean"}
+        self.scan = 0
+        self.worker_ready = False
+        self._mode: Mode = "live"
+        self._in_flight = False  # the first picture of this generation is not there yet
+        self._waiting: tuple[int, Message] | None = None
+        self._seqs: dict[int, int] = {}
+        self._last: dict[str, ToPage] = {}
+
+    @property
+    def document(self) -> Document:
+        """The present document."""
+        return self.history.present
+
+    # From pages
+
+    def receive(self, client: int, message: Message) -> Effects:
+        """Apply a checked message.
+
+        Returns:
+            What to do, in order.
+        """
+        kind = message["type"]
+        if kind == "inspect":
+            return self._inspect(client, message)
+        if self._in_flight and gesture_of(message, client) is not None and kind in EDITS:
+            if self._waiting is None:
+                self._waiting = client, message
+                return []
+            one = merged(self._waiting[1], message) if self._waiting[0] == client else None
+            if one is not None:
+                self._waiting = client, one
+                return []
+            effects = self._flush()
+            self._waiting = client, message
+            return effects
+        return [*self._flush(), *self._apply(client, message)]
+
+    def join(self, client: int) -> Effects:
+        """A page has connected; it answers with hello."""
+        self._seqs[client] = 0
+        welcome = {"type": "welcome", "version": VERSION, "limits": LIMITS, "base": ""}
+        worker = {"type": "worker", "state": "ready" if self.worker_ready else "starting"}
+        return [ToPage(welcome, {}, client), ToPage(worker, {}, client)]
+
+    def leave(self, client: int) -> None:
+        """A page has gone."""
+        self._seqs.pop(client, None)
+
+    def _flush(self) -> Effects:
+        if self._waiting is None:
+            return []
+        client, message = self._waiting
+        self._waiting = None
+        return self._apply(client, message)
+
+    def _apply(self, client: int, message: Message) -> Effects:
+        kind = message["type"]
+        self._seqs[client] = message["seq"]
+        try:
+            if kind in EDITS and message.get("what") != "inference":
+                return self._edit(client, message)
+            effects: Effects = getattr(self, f"_on_{kind}")(client, message)
+            return effects
+        except Refused as refusal:
+            text = f"{refusal.text}; {refusal.remedy}" if refusal.remedy else refusal.text
+            return [self._status(text, "warning", client), self._state()]
+
+    def _edit(self, client: int, message: Message) -> Effects:
+        before = self.document
+        after, remark = edit(before, message)
+        self.history = self.history.push(after, gesture_of(message, client))
+        effects: Effects = [self._status(remark, "warning", client)] if remark else []
+        return effects + ([self._state()] if self.document is before else self._restart())
+
+    def _on_hello(self, client: int, message: Message) -> Effects:
+        effects: Effects = []
+        document = message.get("document")
+        if document is not None and document != self.document:
+            if self.document.simulated:
+                self.history = self.history.push(document)
+                return self._restart()
+            effects.append(self._status(f"this page shows {self.document.source.name}", "warning", client))
+        effects.append(replace(self._state(), client=client))
+        return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
+
+    def _on_clear(self, client: int, message: Message) -> Effects:
+        return self._restart("clear")
+
+    def _on_undo(self, client: int, message: Message) -> Effects:
+        return self._step(client, self.history.undo(), "undo")
+
+    def _on_redo(self, client: int, message: Message) -> Effects:
+        return self._step(client, self.history.redo(), "redo")
+
+    def _step(self, client: int, history: History[Document], name: str) -> Effects:
+        if history is self.history:
+            return [self._status(f"nothing to {name}", "info", client), self._state()]
+        self.history = history
+        return self._restart()
+
+    def _on_run(self, client: int, message: Message) -> Effects:
+        if self.document.source.kind == "run":
+            raise Refused("a saved run is shown as it is", "begin a new map to run inference")
+        return self._restart("run")
+
+    def _on_cancel(self, client: int, message: Message) -> Effects:
+        return [ToWorker(Cancel()), self._state()]
+
+    def _on_live(self, client: int, message: Message) -> Effects:
+        self.live = message["on"]
+        if self.running or self.document.source.kind == "run":
+            return [self._state()]
+        return self._restart() if self.live else [ToWorker(Cancel()), self._state()]
+
+    def _on_view(self, client: int, message: Message) -> Effects:
+        self.view = {k: message[k] for k in ("layer", "chain", "draw") if k in message}
+        return [ToWorker(self._look()), self._state()]
+
+    def _on_scan(self, client: int, message: Message) -> Effects:
+        scans = self.document.source.scans
+        if not 0 <= message["index"] < scans:
+            raise Refused(f"there is no scan {message['index']}", f"there are {scans}, from 0" if scans else "")
+        self.scan = message["index"]
+        return [ToWorker(ShowScan(self.scan)), self._state()]
+
+    def _on_export(self, client: int, message: Message) -> Effects:
+        if message["what"] != "document":
+            return [ToWorker(Export(client, message["what"])), self._state()]
+        import json
+
+        data = (json.dumps(self.document.to_json(), indent=1) + "\n").encode()
+        header = {"type": "download", "name": "document.json", "mime": "application/json"}
+        return [ToPage(header, {"data": data}, client), self._state()]
+
+    def _inspect(self, client: int, message: Message) -> Effects:
+        nx, ny = self.document.grid.shape
+        if message["x"] >= nx or message["y"] >= ny:
+            return [self._status("inspect: a cell outside the map", "warning", client)]
+        return [ToWorker(Inspect(client, message["x"], message["y"]))]
+
+    # From the worker
+
+    def hear(self, report: Report) -> Effects:
+        """What a report of the worker's leads to; those of an older generation to nothing."""
+        header = report.header
+        kind = header["type"]
+        if kind == "ready":
+            return self._on_ready(header.get("document"))
+        if header.get("generation", self.generation) != self.generation:
+            return []
+        if kind == "finished":
+            self.running = False
+            self.draws = header["draws"]
+            return [self._state()]
+        if kind == "failed":
+            self.running = False
+            return [self._status(header["text"], "error"), self._state(), *self._picture_is_out()]
+        message = ToPage(header, report.buffers, report.client)
+        if kind in REPLAYED:
+            self._last[kind] = message
+        return [message, *self._picture_is_out()] if kind == "field" else [message]
+
+    def worker_lost(self) -> Effects:
+        """The worker died; another is being started."""
+        self.worker_ready = False
+        text = "the worker stopped and is being restarted; the map is kept"
+        return [ToPage({"type": "worker", "state": "restarted"}), self._status(text, "warning")]
+
+    def _on_ready(self, document: Document | None) -> Effects:
+        """A worker without a past: give it the document, or take that of the file that it has opened."""
+        self.worker_ready = True
+        if document is not None and self.generation == 0:
+            self.history = History(document)
+        ready: Effects = [ToPage({"type": "worker", "state": "ready"})]
+        again: Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
+        return [*ready, *self._restart(again)]
+
+    def _picture_is_out(self) -> Effects:
+        self._in_flight = False
+        return self._flush()
+
+    # What follows from both
+
+    def _usual(self) -> Mode:
+        return "live" if self.live else "preview"
+
+    def _restart(self, mode: Mode | None = None) -> Effects:
+        """A new generation."""
+        self.generation += 1
+        self._mode = mode if mode is not None else self._usual()
+        self.running = self._mode == "run"
+        self.draws = {"chains": 0, "count": 0}
+        self._in_flight = True
+        self._last.pop("field", None)
+        self.scan = min(self.scan, max(0, self.document.source.scans - 1))
+        task = Infer(self.generation, self.document, self._mode, self.scan)
+        # The state first: a page must know of a generation before it sees the picture.
+        return [self._state(), ToWorker(self._look()), ToWorker(task)]
+
+    def _look(self) -> Look:
+        return Look(self.view["layer"], self.view.get("chain"), self.view.get("draw"))
+
+    def _state(self) -> ToPage:
+        """The present state, with the number of each page's last message in it: see `addressed`."""
+        header = {
+            "type": "state",
+            "document": self.document.to_json(),
+            "generation": self.generation,
+            "can_undo": self.history.can_undo,
+            "can_redo": self.history.can_redo,
+            "live": self.live,
+            "running": self.running,
+            "draws": self.draws,
+            "view": {"layer": self.view["layer"], "chain": self.view.get("chain"), "draw": self.view.get("draw")},
+            "scan": self.scan,
+            "seqs": dict(self._seqs),
+        }
+        return ToPage(header)
+
+    def _status(self, text: str, level: str, client: int | None = None) -> ToPage:
+        return ToPage({"type": "status", "text": text, "level": level}, {}, client)
+
+
+def addressed(header: Mapping[str, Any], client: int) -> Mapping[str, Any]:
+    """A message as one page is to see it: in a state, the number of its own last message that was applied."""
+    if header["type"] != "state":
+        return header
+    return {**{name: value for name, value in header.items() if name != "seqs"}, "seq": header["seqs"].get(client, 0)}
+
+
+def refusal(refused: Refused, kind: str | None = None, seq: int | None = None) -> dict[str, Any]:
+    """The answer to a message that was not understood."""
+    named = {"type": kind, "seq": seq}
+    return {"type": "error", "text": refused.text, "remedy": refused.remedy, "refused": named}

@@ -1,0 +1,87 @@
+"""What the session asks of the worker, and how the worker answers: plain data for a pipe."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+
+from bayesmap.app.document import Document
+
+Mode = Literal["preview", "live", "run", "clear"]
+
+
+@dataclass(frozen=True)
+class Infer:
+    """A new generation; it takes the place of whatever the worker does.
+
+    Attributes:
+        generation: what every answer carries.
+        document: what to infer from.
+        mode: "preview": belief propagation alone; "live": then Gibbs; "run": the document's method from the prior,
+            draws kept; "clear": back to the prior.
+        scan: whose rays are shown, for a file.
+    """
+
+    generation: int
+    document: Document
+    mode: Mode
+    scan: int = 0
+
+
+@dataclass(frozen=True)
+class Cancel:
+    """Stop; what there is stays."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """Which field to send from now on; one is sent at once."""
+
+    layer: str
+    chain: int | None = None
+    draw: int | None = None
+
+
+@dataclass(frozen=True)
+class ShowScan:
+    """Whose rays to show."""
+
+    index: int
+
+
+@dataclass(frozen=True)
+class Inspect:
+    """How many beams touch a cell."""
+
+    client: int
+    x: int
+    y: int
+
+
+@dataclass(frozen=True)
+class Export:
+    """A file of the present result."""
+
+    client: int
+    what: str
+
+
+Task = Infer | Cancel | Look | ShowScan | Inspect | Export
+
+
+@dataclass(frozen=True)
+class Report:
+    """An answer of the worker's: a message for the page, or for the session alone.
+
+    Attributes:
+        header: the message; of type scan, field, cell, download or status, which the page knows, or ready, finished or
+            failed, which are the session's.
+        buffers: arrays by name.
+        client: who asked, where it is for one page alone.
+    """
+
+    header: dict[str, Any]
+    buffers: dict[str, NDArray[Any] | bytes] = field(default_factory=dict)
+    client: int | None = None

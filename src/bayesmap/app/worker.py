@@ -1,0 +1,70 @@
+"""The worker process: an engine at the end of a pipe. It ends when the pipe does."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from multiprocessing.connection import Connection
+from typing import Any
+
+from bayesmap.app.tasks import Infer, Report, Task
+from bayesmap.errors import BadInput
+
+
+def serve(pipe: Connection, path: str | None) -> None:
+    """Take tasks and answer them until the other end is closed.
+
+    The first report is `ready`, with the document of the file where one is shown, after a small map has been inferred,
+    so that all kernels are loaded; or `unusable` where the file cannot be opened.
+    """
+    from bayesmap.app.engine import Engine
+    from bayesmap.app.opened import open_file
+
+    try:
+        opened = open_file(path) if path is not None else None
+    except (BadInput, OSError) as error:
+        pipe.send(Report({"type": "unusable", "text": str(error)}))
+        return
+    _warm()
+    engine = Engine(pipe.send, opened)
+    pipe.send(Report({"type": "ready", "document": None if opened is None else opened.document}))
+    while True:
+        tasks: list[Task] = []
+        while pipe.poll(0 if engine.busy or tasks else None):
+            tasks.append(pipe.recv())
+        latest = max((i for i, task in enumerate(tasks) if isinstance(task, Infer)), default=-1)
+        for i, task in enumerate(tasks):
+            if i >= latest or not isinstance(task, Infer):  # an older generation is not even begun
+                engine.take(task)
+        engine.advance()
+
+
+def _warm() -> None:
+    """Load every kernel that a page may need, by inferring a tiny map."""
+    from dataclasses import replace
+
+    from bayesmap.app.engine import Engine
+    from bayesmap.app.tasks import Infer
+    from bayesmap.app.worlds import tutorial_document
+
+    engine = Engine(lambda report: None)
+    document = replace(tutorial_document(), sweeps=4)
+    for method, mode in (("gibbs", "live"), ("block", "live"), ("importance", "run")):
+        engine.take(Infer(0, replace(document, method=method), mode))  # type: ignore[arg-type]
+        while engine.busy:
+            engine.advance()
+
+
+def main(arguments: list[str]) -> None:
+    """``descriptor [path]``: the descriptor of the inherited end of the pipe, and the file to show."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
+    pipe: Any = Connection(int(arguments[0]))
+    try:
+        serve(pipe, arguments[1] if len(arguments) > 1 else None)
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        os._exit(0)  # nobody is there any more
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

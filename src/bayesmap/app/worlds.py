@@ -1,0 +1,93 @@
+"""Maps to begin with: blank, the tutorial's, a building's floor."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.document import Document, Refused, Sensor, WallMap
+from bayesmap.world.grid import Grid
+from bayesmap.world.tutorial import TUTORIAL_GRID, tutorial
+
+WORLDS = ("blank", "tutorial", "building")
+BUILDING_NOISE_M = 0.05
+ROOM_CELLS = 6
+
+
+def tutorial_document(seed: int = 0) -> Document:
+    """The tutorial's map and robot."""
+    walls, (x, y, yaw) = tutorial()
+    return Document(TUTORIAL_GRID, WallMap(walls), (Sensor(1, float(x), float(y), float(yaw)),), seed=seed)
+
+
+def new_document(world: str, shape: tuple[int, int], before: Document) -> Document:
+    """Another map, with the settings of the document before as far as they fit.
+
+    The sensor's range is twice the longer side, as in the tutorial: every beam can leave the map.
+
+    Raises:
+        Refused: an unknown world, or a shape that it cannot have.
+    """
+    noise = 0.2
+    if world == "blank":
+        walls, grid = np.zeros(shape, dtype=np.bool_), Grid(shape, 1.0, (-0.5, -0.5))
+    elif world == "tutorial":
+        walls, grid = _centred(tutorial()[0], shape), Grid(shape, 1.0, (-0.5, -0.5))
+    elif world == "building":
+        walls, grid = _floor(shape, before.seed)
+        noise = BUILDING_NOISE_M
+    else:
+        raise Refused(f"new: no world {world!r}", f"there are: {', '.join(WORLDS)}")
+    return Document(
+        grid=grid,
+        walls=WallMap(walls),
+        sensors=(_first_sensor(walls, grid),),
+        prior=before.prior,
+        noise=noise,
+        angles=min(1000, max(10, before.angles)),
+        max_range=2.0 * max(shape) * grid.resolution,
+        method=before.method,
+        order=before.order,
+        sweeps=before.sweeps,
+        seed=before.seed,
+    )
+
+
+def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
+    """The map in the middle of another, cut where it does not fit."""
+    result = np.zeros(shape, dtype=np.bool_)
+    to, of = [], []
+    for have, want in zip(walls.shape, shape, strict=True):
+        size = min(have, want)
+        to.append(slice((want - size) // 2, (want - size) // 2 + size))
+        of.append(slice((have - size) // 2, (have - size) // 2 + size))
+    result[to[0], to[1]] = walls[of[0], of[1]]
+    return result
+
+
+def _floor(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
+    from bayesmap.world.building import MARGIN_M, SMALLEST_M, building
+
+    for resolution in (0.1, 0.25):
+        margin = round(MARGIN_M / resolution)
+        size = tuple((n - 2 * margin) * resolution for n in shape)
+        if max(size) >= SMALLEST_M[0] and min(size) >= SMALLEST_M[1]:
+            made = building(seed, (size[0], size[1]), resolution)
+            return _centred(made.walls, shape), Grid(shape, resolution, (0.0, 0.0))
+    least = [round(v / 0.25) + 4 for v in SMALLEST_M]
+    raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{least[0]} x {least[1]} are enough")
+
+
+def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
+    """In the free cell nearest to the middle, of those with room around them if there are any."""
+    from scipy import ndimage
+
+    room = ndimage.distance_transform_cdt(~walls) if walls.any() else np.full(walls.shape, ROOM_CELLS)
+    for least in (ROOM_CELLS, 2, 1):
+        free = np.argwhere(room >= least)
+        if len(free):
+            middle = (np.array(grid.shape) - 1) / 2
+            i, j = free[np.argmin(((free - middle) ** 2).sum(axis=1))]
+            x, y = grid.centers_m()
+            return Sensor(1, float(x[i]), float(y[j]))
+    raise Refused("new: no free cell for a sensor")

@@ -1,0 +1,51 @@
+"""``bayesmap app``: the interactive page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.talk import write_out
+from bayesmap.errors import BadInput
+
+
+@takes(None)
+@click.argument("file", metavar="[RUN.nc | LOG]", required=False)
+@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
+@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
+@click.option("--no-browser", is_flag=True, help="Only print the address.")
+@click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Of all random numbers.")
+def command(call: Call, file: str | None, host: str, port: int, no_browser: bool, seed: int) -> None:
+    r"""Draw walls, drag the robot, watch the posterior live, in the browser.
+
+    Begins with the tutorial's map; with a saved run (.nc) its draws and scans can be looked through, with a log the map
+    is inferred while you watch. Prints the address of the page when it is ready; Ctrl-C ends the server, with exit
+    code 0. Nothing is fetched from the network, and nobody without the token in the address can reach the page.
+
+    \b
+    bayesmap app
+    bayesmap app runs/office/run.nc --no-browser --port 8000
+    bayesmap app office.log.gz
+    """
+    if file is not None and not Path(file).is_file():
+        raise BadInput(f"{file}: no such file; give a saved run (.nc) or a log of range scans")
+
+    from bayesmap.app.server import serve
+    from bayesmap.app.worlds import tutorial_document
+
+    call.talk.say("starting the worker ..." if file is None else f"opening {file} ...")
+
+    def ready(address: str) -> None:
+        if call.talk.as_json:
+            call.talk.result({"url": address}, ())
+        else:
+            write_out(f"{address}\n")
+        call.talk.say("Ctrl-C ends the server")
+        if not no_browser:
+            import webbrowser
+
+            webbrowser.open(address)
+
+    serve(tutorial_document(seed), path=file, host=host, port=port, on_ready=ready)
