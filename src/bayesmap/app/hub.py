@@ -35,12 +35,12 @@ class Outbox:
         self._waiting.append((header, buffers))
         self._some.set()
 
-    async def get(self) -> tuple[Mapping[str, Any], Buffers]:
-        """The oldest message, when there is one."""
+    async def get(self) -> str | bytes:
+        """The oldest message as it goes over the socket, when there is one."""
         while not self._waiting:
             self._some.clear()
             await self._some.wait()
-        return self._waiting.popleft()
+        return frame(*self._waiting.popleft())
 
 
 class Hub:
@@ -104,12 +104,6 @@ class Hub:
     def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
         """Tell a page that something was not understood."""
         self._pages[client].put(refusal(refused, None, seq), {})
-
-    def wire(self, header: Mapping[str, Any], buffers: Buffers) -> str | bytes | None:
-        """A message as it is sent; None if it is of a generation that is no more."""
-        if header["type"] in ("field", "scan") and header["generation"] < self.session.generation:
-            return None
-        return frame(header, buffers)
 
     def _do(self, effects: Effects) -> None:
         for effect in effects:

@@ -70,7 +70,7 @@ def application(hub: Hub, token: str, host: str, port: int) -> Guard:
     async def connect(socket: WebSocket) -> None:
         await socket.accept()
         client, outbox = hub.join()
-        sending = asyncio.create_task(_send(socket, hub, outbox))
+        sending = asyncio.create_task(_send(socket, outbox))
         try:
             await _receive(socket, hub, client)
         finally:
@@ -81,14 +81,11 @@ def application(hub: Hub, token: str, host: str, port: int) -> Guard:
     return Guard(Starlette(routes=routes), token, host, port)
 
 
-async def _send(socket: WebSocket, hub: Hub, outbox: Outbox) -> None:
+async def _send(socket: WebSocket, outbox: Outbox) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         while True:
-            data = hub.wire(*await outbox.get())
-            if isinstance(data, bytes):
-                await socket.send_bytes(data)
-            elif data is not None:
-                await socket.send_text(data)
+            data = await outbox.get()
+            await (socket.send_bytes(data) if isinstance(data, bytes) else socket.send_text(data))
 
 
 async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
