@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from bayesmap.model.priors import Independent as Independent
     from bayesmap.run import Run as Run
     from bayesmap.run import load as load
+    from bayesmap.run import score as score
     from bayesmap.sensor.mixture import BeamMixture as BeamMixture
     from bayesmap.sensor.model import SensorModel as SensorModel
     from bayesmap.sensor.noise import Gaussian as Gaussian
@@ -46,6 +47,7 @@ _HOME = {
     "mapping_model": "bayesmap.model.mapping",
     "ranges": "bayesmap.model.forward",
     "read_log": "bayesmap.io.logs",
+    "score": "bayesmap.run",
     "simulate": "bayesmap.model.forward",
     "worlds": "bayesmap.world.worlds",
 }

@@ -14,6 +14,7 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.packing import unpack
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.score import log_score
+from bayesmap.posterior.scoring import Score, score_posterior
 from bayesmap.posterior.summary import Summary, summarise
 from bayesmap.sensor.model import SensorModel
 from bayesmap.world.grid import Grid
@@ -131,6 +132,21 @@ class Run:
     def _need_marginals(self) -> None:
         if np.isnan(self.posterior.occupancy).any():
             raise BadInput("run: stopped before its first draw, there is no posterior yet; resume it")
+
+
+def score(run: Run, heldout_scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0) -> Score:
+    """How well a run predicts scans that it has not seen, and how well calibrated it is.
+
+    Args:
+        run: what predicts: the mean over its draws.
+        heldout_scans: scans that had no part in it.
+        sensor: another law of the readings than the run's.
+        seed: of the randomised transform of typed readings, and of the bootstrap.
+
+    Raises:
+        BadInput: no valid reading, no draws, or a sensor model without compiled form.
+    """
+    return score_posterior(run.posterior, heldout_scans, sensor, seed=seed)
 
 
 def load(path: str | os.PathLike[str]) -> Run:

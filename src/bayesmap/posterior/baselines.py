@@ -1,0 +1,239 @@
+"""The maps that others keep, as predictions: hit-count ratios and log-odds, each with the best sensor for it.
+
+All come from two counts: how often beams stopped in a cell, and how often they passed it. Each becomes a map of stop
+probabilities, and predicts readings by the same formula as a posterior (`bayesmap.kernels.predict`).
+
+A plug-in map has no sensor model of its own, so one is fitted to it, with where in a cell beams stop and the row's own
+parameters. Fitting on the scans that were counted would reward over-confidence, hence an inner hold-out: of the
+training scans every tenth is left out of the counts and predicted, in as many of the ten ways as it takes to have
+`BEAMS_WANTED` beams. Scans that are scored in the end are never looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.model.defaults import HIT_DEPTH, default_sensor
+from bayesmap.posterior.predictor import Predictor, fixed_maps
+from bayesmap.posterior.tuning import SENSOR, Parameter, Values, maximise, sensor_of
+from bayesmap.sensor.crossings import Crossings
+from bayesmap.sensor.model import RangeLimits
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Reading, Scans
+
+Floats = NDArray[np.float64]
+
+FOLDS = 10
+"""Every tenth scan, as in the protocol itself: inner and outer counts are nearly as dense."""
+
+BEAMS_WANTED = 20_000
+"""Valid beams to fit on: a dozen parameters cost about 6 / 20 000 nats a beam."""
+
+THIN = 4
+"""Of a fold's scans every fourth is enough to find out where the best values are, roughly."""
+
+PAST_READING_M = 3.0
+"""How far past a reading a beam is traced for fitting: its density is flat there."""
+
+P_HIT, P_MISS = 0.7, 0.4
+P_LEAST, P_MOST = 0.1192, 0.971
+"""OctoMap's defaults: what a hit and a miss say, and where the probability of a cell is clamped."""
+
+NOISES: tuple[float | None, ...] = (None, 4.0)
+"""Degrees of freedom that are tried: normal noise, and Student-t noise with heavy tails."""
+
+
+def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
+    """(hits + a) / (hits + passes + a + b): the mean of a Beta posterior, were it known which beams got there."""
+    a, b = values["a"], values["b"]
+    return (hits + a) / (hits + passes + a + b)
+
+
+def log_odds(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
+    """Every hit adds logit p_hit, every pass logit p_miss; starts at ``p_start``."""
+    logit = {name: np.log(values[name]) - np.log1p(-values[name]) for name in ("p_hit", "p_miss", "p_start")}
+    total = logit["p_start"] + hits * logit["p_hit"] + passes * logit["p_miss"]
+    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(total, -500.0, 500.0))))
+
+
+def log_odds_as_usual(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
+    """Log-odds with OctoMap's hit and miss, from 1/2, without clamping."""
+    return log_odds(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": 0.5})
+
+
+def log_odds_clamped(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
+    """The same, clamped to OctoMap's interval.
+
+    OctoMap clamps after every update, so that the order of hits and misses matters; its tree is clamped at once here.
+    """
+    return np.clip(log_odds_as_usual(hits, passes, values), P_LEAST, P_MOST)
+
+
+@dataclass(frozen=True)
+class Baseline:
+    """A kind of map.
+
+    Attributes:
+        name: in tables.
+        stop: stop probabilities from hits, passes, and the row's own parameters.
+        own: those parameters.
+        starts: where their fit starts.
+    """
+
+    name: str
+    stop: Callable[[Floats, Floats, Mapping[str, float]], Floats]
+    own: tuple[Parameter, ...] = ()
+    starts: tuple[Mapping[str, float], ...] = ({},)
+
+
+BASELINES = (
+    Baseline(
+        "hit ratio",
+        hit_ratio,
+        (Parameter("a", 1e-5, 100.0), Parameter("b", 1e-5, 100.0)),
+        ({"a": 0.1, "b": 0.5},),
+    ),
+    Baseline(
+        "log-odds, tuned",
+        log_odds,
+        (
+            Parameter("p_hit", 0.5001, 1 - 1e-6, share=True),
+            Parameter("p_miss", 1e-6, 0.4999, share=True),
+            Parameter("p_start", 1e-4, 0.9, share=True),
+        ),
+        ({"p_hit": 0.7, "p_miss": 0.4, "p_start": 0.3}, {"p_hit": 0.6, "p_miss": 0.48, "p_start": 0.1}),
+    ),
+    Baseline("log-odds", log_odds_as_usual),
+    Baseline("log-odds, clamped", log_odds_clamped),
+)
+"""The rows of the table. OctoMap's own numbers are the last row's."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A baseline ready to predict.
+
+    Attributes:
+        name: of the baseline.
+        predictor: its map from all training scans, its sensor, its hit depth.
+        values: all fitted numbers.
+        inner_nats_per_beam: what they reached on the inner hold-out.
+    """
+
+    name: str
+    predictor: Predictor
+    values: Values
+    inner_nats_per_beam: float
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """One way to leave training scans out: the counts of the others, and the beams to predict."""
+
+    hits: Floats
+    passes: Floats
+    scans: Scans
+    crossings: Crossings
+
+    def thinned(self) -> Fold:
+        """The same counts, and every `THIN`-th of the scans to predict: for a first rough search."""
+        return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.crossings.grid)
+
+
+def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
+    from bayesmap.kernels.crossings import trace_crossings
+
+    reach = np.where(np.isfinite(scans.ranges_m), scans.ranges_m + PAST_READING_M, scans.max_range_m).ravel()
+    return Fold(hits, passes, scans, trace_crossings(scans, grid, reach))
+
+
+def make_folds(train: Scans, grid: Grid) -> list[Fold]:
+    """Inner hold-outs, interleaved, until they have `BEAMS_WANTED` beams.
+
+    Raises:
+        BadInput: fewer than two training scans with valid readings.
+    """
+    from bayesmap.kernels.counts import count_hits
+
+    folds: list[Fold] = []
+    count, beams = min(FOLDS, len(train)), 0
+    if count < 2:
+        raise BadInput("score: baselines are fitted by holding out training scans, which takes two scans or more")
+    hits, passes = count_hits(train, grid)
+    for i in np.random.default_rng(0).permutation(count).tolist():  # a fixed order, but not that of the protocol
+        part = train.select(np.arange(len(train)) % count == i)
+        valid = int((part.readings != Reading.INVALID).sum())
+        if valid == 0:
+            continue
+        own_hits, own_passes = count_hits(part, grid)
+        folds.append(_fold((hits - own_hits).astype(float), (passes - own_passes).astype(float), part, grid))
+        beams += valid
+        if beams >= BEAMS_WANTED:
+            break
+    if not folds:
+        raise BadInput("score: none of the training scans has a valid reading to fit baselines on")
+    return folds
+
+
+def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, values: Values) -> float:
+    """Mean log predictive density of the folds' beams, each under the counts of the other scans."""
+    from bayesmap.kernels.predict import log_densities
+
+    total, beams = 0.0, 0
+    sensor = sensor_of(values, dof)
+    for fold in folds:
+        stop = baseline.stop(fold.hits, fold.passes, values)[None].astype(np.float32)
+        limits = RangeLimits(fold.scans.min_range_m, fold.scans.max_range_m)
+        distance_m = fold.crossings.distance_m(values["hit_depth"])
+        logs = log_densities(fold.crossings, distance_m, [stop], fold.scans.ranges_m, sensor, limits)
+        valid = ~np.isnan(logs)
+        total, beams = total + float(logs[valid].sum()), beams + int(valid.sum())
+    return total / beams
+
+
+def fit_baseline(baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None) -> Fitted:
+    """Fit a baseline's sensor, hit depth and own parameters on the training scans alone.
+
+    Args:
+        baseline: the kind of map.
+        train: the scans that the map is made from.
+        grid: its cells.
+        folds: of `make_folds`, to share between baselines.
+    """
+    from bayesmap.kernels.counts import count_hits
+
+    folds = make_folds(train, grid) if folds is None else folds
+    default = default_sensor(grid.resolution)
+    assert hasattr(default.noise, "sigma_m")
+    sensible = {
+        "scale_m": default.noise.sigma_m, "scale_per_m": 0.005, "p_random": default.p_random,
+        "p_no_return": default.p_no_return, "p_short": default.p_short,
+        "rate_short_per_m": default.rate_short_per_m, "hit_depth": HIT_DEPTH,
+    }  # fmt: skip
+    wary = sensible | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
+    starts = [sensor | dict(own) for own in baseline.starts for sensor in (sensible, wary)]
+    rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds
+    best: tuple[float, Values, float | None] | None = None
+    for dof in NOISES:
+        # Heavy tails start where normal noise ended: the rest is nearly the same.
+        begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
+        values, score = maximise(
+            partial(inner_score, folds, baseline, dof),
+            partial(inner_score, rough, baseline, dof),
+            (*SENSOR, *baseline.own),
+            begin,
+        )
+        if best is None or score > best[0]:
+            best = score, values, dof
+    assert best is not None
+    score, values, dof = best
+    hits, passes = count_hits(train, grid)
+    stop = baseline.stop(hits.astype(float), passes.astype(float), values)
+    predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values, dof), values["hit_depth"])
+    return Fitted(baseline.name, predictor, values, score)

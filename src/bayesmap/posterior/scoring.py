@@ -1,0 +1,196 @@
+"""The score of a prediction on held-out scans: how likely, how well calibrated, how sharp."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.posterior.calibration import (
+    Blocks,
+    Estimate,
+    binary_scores,
+    inside,
+    pit_histogram,
+    randomised_pit,
+    reliability,
+)
+from bayesmap.posterior.posterior import Posterior
+from bayesmap.posterior.predictor import Predictor, predictor_of
+from bayesmap.sensor.describe import describe
+from bayesmap.sensor.model import RangeLimits, SensorModel
+from bayesmap.world.scans import Reading, Scans
+
+LEVELS = (0.5, 0.8, 0.95)
+BINS = 20
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """How often readings lie in the central interval of a probability, and how wide such intervals are.
+
+    Attributes:
+        level: the probability.
+        share: of the readings that lie inside, typed ones counted by their randomised share; with its error.
+        mean_width_m, median_width_m: of the intervals; an end at "no return" counts as the largest range, at "too
+            close" as the least.
+    """
+
+    level: float
+    share: Estimate
+    mean_width_m: float
+    median_width_m: float
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """How well held-out beams were predicted. Errors are standard errors from a bootstrap over scans.
+
+    Attributes:
+        scans, beams: that were scored; invalid readings are not.
+        nats_per_beam: mean log predictive density of a reading: nats per metre for ranges, nats for typed readings.
+        nats_per_beam_error: its error.
+        coverage: of central intervals at 50, 80 and 95 %.
+        pit: probability integral transform of each valid reading, (beams,): uniform if the predictions are right.
+        pit_histogram: its share in each of 20 bins.
+        pit_distance: largest distance of its distribution from the uniform one.
+        pit_p_value: how often chance alone would exceed that.
+        events: first-hit events: stretches of beams in cells that readings got to.
+        brier, log_loss: mean over events of the two scores of "does the reading end here?"; less is better.
+        reliability: of events by what was predicted: (mean chance, share that happened, how many).
+        p_no_return: mean predicted probability of no return, and the share that came.
+        sensor: the sensor model of the prediction, described; with hit depth.
+        fitted: numbers that were fitted on training scans, for baselines.
+    """
+
+    scans: int
+    beams: int
+    nats_per_beam: float
+    nats_per_beam_error: float
+    coverage: tuple[Coverage, ...]
+    pit: NDArray[np.float64] = field(repr=False)
+    pit_histogram: tuple[float, ...]
+    pit_distance: float
+    pit_p_value: float
+    events: int
+    brier: Estimate
+    log_loss: Estimate
+    reliability: tuple[tuple[float, float, int], ...] = field(repr=False)
+    p_no_return: tuple[float, float]
+    sensor: dict[str, Any]
+    hit_depth: float
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything but the single beams, as JSON values."""
+        return {
+            "scans": self.scans,
+            "beams": self.beams,
+            "nats_per_beam": _number(self.nats_per_beam),
+            "nats_per_beam_error": _number(self.nats_per_beam_error),
+            "coverage": [
+                {
+                    "level": c.level,
+                    **c.share.as_json(),
+                    "mean_width_m": _number(c.mean_width_m),
+                    "median_width_m": _number(c.median_width_m),
+                }
+                for c in self.coverage
+            ],
+            "pit_histogram": [round(x, 6) for x in self.pit_histogram],
+            "pit_distance": _number(self.pit_distance),
+            "pit_p_value": _number(self.pit_p_value),
+            "events": self.events,
+            "brier": self.brier.as_json(),
+            "log_loss": self.log_loss.as_json(),
+            "reliability": [
+                {"predicted": predicted, "observed": observed, "events": count}
+                for predicted, observed, count in self.reliability
+            ],
+            "no_return": {"predicted": _number(self.p_no_return[0]), "observed": _number(self.p_no_return[1])},
+            "sensor": self.sensor,
+            "hit_depth": self.hit_depth,
+        }
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu") -> Score:
+    """Score a prediction on scans that had no part in it.
+
+    Args:
+        predictor: what predicts.
+        scans: held out.
+        seed: of the randomised transform and of the bootstrap.
+        device: where to compute.
+
+    Raises:
+        BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
+    """
+    from bayesmap.kernels.crossings import trace_crossings
+    from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
+
+    valid = (scans.readings != Reading.INVALID).ravel()
+    if not valid.any():
+        raise BadInput("score: none of the scans has a valid reading")
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    sensor, ranges = predictor.sensor, scans.ranges_m.ravel()
+    crossings = trace_crossings(scans, predictor.grid, device=device)
+    where = crossings.distance_m(predictor.hit_depth)
+    found = forecast(crossings, where, predictor.batches(), ranges, sensor, limits, device=device)
+    law = mix_stops(crossings, where, predictor.batches(), device=device)
+    ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
+    quantiles = range_quantiles(law, np.array(ends), sensor, limits, device)[valid]
+    chance, stopped = first_hit_events(law, ranges, sensor, limits, device)
+
+    scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
+    blocks = Blocks.make(scan[valid], seed)
+    nats = blocks.mean(found.log_density[valid])
+    pit = randomised_pit(found.pit_low[valid], found.pit_high[valid], seed)
+    distance, p_value = blocks.uniformity(pit)
+    clipped = np.clip(quantiles, limits.min_m, limits.max_m)
+
+    def covers(level: float) -> Coverage:
+        low, high = (clipped[:, np.argmin(np.abs(np.array(ends) - end))] for end in (0.5 - level / 2, 0.5 + level / 2))
+        width = high - low
+        share = blocks.mean(inside(pit, level).astype(np.float64))
+        return Coverage(level, share, float(width.mean()), float(np.median(width)))
+
+    event = stopped >= 0
+    happened, p = stopped[event] == 1, chance[event].astype(np.float64)
+    brier, loss = binary_scores(p, happened)
+    of_events = Blocks.make(np.repeat(scan, np.diff(crossings.offsets))[event], seed)
+    none = Estimate(float("nan"), float("nan"))
+    return Score(
+        scans=len(np.unique(scan[valid])),
+        beams=int(valid.sum()),
+        nats_per_beam=nats.value,
+        nats_per_beam_error=nats.error,
+        coverage=tuple(covers(level) for level in LEVELS),
+        pit=pit,
+        pit_histogram=tuple(pit_histogram(pit, BINS).tolist()),
+        pit_distance=distance,
+        pit_p_value=p_value,
+        events=len(p),
+        brier=of_events.mean(brier) if len(p) else none,
+        log_loss=of_events.mean(loss) if len(p) else none,
+        reliability=tuple(reliability(p, happened)),
+        p_no_return=(float(found.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
+        sensor=describe(sensor),
+        hit_depth=predictor.hit_depth,
+    )
+
+
+def score_posterior(posterior: Posterior, scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0) -> Score:
+    """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
+
+    Raises:
+        BadInput: as `score_prediction` and `predictor_of`.
+    """
+    return score_prediction(predictor_of(posterior, sensor), scans, seed=seed)

@@ -1,0 +1,103 @@
+"""Fitting a sensor, and whatever else a prediction has to be given, by the score of held-out scans.
+
+Parameters live in boxes; the search is L-BFGS-B on their logarithms or logits, from several starts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import optimize
+
+from bayesmap.sensor.mixture import BeamMixture
+from bayesmap.sensor.noise import AdditiveNoise, Gaussian, StudentT
+
+Values = dict[str, float]
+
+STEP = 2e-3
+"""Of the numeric gradient, in logarithms or logits: stops are kept in single precision, whose noise it must exceed."""
+
+ROUGH, FINE = 1e-4, 1e-6
+"""Relative gain in score at which a climb ends: from every start, and then from the best place found."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number to be fitted.
+
+    Attributes:
+        name: how the values call it.
+        low, high: where it must stay.
+        share: whether it is a share of one, searched by its logit; otherwise it is positive, searched by its logarithm.
+    """
+
+    name: str
+    low: float
+    high: float
+    share: bool = False
+
+    def inner(self, value: float) -> float:
+        """The number that the search moves."""
+        value = min(max(value, self.low), self.high)
+        return math.log(value) - (math.log1p(-value) if self.share else 0.0)
+
+    def outer(self, moved: float) -> float:
+        """And back."""
+        return 1.0 / (1.0 + math.exp(-moved)) if self.share else math.exp(moved)
+
+
+SENSOR = (
+    Parameter("scale_m", 1e-3, 2.0),
+    Parameter("scale_per_m", 1e-6, 0.3),
+    Parameter("p_random", 1e-4, 0.95, share=True),
+    Parameter("p_no_return", 1e-5, 0.95, share=True),
+    Parameter("p_short", 1e-5, 0.95, share=True),
+    Parameter("rate_short_per_m", 1e-3, 50.0),
+    Parameter("hit_depth", 1e-3, 1.0 - 1e-3, share=True),
+)
+"""What every prediction needs beside a map: the robust beam model, and where in a cell beams stop."""
+
+
+def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
+    """The beam model of some values: Student-t noise with ``dof`` degrees of freedom, or Gaussian noise if None."""
+    scale, growth = values["scale_m"], values["scale_per_m"]
+    noise: AdditiveNoise = Gaussian(scale, growth) if dof is None else StudentT(scale, dof, growth)
+    names = ("p_random", "p_no_return", "p_short", "rate_short_per_m")
+    return BeamMixture(noise, **{name: values[name] for name in names})
+
+
+def maximise(
+    score: Callable[[Values], float],
+    rough_score: Callable[[Values], float],
+    parameters: Sequence[Parameter],
+    starts: Sequence[Mapping[str, float]],
+) -> tuple[Values, float]:
+    """The values of the highest score found, and that score.
+
+    Args:
+        score: to be maximised.
+        rough_score: a cheap likeness of it, climbed from every start; the score itself is climbed from the best end.
+        parameters: what may vary.
+        starts: values of all of them.
+    """
+    names = [p.name for p in parameters]
+
+    def values_at(point: NDArray[np.float64]) -> Values:
+        return {n: p.outer(x) for n, p, x in zip(names, parameters, point.tolist(), strict=True)}
+
+    def climb(what: Callable[[Values], float], start: Mapping[str, float], tolerance: float) -> tuple[Values, float]:
+        found = optimize.minimize(
+            lambda x: -what(values_at(x)),
+            np.array([p.inner(start[p.name]) for p in parameters]),
+            method="L-BFGS-B",
+            bounds=[(p.inner(p.low), p.inner(p.high)) for p in parameters],
+            options={"eps": STEP, "ftol": tolerance, "maxiter": 100, "maxfun": 3000},
+        )
+        return values_at(found.x), -float(found.fun)
+
+    rough, _ = max((climb(rough_score, start, ROUGH) for start in starts), key=lambda found: found[1])
+    return climb(score, rough, FINE)
