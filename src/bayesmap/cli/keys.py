@@ -134,11 +134,19 @@ EXPORT = (
     Key("free_thresh", float, None, "Below it a cell is free.", "0.25, or 0 with scale"),
 )
 
+SCORE = (
+    Key("holdout", int, 10, "Every n-th scan was held out when the run was made.", metavar="N"),
+    Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
+    Key("skip_bad_lines", bool, False, "Leave out malformed lines instead of refusing the log."),
+    SEED,
+)
+
 SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "infer": INFER,
     "simulate": SIMULATE,
     "demo": DEMO,
     "render": RENDER,
     "export": EXPORT,
+    "score": SCORE,
 }
 """The tables of a configuration file: one a command."""
