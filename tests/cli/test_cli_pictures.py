@@ -46,6 +46,37 @@ def test_render(office, office_run, tmp_path, what):
         assert image.size[0] > 400
 
 
+@pytest.fixture(scope="module")
+def heldout_run(office, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run") / "heldout"
+    few = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8", "--no-progress")
+    result = call("infer", office, "-o", folder, *few, "--holdout", "3")
+    assert result.exit_code == 0, result.stderr
+    return folder
+
+
+def test_residuals_of_scans_that_were_seen_are_refused(office, office_run, heldout_run, tmp_path):
+    for run, every in ((office_run, "3"), (heldout_run, "2"), (heldout_run, "0")):
+        result = call(
+            "render", run / "run.nc", "--what", "residuals", "--heldout", office, "--holdout", every,
+            "-o", tmp_path / "picture.png",
+        )  # fmt: skip
+        assert result.exit_code == 3, result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("what", ["residuals", "surprise", "log-odds"])
+@pytest.mark.parametrize("window", [None, "observed", "0,6,-1,5"])
+def test_render_what_others_and_unseen_scans_say(office, heldout_run, tmp_path, what, window):
+    target = tmp_path / "picture.png"
+    heldout = ["--heldout", office, "--holdout", "3"] if what != "log-odds" else []
+    part = ["--window", window] if window else []
+    result = call("render", heldout_run / "run.nc", "--what", what, "-o", target, *heldout, *part)
+    assert result.exit_code == 0, result.stderr
+    with Image.open(target) as image:
+        assert image.size[0] > 400
+
+
 def test_render_animation_and_default_names(office_run, tmp_path):
     copy = tmp_path / "run.nc"
     copy.write_bytes((office_run / "run.nc").read_bytes())
@@ -63,6 +94,12 @@ def test_render_says_what_it_cannot_draw(office_run, tmp_path):
         (["--what", "draw", "--chain", "3"], "this run has chains 1 to 2"),
         (["--what", "animation", "-o", tmp_path / "film.png"], ".gif, .webp"),
         (["-o", tmp_path / "picture.jpg"], ".png, .pdf, .svg"),
+        (["--what", "width"], "a wall is there or not, and has no interval"),
+        (["--what", "residuals"], "name their log by --heldout"),
+        (["--what", "surprise", "--heldout", tmp_path / "no.log"], "no.log"),
+        (["--what", "mean", "--window", "1,2"], "give X0,X1,Y0,Y1 in metres"),
+        (["--what", "mean", "--window", "900,901,0,1"], "lies outside the map"),
+        (["--window", "observed"], "figure shows the whole map"),
     ):
         result = call("render", office_run / "run.nc", *arguments)
         assert result.exit_code == 3, result.stderr

@@ -17,6 +17,10 @@ Value = bool | int | float | str | None
 METHODS = ("gibbs", "block", "propagate", "importance", "exact")
 ORDERS = ("radial", "raster", "random")
 STARTS = ("prior", "zeros", "ones", "propagate")
+PICTURES = (
+    "figure", "mean", "entropy", "width", "deviation", "draw", "residuals", "surprise", "log-odds", "trace", "weights",
+    "animation",
+)  # fmt: skip
 EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "geotiff")
 
 
@@ -110,15 +114,12 @@ DEMO = (
 )
 
 RENDER = (
-    Key(
-        "what",
-        click.Choice(("figure", "mean", "entropy", "deviation", "draw", "trace", "animation", "weights")),
-        "figure",
-        "What to draw.",
-    ),
+    Key("what", click.Choice(PICTURES), "figure", "What to draw."),
     Key("chain", int, 1, "Whose draws are shown, from 1."),
     Key("draw", int, -1, "Which draw is shown, from 1; -1 is the last."),
     Key("frames", int, 100, "Frames of an animation, at most."),
+    Key("window", str, None, "Part of the map to draw, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1"),
+    Key("holdout", int, 10, "Every n-th scan of --heldout was held out; 0: another recording, whole.", metavar="N"),
 )
 
 EXPORT = (

@@ -1,4 +1,4 @@
-"""Which of a saved run's draws, and what truth, a picture shows."""
+"""Which of a saved run's draws, which part of the map, what truth and what other scans a picture shows."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from bayesmap.errors import BadInput
 if TYPE_CHECKING:
     from bayesmap.run import Run
     from bayesmap.world.grid import Grid
+    from bayesmap.world.scans import Scans
 
 Walls = NDArray[np.bool_]
 
@@ -58,3 +59,74 @@ def truth_on(grid: Grid, path: str) -> Walls:
     walls = np.zeros(grid.shape, dtype=np.bool_)
     walls[inside] = occupancy[i[inside], j[inside]] > 0.5
     return walls
+
+
+def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
+    """The part of the map that a window, as typed, leaves; all of it for None.
+
+    Raises:
+        BadInput: neither four numbers nor "observed", or a window outside the map.
+    """
+    from bayesmap.viz.window import window, window_around
+
+    if text is None:
+        return run.grid, (slice(None), slice(None))
+    if text == "observed":
+        return window_around(run.grid, run.observed)
+    try:
+        x0, x1, y0, y1 = (float(part) for part in text.split(","))
+    except ValueError:
+        raise BadInput(f"window {text!r}: give X0,X1,Y0,Y1 in metres, such as 0,10,-5,5, or: observed") from None
+    return window(run.grid, (x0, x1), (y0, y1))
+
+
+def interval_width(run: Run) -> NDArray[np.float64]:
+    """Upper minus lower bound of the central 90 % interval of each cell, (nx, ny).
+
+    Raises:
+        BadInput: cells are walls or free, which have no interval.
+    """
+    if not hasattr(run, "interval"):
+        raise BadInput(
+            "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
+        )
+    lower, upper = run.interval(0.9)
+    return np.asarray(upper - lower)
+
+
+def heldout_scans(run: Run, log: str | None, every: int) -> Scans:
+    """The scans of a log that a run did not see: every n-th, by the rule of `infer --holdout`; all for 0.
+
+    Raises:
+        BadInput: no log is named, it cannot be read, or the run was made from some of the scans.
+    """
+    from bayesmap.io.logs import read_log
+    from bayesmap.posterior.heldout import unseen_scans
+
+    if log is None:
+        raise BadInput(
+            "residuals and surprise are those of scans that the run did not see: name their log by --heldout"
+        )
+    scans = read_log(log, max_range_m=run.posterior.scans.max_range_m)
+    return unseen_scans(run.posterior.scans, scans, every, log)
+
+
+def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
+    """The log-odds map of the run's scans, by OctoMap's numbers and unclamped, and the cells it saw, (nx, ny)."""
+    from bayesmap.kernels.counts import count_hits
+    from bayesmap.posterior.baselines import log_odds_as_usual
+
+    hits, passes = (counts.reshape(run.grid.shape) for counts in count_hits(run.posterior.scans, run.grid))
+    return log_odds_as_usual(hits.astype(float), passes.astype(float), {}), hits + passes > 0
+
+
+def misses(run: Run, scans: Scans, what: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """End points of beams, metres, (n, 2), and how badly each was predicted, (n,).
+
+    That is reading minus predicted median in metres for "residuals", and minus the log score in nats for "surprise".
+    """
+    from bayesmap.posterior.predictor import predictor_of
+    from bayesmap.posterior.residuals import residuals_of
+
+    found = residuals_of(predictor_of(run.posterior), scans)
+    return found.ends_world, found.residual_m if what == "residuals" else found.surprise_nats

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -10,19 +11,35 @@ from bayesmap.cli.command import Call, takes
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
 NAMES = {"figure": "posterior.png", "animation": "chain.gif"}
 """What a picture is called unless the user says otherwise; others are called what they show."""
+
+WHOLE = ("figure", "animation", "trace", "weights")
+"""Pictures that take no window."""
 
 
 @takes("render")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help=".png, .pdf, .svg; .gif, .webp. [default: beside RUN.nc]")
 @click.option("--truth", metavar="MAP.yaml", help="Outline the true walls, a map_server map.")
-def command(call: Call, run_file: str, output: str | None, truth: str | None) -> None:
-    """Draw a saved run.
+@click.option("--heldout", metavar="LOG", help="The log that the run was made from, or another of the same place.")
+def command(call: Call, run_file: str, output: str | None, truth: str | None, heldout: str | None) -> None:
+    r"""Draw a saved run.
 
-    The figure shows mean, entropy, readings and one draw; --what takes a single panel, the trace of the log joint, the
-    weights of importance sampling, or the animation of a chain. An older picture of the same name is replaced.
+    An older picture of the same name is replaced.
+
+    \b
+    figure                  mean, entropy, readings and one draw
+    mean, entropy, draw     one panel
+    deviation, width        of a cell; width is that of its 90 % interval
+    residuals, surprise     held-out beams (--heldout LOG) over the map: reading
+                            minus predicted median, and minus log score
+    log-odds                the posterior beside the classic log-odds map
+    trace, weights          of the log joint; of importance sampling
+    animation               of a chain
     """
     from bayesmap.cli import pictures
     from bayesmap.run import load
@@ -36,7 +53,11 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None) ->
     # Methods that compute marginals have an answer without a draw; chains in their warm-up have none.
     if draws == 0 and (what in ("draw", "animation") or run.posterior.settings["method"] in ("gibbs", "block")):
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
-    walls = None if truth is None else pictures.truth_on(run.grid, truth)
+    if values["window"] is not None and what in WHOLE:
+        raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
+    grid, cut = pictures.part_of(run, values["window"])
+    mean, observed = run.occupancy[cut], run.observed[cut]
+    walls = None if truth is None else pictures.truth_on(grid, truth)
     draw = pictures.one_draw(run, values["chain"], values["draw"]) if draws else None
     if what == "figure":
         write_figure(run.plot(truth=walls, **({} if draw is None else {"draw": draw})), target)
@@ -53,10 +74,26 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None) ->
 
         chain, numbers = pictures.frames(run, values["chain"], values["frames"])
         write_animation(target, run.grid, chain, observed=run.observed, truth=walls, sweeps=numbers)
+    elif what in ("residuals", "surprise"):
+        from bayesmap.viz.residuals import residuals_figure, surprise_scale
+
+        ends, numbers_shown = pictures.misses(run, pictures.heldout_scans(run, heldout, values["holdout"]), what)
+        scale = surprise_scale(numbers_shown) if what == "surprise" else None
+        write_figure(residuals_figure(grid, mean, ends, numbers_shown, observed, scale=scale), target)
+    elif what == "log-odds":
+        from bayesmap.viz.comparison import Candidate, comparison_figure
+
+        other, seen = pictures.log_odds_map(run)
+        both = [Candidate("log-odds", other[cut], seen[cut]), Candidate("posterior mean", mean, observed)]
+        write_figure(comparison_figure(grid, both), target)
     else:
         from bayesmap.viz.panel import panel_figure
 
-        values_shown = draw if what == "draw" and draw is not None else run.occupancy
-        write_figure(panel_figure(run.grid, what, values_shown, run.observed, truth=walls), target)
+        shown: NDArray[Any] = mean
+        if what == "width":
+            shown = pictures.interval_width(run)[cut]
+        elif what == "draw" and draw is not None:
+            shown = draw[cut]
+        write_figure(panel_figure(grid, what, shown, observed, truth=walls), target)
     document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
     call.talk.result(document, [target])

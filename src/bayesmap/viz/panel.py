@@ -14,6 +14,8 @@ from bayesmap.viz.overlays import draw_truth_outline
 from bayesmap.world.grid import Grid
 
 HEIGHT_IN, BAR_IN = 5.6, 1.3
+NO_BAR_IN = 0.9
+"""How much narrower a panel is without a bar."""
 
 
 def panel_figure(
@@ -56,7 +58,9 @@ def panel_figure(
         image, label = maps.draw_sample(axes, grid, values, observed), ""
     else:
         image, label = maps.draw_probability(axes, grid, values, observed), "one draw"
-    if label:
+    if not label:
+        figure.set_figwidth(width_in - NO_BAR_IN)
+    else:
         figure.colorbar(image, ax=axes, label=label, shrink=0.8)
     if truth is not None:
         draw_truth_outline(axes, grid, truth)

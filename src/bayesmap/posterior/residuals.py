@@ -1,0 +1,83 @@
+"""How far held-out readings fall from what was predicted, beam by beam: the numbers behind pictures of residuals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.posterior.predictor import Predictor
+from bayesmap.sensor.model import RangeLimits
+from bayesmap.world.scans import Reading, Scans
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """Readings of the n beams that hit something or had no return, against their predictive laws.
+
+    Attributes:
+        ends_world: where a hit beam ended; for one without return, where its median was predicted, metres, (n, 2).
+        residual_m: reading minus predicted median, metres; no return counts as the sensor's largest range, (n,).
+        surprise_nats: minus the log predictive density of the reading, (n,).
+        beams: which of the scans' beams these are, flat, (n,).
+    """
+
+    ends_world: Floats
+    residual_m: Floats
+    surprise_nats: Floats
+    beams: NDArray[np.intp]
+
+
+def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu") -> Residuals:
+    """Predict every beam and compare; too close and invalid readings have no place on a map and are left out.
+
+    Args:
+        predictor: what predicts.
+        scans: held out.
+        device: where to compute.
+
+    Raises:
+        BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
+    """
+    from bayesmap.kernels.crossings import trace_crossings
+    from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.stop_mixture import mix_stops, range_quantiles
+
+    if not placed(scans).size:
+        raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    crossings = trace_crossings(scans, predictor.grid, device=device)
+    where = crossings.distance_m(predictor.hit_depth)
+    law = mix_stops(crossings, where, predictor.batches(), device=device)
+    median_m = range_quantiles(law, np.array([0.5]), predictor.sensor, limits, device)[:, 0]
+    ranges = scans.ranges_m.ravel()
+    found = forecast(crossings, where, predictor.batches(), ranges, predictor.sensor, limits, device=device)
+    return compare(scans, median_m, found.log_density)
+
+
+def placed(scans: Scans) -> NDArray[np.intp]:
+    """Flat indices of the beams that hit something or had no return."""
+    kinds = scans.readings.ravel()
+    return np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN))
+
+
+def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
+    """Readings against given predictions.
+
+    Args:
+        scans: S scans of A beams, B = S A.
+        median_m: of each beam's predictive law, (B,); infinite where no return, or too close, is at the median.
+        log_density: log predictive density of each reading, (B,).
+    """
+    beams = placed(scans)
+    median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
+    reading = np.minimum(scans.ranges_m.ravel()[beams], scans.max_range_m)
+    drawn = np.where(np.isposinf(scans.ranges_m.ravel()[beams]), median, reading)
+    angle = scans.beam_angles_world().ravel()[beams]
+    start = scans.beam_starts_world().reshape(-1, 2)[beams]
+    ends = start + drawn[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return Residuals(ends, reading - median, -log_density[beams], beams)
