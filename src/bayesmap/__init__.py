@@ -13,6 +13,7 @@ from bayesmap.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from bayesmap.api import infer as infer
+    from bayesmap.app.widget import MapWidget as MapWidget
     from bayesmap.errors import BadInput as BadInput
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.model.forward import ranges as ranges
@@ -37,6 +38,7 @@ _HOME = {
     "Gaussian": "bayesmap.sensor.noise",
     "Grid": "bayesmap.world.grid",
     "Independent": "bayesmap.model.priors",
+    "MapWidget": "bayesmap.app.widget",
     "Reading": "bayesmap.world.scans",
     "Run": "bayesmap.run",
     "Scans": "bayesmap.world.scans",

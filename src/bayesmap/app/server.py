@@ -8,7 +8,6 @@ import secrets
 import socket
 import time
 from collections.abc import Callable
-from importlib import resources
 
 import uvicorn
 from starlette.applications import Starlette
@@ -21,6 +20,7 @@ from bayesmap.app.document import Document, Refused
 from bayesmap.app.guard import Guard
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.messages import MAX_BYTES
+from bayesmap.app.recording import static
 from bayesmap.errors import BadInput
 
 MESSAGES_PER_SECOND = 200
@@ -32,11 +32,6 @@ HARD_LIMIT_BYTES = 4 * MAX_BYTES
 """Messages over `MAX_BYTES` are answered by an error; over this, the connection is closed unread."""
 
 POLICY_VIOLATION = 1008
-
-
-def static(name: str) -> str:
-    """The text of a file of the page."""
-    return resources.files("bayesmap.app").joinpath("static", name).read_text(encoding="utf-8")
 
 
 class Rate:

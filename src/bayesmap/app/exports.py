@@ -1,0 +1,93 @@
+"""Files of a result: the saved run, the map for map_server, the page in one file."""
+
+from __future__ import annotations
+
+import io
+import tempfile
+import time
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bayesmap.app.recording import to_html
+from bayesmap.app.result import Result
+from bayesmap.app.stream import CHAINS
+from bayesmap.assembly import Assembly
+from bayesmap.errors import BadInput
+from bayesmap.run import Run
+from bayesmap.sensor.describe import describe
+
+SAVED_DRAWS = 500
+"""Maps of each chain that are drawn for a run of a method without chains."""
+
+
+def export(result: Result, what: str) -> tuple[str, str, bytes]:
+    """Name, media type and bytes of a file.
+
+    Args:
+        result: of the present job.
+        what: "run", "map" or "html".
+
+    Raises:
+        BadInput: there is nothing of that kind.
+    """
+    if what == "run":
+        return "run.nc", "application/x-netcdf", _saved(as_run(result))
+    if what == "map":
+        return "map.zip", "application/zip", _map(result)
+    return "bayesmap.html", "text/html", to_html(result).encode()
+
+
+def as_run(result: Result) -> Run:
+    """The result as `bayesmap.infer` returns it.
+
+    Raises:
+        BadInput: a chain of which no draw was kept.
+    """
+    if result.run is not None:
+        return result.run
+    document, stream = result.document, result.stream
+    if result.method == "none" or (stream is not None and not stream.packed.shape[1]):
+        raise BadInput("there are no draws to save; run inference first")
+    count = SAVED_DRAWS if stream is None else stream.total // stream.thin
+    settings: dict[str, Any] = {
+        "method": result.method, "order": document.order, "chains": CHAINS, "warmup": 0, "draws": count,
+        "thin": 1 if stream is None else stream.thin, "seed": document.seed,
+        "start": "prior" if document.simulated else "propagate", "particles": document.sweeps,
+        "rounds": 0 if result.preview is None else result.preview.rounds, "hit_depth": result.scene.hit_depth,
+        "prior": result.scene.problem.prior.describe(), "sensor": describe(result.scene.sensor),
+        "fingerprint": "made by the page",
+    }  # fmt: skip
+    began = time.perf_counter()
+    scene = result.scene
+    assembly = Assembly(scene.problem, scene.scans, scene.sensor, settings, began, 0.0)
+    if stream is not None:
+        return assembly.chains(stream.chains(), None, None)
+    if result.particles is not None:
+        return assembly.importance(result.particles)
+    assert result.preview is not None
+    return assembly.marginals(replace(result.preview.marginals(), finished=True))
+
+
+def _saved(run: Run) -> bytes:
+    with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
+        path = Path(folder) / "run.nc"
+        run.save(path)
+        return path.read_bytes()
+
+
+def _map(result: Result) -> bytes:
+    """YAML and image, as `bayesmap export` writes them, in one archive."""
+    from bayesmap.io.map_server import write_map
+
+    packed = io.BytesIO()
+    with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
+        mean = np.clip(result.mean(), 0.0, 1.0)
+        paths = write_map(Path(folder) / "map.yaml", mean, result.document.grid, result.observed())
+        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+            for path in paths:
+                archive.write(path, path.name)
+    return packed.getvalue()

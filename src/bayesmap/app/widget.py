@@ -1,0 +1,154 @@
+"""The page as a widget of a notebook: the same module and the same session, over the notebook's own channel."""
+
+from __future__ import annotations
+
+import asyncio
+import contextvars
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from bayesmap.app.document import Document, Refused, parse_document
+from bayesmap.app.messages import Buffers, as_array, check, seq_of
+from bayesmap.app.recording import run_to_html, static
+from bayesmap.app.session import Effects, Session, ToWorker, addressed, refusal
+from bayesmap.app.supervisor import Supervisor
+from bayesmap.app.tasks import Report
+from bayesmap.app.worlds import tutorial_document
+from bayesmap.errors import BadInput
+from bayesmap.run import Run
+
+try:
+    import anywidget
+except ImportError as error:
+    raise ImportError("bayesmap.MapWidget needs anywidget: pip install 'bayesmap[notebook]'") from error
+
+CLIENT = 1
+
+
+class MapWidget(anywidget.AnyWidget):
+    """The interactive page in Jupyter and marimo.
+
+    ``MapWidget()`` is the live page on the tutorial's map; ``MapWidget(run)`` shows a finished run, its draws and its
+    scans. The worker process starts when the widget is first shown, and ends with `close` or with the kernel.
+
+    Args:
+        run: what to show; nothing for the live page.
+        document: where the live page begins, as a document of docs/app.md.
+        seed: of all random numbers of the live page.
+
+    Raises:
+        BadInput: a document that is not one.
+    """
+
+    _esm = static("mapview.js")
+    _supervisor: Supervisor | None = None
+    _folder: tempfile.TemporaryDirectory[str] | None = None
+
+    def __init__(
+        self, run: Run | None = None, *, document: Mapping[str, Any] | None = None, seed: int = 0, **options: Any
+    ) -> None:
+        super().__init__(**options)
+        self._run = run
+        first = tutorial_document(seed) if document is None else parse_document(dict(document))
+        self._session = Session(_shown(run, first))
+        self._later = _on_this_loop()
+        self.on_msg(self._receive)
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The present document, as JSON values."""
+        return self._session.document.to_json()
+
+    @property
+    def generation(self) -> int:
+        """Of the present picture."""
+        return self._session.generation
+
+    def to_html(self) -> str:
+        """A page in one file that shows the run.
+
+        Raises:
+            BadInput: a live page; use its export.
+        """
+        if self._run is None:
+            raise BadInput("MapWidget: a live page is exported from the page itself")
+        return run_to_html(self._run)
+
+    def close(self) -> None:
+        """End the worker and the widget."""
+        if self._supervisor is not None:
+            self._supervisor.stop()
+            self._supervisor = None
+        if self._folder is not None:
+            self._folder.cleanup()
+            self._folder = None
+        super().close()
+
+    def _receive(self, _widget: object, content: Any, _buffers: object) -> None:
+        """A message of the view's."""
+        self._start()
+        if isinstance(content, dict) and content.get("type") == "hello":
+            self._do(self._session.join(CLIENT))
+        try:
+            message = check(content)
+        except Refused as refused:
+            self._tell(refusal(refused, None, seq_of(content if isinstance(content, dict) else "")), {})
+            return
+        self._do(self._session.receive(CLIENT, message))
+
+    def _start(self) -> None:
+        if self._supervisor is not None:
+            return
+        path = None
+        if self._run is not None:
+            self._folder = tempfile.TemporaryDirectory(prefix="bayesmap-")
+            path = str(Path(self._folder.name) / "run.nc")
+            self._run.save(path)
+        self._supervisor = Supervisor(
+            lambda report: self._later(lambda: self._hear(report)),
+            lambda: self._later(lambda: self._do(self._session.worker_lost())),
+            path,
+        )
+        self._supervisor.start()
+
+    def _hear(self, report: Report) -> None:
+        if report.header["type"] != "unusable":
+            self._do(self._session.hear(report))
+
+    def _do(self, effects: Effects) -> None:
+        for effect in effects:
+            if isinstance(effect, ToWorker):
+                if self._supervisor is not None:
+                    self._supervisor.send(effect.task)
+            else:
+                self._tell(addressed(effect.header, CLIENT), effect.buffers)
+
+    def _tell(self, header: Mapping[str, Any], buffers: Buffers) -> None:
+        arrays = {name: as_array(value) for name, value in buffers.items()}
+        listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
+        self.send({**header, "buffers": listed}, [a.tobytes() for a in arrays.values()])
+
+
+def _shown(run: Run | None, first: Document) -> Document:
+    if run is None:
+        return first
+    from bayesmap.app.opened import opened_run
+
+    return opened_run(run, "run").document
+
+
+def _on_this_loop() -> Callable[[Callable[[], None]], None]:
+    """How the supervisor's threads reach the notebook: through its event loop, or directly where there is none."""
+    try:
+        loop = asyncio.get_running_loop()
+    except RuntimeError:
+        return lambda call: call()
+    context = contextvars.copy_context()
+
+    def later(call: Callable[[], None]) -> None:
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(call, context=context)
+
+    return later
