@@ -1,6 +1,6 @@
 """Maps, trajectory and scans as a recording of the rerun viewer (.rrd). Needs the extra ``rerun`` (rerun-sdk).
 
-    /map/NAME      picture of a layer: grey, transparent where no beam reached; mean: dark is wall; others: bright is 1
+    /map/NAME      picture of a layer: mean: dark is wall; others: yellow is 1, dark blue 0; sand where no beam reached
     /values/NAME   the layer's numbers, a tensor (row from the top, column), NaN where no beam reached
     /trajectory    the scans' poses, a line
     /sensor, /scan position and hits of each scan, on the timelines ``scan`` (its number) and ``stamp`` (where known)
@@ -30,6 +30,11 @@ EPOCH_FROM_S = 1e8
 """Later stamps are dates, earlier ones count from some start."""
 
 SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213, 94, 0)
+WALL_COLORS = ((250, 250, 248), (20, 31, 66))
+UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))
+"""Of 0 to 1, in straight lines: those of `bayesmap.viz.palette`, near enough."""
+UNKNOWN_COLOR = (214, 201, 176)
+"""Not transparent: the viewer shows that as black."""
 
 
 def write_rerun(
@@ -68,10 +73,15 @@ def write_rerun(
     target = Path(path)
     with write_whole(target) as partial:
         recording = rr.RecordingStream("bayesmap", send_properties=False)
+        recording.send_recording_name(target.stem)
         recording.save(partial, default_blueprint=rrb.Blueprint(rrb.Grid(*views)))
         recording.log("about", rr.TextDocument(_about(grid)), static=True)
         for name, values in checked.items():
-            recording.log(f"map/{name}", rr.Image(_picture(values, dark_is_one=name == "mean")), static=True)
+            recording.log(
+                f"map/{name}",
+                rr.Image(_picture(values, WALL_COLORS if name == "mean" else UNCERTAINTY_COLORS)),
+                static=True,
+            )
             tensor = rr.Tensor(np.ascontiguousarray(values.T[::-1]), dim_names=("row", "column"))
             recording.log(f"values/{name}", tensor, static=True)
         if scans is not None and len(scans):
@@ -103,13 +113,12 @@ def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
     recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=hits))
 
 
-def _picture(values: NDArray[np.float32], *, dark_is_one: bool) -> NDArray[np.uint8]:
-    """Grey and opacity as RGBA, shape (ny, nx, 4), the first row on top."""
-    unknown = np.isnan(values)
-    level = np.clip(np.where(unknown, 0.0, values), 0.0, 1.0)
-    grey = np.rint(255 * (1 - level if dark_is_one else level)).astype(np.uint8)
-    opacity = np.where(unknown, 0, 255).astype(np.uint8)
-    return np.ascontiguousarray(np.stack([grey, grey, grey, opacity], axis=-1).transpose(1, 0, 2)[::-1])
+def _picture(values: NDArray[np.float32], colors: tuple[tuple[int, int, int], ...]) -> NDArray[np.uint8]:
+    """Colours of 0 to 1, shape (ny, nx, 3), the first row on top."""
+    knots = np.linspace(0.0, 1.0, len(colors))
+    pixels = np.stack([np.interp(values, knots, shade) for shade in np.array(colors).T], axis=-1)
+    pixels[np.isnan(values)] = UNKNOWN_COLOR
+    return np.ascontiguousarray(np.rint(pixels).astype(np.uint8).transpose(1, 0, 2)[::-1])
 
 
 def _about(grid: Grid) -> str:
