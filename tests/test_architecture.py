@@ -24,7 +24,9 @@ LEVELS = (
     {"posterior"},
     {"io", "viz"},
     {"run"},
-    {"assembly"},  # the half of `api` that turns results into runs
+    {"field_run"},  # the same for maps whose cells stop some beams
+    {"loading"},
+    {"assembly", "field_inference"},  # the halves of `api` that run fields, and turn results into runs
     {"api"},
     {"app"},
     {"cli"},

@@ -15,13 +15,16 @@ if TYPE_CHECKING:
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
     from bayesmap.errors import BadInput as BadInput
+    from bayesmap.field_run import FieldRun as FieldRun
     from bayesmap.io.logs import read_log as read_log
+    from bayesmap.loading import load as load
+    from bayesmap.model.cell_priors import Beta as Beta
+    from bayesmap.model.cell_priors import Surface as Surface
     from bayesmap.model.forward import ranges as ranges
     from bayesmap.model.forward import simulate as simulate
     from bayesmap.model.mapping import mapping_model as mapping_model
     from bayesmap.model.priors import Independent as Independent
     from bayesmap.run import Run as Run
-    from bayesmap.run import load as load
     from bayesmap.run import score as score
     from bayesmap.sensor.mixture import BeamMixture as BeamMixture
     from bayesmap.sensor.model import SensorModel as SensorModel
@@ -34,7 +37,9 @@ if TYPE_CHECKING:
 
 _HOME = {
     "BadInput": "bayesmap.errors",
+    "Beta": "bayesmap.model.cell_priors",
     "BeamMixture": "bayesmap.sensor.mixture",
+    "FieldRun": "bayesmap.field_run",
     "Gaussian": "bayesmap.sensor.noise",
     "Grid": "bayesmap.world.grid",
     "Independent": "bayesmap.model.priors",
@@ -44,8 +49,9 @@ _HOME = {
     "Scans": "bayesmap.world.scans",
     "SensorModel": "bayesmap.sensor.model",
     "StudentT": "bayesmap.sensor.noise",
+    "Surface": "bayesmap.model.cell_priors",
     "infer": "bayesmap.api",
-    "load": "bayesmap.run",
+    "load": "bayesmap.loading",
     "mapping_model": "bayesmap.model.mapping",
     "ranges": "bayesmap.model.forward",
     "read_log": "bayesmap.io.logs",

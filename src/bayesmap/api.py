@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from bayesmap.assembly import Assembly
 from bayesmap.errors import BadInput, check_count
+from bayesmap.field_inference import FIT, FieldJob, fit_sensor, infer_field
+from bayesmap.field_run import FieldRun
 from bayesmap.inference.block import BlockGibbs
 from bayesmap.inference.chain import Chains, Progress, Schedule, run_chains
 from bayesmap.inference.exact import enumerate_maps
@@ -24,6 +26,7 @@ from bayesmap.inference.problem import Problem
 from bayesmap.inference.propagate import ROUNDS, Marginals, propagate
 from bayesmap.inference.sampler import Order
 from bayesmap.inference.start import Start, default_start, start_maps
+from bayesmap.model.cell_priors import CellPrior
 from bayesmap.model.priors import Independent
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.run import Run
@@ -50,8 +53,8 @@ def infer(
     scans: Scans,
     grid: Grid,
     *,
-    prior: Independent,
-    sensor: SensorModel,
+    prior: Independent | CellPrior,
+    sensor: SensorModel | Literal["fit"],
     method: Method = "gibbs",
     order: Order = "radial",
     chains: int = 4,
@@ -70,7 +73,7 @@ def infer(
     on_checkpoint: Callable[[Run], None] | None = None,
     checkpoint_every_s: float = 30.0,
 ) -> Run:
-    """Infer the walls from scans.
+    """Infer the walls from scans; or, where the prior says that cells stop only some beams, how many, and where.
 
     The result depends on the arguments up to ``hit_depth`` alone, and on the kind of device in the last bits: neither
     on the number of threads nor on how often the run was stopped and resumed.
@@ -78,15 +81,18 @@ def infer(
     Args:
         scans: what the sensor reported, and from where.
         grid: the map to infer.
-        prior: of the walls.
-        sensor: the law of the readings.
+        prior: decides what a cell's state is: `Independent` (binary walls), `Beta` (reflectivities) or `Surface`
+            (reflectivities and surfaces). The latter two have one method, "gibbs", and neither order nor start.
+        sensor: the law of the readings; "fit" fits a `BeamMixture`, and with it the numbers of a `Beta` or `Surface`,
+            to the scans themselves.
         method: "gibbs" (single cells), "block" (overlapping 2 x 2 blocks: use it where walls are rare),
             "propagate" (belief propagation: approximate, at once), "importance" (from the prior: for teaching),
             or "exact" (at most 16 unknown cells).
         order: of the cells or blocks in a sweep: "radial", "raster" or "random".
         chains: how many Markov chains; the other methods give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
-        draws: maps that each chain keeps; by default 1000, but none for "propagate", whose answer is the marginals.
+        draws: maps that each chain keeps; by default 1000, or 100 of `Beta` and `Surface`, whose draws are larger
+            and mix in tens of sweeps; but none for "propagate", whose answer is the marginals.
         thin: sweeps from one kept map to the next.
         seed: of all random numbers.
         start: "prior", "zeros", "ones", "propagate", or a map; by default "propagate" on maps of more than 10 000
@@ -110,8 +116,9 @@ def infer(
     """
     if method not in get_args(Method):
         raise BadInput(f"infer: method must be one of {', '.join(get_args(Method))}, got {method!r}")
+    field = isinstance(prior, CellPrior)
     if draws is None:
-        draws = 0 if method == "propagate" else 1000
+        draws = 0 if method == "propagate" else 100 if field else 1000
     schedule = Schedule(
         check_count("infer", "warmup", warmup, 0),
         check_count("infer", "draws", draws, 0),
@@ -125,7 +132,28 @@ def infer(
         threads = check_count("infer", "threads", threads, 1)
     if not 0.0 <= hit_depth <= 1.0:
         raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
+    if isinstance(sensor, str) and sensor != FIT:
+        raise BadInput(f"infer: sensor must be a sensor model or {FIT!r}, got {sensor!r}")
+    if isinstance(prior, CellPrior):
+        if method != "gibbs":
+            raise BadInput(f"infer: {type(prior).__name__} has one method, 'gibbs', got {method!r}")
+        if not isinstance(resume, FieldRun | None):
+            raise BadInput("resume: the saved run is one over walls, not over reflectivities or surfaces")
+        job = FieldJob(scans, grid, prior, sensor, schedule, chains, seed, hit_depth, threads, device)
+        with stop_on_interrupt() as should_stop:
+            return infer_field(
+                job,
+                resume=resume,
+                on_progress=_teller(on_progress),
+                on_checkpoint=on_checkpoint,
+                checkpoint_every_s=checkpoint_every_s,
+                should_stop=should_stop,
+            )
+    if isinstance(resume, FieldRun):
+        raise BadInput("resume: the saved run is one over reflectivities or surfaces, not over walls")
     began = time.perf_counter()
+    if isinstance(sensor, str):
+        sensor = fit_sensor(scans, grid, hit_depth=hit_depth, seed=seed, device=device)
     problem = _build(scans, grid, prior, sensor, hit_depth, device)
     start = default_start(problem) if start is None else start
     settings: dict[str, Any] = {
@@ -153,11 +181,6 @@ def infer(
         if isinstance(start, str) and start == "propagate" and resume is None:
             warm = _warm(problem, rounds, threads, on_progress, should_stop)
 
-        def tell(progress: Progress) -> None:
-            if on_progress is not None:
-                stage: Stage = "warm-up" if progress.warming_up else "draws"
-                on_progress(Event(stage, progress.done, progress.total, float(progress.log_joint.mean())))
-
         def checkpoint(so_far: Chains) -> None:
             if on_checkpoint is not None:
                 on_checkpoint(common.chains(so_far, warm, threads))
@@ -169,12 +192,21 @@ def infer(
             seed,
             threads=threads,
             resume=None if resume is None else _chains_of(resume.posterior),
-            on_progress=tell,
+            on_progress=_teller(on_progress),
             on_checkpoint=checkpoint if on_checkpoint is not None else None,
             checkpoint_every_s=checkpoint_every_s,
             should_stop=should_stop,
         )
         return common.chains(result, warm, threads)
+
+
+def _teller(on_progress: Callable[[Event], None] | None) -> Callable[[Progress], None]:
+    def tell(progress: Progress) -> None:
+        if on_progress is not None:
+            stage: Stage = "warm-up" if progress.warming_up else "draws"
+            on_progress(Event(stage, progress.done, progress.total, float(progress.log_joint.mean())))
+
+    return tell
 
 
 def _build(scans: Scans, grid: Grid, prior: Independent, sensor: SensorModel, hit_depth: float, device: str) -> Problem:

@@ -61,6 +61,15 @@ class Run:
         return unpack(self.posterior.packed, self.posterior.grid.shape)
 
     @property
+    def n_draws(self) -> int:
+        """Draws of each chain."""
+        return int(self.posterior.packed.shape[1])
+
+    def map_of(self, chain: int, draw: int) -> NDArray[np.bool_]:
+        """One draw, (nx, ny); chain and draw are counted from 0, negative ones from the end."""
+        return unpack(self.posterior.packed[chain, draw], self.posterior.grid.shape)
+
+    @property
     def log_joint(self) -> NDArray[np.float64]:
         """Log p(walls, readings) of every draw, (chain, draw)."""
         return self.posterior.log_likelihood + self.posterior.log_prior
@@ -107,8 +116,8 @@ class Run:
 
         self._need_marginals()
         posterior = self.posterior
-        if posterior.packed.shape[1] and "draw" not in options:
-            options["draw"] = unpack(posterior.packed[0, -1], posterior.grid.shape)
+        if self.n_draws and "draw" not in options:
+            options["draw"] = self.map_of(0, -1)
         options.setdefault("scans", posterior.scans)
         return posterior_figure(posterior.grid, posterior.occupancy, posterior.observed, **options)
 
@@ -147,14 +156,3 @@ def score(run: Run, heldout_scans: Scans, sensor: SensorModel | None = None, *, 
         BadInput: no valid reading, no draws, or a sensor model without compiled form.
     """
     return score_posterior(run.posterior, heldout_scans, sensor, seed=seed)
-
-
-def load(path: str | os.PathLike[str]) -> Run:
-    """Read a saved run.
-
-    Raises:
-        BadInput: no such file, or one that is damaged or not a run of bayesmap's.
-    """
-    from bayesmap.io.saved import load_posterior
-
-    return Run(load_posterior(path))

@@ -14,8 +14,9 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
 from bayesmap.errors import BadInput
 from bayesmap.inference.problem import Problem
+from bayesmap.loading import load
 from bayesmap.model.priors import Independent
-from bayesmap.run import Run, load
+from bayesmap.run import Run
 from bayesmap.sensor.noise import Gaussian
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans

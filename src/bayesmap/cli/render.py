@@ -42,7 +42,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     animation               of a chain
     """
     from bayesmap.cli import pictures
-    from bayesmap.run import load
+    from bayesmap.loading import load
     from bayesmap.viz.figure import write_figure
 
     values = call.values()

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
+from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.packing import pack, unpack
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.sensor.describe import from_description
@@ -28,7 +29,7 @@ from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2  # 2 has fields too; walls are written as in 1
 CHUNK_BYTES = 16 << 20  # of draws that are unpacked, and compressed, at a time
 
 
@@ -84,35 +85,42 @@ def _write(posterior: Posterior, file: Any) -> None:
         for i in range(0, draws, at_once):
             walls[chain, i : i + at_once] = unpack(posterior.packed[chain, i : i + at_once], grid.shape).view(np.int8)
 
-    _arrays(
+    write_arrays(
         file.createGroup("sample_stats"),
         ("chain", "draw"),
         lp=posterior.log_likelihood + posterior.log_prior,
         log_likelihood=posterior.log_likelihood,
         log_prior=posterior.log_prior,
     )
-    _arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
-    _arrays(file.createGroup("observed_data"), ("scan", "beam"), range_m=scans.ranges_m)
-    constant = file.createGroup("constant_data")
-    _arrays(constant, ("scan", "pose_part"), pose_world=scans.poses)
-    _arrays(constant, ("beam",), angle_rad=scans.angles_rad)
-    if scans.stamps_s is not None:
-        _arrays(constant, ("scan",), stamp_s=scans.stamps_s)
-    if scans.beam_poses is not None:
-        _arrays(constant, ("scan", "beam", "pose_part"), beam_pose_world=scans.beam_poses)
-    _arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
-    _arrays(constant, ("chain", "cell"), state=posterior.walls)
+    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
+    constant = write_scans(file, scans)
+    write_arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
+    write_arrays(constant, ("chain", "cell"), state=posterior.walls)
     if posterior.log_weights is not None:
-        _arrays(constant, ("particle",), log_weight=posterior.log_weights)
+        write_arrays(constant, ("particle",), log_weight=posterior.log_weights)
     if posterior.belief_changes is not None:
-        _arrays(constant, ("round",), belief_change=posterior.belief_changes)
+        write_arrays(constant, ("round",), belief_change=posterior.belief_changes)
 
 
 def _draws_at_once(grid: Grid) -> int:
     return max(1, CHUNK_BYTES // grid.n_cells)
 
 
-def _arrays(group: Any, dimensions: tuple[str, ...], **arrays: NDArray[Any]) -> None:
+def write_scans(file: Any, scans: Scans) -> Any:
+    """Write what was conditioned on; the group of constants, for more of them."""
+    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), range_m=scans.ranges_m)
+    constant = file.createGroup("constant_data")
+    write_arrays(constant, ("scan", "pose_part"), pose_world=scans.poses)
+    write_arrays(constant, ("beam",), angle_rad=scans.angles_rad)
+    if scans.stamps_s is not None:
+        write_arrays(constant, ("scan",), stamp_s=scans.stamps_s)
+    if scans.beam_poses is not None:
+        write_arrays(constant, ("scan", "beam", "pose_part"), beam_pose_world=scans.beam_poses)
+    return constant
+
+
+def write_arrays(group: Any, dimensions: tuple[str, ...], **arrays: NDArray[Any]) -> None:
+    """Write arrays of the same dimensions, compressed; dimensions that are new get the arrays' sizes."""
     for name, values in arrays.items():
         for dimension, size in zip(dimensions, values.shape, strict=True):
             if dimension not in group.dimensions:
@@ -120,7 +128,7 @@ def _arrays(group: Any, dimensions: tuple[str, ...], **arrays: NDArray[Any]) -> 
         group.createVariable(name, values.dtype, dimensions, zlib=True, complevel=1)[:] = values
 
 
-def load_posterior(path: str | os.PathLike[str]) -> Posterior:
+def load_posterior(path: str | os.PathLike[str]) -> Posterior | FieldPosterior:
     """Read a posterior back.
 
     Raises:
@@ -129,6 +137,7 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior:
     path = Path(path)
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
+    posterior: Posterior | FieldPosterior
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
@@ -136,8 +145,15 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior:
             stranger = _stranger(attributes)
             if stranger is None:
                 header = json.loads(attributes["bayesmap"])
-                posterior = _read(file, header)
-                whole = _checksum(posterior, header) == attributes["checksum"]
+                if "cells" in header:
+                    from bayesmap.io import saved_field
+
+                    field = saved_field.read_field(file, header)
+                    posterior, found = field, saved_field.checksum(field, header)
+                else:
+                    posterior = walls = _read(file, header)
+                    found = _checksum(walls, header)
+                whole = found == attributes["checksum"]
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
         raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error})") from None
     if stranger is not None:
@@ -174,18 +190,9 @@ def _read(file: Any, header: dict[str, Any]) -> Posterior:
     def optional(name: str) -> NDArray[np.float64] | None:
         return constant[name][:] if name in constant.variables else None
 
-    scans = Scans(
-        poses=constant["pose_world"][:],
-        angles_rad=constant["angle_rad"][:],
-        ranges_m=file["observed_data"]["range_m"][:],
-        min_range_m=header["limits"][0],
-        max_range_m=header["limits"][1],
-        stamps_s=optional("stamp_s"),
-        beam_poses=optional("beam_pose_world"),
-    )
     return Posterior(
         grid=grid,
-        scans=scans,
+        scans=scans_from(file, header),
         sensor=from_description(header["settings"]["sensor"]),
         settings=header["settings"],
         occupancy=constant["occupancy"][:],
@@ -203,6 +210,24 @@ def _read(file: Any, header: dict[str, Any]) -> Posterior:
         belief_changes=optional("belief_change"),
         log_evidence=header["log_evidence"],
         notes=tuple(header["notes"]),
+    )
+
+
+def scans_from(file: Any, header: dict[str, Any]) -> Scans:
+    """What was conditioned on."""
+    constant = file["constant_data"]
+
+    def optional(name: str) -> NDArray[np.float64] | None:
+        return constant[name][:] if name in constant.variables else None
+
+    return Scans(
+        poses=constant["pose_world"][:],
+        angles_rad=constant["angle_rad"][:],
+        ranges_m=file["observed_data"]["range_m"][:],
+        min_range_m=header["limits"][0],
+        max_range_m=header["limits"][1],
+        stamps_s=optional("stamp_s"),
+        beam_poses=optional("beam_pose_world"),
     )
 
 

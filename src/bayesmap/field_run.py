@@ -1,0 +1,107 @@
+"""The result that users hold where cells stop some of the beams: reflectivities and surfaces."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.posterior.field import FieldPosterior, field_beam_log_scores
+from bayesmap.posterior.field_summary import summarise_field
+from bayesmap.posterior.summary import Summary
+from bayesmap.run import Run
+from bayesmap.sensor.mixture import BeamMixture
+from bayesmap.sensor.model import SensorModel
+from bayesmap.world.scans import Reading, Scans
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False)
+class FieldRun(Run):
+    """The posterior over reflectivities, and perhaps surfaces, that a call of `bayesmap.infer` found.
+
+    ``occupancy`` is the mean reflectivity, ``entropy`` that of whether a cell stops the next beam that meets it.
+    """
+
+    posterior: FieldPosterior  # type: ignore[assignment]
+
+    @cached_property
+    def draws(self) -> NDArray[np.float32]:  # type: ignore[override]
+        """Reflectivity of all cells in all draws, (chain, draw, nx, ny); the prior's mean where no beam comes."""
+        posterior = self.posterior
+        shape = (*posterior.reflectivity.shape[:2], posterior.grid.n_cells)
+        out = np.full(shape, posterior.prior.mean, dtype=np.float32)
+        out[..., posterior.touched] = posterior.reflectivity
+        return out.reshape(*shape[:2], *posterior.grid.shape)
+
+    @property
+    def n_draws(self) -> int:
+        """Draws of each chain."""
+        return self.posterior.n_draws
+
+    def map_of(self, chain: int, draw: int) -> NDArray[np.float64]:  # type: ignore[override]
+        """One draw's reflectivities, (nx, ny); both counted from 0."""
+        return self.posterior.to_grid(self.posterior.reflectivity[chain, draw], self.posterior.prior.mean)
+
+    def interval(self, level: float = 0.9) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each.
+
+        Raises:
+            BadInput: a level outside (0, 1), or a run that was stopped before its first draw.
+        """
+        if not 0 < level < 1:
+            raise BadInput(f"interval: level must lie inside (0, 1), got {level!r}")
+        self._need_marginals()
+        return self.posterior.interval(level)
+
+    def surfaces(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
+
+        Raises:
+            BadInput: a run without surfaces or without draws.
+        """
+        if self.posterior.kind != "surface":
+            raise BadInput("surfaces: this run's cells have none; infer with prior=Surface(), or --cells surface")
+        self._need_marginals()
+        return self.posterior.mean_surfaces()
+
+    @cached_property
+    def _summary(self) -> Summary:
+        return summarise_field(self.posterior)
+
+    def log_score(self, heldout_scans: Scans, sensor: SensorModel | None = None) -> float:
+        """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
+
+        Raises:
+            BadInput: no draws, no valid reading, or a sensor of another kind than the run's.
+        """
+        if sensor is not None and not isinstance(sensor, BeamMixture):
+            raise BadInput(f"score: this run's map is scored by a BeamMixture, not by a {type(sensor).__name__}")
+        if self.n_draws == 0:
+            raise BadInput("score: the run has no draws yet; let it finish its warm-up")
+        if not (heldout_scans.readings != Reading.INVALID).any():
+            raise BadInput("score: none of the scans has a valid reading")
+        return float(np.nanmean(field_beam_log_scores(self.posterior, heldout_scans, sensor)))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to one netCDF file, whole or not at all."""
+        from bayesmap.io.saved_field import save_field
+
+        save_field(self.posterior, path)
+
+    def plot(self, **options: Any) -> Figure:
+        """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`."""
+        from bayesmap.viz.figure import posterior_figure
+
+        self._need_marginals()
+        if self.n_draws and "draw" not in options:
+            options["draw"] = self.map_of(0, -1)
+        options.setdefault("scans", self.posterior.scans)
+        return posterior_figure(self.grid, self.occupancy, self.observed, **options)

@@ -1,0 +1,129 @@
+"""A saved field: the same kind of netCDF file as `bayesmap.io.saved`, with reflectivities and surfaces by cell.
+
+Cells that no beam touches are not in it: the dimension ``cell`` counts the touched ones, whose indices are in
+``cell_x`` and ``cell_y``; ``surface_cell`` counts those with surfaces. Draws are kept in half precision, and written as
+32-bit floats, whose last bits are zero and compress well.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+from bayesmap.io.atomic import write_whole
+from bayesmap.io.saved import FORMAT, FORMAT_VERSION, scans_from, write_arrays, write_scans
+from bayesmap.model.cell_priors import prior_from
+from bayesmap.posterior.field import FieldPosterior
+from bayesmap.sensor.describe import describe, from_description
+from bayesmap.sensor.mixture import BeamMixture
+from bayesmap.version import __version__
+from bayesmap.world.grid import Grid
+
+
+def save_field(posterior: FieldPosterior, path: str | os.PathLike[str]) -> None:
+    """Write a posterior, whole or not at all.
+
+    Raises:
+        BadInput: the folder cannot be written to.
+    """
+    with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+        _write(posterior, file)
+
+
+def _write(posterior: FieldPosterior, file: Any) -> None:
+    grid, scans = posterior.grid, posterior.scans
+    header = {
+        "cells": posterior.kind,
+        "settings": posterior.settings,
+        "sensor": describe(posterior.sensor),
+        "prior": posterior.prior.describe(),
+        "grid": asdict(grid),
+        "limits": [scans.min_range_m, scans.max_range_m],
+        "seconds": posterior.seconds,
+        "counts": posterior.counts,
+        "sweep": posterior.sweep,
+        "finished": posterior.finished,
+        "notes": posterior.notes,
+    }
+    file.setncatts(
+        {
+            "format": FORMAT,
+            "format_version": FORMAT_VERSION,
+            "inference_library": "bayesmap",
+            "inference_library_version": __version__,
+            "bayesmap": json.dumps(header),
+            "checksum": checksum(posterior, header),
+        }
+    )
+    draws = file.createGroup("posterior")
+    write_arrays(draws, ("cell",), cell_x=posterior.touched // grid.shape[1], cell_y=posterior.touched % grid.shape[1])
+    write_arrays(draws, ("chain", "draw", "cell"), reflectivity=posterior.reflectivity.astype(np.float32))
+    write_arrays(draws, ("surface_cell",), surface_of=posterior.busy)
+    for i, name in enumerate(("mean_x", "mean_y", "l11", "l21", "l22")):
+        part = posterior.surfaces[..., i].astype(np.float32)
+        write_arrays(draws, ("chain", "draw", "surface_cell"), **{f"surface_{name}": part})
+    write_arrays(
+        file.createGroup("sample_stats"),
+        ("chain", "draw"),
+        lp=posterior.log_likelihood + posterior.log_prior,
+        log_likelihood=posterior.log_likelihood,
+        log_prior=posterior.log_prior,
+    )
+    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
+    constant = write_scans(file, scans)
+    write_arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
+    write_arrays(constant, ("chain", "cell", "state_part"), state=posterior.states)
+    write_arrays(constant, ("informed_part", "cell"), informed=posterior.informed)
+
+
+def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
+    """The posterior of an open file."""
+    grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
+    draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
+    parts = [draws[f"surface_{name}"][:] for name in ("mean_x", "mean_y", "l11", "l21", "l22")]
+    sensor = from_description(header["sensor"])
+    assert isinstance(sensor, BeamMixture)
+    return FieldPosterior(
+        grid=grid,
+        scans=scans_from(file, header),
+        sensor=sensor,
+        prior=prior_from(header["prior"]),
+        settings=header["settings"],
+        touched=(draws["cell_x"][:] * grid.shape[1] + draws["cell_y"][:]).astype(np.int32),
+        busy=draws["surface_of"][:],
+        reflectivity=draws["reflectivity"][:].astype(np.float16),
+        surfaces=np.stack(parts, axis=-1).astype(np.float16),
+        occupancy=constant["occupancy"][:],
+        observed=constant["observed"][:] != 0,
+        log_likelihood=stats["log_likelihood"][:],
+        log_prior=stats["log_prior"][:],
+        warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
+        states=constant["state"][:],
+        informed=constant["informed"][:],
+        sweep=header["sweep"],
+        finished=header["finished"],
+        seconds=header["seconds"],
+        counts=header["counts"],
+        notes=tuple(header["notes"]),
+    )
+
+
+def checksum(posterior: FieldPosterior, header: dict[str, Any]) -> str:
+    """Of everything in the file."""
+    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
+    scans = posterior.scans
+    for array in (
+        posterior.touched, posterior.busy, posterior.reflectivity, posterior.surfaces, posterior.log_likelihood,
+        posterior.log_prior, posterior.warmup_log_joint, posterior.states, posterior.informed, posterior.occupancy,
+        posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s, scans.beam_poses,
+    ):  # fmt: skip
+        if array is not None:
+            digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()

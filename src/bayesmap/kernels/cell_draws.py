@@ -1,0 +1,191 @@
+r"""The other half of a sweep: the cells, given where the beams stopped.
+
+A cell that tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
+surface accepts it with probability min(1, exp(gain) p(candidate) / p(surface)), where the gain is the beams' part of
+the ratio (`bayesmap.kernels.stops`). Cells in which readings end try a small step in every other sweep, the others now
+and then a draw from the prior. Steps have sizes that are fixed beforehand: one that looked at where this chain's beams
+stopped would depend on what the acceptance conditions on.
+
+The prior of a surface is mu ~ N(centre, tau^2 I), Sigma ~ InverseWishart(nu, psi I). Steps are taken in mu, log l11,
+l21 and log l22 of Sigma = L L'. In these coordinates the density is proportional to
+
+    exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1):
+
+the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
+"""
+
+import warp as wp
+
+from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
+from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.stops import GAIN_UNITS, Field
+from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
+
+wp.set_module_options({"enable_backward": False})
+
+FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
+HIDDEN = wp.constant(wp.float32(0.0))
+STEP = wp.constant(wp.float32(1.0))
+FRESH = wp.constant(wp.float32(2.0))
+IDLE_EVERY = wp.constant(wp.uint64(16))
+"""How many sweeps a cell without readings waits, on average, between two candidates."""
+SHORT = wp.constant(wp.float64(0.3))
+
+# Counters of one cell in one sweep.
+PER_CELL = wp.constant(wp.uint64(1024))
+AT_ACCEPT = wp.constant(wp.uint64(0))
+AT_SIZE = wp.constant(wp.uint64(1))
+AT_STEP = wp.constant(wp.uint64(2))
+AT_BETA = wp.constant(wp.uint64(32))
+AT_FRESH = wp.constant(wp.uint64(256))
+
+
+@wp.struct
+class CellPrior:
+    """Beta(a, b) of the reflectivity, and the surface's prior as above."""
+
+    a: wp.float64
+    b: wp.float64
+    tau_m: wp.float64
+    psi_m2: wp.float64
+    nu: wp.float64
+
+
+@wp.func
+def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """The cell with a surface drawn from the prior.
+
+    Sigma^-1 = A A' / psi with Bartlett's lower triangular A; its inverse has the upper factor A^-T sqrt(psi), which
+    turns into a lower one when x and y are exchanged, and the law does not care.
+    """
+    half = wp.float64(0.5)
+    a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, at) + wp.log(wp.float64(2.0))))
+    at_2 = at + wp.uint64(PER_GAMMA)
+    shape = half * (prior.nu - wp.float64(1.0))
+    a22 = wp.exp(half * (log_gamma_variate(shape, key, at_2) + wp.log(wp.float64(2.0))))
+    n = at_2 + wp.uint64(PER_GAMMA)
+    a21 = normal(key, n)
+    scale = wp.sqrt(prior.psi_m2)
+    cell[MEAN_X] = centre[0] + wp.float32(prior.tau_m * normal(key, n + wp.uint64(2)))
+    cell[MEAN_Y] = centre[1] + wp.float32(prior.tau_m * normal(key, n + wp.uint64(4)))
+    cell[L11] = wp.float32(scale / a22)
+    cell[L21] = wp.float32(-scale * a21 / (a11 * a22))
+    cell[L22] = wp.float32(scale / a11)
+    return cell
+
+
+@wp.func
+def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """The cell with its surface moved by a random step, half of the time a short one."""
+    size = wp.where(to_uniform(random_bits(key, at + AT_SIZE)) < wp.float64(0.5), SHORT, wp.float64(1.0))
+    n = at + AT_STEP
+    e_1 = size * normal(key, n)
+    e_2 = size * normal(key, n + wp.uint64(2))
+    cell[MEAN_X] = cell[MEAN_X] + wp.float32(e_1) * step[MEAN_X]
+    cell[MEAN_Y] = cell[MEAN_Y] + wp.float32(e_1) * step[TRYING] + wp.float32(e_2) * step[MEAN_Y]
+    cell[L11] = cell[L11] * wp.exp(wp.float32(size * normal(key, n + wp.uint64(4))) * step[L11])
+    cell[L21] = cell[L21] + wp.float32(size * normal(key, n + wp.uint64(6))) * step[L21]
+    cell[L22] = cell[L22] * wp.exp(wp.float32(size * normal(key, n + wp.uint64(8))) * step[L22])
+    return cell
+
+
+@wp.func
+def log_surface_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float64:
+    """Log density of a surface in the coordinates above, up to a constant."""
+    x = wp.float64(cell[MEAN_X] - centre[0])
+    y = wp.float64(cell[MEAN_Y] - centre[1])
+    l11 = wp.float64(cell[L11])
+    l22 = wp.float64(cell[L22])
+    q = wp.float64(cell[L21]) / (l11 * l22)
+    one = wp.float64(1.0)
+    trace = one / (l11 * l11) + one / (l22 * l22) + q * q
+    half = wp.float64(0.5)
+    shape = -prior.nu * wp.log(l11) - (prior.nu + one) * wp.log(l22) - half * prior.psi_m2 * trace
+    return shape - half * (x * x + y * y) / (prior.tau_m * prior.tau_m)
+
+
+@wp.func
+def log_reflectivity_prior(prior: CellPrior, m: wp.float32) -> wp.float32:
+    """Log density of logit m under Beta(a, b), up to a constant; m is kept above what single precision can hold."""
+    at = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
+    return wp.float32(prior.a) * wp.log(at) + wp.float32(prior.b) * wp.log(wp.float32(1.0) - at)
+
+
+@wp.kernel
+def propose(
+    first: int,
+    plain: int,
+    prior: CellPrior,
+    centre_m: wp.array(dtype=wp.vec2),
+    step: wp.array(dtype=Cell),
+    field: Field,
+    keys: wp.array(dtype=wp.uint64),
+    sweep: int,
+    log_prior: wp.array(dtype=wp.float32),
+):
+    """One thread a cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
+
+    A step of size zero in x marks a cell in which no reading ends.
+    """
+    c = first + wp.tid()
+    for part in range(field.met.shape[0]):
+        field.met[part, c] = 0
+        field.hits[part, c] = 0
+        field.gain[part, c] = wp.int64(0)
+    cell = field.cells[c]
+    cell[TRYING] = HIDDEN
+    log_prior[c] = log_reflectivity_prior(prior, cell[REFLECTIVITY])
+    if plain == 0:
+        log_prior[c] = log_prior[c] + wp.float32(log_surface_prior(prior, centre_m[c], cell))
+        key = keys[1]
+        at = wp.uint64(c) * PER_CELL
+        busy = step[c][MEAN_X] > wp.float32(0.0)
+        if busy and (sweep + c) % 2 == 0:
+            cell[TRYING] = STEP
+            field.candidates[c] = stepped(cell, step[c], key, at)
+        elif not busy and random_bits(key, at + AT_SIZE) % IDLE_EVERY == wp.uint64(0):
+            cell[TRYING] = FRESH
+            field.candidates[c] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
+    field.cells[c] = cell
+
+
+@wp.kernel
+def settle(
+    first: int,
+    prior: CellPrior,
+    centre_m: wp.array(dtype=wp.vec2),
+    field: Field,
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a cell, at the end of a sweep: accept or reject its candidate, or draw its reflectivity."""
+    c = first + wp.tid()
+    key = keys[1]
+    at = wp.uint64(c) * PER_CELL
+    cell = field.cells[c]
+    n_hits = int(0)
+    n_met = int(0)
+    gain = wp.int64(0)
+    for part in range(field.met.shape[0]):
+        n_hits += field.hits[part, c]
+        n_met += field.met[part, c]
+        gain += field.gain[part, c]
+    if cell[TRYING] == HIDDEN:
+        a = prior.a + wp.float64(n_hits)
+        b = prior.b + wp.float64(n_met)
+        cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
+        hits[c] = n_hits
+        met[c] = n_met
+    else:
+        candidate = field.candidates[c]
+        log_ratio = wp.float64(gain) * FROM_UNITS
+        if cell[TRYING] == STEP:
+            log_ratio += log_surface_prior(prior, centre_m[c], candidate)
+            log_ratio -= log_surface_prior(prior, centre_m[c], cell)
+        if wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
+            cell = candidate
+        hits[c] = n_hits
+        met[c] = -1
+    cell[TRYING] = HIDDEN
+    field.cells[c] = cell

@@ -1,0 +1,76 @@
+"""Predictive density of readings under draws of a field."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels.field import as_cells, put_rays
+from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
+from bayesmap.kernels.meeting import Cell, Ray
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.stop_law import law_of, no_stop_law, stop_law
+from bayesmap.kernels.stops import Rays, chance_at, plain_or_meet
+from bayesmap.sensor.model import KernelParameters
+from bayesmap.sensor.rays import BeamRays
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.kernel
+def add_density(
+    first: int,
+    sensor: SensorParameters,
+    rays: Rays,
+    cells: wp.array(dtype=Cell),
+    total: wp.array(dtype=wp.float64),
+):
+    """One thread a beam: add p(reading | cells)."""
+    b = first + wp.tid()
+    law = law_of(sensor)
+    one = wp.float32(1.0)
+    reading = rays.range_m[b]
+    if wp.isnan(reading):
+        total[b] = total[b] + wp.float64(1.0)
+        return
+    ray = Ray()
+    ray.x = rays.start_m[b][0]
+    ray.y = rays.start_m[b][1]
+    ray.ux = rays.direction[b][0]
+    ray.uy = rays.direction[b][1]
+    free = wp.float32(1.0)
+    for k in range(rays.offsets[b], rays.near[b]):
+        cell = cells[rays.cells[k]]
+        free = free * (one - cell[0] * chance_at(rays, cell, ray))
+    p = wp.float64(law.floor) * wp.float64(one - free)
+    for k in range(rays.near[b], rays.offsets[b + 1]):
+        cell = cells[rays.cells[k]]
+        m = plain_or_meet(rays, k, cell, ray)
+        a = cell[0] * m.chance
+        p += wp.float64(free * a * stop_law(law, reading, m.distance_m, m.variance))
+        free = free * (one - a)
+    p += wp.float64(free * no_stop_law(law, reading))
+    total[b] = total[b] + p
+
+
+class FieldScore:
+    """Sum of predictive densities, draw by draw."""
+
+    def __init__(self, rays: BeamRays, sensor: KernelParameters, *, plain: bool, device: str = "cpu") -> None:
+        self.device, self.draws = device, 0
+        self._beams = rays.n_beams
+        self._rays = put_rays(rays, plain, device)
+        self._sensor = sensor_parameters(sensor, rays.limits)
+        self._total: Any = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
+
+    def add(self, states: NDArray[np.float32]) -> None:
+        """Take one more draw, (T, 6), into account."""
+        inputs = [self._sensor, self._rays, as_cells(states, self.device), self._total]
+        launch(add_density, self._beams, inputs, self.device)
+        self.draws += 1
+
+    def log_mean_density(self) -> NDArray[np.float64]:
+        """Log of the mean density of each beam's reading, (B,)."""
+        with np.errstate(divide="ignore"):
+            return np.log(np.asarray(self._total.numpy()) / max(self.draws, 1))

@@ -1,0 +1,76 @@
+r"""Where a beam meets the surface inside a cell, and whether it meets it at all.
+
+A cell's surface is a normal distribution N(mu, Sigma) of the points where beams stop. A beam from p in direction u,
+with normal n, passes the mean at the offset o = n . (mu - p); across the beam the surface has the standard deviation
+v = sqrt(n' Sigma n). The beam meets the surface with probability
+
+    g = 1 / (1 + (o / (w v))^6)
+
+which is nearly one where it crosses the surface's body and nearly zero where it passes beside it; w = 2.2 was measured
+(docs/surfaces.md). If it meets it, and is stopped, that happens at the distance t ~ N(t*, s^2), the law of a point of
+the surface *given that it lies on the beam*:
+
+    t* = u . (mu - p) - (u' Sigma n / v^2) o        s^2 = u' Sigma u - (u' Sigma n)^2 / v^2 = |Sigma| / v^2
+"""
+
+import warp as wp
+
+wp.set_module_options({"enable_backward": False})
+
+GATE_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
+
+Cell = wp.types.vector(length=8, dtype=wp.float32)
+"""A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,
+and two flags: whether a candidate for its surface is being tried, and one to spare."""
+
+REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
+
+
+@wp.struct
+class Ray:
+    """A beam: start in metres from the grid's corner, and direction."""
+
+    x: wp.float32
+    y: wp.float32
+    ux: wp.float32
+    uy: wp.float32
+
+
+@wp.struct
+class Meeting:
+    """Probability of meeting the surface, and mean and variance of the distance at which."""
+
+    chance: wp.float32
+    distance_m: wp.float32
+    variance: wp.float32
+
+
+@wp.func
+def gate(cell: Cell, ray: Ray) -> wp.float32:
+    """The chance that the beam meets the cell's surface."""
+    offset = ray.ux * (cell[2] - ray.y) - ray.uy * (cell[1] - ray.x)
+    across_1 = cell[4] * ray.ux - cell[3] * ray.uy
+    across_2 = cell[5] * ray.ux
+    r = offset * offset / (GATE_WIDTH_SQ * (across_1 * across_1 + across_2 * across_2))
+    return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+
+
+@wp.func
+def meet(cell: Cell, ray: Ray) -> Meeting:
+    """Chance, and distance where."""
+    rx = cell[1] - ray.x
+    ry = cell[2] - ray.y
+    offset = ray.ux * ry - ray.uy * rx
+    across_1 = cell[4] * ray.ux - cell[3] * ray.uy  # L' n
+    across_2 = cell[5] * ray.ux
+    along_1 = cell[3] * ray.ux + cell[4] * ray.uy  # L' u
+    along_2 = cell[5] * ray.uy
+    across = across_1 * across_1 + across_2 * across_2
+    slope = (along_1 * across_1 + along_2 * across_2) / across
+    area = cell[3] * cell[5]
+    r = offset * offset / (GATE_WIDTH_SQ * across)
+    m = Meeting()
+    m.chance = wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+    m.distance_m = wp.max(ray.ux * rx + ray.uy * ry - slope * offset, wp.float32(0.0))
+    m.variance = area * area / across
+    return m

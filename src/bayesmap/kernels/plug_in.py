@@ -1,0 +1,33 @@
+"""Counting beams that pass each cell, taking every reading at its word."""
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels.field import put_rays
+from bayesmap.kernels.stops import Rays
+from bayesmap.sensor.rays import BeamRays
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.kernel
+def count_passes(first: int, rays: Rays, end_cell: wp.array(dtype=wp.int32), passes: wp.array(dtype=wp.int32)):
+    """One thread a beam: add one to every cell before the one in which its reading ends."""
+    b = first + wp.tid()
+    reading = rays.range_m[b]
+    if wp.isnan(reading) or reading < wp.float32(0.0):
+        return
+    for k in range(rays.offsets[b], rays.offsets[b + 1]):
+        c = rays.cells[k]
+        if c == end_cell[b] or rays.distance_m[k] > reading:
+            return
+        wp.atomic_add(passes, c, 1)
+
+
+def passes_at_their_word(rays: BeamRays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
+    """How many beams pass each touched cell before they end, (T,)."""
+    passes = wp.zeros(rays.n_cells, dtype=wp.int32, device=device)
+    inputs = [0, put_rays(rays, True, device), wp.array(end_cell, dtype=wp.int32, device=device), passes]
+    wp.launch(count_passes, dim=rays.n_beams, inputs=inputs, device=device)
+    return np.array(passes.numpy())

@@ -1,0 +1,102 @@
+"""Priors of cells that stop some of the beams: how many, and where.
+
+A wall that is there or not is too stiff for glass, chair legs, people and cells that a wall fills in part. Here a cell
+has a reflectivity m in [0, 1], the chance that it stops a beam, and, with `Surface`, the place where it does: a normal
+distribution of the points where beams stop, as normal-distributions-transform maps keep it (Biber and Strasser, 2003),
+but inferred. What it means for a beam is in `bayesmap.kernels.meeting`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from bayesmap.errors import BadInput
+
+
+@dataclass(frozen=True)
+class Beta:
+    """A reflectivity in each cell, Beta(a, b), independently; a stopped beam stops at the cell's hit depth.
+
+    Attributes:
+        a, b: pseudo-counts of beams that were stopped, and of beams that were not.
+
+    Raises:
+        BadInput: a count that is not positive.
+    """
+
+    a: float = 0.02
+    b: float = 0.2
+
+    def __post_init__(self) -> None:
+        _check_counts("Beta", self.a, self.b)
+
+    @property
+    def mean(self) -> float:
+        """Prior mean of the reflectivity."""
+        return self.a / (self.a + self.b)
+
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values."""
+        return {"kind": "beta", "a": self.a, "b": self.b}
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A reflectivity in each cell as in `Beta`, and a surface: mu ~ N(centre, tau^2 I), Sigma ~ InverseWishart(nu, psi
+    I).
+
+    Lengths are in edges of a cell, so that one prior serves all resolutions.
+
+    Attributes:
+        a, b: of the reflectivity of what a beam meets.
+        wander: tau, how far a surface's mean may lie from its cell's centre.
+        spread: sqrt(psi), the size of surfaces.
+        dof: nu, how sure that is; more than 1.
+
+    Raises:
+        BadInput: a number that is not positive, or too few degrees of freedom.
+    """
+
+    a: float = 0.02
+    b: float = 0.2
+    wander: float = 0.4
+    spread: float = 0.28
+    dof: float = 3.0
+
+    def __post_init__(self) -> None:
+        _check_counts("Surface", self.a, self.b)
+        for name in ("wander", "spread"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
+        if not (math.isfinite(self.dof) and self.dof > 1):
+            raise BadInput(f"Surface: dof must exceed 1, got {self.dof!r}")
+
+    @property
+    def mean(self) -> float:
+        """Prior mean of the reflectivity."""
+        return self.a / (self.a + self.b)
+
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values."""
+        return {
+            "kind": "surface", "a": self.a, "b": self.b, "wander": self.wander, "spread": self.spread, "dof": self.dof,
+        }  # fmt: skip
+
+
+CellPrior = Beta | Surface
+
+
+def prior_from(description: dict[str, Any]) -> CellPrior:
+    """The prior of a description."""
+    values = dict(description)
+    kind: type[Beta] | type[Surface] = Surface if values.pop("kind") == "surface" else Beta
+    return kind(**values)
+
+
+def _check_counts(name: str, a: float, b: float) -> None:
+    for which, value in (("a", a), ("b", b)):
+        if not (math.isfinite(value) and value > 0):
+            raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")

@@ -1,0 +1,178 @@
+"""The posterior of a field as plain data: reflectivities, and surfaces where the prior has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from bayesmap.model.cell_priors import CellPrior, Surface
+from bayesmap.sensor.mixture import BeamMixture
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+
+Floats = NDArray[np.float64]
+CELLS_AT_ONCE = 8192
+
+
+@dataclass(frozen=True, eq=False)
+class FieldPosterior:
+    """Cells that stop some beams, given scans, as draws.
+
+    Only touched cells are kept, those that some beam crosses; only busy ones, in which some reading ends, keep their
+    surfaces: those of the others are hardly anything but draws from the prior, and are drawn anew where they are
+    needed.
+
+    Attributes:
+        grid, scans, settings, seconds, counts, notes: as in `bayesmap.posterior.posterior.Posterior`.
+        sensor: the model that was used for the draws: fitted, if it was to be.
+        prior: of the cells, likewise.
+        touched: flat indices of the T touched cells, ascending, int32.
+        busy: of the U cells with surfaces, their places in ``touched``, ascending.
+        reflectivity: (chains, draws, T).
+        surfaces: mean x, y less the cell's centre, and the Cholesky factor l11, l21, l22 of the covariance, in edges of
+            a cell, (chains, draws, U, 5).
+        occupancy: posterior mean of the reflectivity, (nx, ny); the prior's mean where no beam comes.
+        observed: cells of which some beam says something in at least half of the draws, (nx, ny).
+        log_likelihood, log_prior: of every draw, (chains, draws); the prior in unconstrained coordinates.
+        warmup_log_joint: (chains, warm-up sweeps).
+        states, informed, sweep: where the chains stand: all that is needed to go on.
+        finished: false if the run was stopped early.
+    """
+
+    grid: Grid
+    scans: Scans
+    sensor: BeamMixture
+    prior: CellPrior
+    settings: dict[str, Any]
+    touched: NDArray[np.int32]
+    busy: NDArray[np.int32]
+    reflectivity: NDArray[np.float16]
+    surfaces: NDArray[np.float16]
+    occupancy: Floats
+    observed: NDArray[np.bool_]
+    log_likelihood: Floats
+    log_prior: Floats
+    warmup_log_joint: Floats
+    states: NDArray[np.float32]
+    informed: NDArray[np.int32]
+    sweep: int
+    finished: bool
+    seconds: dict[str, float]
+    counts: dict[str, int]
+    log_evidence: float | None = None
+    log_weights: None = None
+    belief_changes: None = None
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def kind(self) -> Literal["reflectivity", "surface"]:
+        """What a cell's state is."""
+        return "surface" if isinstance(self.prior, Surface) else "reflectivity"
+
+    @property
+    def n_draws(self) -> int:
+        """Draws of each chain."""
+        return int(self.reflectivity.shape[1])
+
+    def to_grid(self, values: NDArray[Any], elsewhere: float) -> Floats:
+        """Spread values of touched cells, (..., T), over the grid, (..., nx, ny)."""
+        out = np.full((*values.shape[:-1], self.grid.n_cells), elsewhere)
+        out[..., self.touched] = values
+        return out.reshape(*values.shape[:-1], *self.grid.shape)
+
+    def draws_of(self, cells: slice) -> Floats:
+        """All draws of some touched cells, (chains * draws, cells)."""
+        part = self.reflectivity[:, :, cells]
+        return part.reshape(-1, part.shape[-1]).astype(np.float64)
+
+    def interval(self, level: float) -> tuple[Floats, Floats]:
+        """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each."""
+        tails = (0.5 * (1 - level), 0.5 * (1 + level))
+        ends = np.empty((2, len(self.touched)))
+        for i in range(0, len(self.touched), CELLS_AT_ONCE):
+            some = slice(i, i + CELLS_AT_ONCE)
+            ends[:, some] = np.quantile(self.draws_of(some), tails, axis=0)
+        before = stats.beta(self.prior.a, self.prior.b).ppf(tails)
+        lower, upper = (self.to_grid(ends[i], float(before[i])) for i in (0, 1))
+        return lower, upper
+
+    def mean_surfaces(self) -> tuple[Floats, Floats, Floats]:
+        """Posterior mean surfaces of the busy cells, for pictures.
+
+        Returns:
+            means in the world frame (U, 2), covariances of the points (U, 2, 2), both in metres, and the mean
+            reflectivity of their cells, (U,).
+        """
+        edge, ny = self.grid.resolution, self.grid.shape[1]
+        flat = self.touched[self.busy]
+        centre = np.stack([flat // ny + 0.5, flat % ny + 0.5], axis=-1) * edge + np.array(self.grid.origin)
+        mean, second = np.zeros((len(flat), 2)), np.zeros((len(flat), 2, 2))
+        draws = self.surfaces.reshape(-1, *self.surfaces.shape[2:])
+        for surface in draws:
+            x, y, l11, l21, l22 = surface.astype(np.float64).T * edge
+            mean += np.stack([x, y], axis=-1)
+            second[:, 0, 0] += l11**2
+            second[:, 0, 1] += l11 * l21
+            second[:, 1, 1] += l21**2 + l22**2
+        second[:, 1, 0] = second[:, 0, 1]
+        n = max(len(draws), 1)
+        return centre + mean / n, second / n, self.draws_of(slice(None))[:, self.busy].mean(axis=0)
+
+    def cells_for(self, touched: NDArray[np.int32], seed: int = 0) -> Iterator[NDArray[np.float32]]:
+        """Each draw's cell states for other rays, whose touched cells are these flat indices, (T', 6).
+
+        What the draws do not hold comes from the prior: cells that no beam of the run touched, and the surfaces of
+        cells in which no reading ended. Lengths are metres from the grid's lower left corner.
+        """
+        place = np.minimum(np.searchsorted(self.touched, touched), len(self.touched) - 1)
+        known = self.touched[place] == touched
+        number = np.full(len(self.touched), -1)
+        number[self.busy] = np.arange(len(self.busy))
+        with_surface = known & (number[place] >= 0)
+        edge, ny = self.grid.resolution, self.grid.shape[1]
+        centre = np.stack([touched // ny + 0.5, touched % ny + 0.5], axis=-1) * edge
+        rng = np.random.default_rng([seed, len(touched)])
+        for chain in range(self.reflectivity.shape[0]):
+            for draw in range(self.n_draws):
+                states = np.zeros((len(touched), 6), dtype=np.float32)
+                states[:, 0] = rng.beta(self.prior.a, self.prior.b, len(touched))
+                states[known, 0] = self.reflectivity[chain, draw, place[known]]
+                if isinstance(self.prior, Surface):
+                    states[:, 1:] = fresh_surfaces(self.prior, rng, len(touched))
+                    states[with_surface, 1:] = self.surfaces[chain, draw, number[place[with_surface]]]
+                    states[:, 1:] *= edge
+                    states[:, 1:3] += centre
+                yield states
+
+
+def fresh_surfaces(prior: Surface, rng: np.random.Generator, count: int) -> Floats:
+    """Surfaces drawn from the prior, in edges of a cell, (count, 5), as `bayesmap.kernels.cell_draws` draws them."""
+    a11 = np.sqrt(rng.chisquare(prior.dof, count))
+    a22 = np.sqrt(rng.chisquare(prior.dof - 1.0, count))
+    a21 = rng.standard_normal(count)
+    mean = prior.wander * rng.standard_normal((2, count))
+    return np.stack([*mean, prior.spread / a22, -prior.spread * a21 / (a11 * a22), prior.spread / a11], axis=-1)
+
+
+def field_beam_log_scores(posterior: FieldPosterior, scans: Scans, sensor: BeamMixture | None = None) -> Floats:
+    """Log predictive density of every reading, NaN where it is invalid, log mean over draws, in nats, (B,)."""
+    from bayesmap.kernels.field_score import FieldScore
+    from bayesmap.kernels.rays import trace_rays
+
+    sensor = posterior.sensor if sensor is None else sensor
+    rays = trace_rays(
+        scans, posterior.grid, margin_m=np.inf, hit_depth=float(posterior.settings["hit_depth"]), whole=True
+    )
+    parameters = sensor.kernel_parameters()
+    assert parameters is not None
+    score = FieldScore(rays, parameters, plain=posterior.kind == "reflectivity")
+    for states in posterior.cells_for(rays.touched):
+        score.add(states)
+    scores = score.log_mean_density()
+    scores[np.isnan(rays.range_m)] = np.nan
+    return scores
