@@ -29,7 +29,7 @@
 /** @typedef {{type: string, [field: string]: any}} Message */
 /** @typedef {Uint8Array | Float32Array | Float64Array} Numbers */
 /** @typedef {{[name: string]: Numbers}} Buffers */
-/** @typedef {{layer: string, chain: number, draw: number}} View */
+/** @typedef {{layer: string, chain: number, draw: number | null}} View without a number the last draw */
 /** @typedef {{connected: boolean, retryIn_ms?: number}} Connection */
 /**
  * @typedef {object} Transport
@@ -52,6 +52,8 @@
  * @property {number | null} [rhat]
  * @property {number | null} [log_joint]
  * @property {number} [milliseconds]
+ * @property {number} [chain]
+ * @property {number} [draw]
  * @property {Uint8Array} p (nx, ny), probability in 255ths
  * @property {Uint8Array} observed (nx, ny), 0 or 1
  * @property {Uint8Array} bits observed, as it came
@@ -167,6 +169,9 @@ export function wallEdges(walls, nx, ny) {
 
 /** Entropy of a cell in bits. @param {number} p */
 export const entropyBits = (p) => (p <= 0 || p >= 1 ? 0 : -(p * Math.log2(p) + (1 - p) * Math.log2(1 - p)));
+
+/** With a capital. @param {string} text */
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** 1, 2 or 5 times a power of ten, at least `least`. @param {number} least */
 function niceStep(least) {
@@ -293,6 +298,7 @@ export class Session {
     this.adopt = null;
     this.recorded = false;
     this.seq = 0;
+    this.acted = 0;
     this.generation = -1;
     this.walls = new Uint8Array(0);
     this.wallsVersion = 0;
@@ -303,7 +309,7 @@ export class Session {
     /** @type {Message[]} */
     this.pending = [];
     /** @type {View} */
-    this.view = { layer: "mean", chain: 0, draw: 0 };
+    this.view = { layer: "mean", chain: 0, draw: null };
     /** @type {Scan | null} */
     this.scan = null;
     /** @type {Field | null} accepted, to be painted next */
@@ -338,6 +344,20 @@ export class Session {
     return /** @type {{chains: number, count: number}} */ (this.state?.draws ?? { chains: 0, count: 0 });
   }
 
+  /** Whether there is a chain on show, and it goes on. */
+  get sampling() {
+    const field = this.shown;
+    return Boolean(field && !field.approximate && field.sweeps < field.total && (this.running || this.state?.live));
+  }
+  /** The draw on show, from 0. */
+  get draw() {
+    const last = Math.max(0, this.draws.count - 1);
+    return Math.min(last, this.view.draw ?? (this.shown?.layer === "draw" ? (this.shown.draw ?? last) : last));
+  }
+  get hasDraws() {
+    return this.draws.count > 0 || (!this.recorded && /gibbs|block/.test(this.document?.method ?? ""));
+  }
+
   /** @param {string} text @param {string} [level] */
   say(text, level = "info") {
     this.status = { text, level };
@@ -351,6 +371,7 @@ export class Session {
   act(message, event) {
     if (!this.document && message.type !== "hello") return;
     const sent = { ...message, seq: ++this.seq };
+    if (message.type !== "inspect") this.acted = this.seq; // a question changes nothing, and no state confirms it
     if (FORESEEN.has(message.type)) {
       this.pending.push(sent);
       this.foresee(sent);
@@ -405,10 +426,10 @@ export class Session {
         this.cell = { x: message.x, y: message.y, beams: message.beams };
         break;
       case "status":
-        this.status = { text: message.text, level: message.level ?? "info" };
+        this.status = { text: sentence(message.text), level: message.level ?? "info" };
         break;
       case "error":
-        this.status = { text: [message.text, message.remedy].filter(Boolean).join(" "), level: "error" };
+        this.status = { text: sentence([message.text, message.remedy].filter(Boolean).join("; ")), level: "error" };
         this.pending = this.pending.filter((edit) => edit.seq !== message.seq);
         this.waiting = this.waiting.filter((event) => event.seq !== message.seq);
         this.rebuild();
@@ -416,9 +437,9 @@ export class Session {
       case "worker":
         this.worker = message.state;
         if (message.state === "restarted") {
-          this.status = { text: "The worker stopped and was started again; the map is as it was.", level: "warning" };
-        } else if (message.state === "ready" && this.status.text === "Connecting") {
-          this.status = { text: "Ready", level: "info" };
+          this.status = { text: "The worker stopped and is being started again; the map is kept", level: "warning" };
+        } else if (message.state === "ready" && (this.status.text === "Connecting" || /worker/.test(this.status.text))) {
+          this.status = { text: this.status.text === "Connecting" ? "Ready" : "The worker runs again", level: "info" };
         }
         break;
       case "download":
@@ -452,7 +473,7 @@ export class Session {
     this.wallsVersion++;
     if (this.state.view && !this.pending.some((edit) => edit.type === "view")) {
       const { layer, chain, draw } = this.state.view;
-      this.view = { layer: layer ?? "mean", chain: chain ?? 0, draw: draw ?? 0 };
+      this.view = { layer: layer ?? "mean", chain: chain ?? 0, draw: draw ?? null };
     }
     for (const edit of this.pending) this.foresee(edit);
   }
@@ -468,7 +489,7 @@ export class Session {
     } else if (edit.type === "set") {
       Object.assign(document, edit.patch);
     } else if (edit.type === "view") {
-      this.view = { ...this.view, layer: edit.layer, chain: edit.chain ?? this.view.chain, draw: edit.draw ?? this.view.draw };
+      this.view = { layer: edit.layer, chain: edit.chain ?? this.view.chain, draw: edit.draw ?? null };
     } else if (edit.type === "sensor" && edit.op === "move") {
       const sensor = document.sensors.find((candidate) => candidate.id === edit.id);
       if (sensor) Object.assign(sensor, { x: edit.x, y: edit.y, yaw: edit.yaw });
@@ -501,7 +522,7 @@ export class Session {
   /** Seconds until the chain on show is done, or null where nothing can be said. */
   remaining_s() {
     const field = this.shown;
-    if (!field || !this.running || field.approximate) return null;
+    if (!field || !this.sampling) return null;
     const [sweeps, time] = this.trace.from;
     const done = field.sweeps - sweeps;
     return done > 0 ? ((field.total - field.sweeps) * (performance.now() - time)) / done / 1000 : null;
@@ -558,8 +579,10 @@ export class Painter {
     this.width = 0;
     this.height = 0;
     this.ratio = 1;
-    /** CSS pixels a cell, and where the map's upper left corner is. */
+    /** CSS pixels a cell, and where the map's upper left corner is, on a device pixel. */
     this.transform = { scale: 1, x: 0, y: 0 };
+    /** That corner before it was rounded. */
+    this.corner = { x: 0, y: 0 };
     this.fitted = true;
     this.cells = document.createElement("canvas").getContext("2d");
     this.mask = document.createElement("canvas").getContext("2d");
@@ -583,25 +606,28 @@ export class Painter {
     const room = { x: this.width - GUTTER.left - GUTTER.right, y: this.height - GUTTER.top - GUTTER.bottom };
     let scale = Math.max(0.05, Math.min(room.x / nx, room.y / ny));
     if (scale * this.ratio > 4) scale = Math.floor(scale * this.ratio) / this.ratio;
-    this.transform = { scale, x: GUTTER.left + (room.x - scale * nx) / 2, y: GUTTER.top + (room.y - scale * ny) / 2 };
+    this.transform.scale = scale;
+    this.corner = { x: GUTTER.left + (room.x - scale * nx) / 2, y: GUTTER.top + (room.y - scale * ny) / 2 };
     this.fitted = true;
     this.settle([nx, ny]);
   }
 
   /** Zooms about a point of the canvas. @param {number} factor @param {Point} about @param {[number, number]} shape */
   zoom(factor, about, shape) {
-    const { scale, x, y } = this.transform;
+    const { scale } = this.transform;
+    const { x, y } = this.corner;
     const next = clamp(scale * factor, Math.min(this.width, this.height) / Math.max(...shape) / 3, 160);
     const k = next / scale;
-    this.transform = { scale: next, x: about.x - k * (about.x - x), y: about.y - k * (about.y - y) };
+    this.transform.scale = next;
+    this.corner = { x: about.x - k * (about.x - x), y: about.y - k * (about.y - y) };
     this.fitted = false;
     this.settle(shape);
   }
 
   /** @param {number} dx @param {number} dy @param {[number, number]} shape */
   pan(dx, dy, shape) {
-    this.transform.x += dx;
-    this.transform.y += dy;
+    this.corner.x += dx;
+    this.corner.y += dy;
     this.fitted = false;
     this.settle(shape);
   }
@@ -610,10 +636,10 @@ export class Painter {
   settle([nx, ny]) {
     const { scale } = this.transform;
     const keep = 60;
-    this.transform.x = clamp(this.transform.x, keep - nx * scale, this.width - keep);
-    this.transform.y = clamp(this.transform.y, keep - ny * scale, this.height - keep);
-    this.transform.x = Math.round(this.transform.x * this.ratio) / this.ratio;
-    this.transform.y = Math.round(this.transform.y * this.ratio) / this.ratio;
+    this.corner.x = clamp(this.corner.x, keep - nx * scale, this.width - keep);
+    this.corner.y = clamp(this.corner.y, keep - ny * scale, this.height - keep);
+    this.transform.x = Math.round(this.corner.x * this.ratio) / this.ratio;
+    this.transform.y = Math.round(this.corner.y * this.ratio) / this.ratio;
   }
 
   /** Cells from the grid's lower left corner, of a point of the canvas. @param {Point} point @param {number} ny */
@@ -1464,7 +1490,6 @@ class Controls {
     this.prefix = `bayesmap${names++}`;
     this.show = { truth: true, rays: true, readings: true };
     this.playing = false;
-    this.lastPlayed = 0;
     /** @type {HTMLButtonElement | undefined} */
     this.themeButton = undefined;
     /** @type {HTMLElement | undefined} */
@@ -1501,8 +1526,9 @@ class Controls {
     this.each(() => {
       const [sensor, model, inference, map] = edits;
       put(sensor, "hidden", !session.editable);
-      put(model, "hidden", session.recorded);
-      put(inference, "hidden", session.recorded);
+      const kind = session.recorded ? "run" : session.document?.source.kind;
+      put(model, "hidden", kind === "run");
+      put(inference, "hidden", kind === "run");
       put(map, "hidden", session.recorded);
       put(this.bar, "inert", !session.document);
       put(this.panel, "inert", !session.document);
@@ -1733,7 +1759,8 @@ class Controls {
     this.each(() => {
       const field = session.shown;
       if (!field || !session.document) return put(chip, "hidden", true);
-      const kind = field.layer === "draw" ? `draw ${session.view.draw + 1} of ${session.draws.count}` : session.view.layer;
+      const numbered = session.draws.count ? `draw ${session.draw + 1} of ${session.draws.count}` : "draw";
+      const kind = field.layer === "draw" ? numbered : session.view.layer === "entropy" ? "entropy" : "mean";
       const by = field.approximate
         ? "approximate, belief propagation"
         : { importance: "importance sampling", propagate: "belief propagation" }[field.method] ?? `${field.sweeps} sweeps`;
@@ -1756,7 +1783,7 @@ class Controls {
       put(banner, "className", lost ? "banner" : "banner mild");
       put(retry, "hidden", !lost);
       const wait = `Connection lost. Trying again in ${seconds} s; the map is kept here.`;
-      put(text, "textContent", lost ? wait : "The worker stopped and was started again. The map is as it was.");
+      put(text, "textContent", lost ? wait : "The worker stopped and is being started again. The map is kept.");
     });
     return banner;
   }
@@ -1794,12 +1821,11 @@ class Controls {
       const left = session.remaining_s();
       const unit = { importance: "particles", propagate: "rounds" }[field?.method ?? ""] ?? "sweeps";
       const count = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
-      const idle = session.recorded ? "" : "No chain yet";
-      const state = session.running ? (left === null ? "running" : left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : "";
-      put(doing, "textContent", [count || (session.running ? "" : idle), state].filter(Boolean).join(", "));
+      const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
+      put(doing, "textContent", sentence([count, state].filter(Boolean).join(", ")) || "No chain yet");
     });
     const run = this.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)" });
-    const cancel = this.button("close", "Cancel", () => session.act({ type: "cancel" }), { text: "Cancel", title: "Cancel (Escape)", when: () => session.running });
+    const cancel = this.button("close", "Cancel", () => session.act({ type: "cancel" }), { text: "Cancel", title: "Cancel (Escape)", when: () => session.running || session.sampling });
     const live = this.checkbox(
       "Live",
       () => Boolean(session.state?.live ?? true),
@@ -1807,7 +1833,7 @@ class Controls {
       "Every edit restarts the chain",
     );
     const buttons = h("div", { className: "buttons" }, run, cancel, live);
-    this.each(() => put(buttons, "hidden", session.recorded));
+    this.each(() => put(buttons, "hidden", session.recorded || session.document?.source.kind === "run"));
     const values = h("dl");
     for (const [label, title, read] of /** @type {[string, string, (field: Field) => string][]} */ ([
       ["ESS", "Effective sample size of the log joint", (field) => number(field.ess, 0)],
@@ -1859,7 +1885,7 @@ class Controls {
       ],
       () => session.view.layer,
       (layer) => this.showLayer(layer),
-      (layer) => layer !== "draw" || session.draws.count > 0,
+      (layer) => layer !== "draw" || session.hasDraws,
     );
     const slider = h("input", { type: "range", min: 0, step: 1, "aria-label": "Draw number" });
     slider.addEventListener("input", () => {
@@ -1869,15 +1895,16 @@ class Controls {
     const play = this.button("play", "Play the draws", () => this.play(!this.playing), { when: () => session.draws.count > 1 });
     const count = h("output");
     const chain = h("select", { "aria-label": "Chain" });
-    chain.addEventListener("change", () => this.showDraw(session.view.draw, Number(chain.value)));
+    chain.addEventListener("change", () => this.showDraw(session.draw, Number(chain.value)));
     this.each(() => {
       const { chains, count: n } = session.draws;
       put(slider, "max", String(Math.max(0, n - 1)));
       put(slider, "disabled", n === 0);
-      put(slider, "value", String(Math.min(session.view.draw, Math.max(0, n - 1))));
-      slider.setAttribute("aria-valuetext", n ? `${session.view.draw + 1} of ${n}` : "no draws yet");
-      slider.style.setProperty("--fill", `${n > 1 ? (100 * Math.min(session.view.draw, n - 1)) / (n - 1) : 0}%`);
-      put(count, "textContent", n ? `${session.view.draw + 1} / ${n}` : "no draws yet");
+      put(slider, "value", String(session.draw));
+      const text = n ? `${session.draw + 1} of ${n}` : "none kept";
+      slider.setAttribute("aria-valuetext", text);
+      slider.style.setProperty("--fill", `${n > 1 ? (100 * session.draw) / (n - 1) : 0}%`);
+      put(count, "textContent", text);
       if (chain.length !== Math.max(1, chains)) {
         chain.replaceChildren(...Array.from({ length: Math.max(1, chains) }, (_, c) => h("option", { value: String(c), textContent: `chain ${c + 1}` })));
       }
@@ -1910,9 +1937,8 @@ class Controls {
   /** @param {string} layer */
   showLayer(layer) {
     if (layer !== "draw") this.play(false);
-    else if (this.session.draws.count === 0) return;
-    const { chain, draw } = this.session.view;
-    this.session.act(layer === "draw" ? { type: "view", layer, chain, draw: Math.min(draw, this.session.draws.count - 1) } : { type: "view", layer });
+    else if (!this.session.hasDraws) return;
+    this.session.act({ type: "view", layer, chain: this.session.view.chain });
   }
 
   /** @param {number} draw @param {number} [chain] */
@@ -1923,22 +1949,21 @@ class Controls {
   /** Plays on until the last draw; the next is asked for when one has been painted. @param {boolean} on */
   play(on) {
     this.playing = on;
-    this.lastPlayed = 0;
     if (on) {
-      const { draw } = this.session.view;
-      this.showDraw(draw >= this.session.draws.count - 1 ? 0 : draw);
+      const { draw, draws } = this.session;
+      this.showDraw(draw >= draws.count - 1 ? 0 : draw);
     }
     this.hand.changed();
   }
 
   /** Called after a picture is painted. */
   step() {
-    const { view, draws, shown } = this.session;
-    if (!this.playing || shown?.layer !== "draw") return;
+    if (!this.playing || this.session.shown?.layer !== "draw") return;
     setTimeout(() => {
       if (!this.playing) return;
-      if (view.draw + 1 >= draws.count) this.play(false);
-      else this.showDraw(view.draw + 1);
+      const { draw, draws } = this.session;
+      if (draw + 1 >= draws.count) this.play(false);
+      else this.showDraw(draw + 1);
     }, 90);
   }
 
@@ -2012,7 +2037,7 @@ class Controls {
       this.slider("angles", () => "Angles", { low: LIMITS.angles[0], high: LIMITS.angles[1], step: 1, log: true }),
       this.numberInput("Longest range (m)", () => session.document?.max_range ?? 0, (max_range) => this.set({ max_range }), { min: 0, step: "any" }),
     ];
-    this.each(() => simulated.slice(1).forEach((element) => put(element, "hidden", !session.editable)));
+    this.each(() => simulated.forEach((element) => put(element, "hidden", !session.editable)));
     return this.section("Model", this.slider("prior", () => "Prior P(wall)", { low: 0, high: 1, step: 0.01 }), ...simulated);
   }
 
@@ -2065,14 +2090,10 @@ class Controls {
     const size = () => h("input", { type: "number", min: LIMITS.cells[0], max: LIMITS.cells[1], step: 1, required: true, value: "21" });
     const [width, height] = [size(), size()];
     const world = h("select", {});
-    for (const [value, text] of [["building", "a building"], ["tutorial", "the tutorial's map"], ["blank", "blank"]]) world.append(h("option", { value, textContent: text }));
-    const adjust = () => {
-      for (const input of [width, height]) {
-        input.disabled = world.value === "tutorial";
-        if (input.disabled) input.value = "21";
-      }
-    };
-    world.addEventListener("change", adjust);
+    for (const [value, text] of [["tutorial", "the tutorial's map"], ["building", "a building"], ["blank", "blank"]]) world.append(h("option", { value, textContent: text }));
+    world.addEventListener("change", () => {
+      if (world.value === "building" && Number(width.value) < 60) [width.value, height.value] = ["120", "80"];
+    });
     const line = (/** @type {string} */ label, /** @type {HTMLElement} */ control) => {
       control.id = `${id}-new-${label.replace(/\W/g, "")}`;
       return h("div", { className: "row" }, h("label", { for: control.id, textContent: label }), control);
@@ -2089,9 +2110,7 @@ class Controls {
       session.act({ type: "new", shape: [Number(width.value), Number(height.value)], world: world.value });
       this.hand.selected = null;
     });
-    const dialog = this.dialog("New map", form);
-    dialog.addEventListener("toggle", adjust);
-    return dialog;
+    return this.dialog("New map", form);
   }
 
   buildShare() {
@@ -2377,7 +2396,7 @@ export function recordedTransport(recording) {
   let draws = null;
   let index = 0;
   /** @type {View} */
-  let view = { layer: "mean", chain: 0, draw: 0 };
+  let view = { layer: "mean", chain: 0, draw: null };
   const rows = (/** @type {(number | null)[][]} */ values) => (oneByOne ? [values[index]] : values);
   const floats = (/** @type {(number | null)[][]} */ values) =>
     Float32Array.from(rows(values ?? []).flat(), (value) => value ?? Infinity);
@@ -2396,10 +2415,10 @@ export function recordedTransport(recording) {
     let p = mean;
     if (view.layer === "draw" && draws) {
       p = new Uint8Array(cells);
-      const first = (view.chain * count + view.draw) * cells;
+      const first = (view.chain * count + (view.draw ?? count - 1)) * cells;
       for (let i = 0; i < cells; i++) p[i] = (draws[(first + i) >> 3] >> (7 - ((first + i) & 7))) & 1 ? 255 : 0;
     }
-    const joint = log_joint[view.chain]?.[view.layer === "draw" ? view.draw : count - 1] ?? null;
+    const joint = log_joint[view.chain]?.[(view.layer === "draw" ? view.draw : null) ?? count - 1] ?? null;
     const numbers = { sweeps: settings.sweeps ?? count, total: settings.sweeps ?? count, ess: settings.ess, rhat: settings.rhat, log_joint: joint };
     transport.onmessage({ type: "field", generation: 1, layer: view.layer, method: settings.method ?? document.method, approximate: false, ...numbers }, { p, observed });
   };
@@ -2438,7 +2457,7 @@ export function recordedTransport(recording) {
           });
         }
       } else if (message.type === "view") {
-        view = { layer: message.layer, chain: message.chain ?? view.chain, draw: message.draw ?? view.draw };
+        view = { layer: message.layer, chain: message.chain ?? view.chain, draw: message.draw ?? null };
         state(message.seq);
         field();
       } else if (message.type === "scan") {
@@ -2620,7 +2639,7 @@ export function mount(element, transport, { embedded = false, document: adopted 
     } else if (layer) controls.showLayer(layer);
     else if (zoom) command(zoom);
     else if (event.key.toLowerCase() === "r" && !session.recorded) session.act({ type: "run" });
-    else if (event.key === "Escape" && session.running) session.act({ type: "cancel" });
+    else if (event.key === "Escape" && (session.running || session.sampling)) session.act({ type: "cancel" });
     else return;
     event.preventDefault();
   }
@@ -2663,6 +2682,8 @@ export function mount(element, transport, { embedded = false, document: adopted 
           sweeps: shown.sweeps,
           method: shown.method,
           rhat: shown.rhat,
+          chain: shown.chain,
+          draw: shown.draw,
           ess: shown.ess,
         },
         probability: shown?.p ?? new Uint8Array(0),
@@ -2676,7 +2697,7 @@ export function mount(element, transport, { embedded = false, document: adopted 
         running: session.running,
         draws: session.draws,
         view,
-        seq: { sent: session.seq, confirmed: session.state?.seq ?? 0 },
+        seq: { sent: session.acted, confirmed: session.state?.seq ?? 0 },
         events: session.events,
         transform: { ...painter.transform },
       };

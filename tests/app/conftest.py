@@ -1,0 +1,64 @@
+"""A browser, a server, and a page that begins with the tutorial's map; skipped where there is no Chromium."""
+
+import pytest
+from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragment, served, until
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Debian's Chromium without a head."""
+    if CHROMIUM is None:
+        pytest.skip("no Chromium on this machine")
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as started:
+        launched = started.chromium.launch(executable_path=CHROMIUM, args=list(ARGUMENTS))
+        yield launched
+        launched.close()
+
+
+@pytest.fixture(scope="session")
+def server(browser):
+    """The address of a server that the tests share."""
+    with served() as (address, _):
+        yield address
+
+
+@pytest.fixture
+def open_page(browser):
+    """Opens addresses in contexts of their own; a page must cause no errors and leave the machine for nothing."""
+    contexts, troubles = [], []
+
+    def opened(address, json_document=None, *, quiet=True, **options):
+        context = browser.new_context(**{**DESKTOP, **options})
+        contexts.append(context)
+        page = context.new_page()
+        if quiet:
+            page.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
+            page.on("pageerror", lambda error: troubles.append(str(error)))
+            page.on("request", lambda request: None if local(request.url) else troubles.append(request.url))
+        # by way of another map, so that nothing of the test before is left
+        page.goto(address + ("" if json_document is None else fragment(document(angles=10, walls=NO_WALLS))))
+        if json_document is not None:
+            until(page, "s.painted && s.document.angles === 10")
+            page.evaluate("(hash) => { location.hash = hash; }", fragment(json_document))
+            until(page, "s.document.angles === argument", json_document["angles"])
+        until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert troubles == []
+
+
+def local(url):
+    return url.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "blob:", "data:", "file:", "about:"))
+
+
+@pytest.fixture
+def page(open_page, server):
+    """The page of the shared server, with the tutorial's map, its mean, and live."""
+    opened = open_page(server, document())
+    opened.get_by_role("radio", name="Mean").check()
+    opened.get_by_role("checkbox", name="Live").check()
+    return opened

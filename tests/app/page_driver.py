@@ -1,0 +1,148 @@
+"""Drives the page of a real server in a real browser, and reads back what it shows."""
+
+import base64
+import contextlib
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+import zlib
+
+import numpy as np
+from PIL import Image
+
+from bayesmap.app.worlds import tutorial_document
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+ARGUMENTS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+WAIT_SECONDS = 30.0
+DESKTOP = {"viewport": {"width": 1280, "height": 860}, "color_scheme": "light"}
+
+NO_WALLS = base64.b64encode(bytes(56)).decode()
+"""Of 21 x 21 cells."""
+
+READ = """
+() => {
+  const s = bayesmap.snapshot();
+  const bytes = (a) => { let t = ""; for (const v of a) t += String.fromCharCode(v); return btoa(t); };
+  const scan = s.scan && Object.fromEntries(Object.entries(s.scan).map(([k, v]) => [k, v?.buffer ? Array.from(v, String) : v]));
+  return {...s, probability: bytes(s.probability), observed: bytes(s.observed), walls: bytes(s.walls), scan};
+}
+"""
+
+
+@contextlib.contextmanager
+def served(*arguments):
+    """`bayesmap app` in a process of its own: its address, and the process."""
+    command = [sys.executable, "-m", "bayesmap", "app", "--no-browser", "--port", "0", *map(str, arguments)]
+    environment = {**os.environ, "NO_COLOR": "1"}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    with subprocess.Popen(command, text=True, env=environment, **pipes) as process:
+        try:
+            address = process.stdout.readline().strip()
+            assert address.startswith("http://127.0.0.1:"), "the server did not start"
+            yield address, process
+        finally:
+            process.terminate()
+            process.wait(20)
+
+
+DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/gibbs|block/.test(s.document.method)"
+
+
+def document(**changes):
+    """The tutorial's document as JSON, with changes."""
+    return {**tutorial_document().to_json(), **changes}
+
+
+def fragment(json_document):
+    """What a share link puts after the address."""
+    deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
+    packed = deflate.compress(json.dumps(json_document).encode()) + deflate.flush()
+    return "#m=" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+
+
+def snapshot(page):
+    """What the page knows and shows; arrays indexed [x, y]."""
+    found = page.evaluate(READ)
+    shape = found["document"]["grid"]["shape"]
+    for name in ("probability", "observed", "walls"):
+        found[name] = np.frombuffer(base64.b64decode(found[name]), dtype=np.uint8).reshape(shape)
+    for name, values in (found["scan"] or {}).items():
+        if isinstance(values, list):
+            numbers = [value.replace("Infinity", "inf") if isinstance(value, str) else value for value in values]
+            found["scan"][name] = np.array(numbers, dtype=float)
+    return found
+
+
+def until(page, condition, argument=None):
+    """Wait until a JavaScript condition on the snapshot `s` holds (the page's own policy forbids Playwright's way)."""
+    wrapped = f"(argument) => {{ const s = window.bayesmap?.snapshot(); return Boolean(s && ({condition})); }}"
+    deadline = time.monotonic() + WAIT_SECONDS
+    while not page.evaluate(wrapped, argument):
+        assert time.monotonic() < deadline, f"never: {condition}"
+        page.wait_for_timeout(15)
+
+
+def settled(page):
+    """Wait until all actions are confirmed and the picture is that of the newest generation and not preliminary."""
+    until(page, f"s.seq.confirmed === s.seq.sent && s.painted?.generation === s.generation && !s.running && ({DONE})")
+    return snapshot(page)
+
+
+def act(page, action):
+    """Do something that changes the map or the model, and wait for its picture."""
+    before = snapshot(page)["generation"]
+    action()
+    until(page, "s.generation > argument && s.painted?.generation === s.generation", before)
+
+
+def centre(page, x, y):
+    """Where a cell is on the page, in CSS pixels."""
+    point = page.evaluate("([x, y]) => bayesmap.cellToClient(x, y)", [x, y])
+    return point["x"], point["y"]
+
+
+def press_and_drag(page, cells, steps=1):
+    """Press in the first cell, move through the others, release."""
+    page.mouse.move(*centre(page, *cells[0]))
+    page.mouse.down()
+    for cell in cells[1:]:
+        page.mouse.move(*centre(page, *cell), steps=steps)
+    page.mouse.up()
+
+
+def colour_at(page, x, y, offset=(0.0, 0.0)):
+    """Median colour of the few pixels about a cell's centre, or off it by a fraction of a cell; 0 to 255."""
+    left, top = centre(page, x, y)
+    scale = page.evaluate("bayesmap.snapshot().transform.scale")
+    left, top = left + offset[0] * scale, top - offset[1] * scale
+    clip = {"x": left - 3, "y": top - 3, "width": 6, "height": 6}
+    shot = Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB")
+    return np.median(np.asarray(shot, dtype=float).reshape(-1, 3), axis=0)
+
+
+def brightness_at(page, x, y, offset=(0.0, 0.0)):
+    """0 is black, 255 white."""
+    return float(colour_at(page, x, y, offset).mean())
+
+
+def pid_of_worker(process):
+    """The server's child that computes."""
+    for _ in range(100):
+        listed = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True, text=True)
+        if found := re.search(r"^\s*(\d+) .*bayesmap\.app\.worker", listed.stdout, re.MULTILINE):
+            return int(found[1])
+        time.sleep(0.1)
+    raise AssertionError("the server has no worker")

@@ -1,0 +1,89 @@
+"""A page without a browser: the socket of a server in a process of its own."""
+
+import contextlib
+import json
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from shell import start
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from bayesmap.app.messages import unframe
+
+PATIENCE_S = 30.0
+
+
+@contextlib.contextmanager
+def serving(*arguments):
+    """The command's process and the address that it printed; ended with Ctrl-C."""
+    process = start("app", "--no-browser", *arguments)
+    try:
+        address = process.stdout.readline().strip()
+        assert address.startswith("http://"), process.communicate(timeout=PATIENCE_S)
+        yield process, address
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            process.send_signal(signal.SIGINT)
+        try:
+            process.communicate(timeout=PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.communicate()
+
+
+def socket_address(address):
+    """Of the page's socket."""
+    return address.replace("http", "ws", 1).replace("/?", "/socket?")
+
+
+class Page:
+    """Sends numbered messages and reads until something comes."""
+
+    def __init__(self, address, **options):
+        self.socket = connect(socket_address(address), compression=None, max_size=None, **options)
+        self.seq = 0
+
+    def __enter__(self):
+        self.send("hello")
+        return self
+
+    def __exit__(self, *_):
+        self.socket.close()
+
+    def send(self, kind, **fields):
+        self.seq += 1
+        self.socket.send(json.dumps({"type": kind, "seq": self.seq, **fields}))
+
+    def read(self):
+        data = self.socket.recv(timeout=PATIENCE_S)
+        return unframe(data) if isinstance(data, bytes) else (json.loads(data), {})
+
+    def until(self, kind, like=lambda header: True):
+        """The next message of a kind that is as wanted."""
+        deadline = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline:
+            header, buffers = self.read()
+            if header["type"] == kind and like(header):
+                return header, buffers
+        raise AssertionError(f"no {kind} came")
+
+    def confirmed(self):
+        """The state after the last message."""
+        return self.until("state", lambda header: header["seq"] >= self.seq)[0]
+
+    def closed(self):
+        """The code with which the server closes."""
+        try:
+            while True:
+                self.read()
+        except ConnectionClosed as error:
+            return error.rcvd.code
+
+
+def children(pid):
+    """Processes of a process."""
+    tasks = Path(f"/proc/{pid}/task").glob("*/children")
+    return [int(child) for path in tasks for child in path.read_text().split()]

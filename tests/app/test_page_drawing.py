@@ -1,0 +1,158 @@
+"""Walls under the hand: no gaps, one stroke one step of undo, and the picture follows."""
+
+import numpy as np
+from page_driver import (
+    NO_WALLS,
+    act,
+    brightness_at,
+    centre,
+    colour_at,
+    document,
+    press_and_drag,
+    settled,
+    snapshot,
+    until,
+)
+
+
+def blank(open_page, server):
+    page = open_page(server, document(walls=NO_WALLS))
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    settled(page)
+    return page
+
+
+def test_a_fast_drag_over_twenty_cells_leaves_no_gaps_and_one_undo_restores(open_page, server):
+    page = blank(open_page, server)
+    before = snapshot(page)
+    assert before["walls"].sum() == 0
+    press_and_drag(page, [(0, 4), (6, 4), (19, 4)])  # the browser says where the hand was only twice
+    until(page, "s.walls.reduce((a, b) => a + b) === 20")
+    drawn = settled(page)
+    assert np.array_equal(np.argwhere(drawn["walls"]), [(x, 4) for x in range(20)])
+    assert (drawn["probability"][6:15, 4] > 200).mean() > 0.7  # and inference has seen it
+    orange = colour_at(page, 8, 4, offset=(0, 0.5))
+    assert orange[0] - orange[2] > 60
+    act(page, lambda: page.get_by_role("button", name="Undo").click())
+    assert settled(page)["walls"].sum() == 0
+    act(page, lambda: page.keyboard.press("Control+y"))
+    assert settled(page)["walls"].sum() == 20
+
+
+def test_an_oblique_stroke_is_connected_by_edges_or_corners(open_page, server):
+    page = blank(open_page, server)
+    press_and_drag(page, [(1, 1), (14, 6), (3, 19)])
+    until(page, "s.seq.confirmed === s.seq.sent")
+    cells = np.argwhere(settled(page)["walls"])
+    step = np.abs(cells[:, None] - cells[None]).max(axis=-1)
+    reached, frontier = {0}, [0]
+    while frontier:
+        here = frontier.pop()
+        fresh = set(np.flatnonzero(step[here] <= 1)) - reached
+        reached |= fresh
+        frontier += fresh
+    assert len(reached) == len(cells) > 25
+
+
+def test_the_wall_is_on_the_screen_before_the_server_has_said_so(open_page, server):
+    page = blank(open_page, server)
+    page.mouse.move(*centre(page, 3, 3))
+    page.mouse.down()
+    page.mouse.move(*centre(page, 3, 12))
+    drawn = page.evaluate(
+        "new Promise((r) => requestAnimationFrame(() => r(bayesmap.snapshot().walls.slice(3 * 21, 4 * 21))))"
+    )
+    assert sum(drawn.values() if isinstance(drawn, dict) else drawn) == 10
+    page.mouse.up()
+
+
+def test_erase_clear_and_undo(page):
+    settled(page)
+    page.get_by_role("radio", name="Erase").check()
+    before = snapshot(page)["walls"]
+    assert before[12, 2:7].all()
+    act(page, lambda: press_and_drag(page, [(12, 2), (12, 6)]))
+    after = settled(page)["walls"]
+    assert not after[12, 2:7].any()
+    assert before.sum() - after.sum() == 5
+    act(page, lambda: page.get_by_role("button", name="Clear walls").click())
+    assert settled(page)["walls"].sum() == 0
+    act(page, lambda: page.keyboard.press("Control+z"))
+    act(page, lambda: page.keyboard.press("Control+z"))
+    assert np.array_equal(settled(page)["walls"], before)
+
+
+def test_the_right_button_erases_while_drawing(page):
+    settled(page)
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    act(page, lambda: page.mouse.click(*centre(page, 2, 2), button="right"))
+    assert snapshot(page)["walls"][2, 2] == 0
+
+
+def test_no_wall_is_drawn_onto_the_robot(open_page, server):
+    page = blank(open_page, server)
+    press_and_drag(page, [(5, 10), (15, 10)])
+    until(page, "s.seq.confirmed === s.seq.sent")
+    walls = settled(page)["walls"]
+    assert not walls[10, 10]
+    assert walls.sum() == 10
+
+
+def test_clearing_the_inference_leaves_the_prior(page):
+    settled(page)
+    act(page, lambda: page.get_by_role("button", name="Clear inference").click())
+    shown = snapshot(page)
+    assert (shown["probability"] == 128).all()
+    assert not shown["observed"].any()
+    assert shown["walls"].sum() > 50
+
+
+def test_a_new_map_of_another_size_can_be_undone(page):
+    settled(page)
+    page.get_by_role("button", name="New map").click()
+    page.get_by_label("World").select_option("blank")
+    page.get_by_label("Width").fill("40")
+    page.get_by_label("Height").fill("30")
+    act(page, lambda: page.get_by_role("button", name="Create").click())
+    shown = settled(page)
+    assert shown["walls"].shape == (40, 30)
+    x, y = centre(page, 39, 29)
+    assert 0 < x < 960
+    assert 0 < y < 860
+    act(page, lambda: page.keyboard.press("Control+z"))
+    assert settled(page)["walls"].shape == (21, 21)
+
+
+def test_zoom_and_pan_keep_cells_under_the_pointer_and_crisp(page):
+    settled(page)
+    for label in ("Rays", "Readings", "True walls"):
+        page.get_by_role("checkbox", name=label).uncheck()
+    page.mouse.move(*centre(page, 10, 12))
+    at = centre(page, 10, 12)
+    for _ in range(8):
+        page.mouse.wheel(0, -240)
+    until(page, "s.transform.scale > 80")
+    assert np.allclose(centre(page, 10, 12), at, atol=1.5)
+    assert brightness_at(page, 10, 12, (0.3, 0.3)) > 235
+    assert brightness_at(page, 10, 12, (-0.3, -0.3)) > 235
+    page.get_by_role("radio", name="Pan").check()
+    x, y = centre(page, 10, 12)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 50, y + 40)
+    page.mouse.up()
+    assert np.allclose(centre(page, 10, 12), (x + 50, y + 40), atol=1.5)
+    page.keyboard.press("0")
+    until(page, "s.transform.scale < 40")
+
+
+def test_the_read_out_tells_of_the_cell_under_the_pointer(page):
+    settled(page)
+    page.mouse.move(*centre(page, 10, 12))
+    readout = page.get_by_text("P(wall) 0.0")
+    readout.wait_for()
+    assert readout.inner_text().startswith("Cell 10, 12 \u00b7 10.0, 12.0 m")
+    page.get_by_text("beams").wait_for()
+    page.mouse.move(*centre(page, 20, 20))
+    page.get_by_text("Cell 20, 20").wait_for()
+    assert "unobserved" in page.get_by_text("Cell 20, 20").inner_text()

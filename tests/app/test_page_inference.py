@@ -1,0 +1,139 @@
+"""Runs, draws, cancelling; and that the numbers are those of the posterior."""
+
+import numpy as np
+import pytest
+from page_driver import NO_WALLS, act, centre, document, settled, snapshot, until
+
+import bayesmap as bm
+
+
+def run(page):
+    page.get_by_role("button", name="Run", exact=True).click()
+
+
+def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, server):
+    page = open_page(server, document(sweeps=20))
+    run(page)
+    until(page, "!s.running && s.draws.count === 20 && s.painted.sweeps === 20")
+    shown = snapshot(page)
+    mean = shown["probability"] / 255
+    chains = shown["draws"]["chains"]
+    page.get_by_role("radio", name="One draw").check()
+    slider = page.get_by_role("slider", name="Draw number")
+    total = np.zeros((21, 21))
+    for chain in range(chains):
+        page.get_by_label("Chain").select_option(str(chain))
+        for draw in range(20):
+            slider.fill(str(draw))
+            page.evaluate("() => new Promise(requestAnimationFrame)")
+            until(
+                page,
+                f"s.view.draw === {draw} && s.view.chain === {chain} && s.painted.layer === 'draw' && s.painted.draw === {draw} && s.painted.chain === {chain}",
+            )
+            one = snapshot(page)["probability"]
+            assert set(np.unique(one)) <= {0, 255}
+            total += one / 255
+    assert slider.get_attribute("max") == "19"
+    assert np.abs(total / (20 * chains) - mean).max() <= 0.5 / 255 + 1e-9
+    page.get_by_role("radio", name="Mean").check()
+    until(page, "s.painted.layer === 'mean'")
+
+
+def test_draws_are_played_one_after_another(open_page, server):
+    page = open_page(server, document(sweeps=6))
+    run(page)
+    until(page, "!s.running && s.draws.count === 6")
+    page.get_by_role("button", name="Play the draws").click()
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 2")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 5")
+    page.get_by_role("button", name="Play the draws").wait_for()  # it stops at the last
+    page.get_by_role("radio", name="Mean").check()
+
+
+def test_cancel_keeps_the_partial_chain(open_page, server):
+    page = open_page(server, document(sweeps=100_000, angles=1000))
+    run(page)
+    until(page, "s.running && !s.painted.approximate && s.painted.sweeps > 0")
+    assert page.get_by_role("progressbar").evaluate("(bar) => bar.value") < 1
+    page.get_by_role("button", name="Cancel").click()
+    until(page, "!s.running && s.draws.count > 0")
+    partial = snapshot(page)
+    assert 0 < partial["painted"]["sweeps"] < 100_000
+    assert partial["draws"]["count"] <= partial["painted"]["sweeps"]
+    page.wait_for_timeout(300)
+    assert snapshot(page)["painted"]["sweeps"] == partial["painted"]["sweeps"]
+
+
+def test_editing_during_inference_paints_no_old_generation(open_page, server):
+    page = open_page(server, document(sweeps=100_000, angles=400, walls=NO_WALLS))
+    run(page)
+    until(page, "s.running && s.painted.sweeps > 0")
+    page.evaluate("""() => {
+      window.wrong = 0;
+      window.last = 0;
+      const look = () => {
+        const s = bayesmap.snapshot();
+        if (s.painted.generation < last) wrong++;
+        last = Math.max(last, s.painted.generation);
+        requestAnimationFrame(look);
+      };
+      look();
+    }""")
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    page.mouse.move(*centre(page, 2, 2))
+    page.mouse.down()
+    for x in range(3, 18):
+        page.mouse.move(*centre(page, x, 2))
+    page.mouse.up()
+    until(page, "s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation")
+    shown = snapshot(page)
+    assert page.evaluate("wrong") == 0
+    assert shown["walls"].sum() == 16
+    assert not shown["running"]  # an edit ends the run; what follows is live
+    page.get_by_role("button", name="Cancel").click()
+
+
+def test_three_by_three_equals_exact_enumeration(open_page, server):
+    """Worst of 8 cells, sweeps counted as 1/4 independent: 5 standard errors, a false alarm in 200 000 runs."""
+    small = document(
+        grid={"shape": [3, 3], "resolution": 1.0, "origin": [-0.5, -0.5]},
+        walls=NO_WALLS[:2] + "A=",
+        sensors=[{"id": 1, "x": 1.0, "y": 1.0, "yaw": 0.3}],
+        angles=12,
+        noise=1.0,
+        max_range=6.0,
+        sweeps=20_000,
+    )
+    page = open_page(server, small)
+    act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
+    until(page, "!s.running && s.painted.sweeps === 20000")
+    shown = snapshot(page)
+    scan = shown["scan"]
+    readings = bm.Scans(scan["pose"].reshape(-1, 3), scan["angles"], scan["ranges"].reshape(1, -1), max_range_m=6.0)
+    grid = bm.Grid(shape=(3, 3), resolution=1.0, origin=(-0.5, -0.5))
+    exact = bm.infer(
+        readings, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(1.0), method="exact", draws=10
+    ).occupancy
+    error = np.sqrt(exact * (1 - exact) / (2 * 20_000 / 4))
+    assert (np.abs(shown["probability"] / 255 - exact) < 5 * error + 0.5 / 255).all()
+    assert exact.min() < 0.4 < 0.6 < exact.max()  # not the prior
+
+
+def test_entropy_is_highest_where_nothing_is_known(page):
+    shown = settled(page)
+    page.get_by_role("radio", name="Entropy").check()
+    until(page, "s.painted.layer === 'entropy'")
+    assert np.array_equal(snapshot(page)["probability"], shown["probability"])
+    assert page.get_by_text("entropy (bit)").is_visible()
+    page.get_by_role("radio", name="Mean").check()
+    until(page, "s.painted.layer === 'mean'")
+
+
+def test_progress_is_said_in_words(open_page, server):
+    page = open_page(server, document(sweeps=100_000, angles=1000))
+    run(page)
+    page.get_by_text(" of 100000 sweeps").wait_for()
+    page.get_by_text("s left").wait_for()
+    assert float(page.locator("dd").nth(1).inner_text()) == pytest.approx(1.0, abs=1.0)  # R-hat
+    page.get_by_role("button", name="Cancel").click()
+    until(page, "!s.running")

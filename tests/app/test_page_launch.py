@@ -1,0 +1,89 @@
+"""The page opens, paints a posterior, asks nobody else, and says what it is to everybody."""
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from page_driver import brightness_at, colour_at, document, fragment, settled, snapshot
+
+
+def test_the_first_picture_is_the_posterior_of_the_tutorial(page):
+    shown = settled(page)
+    assert shown["document"]["grid"]["shape"] == [21, 21]
+    assert shown["connected"]
+    assert shown["painted"]["method"] == "gibbs"
+    assert not shown["painted"]["approximate"]
+    p = shown["probability"] / 255
+    seen, walls = shown["observed"] > 0, shown["walls"] > 0
+    assert 100 < seen.sum() < 400
+    assert p[seen & walls].mean() > 0.7
+    assert p[seen & ~walls].mean() < 0.05
+    assert abs(p[~seen].mean() - 0.5) < 0.05
+
+
+def test_pixels_tell_free_cells_walls_and_hatched_unobserved_ones_apart(page):
+    for label in ("Rays", "Readings"):
+        page.get_by_role("checkbox", name=label).uncheck()
+    shown = settled(page)
+    free = colour_at(page, 10, 12)
+    assert brightness_at(page, 10, 12) > 235
+    assert shown["observed"][10, 12]
+    sure = [
+        (x, y) for x in range(21) for y in range(21) if shown["observed"][x, y] and shown["probability"][x, y] > 250
+    ]
+    assert brightness_at(page, *sure[0]) < 90
+    assert not shown["observed"][20, 0]
+    red, _, blue = colour_at(page, 20, 0)
+    assert red - blue > 12  # warm
+    assert free[0] - free[2] < 6  # not warm
+
+
+def test_the_page_cannot_be_had_without_its_token(browser, server):
+    context = browser.new_context()
+    try:
+        page = context.new_page()
+        assert page.goto(server.split("?")[0]).status == 403
+        assert page.goto(server).status == 200
+    finally:
+        context.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_no_serious_violation(open_page, server, scheme):
+    page = open_page(server, document(), color_scheme=scheme, bypass_csp=True)
+    settled(page)
+    states = {"page": lambda: None, "help": lambda: page.keyboard.press("?"), "new map": lambda: press(page, "New map")}
+    for name, reach in states.items():
+        page.keyboard.press("Escape")
+        reach()
+        found = Axe().run(page).response["violations"]
+        serious = [
+            (rule["id"], rule["nodes"][0]["html"]) for rule in found if rule["impact"] in ("serious", "critical")
+        ]
+        assert serious == [], name
+
+
+def press(page, name):
+    page.get_by_role("button", name=name).click()
+
+
+def test_light_and_dark_follow_the_system_and_the_button(open_page, server):
+    page = open_page(server, document(), color_scheme="dark")
+    settled(page)
+    assert brightness_at(page, 10, 12) < 90
+    button = page.get_by_role("button", name="Theme")
+    button.click()
+    assert button.get_attribute("aria-label") == "Theme: light"
+    assert brightness_at(page, 10, 12) > 190  # a ray may cross it
+    button.click()
+    assert button.get_attribute("aria-label") == "Theme: dark"
+    assert brightness_at(page, 10, 12) < 90
+
+
+def test_a_second_page_shows_the_same(open_page, server, page):
+    other = open_page(server)
+    assert snapshot(other)["document"] == settled(page)["document"]
+
+
+def test_a_link_that_is_no_document_is_no_trouble(open_page, server):
+    page = open_page(server + "#m=nonsense")
+    assert snapshot(page)["document"]["version"] == 1
+    assert fragment({"a": 1}).startswith("#m=")
