@@ -61,5 +61,5 @@ def test_values_of_another_shape_are_refused():
 
 
 def test_a_draw_of_reflectivities_is_drawn_in_shades():
-    figure, _ = picture("draw", np.linspace(0, 1, 48).reshape(GRID.shape))
-    assert any("one draw" in axes.get_ylabel() for axes in figure.axes[1:])
+    figure, _ = picture("draw", np.linspace(0, 1, 48).reshape(GRID.shape), label="reflectivity")
+    assert any("reflectivity" in axes.get_ylabel() for axes in figure.axes[1:])

@@ -235,3 +235,12 @@ def test_pyplot_and_its_global_figures_are_never_loaded(tmp_path):
         "assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", program, str(tmp_path / "a.png")], check=True)
+
+
+def test_reflectivities_have_draws_in_shades_and_a_name_of_their_own():
+    draw = np.linspace(0.0, 1.0, GRID.n_cells).reshape(GRID.shape)
+    figure = posterior_figure(GRID, draw, draw=draw, label="reflectivity")
+    figure.canvas.draw()
+    (panel,) = (ax for ax in figure.axes if ax.get_label() == "draw")
+    np.testing.assert_allclose(panel.images[0].get_array().T, draw)
+    assert [ax.get_xlabel() for ax in figure.axes if ax.get_label() == "reflectivity"] == ["reflectivity"]

@@ -40,6 +40,7 @@ def posterior_figure(
     truth: ArrayLike | None = None,
     scans: Scans | None = None,
     title: str | None = None,
+    label: str = "probability of wall",
 ) -> Figure:
     """The posterior at a glance: the probability of wall, its entropy in bits, the readings, and one draw.
 
@@ -49,18 +50,19 @@ def posterior_figure(
         grid: where the cells are.
         occupancy: posterior probability of wall per cell, shape (nx, ny).
         observed: true where some beam reached, shape (nx, ny); the rest is hatched. None for everywhere.
-        draw: one map from the posterior, shape (nx, ny); without it its panel is left out.
+        draw: one map from the posterior, walls or numbers in [0, 1], shape (nx, ny); without it its panel is left out.
         truth: the true walls, shape (nx, ny): outlined over the readings; over mean and draw too if cells are
             large enough that an outline does not hide them, or if there are no readings.
         scans: rays, readings and poses; without them their panel is left out.
         title: a line over the figure.
+        label: what ``occupancy`` is.
 
     Returns:
         A figure with its own Agg canvas, outside pyplot's global state; write it with `write_figure`.
 
     Raises:
-        BadInput: an array whose shape differs from the grid's, probabilities outside [0, 1], or a draw or a
-            truth that is not 0 or 1.
+        BadInput: an array whose shape differs from the grid's, probabilities outside [0, 1], or a truth
+            that is not 0 or 1.
     """
     seen = as_observed(grid, observed)
     scans = scans if scans is not None and len(scans) else None
@@ -81,7 +83,7 @@ def posterior_figure(
         images.append(maps.draw_sample(panels["data"], grid, np.zeros(grid.shape, dtype=np.bool_), seen))
     if "draw" in panels:
         assert draw is not None
-        images.append(maps.draw_sample(panels["draw"], grid, draw, seen))
+        images.append(maps.draw_one(panels["draw"], grid, draw, seen))
     for image in images:
         image.set_interpolation("nearest" if layout.exact else "auto")
     keys = _draw_overlays(panels, grid, truth, scans)
@@ -90,9 +92,14 @@ def posterior_figure(
     for position, (name, panel) in enumerate(panels.items()):
         letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
     ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
-    color_bar(figure, layout, layout.corners[0], mean, "probability of wall", ticks)
+    color_bar(figure, layout, layout.corners[0], mean, label, ticks)
     color_bar(figure, layout, layout.corners[1], entropy, "entropy [bits]", ticks)
-    _legend(figure, keys, walls="draw" in panels, unobserved=not seen.all())
+    _legend(
+        figure,
+        keys,
+        walls="draw" in panels and bool(np.isin(np.asarray(draw), (0, 1)).all()),
+        unobserved=not seen.all(),
+    )
     if title is not None:
         top = 1.0 - 0.12 * layout.dpi / layout.figure[1]
         figure.text(0.5, top, title, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)

@@ -129,6 +129,17 @@ def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | No
     return _show(ax, grid, kind.astype(np.float64), seen, palette.draw_colormap(), 3.0, hide=False)
 
 
+def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """One draw from the posterior, walls as `draw_sample` shows them, reflectivities in [0, 1] in shades.
+
+    Arguments and errors are those of the two; what the image's numbers mean differs.
+    """
+    array = np.asarray(draw)
+    if array.dtype == np.bool_ or np.isin(array, (0, 1)).all():
+        return draw_sample(ax, grid, array, observed)
+    return draw_probability(ax, grid, array, observed)
+
+
 def entropy_bits(probability: NDArray[np.float64]) -> NDArray[np.float64]:
     """Entropy in bits of a yes-or-no variable with this probability; same shape."""
     p = np.asarray(probability, dtype=np.float64)

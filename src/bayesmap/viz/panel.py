@@ -25,6 +25,7 @@ def panel_figure(
     observed: ArrayLike | None = None,
     *,
     truth: ArrayLike | None = None,
+    label: str = "probability of wall",
 ) -> Figure:
     """A single map with its colour bar.
 
@@ -36,6 +37,7 @@ def panel_figure(
         values: shape (nx, ny).
         observed: cells to draw; the others are hatched. All if None.
         truth: true walls, (nx, ny), to be outlined.
+        label: what the values of "mean" and of a draw in [0, 1] are.
 
     Raises:
         BadInput: shapes or values that do not fit.
@@ -46,22 +48,22 @@ def panel_figure(
     FigureCanvasAgg(figure)
     axes = figure.subplots()
     if what == "mean":
-        image, label = maps.draw_probability(axes, grid, values, observed), "probability of wall"
+        image, words = maps.draw_probability(axes, grid, values, observed), label
     elif what == "entropy":
-        image, label = maps.draw_entropy(axes, grid, values, observed), "entropy [bits]"
+        image, words = maps.draw_entropy(axes, grid, values, observed), "entropy [bits]"
     elif what == "deviation":
         spread = np.sqrt(values * (1.0 - values))
-        image, label = maps.draw_deviation(axes, grid, spread, observed), "standard deviation"
+        image, words = maps.draw_deviation(axes, grid, spread, observed), "standard deviation"
     elif what == "width":
-        image, label = maps.draw_width(axes, grid, values, observed), "width of the 90 % interval"
+        image, words = maps.draw_width(axes, grid, values, observed), "width of the 90 % interval"
     elif np.isin(values, (0, 1)).all():
-        image, label = maps.draw_sample(axes, grid, values, observed), ""
+        image, words = maps.draw_sample(axes, grid, values, observed), ""
     else:
-        image, label = maps.draw_probability(axes, grid, values, observed), "one draw"
-    if not label:
+        image, words = maps.draw_probability(axes, grid, values, observed), label
+    if not words:
         figure.set_figwidth(width_in - NO_BAR_IN)
     else:
-        figure.colorbar(image, ax=axes, label=label, shrink=0.8)
+        figure.colorbar(image, ax=axes, label=words, shrink=0.8)
     if truth is not None:
         draw_truth_outline(axes, grid, truth)
     return figure
