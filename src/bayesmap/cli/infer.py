@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
-from bayesmap.cli import sensors
+from bayesmap.cli import cells, sensors
 from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.progress import progress
@@ -38,6 +38,9 @@ PASSED_ON = (
 def command(call: Call, log: str, output: str | None, resume: bool, force: bool) -> None:
     r"""Infer the walls from LOG, a CARMEN log of range scans, plain or gzipped.
 
+    A cell's state is by default a reflectivity (the chance that it stops a beam) and the place of the surface in it,
+    and the sensor is fitted to the log; with --cells binary a cell is a wall or free, and --sensor fit says so.
+
     Leaves in DIR the saved run (run.nc), a picture (posterior.png), the map for nav2 (map.yaml), the JSON document
     (summary.json) and the settings (config.toml). The run is saved at the end of warm-up, every 30 seconds, and on
     Ctrl-C; --resume goes on, with the settings that the run was started with.
@@ -54,9 +57,8 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         raise BadInput(f"{log}: no such file; give a CARMEN log, plain or gzipped")
     folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk, resuming=resume)
     values = call.values(_settings_of(folder) if resume else None)
-    if values["draws"] < 1:  # the library allows none, where marginals are all that is wanted
-        raise BadInput(f"draws: give 1 or more, got {values['draws']}; the picture and the map are made from them")
-    sensor = sensors.sensor_of(values["sensor"])
+    values = cells.settled(values)
+    sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
     folder.check(force=force)
 
     reading = _read(call.talk, log, values)
@@ -136,12 +138,15 @@ def _split(scans: Scans, every: int) -> tuple[Scans, Scans | None]:
 
 
 def _infer(
-    folder: Folder, scans: Scans, train: Scans, values: dict[str, Any], sensor: SensorModel | None, saved: Run | None
+    folder: Folder,
+    scans: Scans,
+    train: Scans,
+    values: dict[str, Any],
+    sensor: SensorModel | str | None,
+    saved: Run | None,
 ) -> Run:
     from bayesmap.api import Event, infer
     from bayesmap.io.map_server import read_map
-    from bayesmap.model.defaults import default_sensor
-    from bayesmap.model.priors import Independent
     from bayesmap.world.grid import Grid
 
     if values["grid"] is None:
@@ -160,8 +165,8 @@ def _infer(
         run = infer(
             train,
             grid,
-            prior=Independent(values["prior"]),
-            sensor=sensor if sensor is not None else default_sensor(grid.resolution),
+            prior=cells.prior_of(values),
+            sensor=cells.sensor_for(values, sensor, grid.resolution),  # type: ignore[arg-type]
             resume=saved,
             on_progress=on_progress,
             on_checkpoint=folder.checkpoint,

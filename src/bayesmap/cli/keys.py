@@ -14,6 +14,7 @@ import click
 
 Value = bool | int | float | str | None
 
+CELLS = ("surface", "reflectivity", "binary")
 METHODS = ("gibbs", "block", "propagate", "importance", "exact")
 ORDERS = ("radial", "raster", "random")
 STARTS = ("prior", "zeros", "ones", "propagate")
@@ -71,18 +72,19 @@ INFER = (
     Key("max_range", float, None, "Longer readings are no return.", "the longest hit of the log", "METRES"),
     Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
     Key("skip_bad_lines", bool, False, "Leave out malformed lines instead of refusing the log."),
+    Key("cells", click.Choice(CELLS), "surface", "A cell's state: reflectivity with or without a surface, or a wall."),
     Key("method", click.Choice(METHODS), "gibbs", "Sampler; block suits rare walls, propagate is instant but rough."),
     Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
     Key("chains", int, 4, "Markov chains."),
     Key("warmup", int, 50, "Sweeps of each chain that are not kept."),
-    Key("draws", int, 100, "Maps that each chain keeps."),
+    Key("draws", int, None, "Maps that each chain keeps.", "50; 100 with binary cells"),
     Key("thin", int, 1, "Sweeps from one kept map to the next."),
     Key("particles", int, 100_000, "Of the method importance."),
     Key("rounds", int, 20, "Of belief propagation, at most."),
     SEED,
-    Key("prior", float, 0.2, "Wall probability of a cell before any reading."),
-    Key("sensor", str, "default", "Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL"),
-    Key("hit_depth", float, 0.25, "Where in a cell a beam stops, from 0 (its near edge) to 1."),
+    Key("prior", float, None, "Wall probability of a binary cell before any reading.", "0.2"),
+    Key("sensor", str, "default", "Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL"),
+    Key("hit_depth", float, None, "Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25"),
     Key("start", click.Choice(STARTS), None, "Where chains start.", "propagate over 10 000 cells, else prior"),
     Key("holdout", int, 0, "Hold out every n-th scan, and score it; 0: none.", metavar="N"),
     Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
