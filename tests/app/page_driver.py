@@ -36,7 +36,8 @@ READ = """
 () => {
   const s = bayesmap.snapshot();
   const bytes = (a) => { let t = ""; for (const v of a) t += String.fromCharCode(v); return btoa(t); };
-  const scan = s.scan && Object.fromEntries(Object.entries(s.scan).map(([k, v]) => [k, v?.buffer ? Array.from(v, String) : v]));
+  const plain = ([name, value]) => [name, value?.buffer ? Array.from(value, String) : value];
+  const scan = s.scan && Object.fromEntries(Object.entries(s.scan).map(plain));
   return {...s, probability: bytes(s.probability), observed: bytes(s.observed), walls: bytes(s.walls), scan};
 }
 """
@@ -141,7 +142,9 @@ def brightness_at(page, x, y, offset=(0.0, 0.0)):
 def pid_of_worker(process):
     """The server's child that computes."""
     for _ in range(100):
-        listed = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], capture_output=True, text=True)
+        listed = subprocess.run(
+            ["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], check=True, capture_output=True, text=True
+        )
         if found := re.search(r"^\s*(\d+) .*bayesmap\.app\.worker", listed.stdout, re.MULTILINE):
             return int(found[1])
         time.sleep(0.1)

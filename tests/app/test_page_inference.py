@@ -25,11 +25,7 @@ def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, ser
         page.get_by_label("Chain").select_option(str(chain))
         for draw in range(20):
             slider.fill(str(draw))
-            page.evaluate("() => new Promise(requestAnimationFrame)")
-            until(
-                page,
-                f"s.view.draw === {draw} && s.view.chain === {chain} && s.painted.layer === 'draw' && s.painted.draw === {draw} && s.painted.chain === {chain}",
-            )
+            until(page, f"s.painted.layer === 'draw' && s.painted.draw === {draw} && s.painted.chain === {chain}")
             one = snapshot(page)["probability"]
             assert set(np.unique(one)) <= {0, 255}
             total += one / 255
@@ -56,10 +52,9 @@ def test_cancel_keeps_the_partial_chain(open_page, server):
     until(page, "s.running && !s.painted.approximate && s.painted.sweeps > 0")
     assert page.get_by_role("progressbar").evaluate("(bar) => bar.value") < 1
     page.get_by_role("button", name="Cancel").click()
-    until(page, "!s.running && s.draws.count > 0")
+    until(page, "!s.running && s.draws.count > 0 && s.draws.count === s.painted.sweeps")
     partial = snapshot(page)
     assert 0 < partial["painted"]["sweeps"] < 100_000
-    assert partial["draws"]["count"] <= partial["painted"]["sweeps"]
     page.wait_for_timeout(300)
     assert snapshot(page)["painted"]["sweeps"] == partial["painted"]["sweeps"]
 
@@ -97,10 +92,10 @@ def test_three_by_three_equals_exact_enumeration(open_page, server):
     """Worst of 8 cells, sweeps counted as 1/4 independent: 5 standard errors, a false alarm in 200 000 runs."""
     small = document(
         grid={"shape": [3, 3], "resolution": 1.0, "origin": [-0.5, -0.5]},
-        walls=NO_WALLS[:2] + "A=",
+        walls="AIA=",  # of the cell (2, 2)
         sensors=[{"id": 1, "x": 1.0, "y": 1.0, "yaw": 0.3}],
-        angles=12,
-        noise=1.0,
+        angles=10,
+        noise=3.0,
         max_range=6.0,
         sweeps=20_000,
     )
@@ -112,11 +107,11 @@ def test_three_by_three_equals_exact_enumeration(open_page, server):
     readings = bm.Scans(scan["pose"].reshape(-1, 3), scan["angles"], scan["ranges"].reshape(1, -1), max_range_m=6.0)
     grid = bm.Grid(shape=(3, 3), resolution=1.0, origin=(-0.5, -0.5))
     exact = bm.infer(
-        readings, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(1.0), method="exact", draws=10
+        readings, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(3.0), method="exact", draws=10
     ).occupancy
     error = np.sqrt(exact * (1 - exact) / (2 * 20_000 / 4))
     assert (np.abs(shown["probability"] / 255 - exact) < 5 * error + 0.5 / 255).all()
-    assert exact.min() < 0.4 < 0.6 < exact.max()  # not the prior
+    assert ((exact > 0.02) & (exact < 0.98)).sum() >= 3  # there is something to get wrong
 
 
 def test_entropy_is_highest_where_nothing_is_known(page):

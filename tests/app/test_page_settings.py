@@ -14,11 +14,11 @@ def by_number(page, name, value):
 def test_the_prior_is_what_unobserved_cells_have(page):
     shown = settled(page)
     touched = shown["observed"] > 0
-    assert shown["probability"][20, 20] == 128
+    assert shown["probability"][20, 20] == pytest.approx(128, abs=15)  # 5 standard errors of 2000 draws
     act(page, lambda: page.get_by_role("slider", name="Prior").fill("0.05"))
     shown = settled(page)
     assert shown["document"]["prior"] == 0.05
-    assert shown["probability"][20, 20] == round(0.05 * 255)
+    assert shown["probability"][20, 20] == pytest.approx(13, abs=7)
     hidden = ~touched & (shown["observed"] == 0)
     assert shown["probability"][hidden].mean() / 255 == pytest.approx(0.05, abs=0.02)
 

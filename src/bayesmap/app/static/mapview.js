@@ -1103,7 +1103,8 @@ class Hand {
     const { grid } = session.document;
     const reach = event.pointerType === "touch" ? 24 : 11;
     const near = (/** @type {Point} */ other) => Math.hypot(point.x - other.x, point.y - other.y);
-    if (this.tool === "sensor" && this.sensor && near(painter.placeOf(this.sensor, grid).handle) < reach) {
+    const own = this.tool === "sensor" && this.sensor && painter.placeOf(this.sensor, grid);
+    if (own && this.sensor && near(own.handle) < Math.min(reach, near(own.point))) {
       this.gesture = { kind: "turn", id: this.sensor.id, drag: ++this.gestures };
       return;
     }
@@ -2419,8 +2420,9 @@ export function recordedTransport(recording) {
       for (let i = 0; i < cells; i++) p[i] = (draws[(first + i) >> 3] >> (7 - ((first + i) & 7))) & 1 ? 255 : 0;
     }
     const joint = log_joint[view.chain]?.[(view.layer === "draw" ? view.draw : null) ?? count - 1] ?? null;
+    const which = p === mean ? { layer: view.layer === "draw" ? "mean" : view.layer } : { ...view, draw: view.draw ?? count - 1 };
     const numbers = { sweeps: settings.sweeps ?? count, total: settings.sweeps ?? count, ess: settings.ess, rhat: settings.rhat, log_joint: joint };
-    transport.onmessage({ type: "field", generation: 1, layer: view.layer, method: settings.method ?? document.method, approximate: false, ...numbers }, { p, observed });
+    transport.onmessage({ type: "field", generation: 1, ...which, method: settings.method ?? document.method, approximate: false, ...numbers }, { p, observed });
   };
   /** How many of the scan's beams pass through a cell before they end. @param {number} x @param {number} y */
   const beams = (x, y) => {

@@ -1,0 +1,72 @@
+"""What is lost on the way is found again."""
+
+import os
+import signal
+
+import numpy as np
+from page_driver import NO_WALLS, act, centre, document, pid_of_worker, press_and_drag, served, settled, snapshot, until
+
+
+def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(open_page, browser):
+    with served() as (address, process):
+        page = open_page(address, document())
+        page.get_by_role("radio", name="Draw", exact=True).check()
+        act(page, lambda: press_and_drag(page, [(7, 7), (9, 7)]))
+        before = settled(page)
+        os.kill(pid_of_worker(process), signal.SIGKILL)
+        page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
+        until(page, "s.worker === 'ready' && s.generation > argument", before["generation"])
+        after = settled(page)
+        assert np.array_equal(after["walls"], before["walls"])
+        assert np.array_equal(after["probability"], before["probability"])
+        page.get_by_role("alert").wait_for(state="hidden")
+        act(page, lambda: page.get_by_role("button", name="Undo").click())
+
+
+CUT = """
+() => {
+  // the line is cut, and stays so until `mend`
+  const Real = WebSocket;
+  const send = Real.prototype.send;
+  Real.prototype.send = function (data) { this.close(); };
+  window.WebSocket = class { static OPEN = 1; constructor() { setTimeout(() => this.onclose?.()); } close() {} };
+  window.mend = () => { window.WebSocket = Real; Real.prototype.send = send; };
+}
+"""
+
+
+def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_meanwhile(open_page, server):
+    page = open_page(server, document(walls=NO_WALLS))
+    settled(page)
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    page.evaluate(CUT)
+    press_and_drag(page, [(4, 8), (4, 8)])
+    banner = page.get_by_role("alert")
+    banner.get_by_text("Connection lost").wait_for()
+    assert not snapshot(page)["connected"]
+    press_and_drag(page, [(8, 8), (8, 12)])
+    assert snapshot(page)["walls"][8, 8:13].all()
+    page.evaluate("mend()")
+    page.get_by_role("button", name="Reconnect now").click()
+    banner.wait_for(state="hidden")
+    until(page, "s.connected && s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation")
+    after = settled(page)["walls"]
+    assert after.sum() == 6
+    assert np.array_equal(snapshot(open_page(server))["walls"], after)  # the server has it too
+
+
+def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_page, server):
+    page = open_page(server, document(prior=0.3), quiet=False)
+    settled(page)
+    page.evaluate("""() => {
+      const send = WebSocket.prototype.send;
+      window.close_it = new Promise((done) => {
+        WebSocket.prototype.send = function (data) { this.close(); WebSocket.prototype.send = send; done(); };
+      });
+    }""")
+    page.get_by_role("radio", name="Erase").check()
+    page.mouse.click(*centre(page, 12, 4))
+    page.evaluate("close_it")
+    until(page, "s.connected && s.seq.confirmed === s.seq.sent && !s.walls[12 * 21 + 4]")
+    shown = settled(page)
+    assert shown["document"]["prior"] == 0.3

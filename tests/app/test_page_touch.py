@@ -1,0 +1,75 @@
+"""A telephone: 390 x 844, fingers."""
+
+import numpy as np
+import pytest
+from page_driver import NO_WALLS, centre, document, settled, snapshot, until
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
+
+
+@pytest.fixture
+def phone(open_page, server):
+    page = open_page(server, document(walls=NO_WALLS), **PHONE)
+    settled(page)
+    return page
+
+
+@pytest.fixture
+def touch(phone):
+    """Puts fingers on the screen, moves them, takes them off."""
+    session = phone.context.new_cdp_session(phone)
+
+    def touched(kind, *points):
+        fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+    return touched
+
+
+def test_a_finger_draws_and_a_tap_draws_one_cell(phone, touch):
+    touch("touchStart", centre(phone, 3, 3))
+    for x in (5, 9, 13):
+        touch("touchMove", centre(phone, x, 3))
+    touch("touchEnd")
+    until(phone, "s.walls.reduce((a, b) => a + b) === 11")
+    phone.touchscreen.tap(*centre(phone, 5, 17))
+    until(phone, "s.walls.reduce((a, b) => a + b) === 12")
+    assert settled(phone)["walls"][5, 17]
+
+
+def test_two_fingers_zoom_and_draw_nothing(phone, touch):
+    scale = snapshot(phone)["transform"]["scale"]
+    x, y = centre(phone, 10, 10)
+    touch("touchStart", (x - 30, y))
+    touch("touchStart", (x - 30, y), (x + 30, y))
+    for spread in (40, 60, 90):
+        touch("touchMove", (x - spread, y), (x + spread, y))
+    touch("touchEnd")
+    until(phone, f"s.transform.scale > {scale * 2}")
+    phone.wait_for_timeout(200)
+    assert settled(phone)["walls"].sum() == 0
+    assert np.allclose(centre(phone, 10, 10), (x, y), atol=12)
+
+
+def test_a_finger_moves_the_robot(phone, touch):
+    phone.get_by_role("radio", name="Sensor").check()
+    touch("touchStart", centre(phone, 10, 10))
+    for step in (9, 7, 5):
+        touch("touchMove", centre(phone, step, 10))
+    touch("touchEnd")
+    until(phone, "Math.abs(s.sensors[0].x - 5) < 0.2 && s.painted.generation === s.generation")
+
+
+def test_everything_fits_and_fingers_find_it(phone):
+    wide = phone.evaluate("document.documentElement.scrollWidth")
+    assert wide <= 390
+    for role, name in (("button", "Run"), ("button", "Undo"), ("radio", "Erase"), ("button", "Whole map")):
+        box = phone.get_by_role(role, name=name, exact=True).bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 390
+        assert min(box["width"], box["height"]) >= 34
+    phone.get_by_role("slider", name="Prior").fill("0.2")  # reached by scrolling the panel
+    until(phone, "s.document.prior === 0.2")
+    low, high = centre(phone, 0, 0), centre(phone, 20, 20)
+    assert 0 < low[0] < high[0] < 390
+    assert 0 < high[1] < low[1] < 844 * 0.6
