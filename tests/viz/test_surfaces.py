@@ -22,6 +22,12 @@ def test_a_stroke_runs_two_deviations_each_way_along_the_wall(angle_rad):
     np.testing.assert_allclose(np.abs(along @ [-np.sin(angle_rad), np.cos(angle_rad)]), 0.0, atol=1e-12)
 
 
+def test_a_stroke_can_be_cut():
+    (stroke,) = surface_strokes([[1.0, 2.0]], [covariance(0.7, 5.0, 0.01)], longest_m=0.3)
+    np.testing.assert_allclose(np.hypot(*(stroke[1] - stroke[0])), 0.3)
+    np.testing.assert_allclose(stroke.mean(axis=0), [1.0, 2.0])
+
+
 def test_a_point_without_spread_is_a_stroke_without_length():
     np.testing.assert_array_equal(surface_strokes([[1.0, 2.0]], np.zeros((1, 2, 2))), [[[1.0, 2.0], [1.0, 2.0]]])
 

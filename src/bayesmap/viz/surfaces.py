@@ -31,12 +31,15 @@ HEIGHT_IN = 5.6
 LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
 
 
-def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike) -> NDArray[np.float64]:
+def surface_strokes(
+    means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
+) -> NDArray[np.float64]:
     """Both ends of every stroke, metres, shape (n, 2, 2): surface, end, (x, y).
 
     Args:
         means_world: centres in metres, shape (n, 2).
         covariances_m2: covariances in square metres, shape (n, 2, 2).
+        longest_m: strokes are cut to this length.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or a matrix that is no covariance.
@@ -54,12 +57,19 @@ def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike) -> NDArra
     negative = skew | (variances[:, 0] < -1e-6 * scale)
     if negative.any():
         raise BadInput(f"picture: matrix {int(np.argmax(negative))} is no covariance: it must be symmetric, and >= 0")
-    half = DEVIATIONS * np.sqrt(np.maximum(variances[:, 1], 0.0))[:, None] * axes[:, :, 1]
+    half_m = np.minimum(DEVIATIONS * np.sqrt(np.maximum(variances[:, 1], 0.0)), longest_m / 2.0)
+    half = half_m[:, None] * axes[:, :, 1]
     return np.stack([means - half, means + half], axis=1)
 
 
 def draw_surfaces(
-    ax: Axes, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, *, width_pt: float = 1.0
+    ax: Axes,
+    means_world: ArrayLike,
+    covariances_m2: ArrayLike,
+    weights: ArrayLike,
+    *,
+    width_pt: float = 1.0,
+    longest_m: float = np.inf,
 ) -> LineCollection:
     """One stroke a surface, as opaque as its weight.
 
@@ -69,6 +79,7 @@ def draw_surfaces(
         covariances_m2: covariances in square metres, shape (n, 2, 2).
         weights: reflectivity, or probability that there is a surface, in [0, 1], shape (n,).
         width_pt: of a stroke.
+        longest_m: strokes are cut to this length.
 
     Returns:
         All strokes, labelled "surface"; those fainter than `FAINTEST` are left out.
@@ -76,7 +87,7 @@ def draw_surfaces(
     Raises:
         BadInput: shapes that do not fit, weights outside [0, 1], or what `surface_strokes` refuses.
     """
-    strokes, alpha = surface_strokes(means_world, covariances_m2), as_array(weights, "weights")
+    strokes, alpha = surface_strokes(means_world, covariances_m2, longest_m), as_array(weights, "weights")
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
     seen = alpha >= FAINTEST
@@ -108,7 +119,9 @@ def surfaces_figure(
     # A stroke is as thick as a third of a cell where that can be seen.
     cell_pt = 72.0 * HEIGHT_IN / max(grid.shape)
     width_pt = float(np.clip(cell_pt / 3.0, LEAST_WIDTH_PT, MOST_WIDTH_PT))
-    draw_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt)
+    # Hits of a cell lie in it: a longer stroke shows only how little is known of the surface.
+    longest_m = 1.5 * grid.resolution
+    draw_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
     ink = tuple(palette.probability_colors(2)[1])
     keys = [Line2D([], [], color=ink, alpha=a, linewidth=2.0, label=f"stops {a:.0%}") for a in (1.0, 0.5, 0.2)]
     hatched = maps.hatch_patch()
