@@ -35,7 +35,8 @@ def random_scans(seed, *, lattice=False, poses=3, rays=30, grid=GRID):
 def test_they_do_not_depend_on_the_readings(kind):
     scans = random_scans(1, lattice=KINDS[kind])
     other = dataclasses.replace(scans, ranges_m=np.where(np.isnan(scans.ranges_m), np.nan, 0.2))
-    for a, b in zip(*(dataclasses.astuple(trace_crossings(s, GRID))[1:] for s in (scans, other)), strict=True):
+    both = (dataclasses.astuple(trace_crossings(s, GRID))[1:] for s in (scans, other))
+    for a, b in zip(*both, strict=True):
         np.testing.assert_array_equal(a, b)
 
 
@@ -60,6 +61,20 @@ def test_distances_are_the_beam_table_s():
         np.testing.assert_array_equal(table.cells, crossings.cells)
         d = np.sqrt(np.maximum(-2 * (table.loglik.astype(float) + 0.5 * np.log(2 * np.pi)), 0.0))
         np.testing.assert_allclose(crossings.distance_m(depth), d, atol=2e-3)
+
+
+def test_beams_that_left_from_poses_of_their_own_are_traced_from_there():
+    scans = random_scans(6, poses=1)
+    moving = np.repeat(scans.poses[:, None], scans.n_beams, axis=1)
+    moving[0, 1::2] += [0.4, -0.2, 0.3]
+    other = dataclasses.replace(scans, poses=moving[0, 1], beam_poses=None)
+    found = trace_crossings(dataclasses.replace(scans, beam_poses=moving), GRID)
+    both = [trace_crossings(s, GRID) for s in (scans, other)]
+    for b in range(scans.n_beams):
+        expected = both[b % 2]
+        mine, theirs = (slice(c.offsets[b], c.offsets[b + 1]) for c in (found, expected))
+        np.testing.assert_array_equal(found.cells[mine], expected.cells[theirs])
+        np.testing.assert_array_equal(found.entry_m[mine], expected.entry_m[theirs])
 
 
 @pytest.mark.parametrize("kind", KINDS)

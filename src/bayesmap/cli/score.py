@@ -76,7 +76,8 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
 
 
 def _name(run: Run) -> str:
-    return f"posterior ({run.posterior.settings['method']})"
+    """Such as "surface posterior"."""
+    return f"{getattr(run.posterior, 'kind', 'binary')} posterior"
 
 
 def _read(run: Run, log: str, values: dict[str, Any]) -> Scans:

@@ -18,7 +18,7 @@ from bayesmap.world.scans import Scans
 
 def rays(scans: Scans, grid: Grid, longest_m: NDArray[np.float64], device: str) -> list[Any]:
     """Start, direction and length of every beam in units of cells, as the walks take them; beam ``s * A + a``."""
-    starts = np.repeat(grid.to_cells(scans.poses[:, :2]), len(scans.angles_rad), axis=0)
+    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
     longest = np.broadcast_to(longest_m, (scans.n_beams,)) / grid.resolution
     columns = (starts[:, 0], starts[:, 1], scans.beam_angles_world().ravel(), longest)
     return [devices.to_device(column, wp.float64, device) for column in columns]
@@ -64,4 +64,14 @@ def trace_crossings(
         geometry = [wp.float64(grid.resolution), wp.float64(depth)]
         launch(fill_cells, beams, [*grid.shape, *lines, on_device, *geometry, cells, where], device)
     entry, leave = (where.numpy() for where in edges)
-    return Crossings(grid=grid, offsets=offsets, cells=cells.numpy(), entry_m=entry, chord_m=leave - entry)
+    yaw = scans.beam_angles_world().ravel()
+    start = (scans.beam_starts_world() - np.array(grid.origin)).reshape(-1, 2)
+    return Crossings(
+        grid=grid,
+        offsets=offsets,
+        cells=cells.numpy(),
+        entry_m=entry,
+        chord_m=leave - entry,
+        start_m=start.astype(np.float32),
+        direction=np.stack([np.cos(yaw), np.sin(yaw)], axis=-1).astype(np.float32),
+    )

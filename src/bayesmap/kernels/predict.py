@@ -21,7 +21,7 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
-from bayesmap.kernels.reading_law import additive_log_density, clipped, cumulative, mixture_density
+from bayesmap.kernels.reading_law import additive_log_density, clipped, cumulative, mixture_density, short_density
 from bayesmap.sensor.crossings import Crossings
 from bayesmap.sensor.model import RangeLimits, SensorModel
 
@@ -64,6 +64,7 @@ def add_forecasts(
     nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
     sums = wp.vec2d(most[b], total[b])
     at = clipped(s, z)
+    short = short_density(s, z)
     for d in range(draws):
         survive = wp.float64(1.0)
         for i in range(offsets[b + 1] - offsets[b] + 1):
@@ -76,7 +77,7 @@ def add_forecasts(
                 survive = survive * (one - place[0])
             if weight > wp.float64(0.0):
                 if s.robust != 0:
-                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, place[1], place[2]))
+                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, short, place[1], place[2]))
                 else:
                     sums = add_log(sums, wp.log(weight) + additive_log_density(s, z, place[1], place[2]))
                 if with_cumulative != 0:
@@ -144,7 +145,7 @@ def _sums(
     draws = 0
     for batch in batches:
         draws += len(batch)
-        places = put_places(batch, distance_m, spread_m, device)
+        places = put_places(batch, crossings, distance_m, spread_m, device)
         inputs = [s, *fixed, places, len(batch), ranges, int(with_cumulative), most, total, *cumulatives]
         launch(add_forecasts, beams, inputs, device)
     if draws == 0:
@@ -190,7 +191,7 @@ def forecast(
     Args:
         crossings: of beams traced over their whole length.
         distance_m: where a beam stops in each cell, (K,): ``crossings.distance_m(hit_depth)``.
-        batches: draws of the map, some at a time.
+        batches: draws of the map, some at a time, whose columns are the numbers in ``crossings.cells``.
         ranges_m: the readings, B of them in any shape.
         sensor: the law of a reading given where its beam stops.
         limits: of the sensor.

@@ -159,10 +159,19 @@ def cumulative(s: SensorParameters, reading_m: wp.float64, distance_m: wp.float6
 
 
 @wp.func
+def short_density(s: SensorParameters, reading_m: wp.float64) -> wp.float64:
+    """Density of a passing object at a range: the same whatever stands behind it."""
+    return s.p_short * s.rate_short_per_m * wp.exp(-s.rate_short_per_m * wp.max(reading_m, wp.float64(0.0)))
+
+
+@wp.func
 def mixture_density(
-    s: SensorParameters, reading_m: wp.float64, distance_m: wp.float64, spread_m: wp.float64
+    s: SensorParameters, reading_m: wp.float64, short: wp.float64, distance_m: wp.float64, spread_m: wp.float64
 ) -> wp.float64:
-    """The mixture's p(reading | distance): a density for a range, a probability for a typed reading."""
+    """The mixture's p(reading | distance): a density for a range, a probability for a typed reading.
+
+    ``short`` is the reading's `short_density`.
+    """
     one = wp.float64(1.0)
     zero = wp.float64(0.0)
     if wp.isinf(reading_m):
@@ -172,7 +181,7 @@ def mixture_density(
     wall = wp.min(distance_m, s.max_m)
     p = zero
     if reading_m < wall:
-        p = s.p_short * s.rate_short_per_m * wp.exp(-s.rate_short_per_m * wp.max(reading_m, zero))
+        p = short
     if distance_m <= s.max_m:
         scale = scale_at(s, wall, spread_m)
         x = (reading_m - wall) / scale

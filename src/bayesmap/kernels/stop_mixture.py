@@ -100,7 +100,7 @@ def mix_stops(
     draws = 0
     for batch in batches:
         draws += len(batch)
-        places = put_places(batch, distance_m, spread_m, device)
+        places = put_places(batch, crossings, distance_m, spread_m, device)
         launch(add_stops, crossings.n_beams, [*fixed, places, len(batch), *sums, beyond], device)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")

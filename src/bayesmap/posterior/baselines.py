@@ -36,7 +36,7 @@ BEAMS_WANTED = 20_000
 """Valid beams to fit on: a dozen parameters cost about 6 / 20 000 nats a beam."""
 
 THIN = 4
-"""Of a fold's scans every fourth is enough to find out where the best values are, roughly."""
+"""Every fourth of a fold's scans, or of the folds, is enough to find out where the best values are, roughly."""
 
 PAST_READING_M = 3.0
 """How far past a reading a beam is traced for fitting: its density is flat there."""
@@ -218,7 +218,7 @@ def fit_baseline(baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[F
     }  # fmt: skip
     wary = sensible | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
     starts = [sensor | dict(own) for own in baseline.starts for sensor in (sensible, wary)]
-    rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds
+    rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: -(-len(folds) // THIN)]
     best: tuple[float, Values, float | None] | None = None
     for dof in NOISES:
         # Heavy tails start where normal noise ended: the rest is nearly the same.

@@ -59,7 +59,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
             f"{where}: the run was made without holding scans out, so there is none to score it on; make one with "
             f"bayesmap infer --holdout {every}"
         )
-    fitting = [n for n in range(2, MOST_EVERY) if n != every and not seen[np.arange(len(scans)) % n == n // 2].any()]
+    fitting = [n for n in range(2, MOST_EVERY) if (~seen == (np.arange(len(scans)) % n == n // 2)).all()]
     hint = f"it was made with --holdout {fitting[0]}" if fitting else "other scans were held out"
     raise BadInput(
         f"{where}: with --holdout {every} the run has seen {(held & seen).sum():,} of the {held.sum():,} scans that "

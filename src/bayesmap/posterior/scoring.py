@@ -19,6 +19,7 @@ from bayesmap.posterior.calibration import (
     randomised_pit,
     reliability,
 )
+from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
 from bayesmap.sensor.describe import describe
@@ -141,10 +142,10 @@ def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, devic
         raise BadInput("score: none of the scans has a valid reading")
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     sensor, ranges = predictor.sensor, scans.ranges_m.ravel()
-    crossings = trace_crossings(scans, predictor.grid, device=device)
+    crossings, touched = trace_crossings(scans, predictor.grid, device=device).numbered()
     where = crossings.distance_m(predictor.hit_depth)
-    found = forecast(crossings, where, predictor.batches(), ranges, sensor, limits, device=device)
-    law = mix_stops(crossings, where, predictor.batches(), device=device)
+    found = forecast(crossings, where, predictor.batches(touched), ranges, sensor, limits, device=device)
+    law = mix_stops(crossings, where, predictor.batches(touched), device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
     quantiles = range_quantiles(law, np.array(ends), sensor, limits, device)[valid]
     chance, stopped = first_hit_events(law, ranges, sensor, limits, device)
@@ -187,7 +188,9 @@ def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, devic
     )
 
 
-def score_posterior(posterior: Posterior, scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0) -> Score:
+def score_posterior(
+    posterior: Posterior | FieldPosterior, scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0
+) -> Score:
     """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
 
     Raises:

@@ -6,7 +6,7 @@ the cells in order with the stretch of the beam inside each.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +24,11 @@ class Crossings:
     Attributes:
         grid: the grid whose cells are meant.
         offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
-        cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
+        cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32; after `numbered`, its number.
         entry_m: distance at which the beam enters the cell, metres, shape (K,), float32.
         chord_m: length of the beam inside the cell, metres, shape (K,), float32.
+        start_m: where each beam starts, metres from the grid's lower left corner, shape (B, 2), float32.
+        direction: its unit vector, shape (B, 2), float32.
     """
 
     grid: Grid
@@ -34,11 +36,18 @@ class Crossings:
     cells: NDArray[np.int32]
     entry_m: NDArray[np.float32]
     chord_m: NDArray[np.float32]
+    start_m: NDArray[np.float32]
+    direction: NDArray[np.float32]
 
     @property
     def n_beams(self) -> int:
         """Number of beams."""
         return len(self.offsets) - 1
+
+    def numbered(self) -> tuple[Crossings, NDArray[np.int32]]:
+        """The same with cells numbered by their place among those that any beam touches, and these, ascending."""
+        touched, number = np.unique(self.cells, return_inverse=True)
+        return replace(self, cells=number.astype(np.int32)), touched.astype(np.int32)
 
     def distance_m(self, hit_depth: float) -> NDArray[np.float32]:
         """Where the beam stops in each cell if it is ``hit_depth`` of its chord inside, metres, shape (K,)."""

@@ -1,0 +1,106 @@
+"""`score`: its table, its document, and the scans that it refuses to judge by."""
+
+import json
+
+import pytest
+from shell import call
+
+import bayesmap as bm
+
+FAST = ("--holdout", "4")
+
+
+@pytest.fixture(scope="module")
+def heldout_run(office, tmp_path_factory):
+    """The office, inferred without every fourth scan."""
+    folder = tmp_path_factory.mktemp("score") / "run"
+    options = ("--cells", "binary", "--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8")
+    result = call("infer", office, "-o", folder, *options, *FAST, "--json")
+    assert result.exit_code == 0, result.stderr
+    return folder / "run.nc", json.loads(result.stdout)
+
+
+def test_the_document_agrees_with_infer_and_with_python(office, heldout_run):
+    path, inferred = heldout_run
+    result = call("score", path, office, *FAST, "--json")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document["schema_version"] == 1
+    assert document["heldout"]["every"] == 4
+    assert document["heldout"]["beams"] == inferred["heldout"]["beams"]
+    assert document["heldout"]["nats_per_beam"] == pytest.approx(inferred["heldout"]["nats_per_beam"], abs=1e-3)
+    assert document["baselines"] is None
+    run = bm.load(path)
+    _, held = bm.read_log(office, max_range_m=run.posterior.scans.max_range_m).holdout(4)
+    assert document["score"] == {"map": "binary posterior", **bm.score(run, held).as_json()}
+
+
+def test_the_table(office, heldout_run, tmp_path):
+    result = call("score", heldout_run[0], office, *FAST)
+    assert result.exit_code == 0, result.stderr
+    heading, row = result.stdout.splitlines()
+    assert heading.split()[:2] == ["map", "nats/beam"]
+    assert row.startswith("binary posterior")
+    assert "scoring 3 scans" in result.stderr
+    assert call("score", heldout_run[0], office, *FAST, "-q").stderr == ""
+
+
+def test_baselines_stand_in_the_same_table(office, heldout_run, tmp_path):
+    picture = tmp_path / "calibration.png"
+    result = call("score", heldout_run[0], office, *FAST, "--compare", "--json", "--picture", picture)
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    rows = {row["map"]: row for row in document["baselines"]}
+    assert rows.keys() == {"hit ratio", "log-odds, tuned", "log-odds", "log-odds, clamped"}
+    assert all(row["beams"] == document["score"]["beams"] for row in rows.values())
+    assert {"a", "b", "hit_depth", "scale_m"} <= rows["hit ratio"]["fitted"].keys()
+    assert rows["hit ratio"]["nats_per_beam"] > rows["log-odds, clamped"]["nats_per_beam"]
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert document["outputs"] == {"calibration.png": str(picture)}
+
+
+def test_a_run_that_saw_everything_is_not_scored_on_it(office, office_run):
+    result = call("score", office_run / "run.nc", office)
+    assert result.exit_code == 3
+    assert "the run was made without holding scans out" in result.stderr
+    assert "bayesmap infer --holdout 10" in result.stderr
+    assert result.stdout == ""
+
+
+def test_another_protocol_than_the_run_s_is_named(office, heldout_run):
+    result = call("score", heldout_run[0], office, "--holdout", "3")
+    assert result.exit_code == 3
+    assert "it was made with --holdout 4" in result.stderr
+
+
+def test_another_recording_is_scored_whole(office_run, tmp_path):
+    other = tmp_path / "other.log"
+    size = ("--size", "12x8", "--resolution", "0.25", "--scans", "5", "--angles", "60", "--max-range", "12")
+    assert call("simulate", "--world", "building", *size, "-o", other, "--set", "fov=180", "--seed", "3").exit_code == 0
+    refused = call("score", office_run / "run.nc", other)
+    assert refused.exit_code == 3
+    assert "none of the run's scans is in it" in refused.stderr
+    result = call("score", office_run / "run.nc", other, "--all", "--json")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert (document["heldout"]["every"], document["heldout"]["scans"]) == (None, 5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (("RUN", "nowhere.log"), 3, "nowhere.log: no such file"),
+        (("nowhere.nc", "LOG"), 3, "nowhere.nc: no such file"),
+        (("RUN", "LOG", "--all"), 3, "the run was made from 9 of its 12 scans"),
+        (("RUN", "LOG", "--holdout", "0"), 3, "--holdout 0 leaves nothing to score"),
+        (("RUN", "LOG", "--holdout", "1"), 3, "n >= 2, got 1"),
+        (("RUN", "LOG", "--picture", "scores.txt"), 3, "end its name in one of .png, .pdf, .svg"),
+        (("RUN",), 2, "Missing argument"),
+    ],
+)
+def test_what_it_refuses(office, heldout_run, arguments, code, message):
+    names = {"RUN": heldout_run[0], "LOG": office}
+    result = call("score", *(names.get(a, a) for a in arguments))
+    assert result.exit_code == code
+    assert message in result.stderr
+    assert result.stdout == ""

@@ -1,0 +1,141 @@
+"""Baselines: their maps by hand, and that their fit is the best there is and sees training scans alone."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import bayesmap as bm
+from bayesmap.kernels.counts import count_hits
+from bayesmap.kernels.crossings import trace_crossings
+from bayesmap.kernels.predict import log_densities
+from bayesmap.posterior.baselines import BASELINES, FOLDS, fit_baseline, hit_ratio, inner_score, log_odds, make_folds
+from bayesmap.posterior.scoring import score_prediction
+from bayesmap.posterior.tuning import SENSOR, Parameter, maximise, sensor_of
+from bayesmap.sensor.model import RangeLimits
+
+BY_NAME = {b.name: b for b in BASELINES}
+HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])
+
+
+def test_hit_ratios_by_hand():
+    found = hit_ratio(HITS, PASSES, {"a": 0.5, "b": 1.5})
+    np.testing.assert_allclose(found, [0.25, 3.5 / 6, 1.5 / 12, 0.5 / 102])
+
+
+def test_log_odds_by_hand():
+    odds = np.array([1.0, (7 / 3) ** 3 * (2 / 3), (7 / 3) * (2 / 3) ** 9, (2 / 3) ** 100])
+    np.testing.assert_allclose(BY_NAME["log-odds"].stop(HITS, PASSES, {}), odds / (1 + odds))
+    np.testing.assert_allclose(
+        BY_NAME["log-odds, clamped"].stop(HITS, PASSES, {}), np.clip(odds / (1 + odds), 0.1192, 0.971)
+    )
+    tuned = log_odds(HITS, PASSES, {"p_hit": 0.6, "p_miss": 0.45, "p_start": 0.2})
+    assert tuned[0] == pytest.approx(0.2)
+    assert tuned[1] == pytest.approx(1 / (1 + 4 * (2 / 3) ** 3 * (11 / 9)))
+    assert log_odds(np.array([1e6]), np.array([0.0]), {"p_hit": 0.9, "p_miss": 0.4, "p_start": 0.5})[0] == 1.0
+
+
+def test_a_climb_finds_the_top_within_the_box():
+    parameters = (Parameter("x", 0.1, 10.0), Parameter("share", 0.01, 0.99, share=True))
+
+    def hill(v):
+        return -(np.log(v["x"] / 3.0) ** 2) - (v["share"] - 0.4) ** 2
+
+    found, top = maximise(hill, hill, parameters, [{"x": 0.2, "share": 0.9}, {"x": 9.0, "share": 0.1}])
+    assert found["x"] == pytest.approx(3.0, rel=0.02)
+    assert found["share"] == pytest.approx(0.4, abs=0.02)
+    assert top == pytest.approx(0.0, abs=1e-4)
+    edge, _ = maximise(lambda v: v["x"], lambda v: v["x"], parameters[:1], [{"x": 1.0}])
+    assert edge["x"] == pytest.approx(10.0)
+
+
+@pytest.fixture(scope="module")
+def room():
+    """A room with a pillar of which half of the beams see nothing, scanned from forty places."""
+    grid = bm.Grid((32, 24), 0.25)
+    walls = np.zeros(grid.shape, bool)
+    walls[[0, -1]] = walls[:, [0, -1]] = True
+    walls[12:14, 10:12] = True
+    rng = np.random.default_rng(5)
+    poses = np.column_stack([rng.uniform(1, 2.5, 40), rng.uniform(1, 5, 40), rng.uniform(-4, 4, 40)])
+    sensor = bm.BeamMixture(bm.Gaussian(0.04, 0.01), 0.04, 0.05, 0.1, 0.5)
+    scans = bm.simulate(
+        walls, grid, poses, np.linspace(0, 6.2, 60), sensor=sensor, max_range_m=6.0, seed=2
+    )  # fmt: skip
+    return grid, *scans.holdout(5), sensor
+
+
+@pytest.fixture(scope="module")
+def fitted(room):
+    grid, train, _, _ = room
+    return fit_baseline(BY_NAME["hit ratio"], train, grid)
+
+
+def test_folds_leave_each_scan_out_of_its_own_counts(room):
+    grid, train, _, _ = room
+    folds = make_folds(train, grid)
+    assert len(folds) == FOLDS  # so few beams that all ways are taken
+    assert sum(len(fold.scans) for fold in folds) == len(train)
+    for fold in folds:
+        own = {pose.tobytes() for pose in fold.scans.poses}
+        others = train.select(np.array([pose.tobytes() not in own for pose in train.poses]))
+        hits, passes = count_hits(others, grid)
+        np.testing.assert_array_equal(fold.hits, hits)
+        np.testing.assert_array_equal(fold.passes, passes)
+
+
+def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
+    """Beams are cut past their readings for fitting: the score is the same."""
+    grid, train, _, _ = room
+    folds, baseline = make_folds(train, grid), BY_NAME["hit ratio"]
+    logs = []
+    for fold in folds:
+        stop = baseline.stop(fold.hits, fold.passes, fitted.values)[None].astype(np.float32)
+        crossings = trace_crossings(fold.scans, grid)
+        where, limits = crossings.distance_m(fitted.values["hit_depth"]), RangeLimits(0.0, 6.0)
+        logs.append(log_densities(crossings, where, [stop], fold.scans.ranges_m, fitted.predictor.sensor, limits))
+    dof = getattr(fitted.predictor.sensor.noise, "dof", None)
+    found = inner_score(folds, baseline, dof, fitted.values)
+    assert found == pytest.approx(np.concatenate(logs).mean(), abs=1e-4)
+    assert found == pytest.approx(fitted.inner_nats_per_beam, abs=1e-9)
+
+
+def test_no_change_of_a_single_number_fits_better(room, fitted):
+    grid, train, _, _ = room
+    folds, baseline = make_folds(train, grid), BY_NAME["hit ratio"]
+    dof = getattr(fitted.predictor.sensor.noise, "dof", None)
+    for parameter in (*SENSOR, *baseline.own):
+        at = parameter.inner(fitted.values[parameter.name])
+        for step in (-0.3, -0.1, 0.1, 0.3):
+            moved = fitted.values | {parameter.name: parameter.outer(at + step)}
+            assert inner_score(folds, baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
+
+
+def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor(room, fitted):
+    """And better than the default sensor would, and its map is that of all training scans."""
+    grid, train, held, sensor = room
+    found = score_prediction(fitted.predictor, held).nats_per_beam
+    own = dataclasses.replace(fitted.predictor, sensor=sensor)
+    assert found > score_prediction(own, held).nats_per_beam - 0.05
+    coarse = dataclasses.replace(fitted.predictor, sensor=bm.BeamMixture(bm.Gaussian(0.3)))
+    assert found > score_prediction(coarse, held).nats_per_beam + 0.1
+    hits, passes = count_hits(train, grid)
+    (stop,) = fitted.predictor.batches(np.arange(grid.n_cells))
+    np.testing.assert_allclose(stop[0], hit_ratio(hits, passes, fitted.values), rtol=1e-6)
+
+
+def test_clamping_costs(room, fitted):
+    grid, train, held, _ = room
+    clamped = fit_baseline(BY_NAME["log-odds, clamped"], train, grid)
+    best = score_prediction(fitted.predictor, held)
+    assert score_prediction(clamped.predictor, held).nats_per_beam < best.nats_per_beam - 0.5
+    assert sensor_of(clamped.values, None).p_random == clamped.values["p_random"]
+
+
+def test_too_few_scans_are_refused(room):
+    grid, train, _, _ = room
+    with pytest.raises(bm.BadInput, match="takes two scans or more"):
+        make_folds(train.select(slice(0, 1)), grid)
+    blind = dataclasses.replace(train, ranges_m=np.full(train.ranges_m.shape, np.nan))
+    with pytest.raises(bm.BadInput, match="none of the training scans has a valid reading"):
+        make_folds(blind, grid)
