@@ -2,18 +2,26 @@
 
 import contextlib
 import json
+import os
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
-from shell import start
-from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from bayesmap.app.messages import unframe
 
 PATIENCE_S = 30.0
+SOURCE = Path(__file__).resolve().parents[2] / "src"
+
+
+def start(*arguments):
+    """The command in a process of its own, as a terminal does: with Ctrl-C in force."""
+    command = [sys.executable, "-m", "bayesmap.cli.main", *map(str, arguments)]
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
 
 
 @contextlib.contextmanager
@@ -43,15 +51,16 @@ class Page:
     """Sends numbered messages and reads until something comes."""
 
     def __init__(self, address, **options):
-        self.socket = connect(socket_address(address), compression=None, max_size=None, **options)
+        self.connection = connect(socket_address(address), compression=None, max_size=None, **options)
         self.seq = 0
 
     def __enter__(self):
+        self.socket = self.connection.__enter__()
         self.send("hello")
         return self
 
     def __exit__(self, *_):
-        self.socket.close()
+        self.connection.__exit__(None, None, None)
 
     def send(self, kind, **fields):
         self.seq += 1
@@ -75,12 +84,9 @@ class Page:
         return self.until("state", lambda header: header["seq"] >= self.seq)[0]
 
     def closed(self):
-        """The code with which the server closes."""
-        try:
-            while True:
-                self.read()
-        except ConnectionClosed as error:
-            return error.rcvd.code
+        """Read until the server closes, which is an exception."""
+        while True:
+            self.read()
 
 
 def children(pid):

@@ -8,7 +8,9 @@ was and however often it was interrupted. Where the last chains stood depends on
 from __future__ import annotations
 
 import time
+import traceback
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -21,10 +23,10 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
 from bayesmap.app.stream import CHAINS, Stream
 from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
+from bayesmap.app.weighing import Weighing
 from bayesmap.errors import BadInput
 from bayesmap.inference.block import BlockGibbs
 from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.importance import sample_importance
 from bayesmap.inference.problem import Problem
 from bayesmap.inference.sampler import WallSampler
 from bayesmap.inference.start import start_maps
@@ -54,6 +56,7 @@ class Engine:
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
+        self._wanted: list[Export] = []  # before there was anything to export
         self._began = 0.0
         self._framed = 0.0
 
@@ -91,8 +94,18 @@ class Engine:
         except StopIteration:
             self._job = None
         except (BadInput, MemoryError) as error:
-            self._job = None
-            self._report("failed", text=str(error) or "out of memory; use a smaller map")
+            self._fail(str(error) or "out of memory; use a smaller map")
+        except Exception as error:  # a fault of ours: better told than met again by the next worker
+            traceback.print_exc()
+            self._fail(f"unexpected {type(error).__name__}: {error}")
+        if self._wanted and (self._result is not None or self._job is None):
+            wanted, self._wanted = self._wanted, []
+            for task in wanted:
+                self._export(task)
+
+    def _fail(self, text: str) -> None:
+        self._job = None
+        self._report("failed", text=text)
 
     # Jobs
 
@@ -121,9 +134,9 @@ class Engine:
             return
         preview = Preview(scene.problem)
         yield from self._propagate(scene, document, preview)
-        if task.mode == "run" and document.method == "propagate":
+        if task.mode == "preview" or document.method not in ("gibbs", "block"):
             self._finish()
-        elif document.method in ("gibbs", "block") and task.mode in ("run", "live"):
+        else:
             if time.perf_counter() - self._began > PREVIEW_SECONDS / 2:
                 yield from _pause(PAUSE_SECONDS)
             starts = start_maps(scene.problem, "propagate", CHAINS, document.seed, preview.marginals())
@@ -173,20 +186,26 @@ class Engine:
         self._finish()
 
     def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:
-        """Importance sampling, in one piece."""
-        yield
-        particles = sample_importance(scene.problem, document.sweeps, document.seed)
-        self._result = Result(scene, document, "importance", particles=particles)
-        self._frame()
+        """Importance sampling, with a frame now and then and one at the end."""
+        weighing = Weighing(scene.problem, document.sweeps, document.seed)
+        while weighing.done < weighing.total:
+            yield
+            weighing.advance()
+            if self._due() or weighing.done == weighing.total:
+                found = weighing.particles()
+                self._result = Result(scene, document, "importance", particles=found, total=weighing.total)
+                self._frame()
         self._finish()
 
     def _cancel(self) -> None:
-        """Stop the job; what there is stays and is shown once more."""
-        if self._job is None:
+        """Stop the job; what there is stays and is shown once more. Where there is nothing yet, the preview is."""
+        if self._job is None or self._task is None:
+            return
+        if self._result is None:
+            self._job = self._work(replace(self._task, mode="preview"))
             return
         self._job = None
-        if self._result is not None:
-            self._frame()
+        self._frame()
         self._finish()
 
     # Reports
@@ -228,11 +247,14 @@ class Engine:
         self._tell(Report({"type": "cell", "x": task.x, "y": task.y, "beams": beams}, {}, task.client))
 
     def _export(self, task: Export) -> None:
+        if self._result is None and self._job is not None:
+            self._wanted.append(task)
+            return
         from bayesmap.app.exports import export
 
         try:
             if self._result is None:
-                raise BadInput("there is nothing to export yet; wait for the first picture")
+                raise BadInput("there is nothing to export yet")
             name, mime, data = export(self._result, task.what)
         except (BadInput, OSError) as error:
             self._tell(Report({"type": "status", "text": str(error), "level": "warning"}, {}, task.client))

@@ -15,6 +15,8 @@ from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
 from bayesmap.app.tasks import Look
 from bayesmap.inference.importance import Particles
+from bayesmap.posterior.diagnostics import bulk_ess
+from bayesmap.posterior.diagnostics import rhat as split_rhat
 from bayesmap.run import Run
 
 LEVELS = 255
@@ -28,6 +30,7 @@ class Result:
         scene: the readings.
         document: what was asked.
         method: what found it: a method's name, or "none".
+        total: of particles, those that are still to be weighed included.
     """
 
     scene: Scene
@@ -36,6 +39,7 @@ class Result:
     preview: Preview | None = None
     stream: Stream | None = None
     particles: Particles | None = None
+    total: int = 0
     run: Run | None = None
 
     def mean(self) -> NDArray[np.float64]:
@@ -109,13 +113,12 @@ class Result:
         elif self.preview is not None:
             sweeps = self.preview.rounds
         elif self.particles is not None:
-            sweeps = total = len(self.particles.log_weights)
+            sweeps, total = len(self.particles.log_weights), self.total
             ess = self.particles.effective_sample_size
         elif self.run is not None:
-            summary = self.run.summary()
             sweeps = total = self.run.posterior.sweep
-            ess, rhat = summary.ess_log_joint_bulk, summary.rhat_log_joint
             if self.run.log_joint.size:
+                ess, rhat = bulk_ess(self.run.log_joint), split_rhat(self.run.log_joint)
                 joint = float(self.run.log_joint[:, -1].mean())
         numbers = {"ess": ess, "rhat": rhat, "log_joint": joint}
         finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}

@@ -214,7 +214,7 @@ class Session:
         if kind == "finished":
             self.running = False
             self.draws = header["draws"]
-            return [self._state()]
+            return [self._state(), *self._picture_is_out()]
         if kind == "failed":
             self.running = False
             return [self._status(header["text"], "error"), self._state(), *self._picture_is_out()]

@@ -28,11 +28,13 @@ def new_document(world: str, shape: tuple[int, int], before: Document) -> Docume
     Raises:
         Refused: an unknown world, or a shape that it cannot have.
     """
-    noise = 0.2
+    noise, sensor = 0.2, None
     if world == "blank":
         walls, grid = np.zeros(shape, dtype=np.bool_), Grid(shape, 1.0, (-0.5, -0.5))
     elif world == "tutorial":
-        walls, grid = _centred(tutorial()[0], shape), Grid(shape, 1.0, (-0.5, -0.5))
+        (walls, robot), grid = tutorial(), Grid(shape, 1.0, (-0.5, -0.5))
+        x, y = (at + (n - have) // 2 for at, n, have in zip(robot, shape, walls.shape, strict=False))
+        walls, sensor = _centred(walls, shape), Sensor(1, float(x), float(y))
     elif world == "building":
         walls, grid = _floor(shape, before.seed)
         noise = BUILDING_NOISE_M
@@ -41,7 +43,7 @@ def new_document(world: str, shape: tuple[int, int], before: Document) -> Docume
     return Document(
         grid=grid,
         walls=WallMap(walls),
-        sensors=(_first_sensor(walls, grid),),
+        sensors=(_first_sensor(walls, grid) if sensor is None else sensor,),
         prior=before.prior,
         noise=noise,
         angles=min(1000, max(10, before.angles)),
@@ -56,12 +58,10 @@ def new_document(world: str, shape: tuple[int, int], before: Document) -> Docume
 def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
     """The map in the middle of another, cut where it does not fit."""
     result = np.zeros(shape, dtype=np.bool_)
-    to, of = [], []
-    for have, want in zip(walls.shape, shape, strict=True):
-        size = min(have, want)
-        to.append(slice((want - size) // 2, (want - size) // 2 + size))
-        of.append(slice((have - size) // 2, (have - size) // 2 + size))
-    result[to[0], to[1]] = walls[of[0], of[1]]
+    shift = [(want - have) // 2 for have, want in zip(walls.shape, shape, strict=True)]
+    kept = np.argwhere(walls) + shift
+    inside = ((kept >= 0) & (kept < shape)).all(axis=1)
+    result[kept[inside, 0], kept[inside, 1]] = True
     return result
 
 

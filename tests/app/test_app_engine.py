@@ -1,0 +1,232 @@
+"""The engine: right numbers, the same ones however it was interrupted, and frames that say what they are."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from acted_engine import Heard
+
+import bayesmap as bm
+from bayesmap.app.document import Document, Sensor, WallMap
+from bayesmap.app.preview import Preview
+from bayesmap.app.scanning import simulate_document, simulated_scene
+from bayesmap.app.tasks import Cancel, Inspect, Look
+from bayesmap.app.worlds import new_document, tutorial_document
+from bayesmap.inference.exact import enumerate_maps
+from bayesmap.inference.importance import sample_importance
+from bayesmap.inference.problem import Problem
+from bayesmap.inference.propagate import propagate
+from bayesmap.world.grid import Grid
+
+TINY = Document(
+    Grid((3, 3), 1.0, (-0.5, -0.5)),
+    WallMap(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
+    (Sensor(1, 0.1, 1.2, 0.3),),
+    prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=20_000, seed=1,
+)  # fmt: skip
+
+OFF = 0.03
+"""More than three standard errors of a mean of effective size 3000, at worst; seeds are fixed."""
+
+
+def exact(document):
+    return enumerate_maps(simulated_scene(document).problem).marginals()
+
+
+def probability(field):
+    return field[1]["p"] / 255
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block"])
+@pytest.mark.parametrize("mode", ["live", "run"])
+def test_chains_on_a_tiny_map_give_the_exact_posterior(method, mode):
+    field = Heard().infer(replace(TINY, method=method), mode)
+    assert field[0]["method"] == method
+    assert field[0]["ess"] > 3000
+    assert np.abs(probability(field) - exact(TINY)).max() < OFF
+
+
+def test_importance_on_a_tiny_map_gives_the_exact_posterior():
+    vague = replace(TINY, noise=4.0)
+    field = Heard().infer(replace(vague, method="importance", sweeps=100_000), "run")
+    assert field[0]["ess"] > 3000
+    assert np.abs(probability(field) - exact(vague)).max() < OFF
+
+
+def test_another_noise_would_be_noticed():
+    """Power of the tests above: readings from another seed lead elsewhere."""
+    assert np.abs(exact(TINY) - exact(replace(TINY, seed=2))).max() > 3 * OFF
+
+
+def test_the_preview_is_the_library_s_belief_propagation():
+    problem = simulated_scene(tutorial_document()).problem
+    preview = Preview(problem)
+    while not preview.converged:
+        preview.round()
+    whole = propagate(Problem(problem.table, problem.prior, problem.poses))
+    assert preview.rounds == len(whole.changes)
+    assert np.abs(preview.p_wall() - whole.p_wall).max() < 1e-5
+
+
+@pytest.mark.parametrize("prior", [0.0, 1.0])
+def test_a_prior_that_fixes_every_cell_is_the_answer(prior):
+    field = Heard().infer(replace(tutorial_document(), prior=prior, sweeps=5))
+    assert (field[1]["p"] == 255 * prior).all()
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block", "propagate"])
+def test_unobserved_cells_follow_the_prior(method):
+    heard = Heard()
+    for prior in (0.5, 0.05):
+        document = replace(new_document("tutorial", (31, 31), tutorial_document()), prior=prior, method=method)
+        _header, buffers = heard.infer(document)
+        observed = np.unpackbits(buffers["observed"], count=31 * 31).astype(bool)
+        hidden = buffers["p"].ravel()[~observed]
+        assert 100 < len(hidden) < 31 * 31
+        assert abs(hidden.mean() / 255 - prior) < 0.02
+
+
+def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
+    heard = Heard()
+    heard.infer(tutorial_document())
+    fields = heard.all("field")
+    assert [f["approximate"] for f in fields] == sorted((f["approximate"] for f in fields), reverse=True)
+    assert fields[0]["approximate"]
+    assert fields[-1]["sweeps"] == fields[-1]["total"] == 1000
+    assert 0.9 < fields[-1]["rhat"] < 1.1
+    assert heard.all("finished")[-1]["draws"] == {"chains": 0, "count": 0}
+
+
+def test_a_preview_alone_stops_there():
+    heard = Heard()
+    heard.infer(tutorial_document(), "preview")
+    assert all(f["method"] == "propagate" for f in heard.all("field"))
+
+
+def test_the_same_document_gives_the_same_posterior_however_it_was_interrupted():
+    document = replace(tutorial_document(), sweeps=300)
+    alone = probability(Heard().infer(document))
+    heard = Heard()
+    for steps, other in ((3, 0.1), (1, 0.2), (7, 0.3)):
+        heard.infer(replace(document, prior=other), steps=steps)
+        heard.infer(document, steps=steps)
+    assert np.array_equal(probability(heard.infer(document)), alone)
+    assert not np.array_equal(probability(heard.infer(replace(document, seed=1))), alone)
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block"])
+def test_a_run_is_that_of_the_library(method):
+    document = replace(tutorial_document(), sweeps=40, method=method)
+    heard = Heard()
+    field = heard.infer(document, "run")
+    run = bm.infer(
+        simulate_document(document)[0], document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2),
+        method=method, chains=2, warmup=0, draws=40, seed=0, start="prior",
+    )  # fmt: skip
+    assert np.array_equal(field[1]["p"], np.rint(255 * run.occupancy))
+    for chain, draw in ((0, 0), (1, 39), (0, 17)):
+        (answer,) = heard.ask(Look("draw", chain, draw))
+        assert (answer.header["chain"], answer.header["draw"]) == (chain, draw)
+        assert np.array_equal(answer.buffers["p"] > 0, run.draws[chain, draw])
+
+
+def test_the_mean_of_a_run_is_the_average_of_its_draws():
+    heard = Heard()
+    field = heard.infer(replace(tutorial_document(), sweeps=50), "run")
+    assert field[0]["draws"] == {"chains": 2, "count": 50}
+    draws = [heard.ask(Look("draw", c, d))[0].buffers["p"] / 255 for c in range(2) for d in range(50)]
+    assert np.array_equal(field[1]["p"], np.rint(255 * np.mean(draws, axis=0)))
+
+
+def test_a_draw_past_the_end_is_the_last():
+    heard = Heard()
+    heard.infer(replace(tutorial_document(), sweeps=5), "run")
+    assert heard.ask(Look("draw", 7, 99))[0].header["draw"] == 4
+
+
+def test_cancel_keeps_the_partial_chain():
+    heard = Heard()
+    heard.infer(replace(tutorial_document(), sweeps=100_000), "run", steps=6)
+    heard.ask(Cancel())
+    assert not heard.engine.busy
+    count = heard.all("finished")[-1]["draws"]["count"]
+    assert 0 < count < 100_000
+    assert heard.ask(Look("draw", 0, count - 1))[0].header["draw"] == count - 1
+    assert heard.ask(Cancel()) == []
+
+
+@pytest.mark.parametrize(("mode", "method"), [("run", "gibbs"), ("live", "gibbs"), ("run", "importance")])
+def test_cancel_before_there_is_anything_shows_the_preview(mode, method):
+    heard = Heard()
+    heard.infer(replace(tutorial_document(), method=method), mode, steps=0)
+    heard.ask(Cancel())
+    while heard.engine.busy:
+        heard.engine.advance()
+    assert heard.last("field")[0]["method"] == "propagate"
+    assert len(heard.all("finished")) == 1
+
+
+def test_importance_sampling_is_that_of_the_library():
+    document = replace(tutorial_document(), method="importance", sweeps=500, noise=5.0)
+    field = Heard().infer(document, "run")
+    whole = sample_importance(simulated_scene(document).problem, 500, 0)
+    assert np.array_equal(field[1]["p"], np.rint(255 * whole.occupancy()))
+    assert field[0]["ess"] == pytest.approx(whole.effective_sample_size)
+    assert field[0]["sweeps"] == field[0]["total"] == 500
+
+
+def test_a_fault_is_told_and_the_engine_goes_on(monkeypatch, capsys):
+    heard = Heard()
+    with monkeypatch.context() as broken:
+        broken.setattr("bayesmap.app.engine.simulated_scene", lambda document: 1 / 0)
+        heard.infer(tutorial_document(), steps=1)
+    assert "ZeroDivisionError" in heard.all("failed")[0]["text"]
+    assert "ZeroDivisionError" in capsys.readouterr().err
+    assert heard.infer(tutorial_document())[0]["sweeps"] == 1000
+
+
+def test_the_worker_loads_neither_jax_nor_matplotlib():
+    code = "import bayesmap.app.worker as w, sys; w._warm(); print({'jax', 'matplotlib', 'netCDF4'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
+def test_clearing_inference_shows_the_prior():
+    header, buffers = Heard().infer(replace(tutorial_document(), prior=0.2), "clear")
+    assert header["method"] == "none"
+    assert (buffers["p"] == 51).all()
+    assert not buffers["observed"].any()
+
+
+def test_the_scan_says_where_beams_truly_end():
+    heard = Heard()
+    document = replace(tutorial_document(), noise=0.0)
+    heard.infer(document, "preview")
+    header, buffers = heard.last("scan")
+    assert header["ids"] == [1]
+    assert {name: a.shape for name, a in buffers.items()} == {
+        "pose": (1, 3), "angles": (100,), "ranges": (1, 100), "exact": (1, 100)
+    }  # fmt: skip
+    assert np.abs(buffers["ranges"] - buffers["exact"]).max() < 0.06  # noise of 0 is taken as 0.01
+
+
+def test_inspecting_a_cell_counts_its_beams():
+    heard = Heard()
+    heard.infer(tutorial_document(), "preview")
+    assert heard.ask(Inspect(3, 10, 10))[0].header["beams"] == 100
+    (answer,) = heard.ask(Inspect(3, 999, 999))
+    assert (answer.client, answer.header["beams"]) == (3, 0)
+
+
+def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
+    from bayesmap.app.stream import DRAW_BYTES, Stream
+    from bayesmap.inference.gibbs import Gibbs
+
+    document = new_document("blank", (500, 500), tutorial_document())
+    problem = simulated_scene(document).problem
+    stream = Stream(Gibbs(problem, "radial"), np.zeros((2, 500, 500), dtype=bool), 6000, 0, keep=True)
+    assert stream.thin == 3
+    assert stream.total == 6000
+    assert stream._packed.nbytes <= DRAW_BYTES

@@ -1,0 +1,315 @@
+"""The server as a program on the network meets it: one process, real sockets."""
+
+import contextlib
+import http.client
+import json
+import os
+import signal
+import socket
+import time
+from urllib.parse import urlsplit
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from page_socket import PATIENCE_S, Page, children, serving, socket_address, start
+from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
+from websockets.sync.client import connect
+
+from bayesmap.app.worlds import tutorial_document
+from bayesmap.cli.main import cli
+
+
+def call(*arguments):
+    return CliRunner().invoke(cli, [str(a) for a in arguments])
+
+
+@pytest.fixture(scope="module")
+def server():
+    with serving() as found:
+        yield found
+
+
+@pytest.fixture
+def address(server):
+    return server[1]
+
+
+@pytest.fixture
+def page(address):
+    with Page(address) as found:
+        found.send("view", layer="mean")
+        found.send("hello", document=tutorial_document().to_json())
+        found.confirmed()
+        yield found
+
+
+def get(address, path=None, **headers):
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.hostname, parts.port, timeout=PATIENCE_S)
+    with contextlib.closing(connection):
+        connection.request("GET", f"{parts.path}?{parts.query}" if path is None else path, headers=headers)
+        answer = connection.getresponse()
+        return answer.status, answer.read().decode(), answer.headers
+
+
+def test_the_page_and_its_module_are_served_with_a_policy(address):
+    token = urlsplit(address).query
+    status, text, headers = get(address)
+    assert status == 200
+    assert f"mapview.js?{token}" in text
+    assert "__TOKEN__" not in text
+    policy = headers["Content-Security-Policy"]
+    assert "default-src 'none'" in policy
+    assert "'unsafe-eval'" not in policy
+    assert headers["Referrer-Policy"] == "no-referrer"
+    status, text, headers = get(address, f"/mapview.js?{token}")
+    assert status == 200
+    assert headers["Content-Type"].startswith("text/javascript")
+    assert "export function mount" in text
+    assert get(address, f"/elsewhere?{token}")[0] == 404
+
+
+@pytest.mark.parametrize("path", ["/", "/mapview.js", "/?token=", "/?token=guess", "/elsewhere"])
+def test_without_the_token_there_is_nothing(address, path):
+    status, text, _ = get(address, path)
+    assert status == 403
+    assert "token" in text
+
+
+@pytest.mark.parametrize("host", ["evil.example", "evil.example:80", "", "127.0.0.1", "127.0.0.1:1", "[::1"])
+def test_another_host_is_refused(address, host):
+    assert get(address, Host=host)[0] == 403
+
+
+def test_localhost_is_this_host(address):
+    assert get(address, Host=f"localhost:{urlsplit(address).port}")[0] == 200
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1", "http://127.0.0.1:1"])
+def test_another_origin_is_refused(address, origin):
+    assert get(address, Origin=origin)[0] == 403
+    with pytest.raises(InvalidStatus) as refused, connect(socket_address(address), origin=origin):
+        pass
+    assert refused.value.response.status_code == 403
+
+
+@pytest.mark.parametrize("wrong", ["token", "no token", "host"])
+def test_the_socket_needs_token_and_host(address, wrong):
+    right = socket_address(address)
+    target = {"token": right + "x", "no token": right.split("?")[0], "host": right}[wrong]
+    headers = {"Host": "evil.example"} if wrong == "host" else {}
+    with pytest.raises((InvalidStatus, InvalidMessage)), connect(target, additional_headers=headers):
+        pass
+
+
+def test_the_own_origin_may_connect(address):
+    with Page(address, origin=address.split("/?")[0]) as page:
+        assert page.confirmed()["generation"] > 0
+
+
+def test_a_page_is_welcomed_and_shown_the_picture(address):
+    with Page(address) as page:
+        header, _ = page.read()
+        assert header["type"] == "welcome"
+        assert header["limits"]["side"] == [2, 500]
+        page.confirmed()
+        header, buffers = page.until("scan")
+        assert buffers["ranges"].shape == (1, len(buffers["angles"]))
+        header, buffers = page.until("field")
+        assert buffers["p"].shape == (21, 21)
+        assert buffers["observed"].shape == (56,)
+
+
+def test_an_edit_is_confirmed_and_answered_by_a_preview_and_then_chains(page):
+    page.send("walls", cells=[[10, 12]], wall=True, stroke=1)
+    state = page.confirmed()
+    header, _ = page.until("field", lambda h: h["generation"] == state["generation"])
+    assert header["approximate"]
+    header, _ = page.until("field", lambda h: not h["approximate"])
+    assert header["generation"] == state["generation"]
+
+
+def test_run_ends_with_its_draws(page):
+    page.send("set", patch={"sweeps": 200})
+    page.send("run")
+    state, _ = page.until("state", lambda h: h["draws"]["count"] > 0)
+    assert state["draws"] == {"chains": 2, "count": 200}
+    assert not state["running"]
+    page.send("view", layer="draw", chain=1, draw=3)
+    _, buffers = page.until("field", lambda h: h["layer"] == "draw")
+    assert set(np.unique(buffers["p"])) == {0, 255}
+
+
+def test_cancel_keeps_what_there_is(page):
+    page.send("new", shape=[200, 200], world="blank")
+    page.send("set", patch={"sweeps": 100_000})
+    page.send("run")
+    page.until("field", lambda h: h["draws"]["count"] > 0)
+    page.send("cancel")
+    state, _ = page.until("state", lambda h: h["draws"]["count"] > 0)
+    assert not state["running"]
+    assert state["draws"]["count"] < 100_000
+
+
+def test_exports_are_downloads(page):
+    for what, name in (("html", "bayesmap.html"), ("map", "map.zip"), ("document", "document.json")):
+        page.send("export", what=what)
+        header, buffers = page.until("download")
+        assert header["name"] == name
+        assert len(buffers["data"]) > 100
+
+
+def test_two_pages_see_the_same(address, page):
+    with Page(address) as other:
+        other.confirmed()
+        page.send("set", patch={"prior": 0.125})
+        state, _ = other.until("state", lambda h: h["document"]["prior"] == 0.125)
+        assert state["seq"] == other.seq  # its own, not the other page's
+
+
+@pytest.mark.parametrize(
+    "data",
+    ["", "null", "[]", "{}", '{"type": "boom", "seq": 5}', '{"type": "set", "seq": 5, "patch": {"prior": 2}}',
+     b"\xff\0",
+     "[" * 50_000, '{"type": "hello", "seq": 5, "document": {"version": 1}}', "x" * (1 << 20) + "x"],
+    ids=range(10),
+)  # fmt: skip
+def test_what_is_malformed_is_answered_by_an_error(page, data):
+    page.socket.send(data)
+    header, _ = page.until("error")
+    assert header["text"]
+    if '"seq": 5' in str(data[:100]):
+        assert header["refused"]["seq"] == 5
+    page.send("set", patch={"prior": 0.25})
+    assert page.confirmed()["document"]["prior"] == 0.25
+
+
+def test_a_message_out_of_all_bounds_ends_the_connection_and_not_the_server(address):
+    with Page(address) as page:
+        with contextlib.suppress(ConnectionClosed):  # it may be refused while it is still being sent
+            page.socket.send("x" * (5 << 20))
+        with pytest.raises(ConnectionClosed) as closed:
+            page.closed()
+        assert closed.value.rcvd.code == 1009
+    with Page(address) as page:
+        page.confirmed()
+
+
+def test_a_flood_is_stopped_and_the_server_lives(address):
+    with Page(address) as page:
+        with contextlib.suppress(Exception):
+            for _ in range(4000):
+                page.socket.send('{"type": "undo", "seq": 1}')
+        errors, code = [], None
+        try:
+            while True:
+                header, _ = page.read()
+                errors += [header["text"]] if header["type"] == "error" else []
+        except Exception as closed:
+            code = getattr(getattr(closed, "rcvd", None), "code", None)
+        assert "too many messages" in errors
+        assert code == 1008
+    with Page(address) as page:
+        page.confirmed()
+
+
+def test_a_killed_worker_is_restarted_and_the_picture_comes_back(server, page):
+    process, _ = server
+    page.send("set", patch={"prior": 0.375})
+    page.confirmed()
+    (worker,) = children(process.pid)
+    os.kill(worker, signal.SIGKILL)
+    page.until("worker", lambda h: h["state"] == "restarted")
+    status, _ = page.until("status")
+    assert "restarted" in status["text"]
+    page.until("worker", lambda h: h["state"] == "ready")
+    header, _ = page.until("field")
+    assert header["generation"] > 0
+    (again,) = children(process.pid)
+    assert again != worker
+    page.send("hello")
+    assert page.confirmed()["document"]["prior"] == 0.375
+
+
+def test_the_same_document_gives_the_same_posterior_in_another_server(page):
+    document = {**tutorial_document().to_json(), "seed": 5, "sweeps": 300}
+
+    def posterior(of):
+        of.send("hello", document=document)
+        generation = of.confirmed()["generation"]
+        wanted = lambda h: h["generation"] == generation and h["sweeps"] == h["total"] == 300  # noqa: E731
+        return of.until("field", wanted)[1]["p"]
+
+    for i in range(5):  # a history of its own
+        page.send("sensor", op="move", id=1, x=10 + 0.1 * i, y=9, drag=1)
+    first = posterior(page)
+    with serving() as (_, elsewhere), Page(elsewhere) as other:
+        assert np.array_equal(posterior(other), first)
+
+
+def test_a_dropped_connection_takes_its_document_along(address):
+    with Page(address) as page:
+        page.send("new", shape=[9, 9], world="blank")
+        document = page.confirmed()["document"]
+    with serving() as (_, elsewhere), Page(elsewhere) as other:
+        other.send("hello", document=document)
+        assert other.confirmed()["document"] == document
+
+
+def test_the_server_ends_with_ctrl_c_and_takes_its_worker_along():
+    with serving() as (process, address), Page(address) as page:
+        page.confirmed()
+        (worker,) = children(process.pid)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE_S) == 0
+        with pytest.raises(ConnectionClosed):
+            page.closed()
+    deadline = time.monotonic() + PATIENCE_S
+    while os.path.exists(f"/proc/{worker}"):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def test_a_killed_server_takes_its_worker_along():
+    with serving() as (process, _):
+        (worker,) = children(process.pid)
+        process.kill()
+        process.wait(PATIENCE_S)
+        deadline = time.monotonic() + PATIENCE_S
+        while os.path.exists(f"/proc/{worker}"):
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+
+
+def test_a_port_that_is_taken_is_bad_input():
+    with contextlib.closing(socket.socket()) as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        result = call("app", "--no-browser", "--port", taken.getsockname()[1])
+    assert result.exit_code == 3
+    assert "--port" in result.stderr
+    assert result.stdout == ""
+
+
+@pytest.mark.parametrize(
+    ("content", "named"), [(None, "no such file"), (b"nonsense", "saved run"), (b"", "saved run")], ids=range(3)
+)
+def test_a_file_that_cannot_be_shown_is_bad_input(content, named, tmp_path):
+    path = tmp_path / "run.nc"
+    if content is not None:
+        path.write_bytes(content)
+    result = call("app", "--no-browser", path)
+    assert result.exit_code == 3, result.stderr
+    assert named in result.stderr
+
+
+def test_the_address_can_be_had_as_json():
+    process = start("app", "--no-browser", "--json", "-q")
+    document, at = "", time.monotonic()
+    while not document.endswith("}\n") and time.monotonic() < at + PATIENCE_S:
+        document += process.stdout.readline()
+    assert json.loads(document)["url"].startswith("http://127.0.0.1:")
+    process.send_signal(signal.SIGINT)
+    out, errors = process.communicate(timeout=PATIENCE_S)
+    assert (process.returncode, out, errors) == (0, "", "")

@@ -1,0 +1,262 @@
+"""The session: what actions do, what is refused, one step of undo a gesture, and pictures in order."""
+
+import numpy as np
+import pytest
+from acted_session import Acted
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bayesmap.app.tasks import Cancel, Export, Inspect, Look, ShowScan
+from bayesmap.app.worlds import new_document, tutorial_document
+
+
+def walls_of(acted):
+    return acted.session.document.walls.cells
+
+
+def test_hello_is_answered_by_the_state_and_what_was_seen_last():
+    acted = Acted()
+    acted.hear("scan", 1)
+    acted.picture()
+    assert [m["type"] for m in acted.act("hello", client=2)] == ["state", "scan", "field"]
+
+
+def test_hello_with_a_document_adopts_it():
+    acted = Acted()
+    document = new_document("blank", (5, 7), tutorial_document())
+    acted.act("hello", document=document.to_json())
+    assert acted.session.document == document
+    assert acted.inferred[-1].document == document
+    generation = acted.session.generation
+    acted.act("hello", document=document.to_json())  # the same again, as after a lost connection
+    assert acted.session.generation == generation
+
+
+def test_a_stroke_is_one_step_of_undo():
+    acted, before = Acted(), walls_of(Acted()).copy()
+    for x in range(5):
+        acted.act("walls", cells=[[x, 0]], wall=True, stroke=1)
+        acted.picture()
+    acted.act("walls", cells=[[0, 5]], wall=True, stroke=2)
+    acted.picture()
+    assert walls_of(acted)[:5, 0].all()
+    acted.act("undo")
+    assert walls_of(acted)[:5, 0].all()
+    assert not walls_of(acted)[0, 5]
+    acted.act("undo")
+    assert np.array_equal(walls_of(acted), before)
+    acted.act("redo")
+    assert walls_of(acted)[:5, 0].all()
+
+
+def test_a_drag_is_one_step_of_undo():
+    acted = Acted()
+    for i in range(4):
+        acted.act("sensor", op="move", id=1, x=10 + 0.1 * i, y=10, drag=8)
+        acted.picture()
+    acted.act("undo")
+    assert acted.session.document.sensors[0].x == 10.0
+    assert not acted.state["can_undo"]
+
+
+@pytest.mark.parametrize(("x", "y", "named"), [(2.0, 2.0, "wall"), (-3.0, 5.0, "outside"), (1e5, 1e5, "outside")])
+def test_a_sensor_cannot_go_into_a_wall_or_outside(x, y, named):
+    acted = Acted()
+    before, generation = acted.session.document, acted.session.generation
+    answers = acted.act("sensor", op="move", id=1, x=x, y=y, drag=1)
+    assert [m["type"] for m in answers] == []  # the first picture is in flight: it waits
+    acted.picture()
+    assert named in acted.text
+    assert acted.session.document is before
+    assert acted.session.generation == generation
+    assert acted.state["seq"] == acted.seq
+
+
+def test_a_wall_over_a_sensor_is_drawn_but_for_its_cell():
+    acted = Acted()
+    acted.picture()
+    acted.act("walls", cells=[[9, 10], [10, 10], [11, 10]], wall=True, stroke=1)
+    assert "(10, 10)" in acted.text
+    assert walls_of(acted)[9:12, 10].tolist() == [True, False, True]
+
+
+def test_sensors_are_added_up_to_the_limit_and_removed_down_to_one():
+    acted = Acted(new_document("blank", (40, 40), tutorial_document()))
+    for i in range(40):
+        acted.act("sensor", op="add", x=i % 30, y=3)
+    assert len(acted.session.document.sensors) == 32
+    assert "remove one" in acted.text
+    for sensor in acted.session.document.sensors:
+        acted.act("sensor", op="remove", id=sensor.id)
+    assert len(acted.session.document.sensors) == 1
+    assert "last sensor" in acted.text
+
+
+@pytest.mark.parametrize(
+    "message",
+    [{"type": "walls", "cells": [[21, 0]], "wall": True, "stroke": 0}, {"type": "sensor", "op": "remove", "id": 9},
+     {"type": "undo"}, {"type": "redo"}, {"type": "scan", "index": 0}],
+    ids=lambda m: m["type"],
+)  # fmt: skip
+def test_what_cannot_be_done_changes_nothing(message):
+    acted = Acted()
+    acted.picture()
+    before = acted.session.generation
+    answers = acted.act(message.pop("type"), **message)
+    assert [m["type"] for m in answers] == ["status", "state"]
+    assert acted.session.generation == before
+
+
+def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged():
+    acted = Acted()
+    for i in range(1, 6):
+        acted.act("sensor", op="move", id=1, x=10 + 0.1 * i, y=10, drag=1)
+    assert len(acted.inferred) == 1
+    acted.picture()
+    assert [task.document.sensors[0].x for task in acted.inferred[1:]] == [10.5]
+    assert acted.state["seq"] == acted.seq
+
+
+def test_strokes_that_wait_lose_no_cell():
+    acted = Acted()
+    for y in range(20):
+        acted.act("walls", cells=[[0, y]], wall=True, stroke=1)
+    acted.picture()
+    assert walls_of(acted)[0, :20].all()
+
+
+def test_anything_else_applies_what_waits_first():
+    acted = Acted()
+    acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)
+    acted.act("set", patch={"prior": 0.2})
+    document = acted.inferred[-1].document
+    assert (document.sensors[0].x, document.prior) == (10.3, 0.2)
+
+
+def test_run_keeps_draws_until_the_next_edit():
+    acted = Acted()
+    acted.act("run")
+    assert acted.inferred[-1].mode == "run"
+    assert acted.state["running"]
+    acted.picture()
+    acted.hear("finished", acted.session.generation, draws={"chains": 2, "count": 1000})
+    assert not acted.state["running"]
+    assert acted.state["draws"] == {"chains": 2, "count": 1000}
+    acted.act("set", patch={"prior": 0.1})
+    assert acted.state["draws"] == {"chains": 0, "count": 0}
+
+
+def test_cancel_lets_waiting_edits_go_on():
+    acted = Acted()
+    acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)
+    acted.act("cancel")  # which applies what waits, and so begins a picture
+    acted.act("sensor", op="move", id=1, x=10.4, y=10, drag=1)
+    acted.hear("finished", acted.session.generation, draws={"chains": 0, "count": 0})
+    assert acted.inferred[-1].document.sensors[0].x == 10.4
+
+
+def test_questions_go_to_the_worker():
+    acted = Acted()
+    acted.act("inspect", x=3, y=4)
+    acted.act("view", layer="draw", chain=1, draw=5)
+    acted.act("export", what="map")
+    acted.act("cancel")
+    assert acted.tasks[-4:] == [Inspect(1, 3, 4), Look("draw", 1, 5), Export(1, "map"), Cancel()]
+    assert acted.state["view"] == {"layer": "draw", "chain": 1, "draw": 5}
+
+
+def test_the_document_is_exported_without_the_worker():
+    acted = Acted()
+    assert acted.act("export", what="document")[0]["type"] == "download"
+    assert not any(isinstance(task, Export) for task in acted.tasks)
+
+
+def test_switching_live_off_leaves_the_preview():
+    acted = Acted()
+    acted.act("live", on=False)
+    acted.act("set", patch={"prior": 0.1})
+    assert acted.inferred[-1].mode == "preview"
+    acted.act("live", on=True)
+    assert acted.inferred[-1].mode == "live"
+
+
+def test_a_worker_that_died_is_given_everything_again():
+    acted = Acted()
+    acted.act("view", layer="entropy")
+    acted.act("set", patch={"prior": 0.1})
+    lost = acted.do(acted.session.worker_lost())
+    assert [m["type"] for m in lost] == ["worker", "status"]
+    acted.hear("ready", None, document=None)
+    assert acted.inferred[-1].document.prior == 0.1
+    assert acted.tasks[-2] == Look("entropy", None, None)
+
+
+def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():
+    acted = Acted()
+    acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)
+    acted.hear("failed", 1, text="too many beams")
+    assert "too many beams" in [m.get("text") for m in acted.sent]
+    assert acted.inferred[-1].document.sensors[0].x == 10.3
+
+
+def test_a_scan_of_a_file_can_be_chosen():
+    from dataclasses import replace
+
+    from bayesmap.app.document import Source
+
+    acted = Acted(replace(tutorial_document(), source=Source("log", "office.log", 3)))
+    acted.act("scan", index=2)
+    assert acted.tasks[-1] == ShowScan(2)
+    acted.act("scan", index=3)
+    assert "no scan 3" in acted.text
+    acted.act("walls", cells=[[0, 0]], wall=True, stroke=1)
+    acted.picture()
+    assert "cannot be edited" in acted.text
+
+
+EVENTS = st.lists(
+    st.one_of(
+        st.tuples(st.just("move"), st.integers(0, 20)),
+        st.tuples(st.just("stroke"), st.integers(0, 20)),
+        st.tuples(st.just("set"), st.sampled_from([0.1, 0.2, 0.3])),
+        st.tuples(st.just("other"), st.sampled_from(["undo", "redo", "run", "cancel"])),
+        st.tuples(st.just("worker"), st.integers(0, 3)),
+    ),
+    max_size=50,
+)
+
+
+@given(EVENTS)
+def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
+    """Whatever the order of actions and of the worker's answers, late ones of any earlier generation included."""
+    acted, at, drawn = Acted(), None, set()
+    for kind, value in events:
+        if kind == "move":
+            at = 10 + 0.05 * value
+            acted.act("sensor", op="move", id=1, x=at, y=10, drag=1)
+        elif kind == "stroke":
+            drawn.add(value)
+            acted.act("walls", cells=[[0, value]], wall=True, stroke=1)
+        elif kind == "set":
+            acted.act("set", patch={"prior": value}, drag=2)
+        elif kind == "other":
+            acted.act(value)
+            if value in ("undo", "redo"):
+                at, drawn = None, set()
+        else:
+            tasks = acted.inferred[-1 - min(value, len(acted.inferred) - 1)]
+            acted.hear("field", tasks.generation)
+    while acted.session._waiting is not None:
+        acted.picture()
+    newest = 0
+    for header in acted.sent:
+        if header["type"] in ("state", "field"):
+            assert header["generation"] >= newest
+            newest = header["generation"]
+    generations = [task.generation for task in acted.inferred]
+    assert generations == sorted(set(generations))
+    assert acted.inferred[-1].document == acted.session.document
+    # Nothing that a hand did last is lost.
+    assert at is None or acted.session.document.sensors[0].x == at
+    assert all(acted.session.document.walls.cells[0, y] for y in drawn)
+    assert acted.state["seq"] == acted.seq

@@ -1,0 +1,105 @@
+"""The widget without a browser: what its view would send, and what it would be sent."""
+
+import queue
+
+import numpy as np
+import pytest
+
+import bayesmap as bm
+from bayesmap.app.worlds import new_document, tutorial_document
+
+pytest.importorskip("anywidget")
+PATIENCE_S = 60.0
+
+
+class View:
+    """Stands for the page in the notebook."""
+
+    def __init__(self, widget, monkeypatch):
+        self.widget, self.inbox, self.seq = widget, queue.Queue(), 0
+        monkeypatch.setattr(widget, "send", lambda content, buffers=None: self.inbox.put((content, buffers or [])))
+
+    def send(self, kind, **fields):
+        self.seq += 1
+        self.widget._handle_custom_msg({"type": kind, "seq": self.seq, **fields}, [])
+
+    def until(self, kind, like=lambda header: True):
+        while True:
+            header, buffers = self.inbox.get(timeout=PATIENCE_S)
+            if header["type"] == kind and like(header):
+                arrays = {
+                    entry["name"]: np.frombuffer(data, entry["dtype"]).reshape(entry["shape"])
+                    for entry, data in zip(header["buffers"], buffers, strict=True)
+                }
+                return header, arrays
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    made = []
+
+    def show(*arguments, **options):
+        widget = bm.MapWidget(*arguments, **options)
+        made.append(widget)
+        view = View(widget, monkeypatch)
+        view.send("hello")
+        return view
+
+    yield show
+    for widget in made:
+        widget.close()
+
+
+def test_the_live_page_infers(shown):
+    view = shown(seed=3)
+    assert view.until("welcome")[0]["version"] == 1
+    assert view.until("state")[0]["document"]["seed"] == 3
+    _header, arrays = view.until("field", lambda h: not h["approximate"])
+    assert arrays["p"].shape == (21, 21)
+    view.send("walls", cells=[[10, 12]], wall=True, stroke=1)
+    state, _ = view.until("state", lambda h: h["seq"] == view.seq)
+    assert state["document"] == view.widget.document
+    view.until("field", lambda h: h["generation"] == state["generation"] == view.widget.generation)
+
+
+def test_the_live_page_begins_where_it_is_told(shown):
+    document = new_document("blank", (5, 6), tutorial_document()).to_json()
+    view = shown(document=document)
+    assert view.until("field")[1]["p"].shape == (5, 6)
+    assert view.widget.document == document
+
+
+def test_a_run_is_shown_with_its_draws(shown):
+    walls, pose = bm.worlds.tutorial()
+    angles = np.linspace(0, 2 * np.pi, 30, endpoint=False)
+    grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
+    scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0)
+    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=sensor, chains=2, warmup=5, draws=20)
+    view = shown(run)
+    header, arrays = view.until("field")
+    assert header["draws"] == {"chains": 2, "count": 20}
+    assert np.array_equal(arrays["p"], np.rint(255 * run.occupancy))
+    view.send("view", layer="draw", chain=1, draw=7)
+    _, arrays = view.until("field", lambda h: h["layer"] == "draw")
+    assert np.array_equal(arrays["p"] > 0, run.draws[1, 7])
+    assert "data-recording" in view.widget.to_html()
+
+
+def test_a_malformed_message_is_answered_by_an_error(shown):
+    view = shown()
+    for content in (None, [], {"type": "nonsense", "seq": 9}):
+        view.widget._handle_custom_msg(content, [])
+        assert view.until("error")[0]["text"]
+
+
+def test_a_document_that_is_none_is_bad_input():
+    with pytest.raises(bm.BadInput, match="version"):
+        bm.MapWidget(document={"version": 7})
+
+
+def test_the_module_travels_with_the_widget():
+    widget = bm.MapWidget()
+    assert "export default" in widget._esm
+    with pytest.raises(bm.BadInput, match="live page"):
+        widget.to_html()
+    widget.close()
