@@ -36,7 +36,7 @@ PASSED_ON = (
 @click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
 def command(call: Call, log: str, output: str | None, resume: bool, force: bool) -> None:
-    r"""Infer the walls from LOG, a CARMEN log of range scans, plain or gzipped.
+    r"""Infer the walls from LOG: a CARMEN log, a ROS 1 or ROS 2 bag, MCAP, g2o, CSV or .npz of range scans.
 
     A cell's state is by default a reflectivity (the chance that it stops a beam) and the place of the surface in it,
     and the sensor is fitted to the log; with --cells binary a cell is a wall or free, and --sensor fit says so.
@@ -48,13 +48,14 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     \b
     bayesmap infer office.log.gz -o runs/office
     bayesmap infer office.log.gz --resolution 0.05 --max-range 20 --holdout 10 --json
+    bayesmap infer recording.mcap --scan-topic /scan --pose-topic /odom
 
     {sensors}
     """
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
-    if not Path(log).is_file():
-        raise BadInput(f"{log}: no such file; give a CARMEN log, plain or gzipped")
+    if not Path(log).exists():
+        raise BadInput(f"{log}: no such file; give a log or a recording (bayesmap info FILE says what is in one)")
     folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk, resuming=resume)
     values = call.values(_settings_of(folder) if resume else None)
     values = cells.settled(values)
@@ -85,8 +86,8 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
 
 
 def _stem(log: str) -> str:
-    name = os.path.basename(log)
-    for ending in (".gz", ".log", ".clf", ".txt"):
+    name = os.path.basename(os.path.normpath(log))
+    for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz"):
         name = name.removesuffix(ending)
     return name or "log"
 
@@ -116,6 +117,11 @@ def _read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
         no_return=values["no_return"],
         skip_bad_lines=values["skip_bad_lines"],
         max_range_m=values["max_range"],
+        scan_topic=values["scan_topic"],
+        pose_topic=values["pose_topic"],
+        fixed_frame=values["fixed_frame"],
+        deskew=values["deskew"],
+        thin_m=values["thin_scans"],
     )
     scans, counts = reading.scans, reading.scans.counts()
     code = reading.no_return_m
@@ -125,9 +131,9 @@ def _read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
         f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {coded}"
     )
     for skip in reading.skipped[: 10 if not talk.verbose else None]:
-        talk.say(f"{log}: line {skip.line} left out: {skip.reason}")
+        talk.say(f"{log}: {skip} left out: {skip.reason}")
     if len(reading.skipped) > 10 and not talk.verbose:
-        talk.say(f"{log}: {len(reading.skipped) - 10:,} more lines left out; -v lists them")
+        talk.say(f"{log}: {len(reading.skipped) - 10:,} more left out; -v lists them")
     for note in reading.notes:
         talk.say(f"{log}: {note}")
     return reading

@@ -23,6 +23,7 @@ from bayesmap.version import __version__
 COMMANDS = {
     "demo": "The tutorial's map, end to end: scan, infer, pictures.",
     "simulate": "Draw the scans of a robot in a known world.",
+    "info": "Say what is in a log, a recording or a saved run.",
     "infer": "Infer the walls from a log of range scans.",
     "score": "Score a saved run on held-out scans.",
     "render": "Draw a saved run.",

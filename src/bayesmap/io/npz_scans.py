@@ -79,7 +79,7 @@ def _arrays(name: str) -> dict[str, NDArray[np.float64]]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # NumPy's about old or odd headers: the arrays are checked anyway
-            with np.load(Path(name), allow_pickle=False) as archive:
+            with Path(name).open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 for key in archive.files:
                     arrays[key] = np.asarray(archive[key])
     except Exception as error:  # NumPy and zipfile raise whatever their parsing meets

@@ -1,0 +1,136 @@
+"""``bayesmap info``: what is in a log, a recording or a saved run."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import click
+
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.talk import write_out
+from bayesmap.errors import BadInput
+from bayesmap.version import __version__
+
+SAVED_RUNS = (b"\x89HDF", b"CDF")
+"""How netCDF files begin."""
+
+
+@takes(None)
+@click.argument("file")
+def command(call: Call, file: str) -> None:
+    r"""Say what is in FILE: a log, a robot's recording (a file or a folder), or a saved run.
+
+    Of a recording: its topics and frames, what its scans look like, where their poses can come from, and the command
+    that infers a map from it. What is damaged or malformed is counted, and the rest is told.
+
+    \b
+    bayesmap info recording.mcap
+    bayesmap info runs/office/run.nc --json
+    """
+    if not Path(file).exists():
+        raise BadInput(f"{file}: no such file; give a log, a recording, or a run.nc")
+    document = _saved_run(file) if _is_saved_run(file) else _log(file)
+    if call.talk.as_json:
+        call.talk.result(document, [])
+    else:
+        write_out("\n".join(_lines(document)) + "\n")
+
+
+def _is_saved_run(file: str) -> bool:
+    if not Path(file).is_file():
+        return False
+    try:
+        with Path(file).open("rb") as start:
+            return start.read(4).startswith(SAVED_RUNS)
+    except OSError as error:
+        raise BadInput(f"{file}: cannot be read: {error.strerror or error}") from None
+
+
+def _saved_run(file: str) -> dict[str, Any]:
+    from bayesmap.cli.document import run_document
+    from bayesmap.io.contents import scans_summary
+    from bayesmap.loading import load
+
+    run = load(file)
+    told = run_document(run)
+    return {
+        "version": __version__,
+        "path": file,
+        "format": "bayesmap run",
+        "run": {key: value for key, value in told.items() if key not in ("version", "peak_memory_mb")},
+        "sensors": [scans_summary(run.posterior.scans)],
+        "notes": list(run.posterior.notes),
+    }
+
+
+def _log(file: str) -> dict[str, Any]:
+    from bayesmap.io.contents import contents_of
+
+    contents = contents_of(file)
+    start, end = contents.start_s, contents.end_s
+    duration = None if start is None or end is None else round(end - start, 3)
+    return {"version": __version__, **asdict(contents), "duration_s": duration, "notes": list(contents.notes)}
+
+
+def _lines(document: dict[str, Any]) -> list[str]:
+    """The document as a page of text."""
+    lines = [f"{document['path']}: {document['format']}"]
+    if document.get("duration_s") is not None:
+        lines[0] += f", {document['duration_s']:,.1f} s"
+    if "run" in document:
+        lines += _run_lines(document["run"])
+    topics = document.get("topics", [])
+    if topics:
+        wide = max(len(topic["name"]) for topic in topics)
+        lines.append("messages:")
+        for topic in topics:
+            rate = f"  {topic['rate_hz']:.1f} Hz" if topic.get("rate_hz") else ""
+            kind = f"  {topic['type']}" if "type" in topic else ""
+            lines.append(f"  {topic['name']:<{wide}}  {topic['count']:>8,}{rate:>10}{kind}".rstrip())
+    if document.get("frames"):
+        lines.append(f"frames: {', '.join(document['frames'])}")
+    if document.get("pose_sources"):
+        lines.append("poses: " + ", ".join(f"{s['name']} ({s['type']})" for s in document["pose_sources"]))
+    for sensor in document["sensors"]:
+        lines += _sensor_lines(sensor)
+    lines += [f"note: {note}" for note in document["notes"]]
+    if document.get("suggestion"):
+        lines += ["to infer a map:", f"  {document['suggestion']}"]
+    return lines
+
+
+def _run_lines(run: dict[str, Any]) -> list[str]:
+    (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
+    state = "finished" if run["finished"] else "not finished"
+    return [
+        f"grid: {nx} x {ny} cells of {resolution:g} m",
+        f"method: {run['method']}, {run['chains']} chains, {run['draws']:,} draws each, "
+        f"{run['sweeps']:,} sweeps, {state}",
+    ]
+
+
+def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
+    name = sensor.get("topic") or sensor.get("message") or "readings"
+    if sensor.get("error"):
+        return [f"scans on {name}: {sensor['scans']:,}, which cannot be used: {sensor['error']}"]
+    head = f"scans on {name}" if sensor.get("topic") else f"scans ({name})"
+    beams = f"{sensor['beams']} beams from {sensor['angle_first_deg']:g} to {sensor['angle_last_deg']:g} degrees"
+    if sensor["angle_step_deg"] is not None:
+        beams += f", {sensor['angle_step_deg']:g} apart"
+    kinds = ", ".join(f"{count:,} {kind.replace('_', ' ')}" for kind, count in sensor["readings"].items() if count)
+    lines = [
+        f"{head}: {sensor['scans']:,} of {beams}",
+        f"  ranges from {sensor['min_range_m']:g} to {sensor['max_range_m']:g} m; readings: {kinds}",
+    ]
+    low, high = sensor["poses_from_m"], sensor["poses_to_m"]
+    by = f" by {sensor['poses']}" if sensor.get("poses") else ""
+    frames = f", {sensor['frame']} in {sensor['fixed_frame']}" if sensor.get("frame") else ""
+    lines.append(
+        f"  poses{by}{frames}: x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m, "
+        f"{sensor['travelled_m']:,.1f} m travelled"
+    )
+    if sensor.get("skipped"):
+        lines.append(f"  {sensor['skipped']:,} malformed messages or lines are left out")
+    return lines + [f"  note: {note}" for note in sensor.get("notes", [])]

@@ -1,0 +1,175 @@
+"""What is in a recording or a log, without having to choose anything."""
+
+from __future__ import annotations
+
+import math
+import os
+import shlex
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bayesmap.errors import BadInput
+from bayesmap.io.log_reading import LogReading
+from bayesmap.io.logs import RECORDINGS, describe_log, format_of
+from bayesmap.world.scans import Scans
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """What is in a file.
+
+    Attributes:
+        path: the file or folder.
+        format: as `LogReading` calls it.
+        start_s: the first time in it; None if it says none.
+        end_s: the last.
+        topics: of a recording: name, type, count and rate of each topic; of a log: name and count of each message.
+        frames: of a recording: the frames that /tf knows.
+        sensors: one for each source of scans, ready for JSON: what its scans look like, and whether they have poses.
+        pose_sources: of a recording: topics that tell poses.
+        suggestion: a command that infers a map from it; None if there is nothing to infer from.
+        notes: what a user should know.
+    """
+
+    path: str
+    format: str
+    start_s: float | None
+    end_s: float | None
+    topics: list[dict[str, Any]]
+    frames: list[str] = field(default_factory=list)
+    sensors: list[dict[str, Any]] = field(default_factory=list)
+    pose_sources: list[dict[str, Any]] = field(default_factory=list)
+    suggestion: str | None = None
+    notes: tuple[str, ...] = ()
+
+
+def contents_of(path: str | os.PathLike[str]) -> Contents:
+    """Look into a log or a recording; malformed lines and messages are counted, not refused.
+
+    Raises:
+        BadInput: a file that cannot be read, or is of no known format.
+    """
+    if format_of(path) in RECORDINGS:
+        return _of_recording(path)
+    reading = describe_log(path, skip_bad_lines=True)
+    stamps = reading.scans.stamps_s
+    name = os.fspath(path)
+    return Contents(
+        path=name,
+        format=reading.format,
+        start_s=None if stamps is None else float(stamps[0]),
+        end_s=None if stamps is None else float(stamps[-1]),
+        topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()],
+        sensors=[{**scans_summary(reading.scans), **_account(reading)}],
+        suggestion=_command(name, skip=bool(reading.skipped)),
+        notes=reading.notes,
+    )
+
+
+def _of_recording(path: str | os.PathLike[str]) -> Contents:
+    from bayesmap.io.containers import open_recording
+    from bayesmap.io.frames import FrameTree
+    from bayesmap.io.laser_messages import SCAN_TYPES
+    from bayesmap.io.pose_sources import POSE_TYPES, TF_TYPES, PoseMessages, topics_of_type
+    from bayesmap.io.robot_messages import TYPES, read_messages
+
+    name = os.fspath(path)
+    recording = open_recording(path, salvage=True, types=TYPES)
+    spent_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
+    topics = [
+        {
+            "name": topic.name,
+            "type": topic.type,
+            "count": topic.count,
+            "rate_hz": round((topic.count - 1) / spent_s, 3) if topic.count > 1 and spent_s > 0 else None,
+        }
+        for topic in recording.topics.values()
+    ]
+    poses = PoseMessages()
+    read_messages(recording, topics_of_type(recording, TF_TYPES), None, poses, lambda *_: None)
+    pose_sources = topics_of_type(recording, (*TF_TYPES, *POSE_TYPES))
+    scan_topics = topics_of_type(recording, SCAN_TYPES)
+    sensors = [_sensor(recording, topic) for topic in scan_topics]
+    usable = [sensor for sensor in sensors if sensor["error"] is None]
+    best = max(usable, key=lambda sensor: sensor["scans"] * sensor["beams"], default=None)
+    return Contents(
+        path=name,
+        format=recording.format,
+        start_s=None if recording.start_ns is None else recording.start_ns * 1e-9,
+        end_s=None if recording.end_ns is None else recording.end_ns * 1e-9,
+        topics=topics,
+        frames=FrameTree(poses.transforms).frames(),
+        sensors=sensors,
+        pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources],
+        suggestion=None
+        if best is None
+        else _command(
+            name,
+            scan_topic=best["topic"] if len(scan_topics) > 1 else None,
+            pose_topic=best["pose_topic"],
+            skip=bool(recording.notes) or best["skipped"] > 0,
+        ),
+        notes=recording.notes,
+    )
+
+
+def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
+    """What the scans of one topic look like, and by which poses they can be used."""
+    from bayesmap.io.pose_sources import POSE_TYPES, topics_of_type
+
+    account: dict[str, Any] = {"topic": topic.name, "type": topic.type, "pose_topic": None, "error": None}
+    tries = [None, *(other.name for other in topics_of_type(recording, POSE_TYPES))]
+    first: BadInput | None = None
+    for pose_topic in tries:
+        try:
+            reading = describe_log(recording.path, skip_bad_lines=True, scan_topic=topic.name, pose_topic=pose_topic)
+        except BadInput as problem:
+            first = first or problem
+            continue
+        return {**account, "pose_topic": pose_topic, **scans_summary(reading.scans), **_account(reading)}
+    reason = str(first).removeprefix(f"{recording.path}: ")
+    return {**account, "scans": topic.count, "beams": None, "error": reason}
+
+
+def _account(reading: LogReading) -> dict[str, Any]:
+    return {
+        "message": reading.message,
+        "frame": reading.sensor_frame,
+        "poses": reading.pose_source,
+        "fixed_frame": reading.fixed_frame,
+        "skipped": len(reading.skipped),
+        "no_return_m": reading.no_return_m,
+        "max_range_origin": reading.max_range_origin,
+        "notes": list(reading.notes),
+    }
+
+
+def scans_summary(scans: Scans) -> dict[str, Any]:
+    """What scans look like, ready for JSON: how many, where their beams point, what they read, how far they go."""
+    angles = np.degrees(scans.angles_rad)
+    low, high = scans.poses[:, :2].min(axis=0), scans.poses[:, :2].max(axis=0)
+    hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
+    return {
+        "scans": len(scans),
+        "beams": len(scans.angles_rad),
+        "angle_first_deg": round(float(angles[0]), 4),
+        "angle_last_deg": round(float(angles[-1]), 4),
+        "angle_step_deg": round(float(angles[-1] - angles[0]) / (len(angles) - 1), 4) if len(angles) > 1 else None,
+        "min_range_m": scans.min_range_m,
+        "max_range_m": scans.max_range_m,
+        "longest_hit_m": round(float(hits.max()), 3) if hits.size else None,
+        "readings": scans.counts(),
+        "poses_from_m": [round(float(v), 3) for v in low],
+        "poses_to_m": [round(float(v), 3) for v in high],
+        "travelled_m": round(math.fsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T)), 3),
+    }
+
+
+def _command(path: str, *, scan_topic: str | None = None, pose_topic: str | None = None, skip: bool = False) -> str:
+    words = ["bayesmap", "infer", path]
+    words += ["--scan-topic", scan_topic] if scan_topic else []
+    words += ["--pose-topic", pose_topic] if pose_topic else []
+    words += ["--skip-bad-lines"] if skip else []
+    return shlex.join(words)
