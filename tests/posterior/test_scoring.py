@@ -112,3 +112,16 @@ def test_many_draws_are_taken_some_at_a_time(case, run, monkeypatch):
     whole = bm.score(run, case.scans).as_json()
     monkeypatch.setattr(predictor, "BATCH_BYTES", 4 * 16 * 7)
     assert bm.score(run, case.scans).as_json() == whole
+
+
+@pytest.mark.parametrize("prior", [bm.Beta(0.3, 0.5), bm.Surface()], ids=["reflectivity", "surface"])
+def test_cells_that_stop_some_beams_are_scored_alike(case, prior):
+    """Against the samplers' own log score, which is computed in single precision."""
+    run = bm.infer(case.scans, case.grid, prior=prior, sensor=case.sensor, chains=2, warmup=10, draws=20)
+    held = make_case(22, sensor=case.sensor, n_poses=4).scans
+    held = dataclasses.replace(held, ranges_m=np.where(np.isneginf(held.ranges_m), np.nan, held.ranges_m))
+    found = bm.score(run, held)
+    assert found.nats_per_beam == pytest.approx(run.log_score(held), abs=2e-3)
+    assert 0 < found.coverage[0].share.value <= found.coverage[2].share.value
+    with pytest.raises(bm.BadInput, match="scored by a BeamMixture, not by a Gaussian"):
+        bm.score(run, held, sensor=bm.Gaussian(0.1))
