@@ -189,9 +189,8 @@ def test_a_message_out_of_all_bounds_ends_the_connection_and_not_the_server(addr
     with Page(address) as page:
         with contextlib.suppress(ConnectionClosed):  # it may be refused while it is still being sent
             page.socket.send("x" * (5 << 20))
-        with pytest.raises(ConnectionClosed) as closed:
+        with pytest.raises(ConnectionClosed):  # by 1009, which the reset of a half-sent message can overtake
             page.closed()
-        assert closed.value.rcvd.code == 1009
     with Page(address) as page:
         page.confirmed()
 
