@@ -117,6 +117,29 @@ def test_a_saved_run_is_shown_with_its_draws_and_scans(heard, tmp_path):
     assert len(run_to_html(run)) < 200_000
 
 
+def test_a_run_of_reflectivities_is_shown_too(tmp_path):
+    walls, pose = bm.worlds.tutorial()
+    angles = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+    noise = bm.Gaussian(0.2)
+    scans = bm.simulate(walls, bm.worlds.TUTORIAL_GRID, pose, angles, sensor=noise, max_range_m=42.0)
+    run = bm.infer(
+        scans, bm.worlds.TUTORIAL_GRID, prior=bm.Beta(1, 1), sensor=bm.BeamMixture(noise), chains=2, warmup=3, draws=6
+    )
+    run.save(tmp_path / "field.nc")
+    opened = open_file(str(tmp_path / "field.nc"))
+    shown = Heard(opened)
+    header, buffers = shown.infer(opened.document)
+    assert header["draws"] == {"chains": 2, "count": 6}
+    assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
+    (draw,) = shown.ask(Look("draw", 1, 2))
+    assert np.abs(draw.buffers["p"] / 255.0 - run.map_of(1, 2)).max() < 0.005
+    recording = recording_of(exported(shown, "html")[1].decode())
+    assert recording["draws"]["count"] == 0  # a recording holds walls alone
+    exported(shown, "map")
+    (tmp_path / "again.nc").write_bytes(exported(shown, "run")[1])
+    assert np.array_equal(bm.load(tmp_path / "again.nc").occupancy, run.occupancy)
+
+
 def small_log(path):
     world = bm.worlds.building(0, (12.0, 8.0), 0.25)
     poses = np.array([[6.0, 4.5, 0.1 * i] for i in range(6)])

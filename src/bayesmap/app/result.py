@@ -17,6 +17,7 @@ from bayesmap.app.tasks import Look
 from bayesmap.inference.importance import Particles
 from bayesmap.posterior.diagnostics import bulk_ess
 from bayesmap.posterior.diagnostics import rhat as split_rhat
+from bayesmap.posterior.posterior import Posterior
 from bayesmap.run import Run
 
 LEVELS = 255
@@ -70,14 +71,16 @@ class Result:
 
     def draws(self) -> dict[str, int]:
         """How many maps are kept: {"chains", "count"}."""
+        if self.run is not None:
+            return {"chains": len(self.run.log_joint) if self.run.n_draws else 0, "count": self.run.n_draws}
         packed = self.packed()
         return {"chains": packed.shape[0] if packed.shape[1] else 0, "count": packed.shape[1]}
 
     def packed(self) -> NDArray[np.uint8]:
-        """Kept maps, (chains, count, bytes)."""
+        """Kept maps of walls, (chains, count, bytes); none where a map's cells are numbers."""
         if self.stream is not None:
             return self.stream.packed
-        if self.run is not None:
+        if self.run is not None and isinstance(self.run.posterior, Posterior):
             return self.run.posterior.packed
         return np.zeros((0, 0, 0), dtype=np.uint8)
 
@@ -89,18 +92,15 @@ class Result:
             return self.run.log_joint
         return np.zeros((0, 0))
 
-    def draw(self, look: Look) -> tuple[NDArray[np.bool_], int, int] | None:
-        """One map, its chain and its number; None where this method has none."""
+    def draw(self, look: Look) -> tuple[NDArray[Any], int, int] | None:
+        """One map of walls or of reflectivities, its chain and its number; None where this method has none."""
         if self.stream is not None:
             return self.stream.draw(look.chain, look.draw)
-        packed = self.packed()
-        if packed.shape[1]:
-            from bayesmap.posterior.packing import unpack
-
-            chain = min(look.chain or 0, packed.shape[0] - 1)
-            last = packed.shape[1] - 1
+        if self.run is not None and self.run.n_draws:
+            last = self.run.n_draws - 1
+            chain = min(look.chain or 0, len(self.run.log_joint) - 1)
             number = last if look.draw is None else min(look.draw, last)
-            return unpack(packed[chain, number], self.document.grid.shape), chain, number
+            return self.run.map_of(chain, number), chain, number
         return None
 
     def statistics(self) -> dict[str, Any]:
@@ -135,8 +135,8 @@ class Result:
         }
         one = self.draw(look) if look.layer == "draw" else None
         if one is not None:
-            walls, header["chain"], header["draw"] = one
-            p = walls.astype(np.uint8) * LEVELS
+            drawn, header["chain"], header["draw"] = one
+            p = np.rint(drawn.astype(np.float32) * LEVELS).astype(np.uint8)
         else:
             header["layer"] = "mean" if look.layer == "draw" else look.layer
             p = np.rint(self.mean() * LEVELS).astype(np.uint8)
