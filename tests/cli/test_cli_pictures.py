@@ -35,7 +35,7 @@ def test_demo(tmp_path):
     assert call("demo", "-o", folder).exit_code == 3
 
 
-@pytest.mark.parametrize("what", ["figure", "mean", "entropy", "deviation", "draw", "trace"])
+@pytest.mark.parametrize("what", ["figure", "mean", "entropy", "width", "draw", "trace"])
 def test_render(office, office_run, tmp_path, what):
     target = tmp_path / "picture.png"
     truth = ["--truth", office.with_name("office-truth.yaml")] if what in ("figure", "mean") else []
@@ -48,9 +48,17 @@ def test_render(office, office_run, tmp_path, what):
 
 @pytest.fixture(scope="module")
 def heldout_run(office, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("run") / "heldout"
+    return held_out(office, tmp_path_factory.mktemp("run") / "heldout")
+
+
+@pytest.fixture(scope="module")
+def binary_run(office, tmp_path_factory):
+    return held_out(office, tmp_path_factory.mktemp("run") / "binary", "--cells", "binary")
+
+
+def held_out(office, folder, *options):
     few = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8", "--no-progress")
-    result = call("infer", office, "-o", folder, *few, "--holdout", "3")
+    result = call("infer", office, "-o", folder, *few, "--holdout", "3", *options)
     assert result.exit_code == 0, result.stderr
     return folder
 
@@ -77,6 +85,40 @@ def test_render_what_others_and_unseen_scans_say(office, heldout_run, tmp_path, 
         assert image.size[0] > 400
 
 
+def test_binary_walls_have_no_interval_and_no_surfaces_and_other_cells_have(binary_run, office_run, tmp_path):
+    for what, message in (("width", "a wall is there or not, and has no interval"), ("surfaces", "--cells surface")):
+        refused = call("render", binary_run / "run.nc", "--what", what, "-o", tmp_path / "no.png")
+        assert refused.exit_code == 3
+        assert message in refused.stderr
+        drawn = call("render", office_run / "run.nc", "--what", what, "-o", tmp_path / f"{what}.png")
+        assert drawn.exit_code == 0, drawn.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"width.png", "surfaces.png"}
+    refused = call("render", office_run / "run.nc", "--what", "deviation", "-o", tmp_path / "no.png")
+    assert refused.exit_code == 3
+    assert "--what width" in refused.stderr
+
+
+@pytest.mark.parametrize("what", ["figure", "mean", "deviation", "draw", "animation", "residuals", "log-odds"])
+def test_binary_walls_are_still_drawn(office, binary_run, tmp_path, what):
+    target = tmp_path / ("film.gif" if what == "animation" else "picture.png")
+    heldout = ["--heldout", office, "--holdout", "3"] if what == "residuals" else []
+    result = call("render", binary_run / "run.nc", "--what", what, "-o", target, *heldout)
+    assert result.exit_code == 0, result.stderr
+
+
+def test_layers_of_walls_and_of_surfaces_in_a_geotiff(binary_run, office_run, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    for run, names in ((binary_run, ("mean", "entropy")), (office_run, ("mean", "entropy", "lower", "upper"))):
+        assert call("export", run / "run.nc", "-o", tmp_path / "map.tif", "--force").exit_code == 0
+        with rasterio.open(tmp_path / "map.tif") as file:
+            assert file.descriptions == names
+            layers = file.read()
+        if len(names) == 4:
+            known = ~np.isnan(layers[0])
+            assert (layers[2] <= layers[3])[known].all()
+            assert ((layers[2] <= layers[0]) & (layers[0] <= layers[3]))[known].mean() > 0.9
+
+
 def test_render_animation_and_default_names(office_run, tmp_path):
     copy = tmp_path / "run.nc"
     copy.write_bytes((office_run / "run.nc").read_bytes())
@@ -94,7 +136,6 @@ def test_render_says_what_it_cannot_draw(office_run, tmp_path):
         (["--what", "draw", "--chain", "3"], "this run has chains 1 to 2"),
         (["--what", "animation", "-o", tmp_path / "film.png"], ".gif, .webp"),
         (["-o", tmp_path / "picture.jpg"], ".png, .pdf, .svg"),
-        (["--what", "width"], "a wall is there or not, and has no interval"),
         (["--what", "residuals"], "name their log by --heldout"),
         (["--what", "surprise", "--heldout", tmp_path / "no.log"], "no.log"),
         (["--what", "mean", "--window", "1,2"], "give X0,X1,Y0,Y1 in metres"),
@@ -163,7 +204,7 @@ def test_simulated_truth_is_found_again(office, office_run):
     inside = (i >= 0) & (i < there.shape[0]), (j >= 0) & (j < there.shape[1])
     walls = truth[np.ix_(i[inside[0]], j[inside[1]])] > 0.5
     found = run.occupancy[np.ix_(*inside)]
-    free = found < 0.02
+    free = (found < 0.02) & run.observed[np.ix_(*inside)]  # elsewhere the prior speaks, which may be low too
     assert free.sum() > 300
     assert walls[free].mean() < 0.05
 

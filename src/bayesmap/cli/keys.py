@@ -19,8 +19,8 @@ METHODS = ("gibbs", "block", "propagate", "importance", "exact")
 ORDERS = ("radial", "raster", "random")
 STARTS = ("prior", "zeros", "ones", "propagate")
 PICTURES = (
-    "figure", "mean", "entropy", "width", "deviation", "draw", "residuals", "surprise", "log-odds", "trace", "weights",
-    "animation",
+    "figure", "mean", "entropy", "width", "deviation", "draw", "residuals", "surprise", "log-odds", "surfaces", "trace",
+    "weights", "animation",
 )  # fmt: skip
 EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "geotiff")
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.field_run import FieldRun
 
 if TYPE_CHECKING:
     from bayesmap.run import Run
@@ -15,36 +16,33 @@ if TYPE_CHECKING:
     from bayesmap.world.scans import Scans
 
 Walls = NDArray[np.bool_]
+Draw = NDArray[Any]
+"""Walls, or reflectivities in [0, 1]."""
 
 
-def one_draw(run: Run, chain: int, draw: int) -> Walls:
+def one_draw(run: Run, chain: int, draw: int) -> Draw:
     """A draw by its number and its chain's, from 1; draw -1 is the last.
 
     Raises:
         BadInput: there is no such chain or draw.
     """
-    from bayesmap.posterior.packing import unpack
-
-    chains, draws, _ = run.posterior.packed.shape
+    chains, draws = run.log_joint.shape
     if not 1 <= chain <= chains:
         raise BadInput(f"chain {chain}: this run has chains 1 to {chains}")
     if not (1 <= draw <= draws or -draws <= draw <= -1):
         raise BadInput(
             f"draw {draw}: this run has {draws:,} draws a chain" + (", 1 to that, or -1 for the last" * (draws > 0))
         )
-    return unpack(run.posterior.packed[chain - 1, draw - (draw > 0)], run.grid.shape)
+    return run.map_of(chain - 1, draw - (draw > 0))
 
 
-def frames(run: Run, chain: int, most: int) -> tuple[Walls, list[int]]:
+def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
     """Draws of a chain, evenly spread, and the number of each."""
-    from bayesmap.posterior.packing import unpack
-
     one_draw(run, chain, -1)
-    draws = run.posterior.packed.shape[1]
     if most < 1:
         raise BadInput(f"frames: give 1 or more, got {most}")
-    chosen = np.unique(np.linspace(0, draws - 1, min(most, draws)).round().astype(int))
-    return unpack(run.posterior.packed[chain - 1, chosen], run.grid.shape), [int(i) + 1 for i in chosen]
+    chosen = np.unique(np.linspace(0, run.n_draws - 1, min(most, run.n_draws)).round().astype(int))
+    return np.stack([run.map_of(chain - 1, i) for i in chosen.tolist()]), [int(i) + 1 for i in chosen]
 
 
 def truth_on(grid: Grid, path: str) -> Walls:
@@ -80,13 +78,23 @@ def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
     return window(run.grid, (x0, x1), (y0, y1))
 
 
+def need_walls(run: Run) -> None:
+    """The standard deviation that pictures show is that of a wall.
+
+    Raises:
+        BadInput: cells are reflectivities.
+    """
+    if isinstance(run, FieldRun):
+        raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
+
+
 def interval_width(run: Run) -> NDArray[np.float64]:
     """Upper minus lower bound of the central 90 % interval of each cell, (nx, ny).
 
     Raises:
         BadInput: cells are walls or free, which have no interval.
     """
-    if not hasattr(run, "interval"):
+    if not isinstance(run, FieldRun):
         raise BadInput(
             "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
         )
@@ -130,3 +138,19 @@ def misses(run: Run, scans: Scans, what: str) -> tuple[NDArray[np.float64], NDAr
 
     found = residuals_of(predictor_of(run.posterior), scans)
     return found.ends_world, found.residual_m if what == "residuals" else found.surprise_nats
+
+
+def surfaces(run: Run) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Means, covariances and reflectivities of a run's surfaces.
+
+    Raises:
+        BadInput: its cells have none.
+    """
+    if not isinstance(run, FieldRun):
+        raise BadInput("surfaces: the cells of this run are walls or free; infer with --cells surface")
+    return run.surfaces()
+
+
+def quantity(run: Run) -> str:
+    """What the occupancy of a run's cells is, for colour bars."""
+    return "mean reflectivity" if isinstance(run, FieldRun) else "probability of wall"

@@ -34,10 +34,13 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     \b
     figure                  mean, entropy, readings and one draw
     mean, entropy, draw     one panel
-    deviation, width        of a cell; width is that of its 90 % interval
+    deviation, width        how sure: of a wall's probability the standard
+                            deviation, of a reflectivity the 90 % interval's
+                            width
     residuals, surprise     held-out beams (--heldout LOG) over the map: reading
                             minus predicted median, and minus log score
     log-odds                the posterior beside the classic log-odds map
+    surfaces                a stroke a cell, where its hits lie
     trace, weights          of the log joint; of importance sampling
     animation               of a chain
     """
@@ -49,7 +52,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     what = values["what"]
     target = Path(output) if output else Path(run_file).with_name(NAMES.get(what, f"{what}.png"))
     run = load(run_file)
-    draws = run.posterior.packed.shape[1]
+    draws = run.n_draws
     # Methods that compute marginals have an answer without a draw; chains in their warm-up have none.
     if draws == 0 and (what in ("draw", "animation") or run.posterior.settings["method"] in ("gibbs", "block")):
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
@@ -59,8 +62,10 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     mean, observed = run.occupancy[cut], run.observed[cut]
     walls = None if truth is None else pictures.truth_on(grid, truth)
     draw = pictures.one_draw(run, values["chain"], values["draw"]) if draws else None
+    label = pictures.quantity(run)
     if what == "figure":
-        write_figure(run.plot(truth=walls, **({} if draw is None else {"draw": draw})), target)
+        options = {} if draw is None else {"draw": draw}
+        write_figure(run.plot(truth=walls, label=label, **options), target)
     elif what == "trace":
         from bayesmap.viz.diagnostics import trace_figure
 
@@ -84,16 +89,22 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
         from bayesmap.viz.comparison import Candidate, comparison_figure
 
         other, seen = pictures.log_odds_map(run)
-        both = [Candidate("log-odds", other[cut], seen[cut]), Candidate("posterior mean", mean, observed)]
-        write_figure(comparison_figure(grid, both), target)
+        both = [Candidate("log-odds", other[cut], seen[cut]), Candidate(f"posterior: {label}", mean, observed)]
+        write_figure(comparison_figure(grid, both, label="chance that a beam stops"), target)
+    elif what == "surfaces":
+        from bayesmap.viz.surfaces import surfaces_figure
+
+        write_figure(surfaces_figure(grid, *pictures.surfaces(run), observed), target)
     else:
         from bayesmap.viz.panel import panel_figure
 
         shown: NDArray[Any] = mean
-        if what == "width":
+        if what == "deviation":
+            pictures.need_walls(run)
+        elif what == "width":
             shown = pictures.interval_width(run)[cut]
         elif what == "draw" and draw is not None:
             shown = draw[cut]
-        write_figure(panel_figure(grid, what, shown, observed, truth=walls), target)
+        write_figure(panel_figure(grid, what, shown, observed, truth=walls, label=label), target)
     document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
     call.talk.result(document, [target])

@@ -50,12 +50,12 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu") -> Res
     if not placed(scans).size:
         raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    crossings = trace_crossings(scans, predictor.grid, device=device)
+    crossings, touched = trace_crossings(scans, predictor.grid, device=device).numbered()
     where = crossings.distance_m(predictor.hit_depth)
-    law = mix_stops(crossings, where, predictor.batches(), device=device)
+    law = mix_stops(crossings, where, predictor.batches(touched), device=device)
     median_m = range_quantiles(law, np.array([0.5]), predictor.sensor, limits, device)[:, 0]
     ranges = scans.ranges_m.ravel()
-    found = forecast(crossings, where, predictor.batches(), ranges, predictor.sensor, limits, device=device)
+    found = forecast(crossings, where, predictor.batches(touched), ranges, predictor.sensor, limits, device=device)
     return compare(scans, median_m, found.log_density)
 
 
