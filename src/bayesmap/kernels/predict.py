@@ -28,7 +28,10 @@ from bayesmap.sensor.model import RangeLimits, SensorModel
 wp.set_module_options({"enable_backward": False})
 
 Floats = NDArray[np.float64]
-GONE = wp.constant(wp.float64(1.0e-30))  # a beam less likely than this to get so far is at its end
+# A beam less likely than this to get so far is at its end: under noise alone the unlikely may be all that explains a
+# reading; the mixture has a floor.
+GONE = wp.constant(wp.float64(1.0e-30))
+GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
 
 
 @wp.func
@@ -64,6 +67,7 @@ def add_forecasts(
     nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
     sums = wp.vec2d(most[b], total[b])
     at = clipped(s, z)
+    gone = wp.where(s.robust != 0, GONE_ROBUST, GONE)
     short = short_density(s, z)
     for d in range(draws):
         survive = wp.float64(1.0)
@@ -85,7 +89,7 @@ def add_forecasts(
                     if s.robust != 0:
                         below_max[b] = below_max[b] + weight * cumulative(s, s.max_m, place[1], place[2])
                         below_min[b] = below_min[b] + weight * cumulative(s, s.min_m, place[1], place[2])
-                if survive < GONE:
+                if survive < gone:
                     break
     most[b] = sums[0]
     total[b] = sums[1]

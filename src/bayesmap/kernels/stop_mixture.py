@@ -18,7 +18,7 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
-from bayesmap.kernels.predict import GONE, compiled
+from bayesmap.kernels.predict import compiled
 from bayesmap.kernels.reading_law import cumulative
 from bayesmap.sensor.crossings import Crossings
 from bayesmap.sensor.model import RangeLimits, SensorModel
@@ -28,6 +28,7 @@ wp.set_module_options({"enable_backward": False})
 Floats = NDArray[np.float64]
 HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at most a 30 000th of it
 LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # of an event, and of getting to it
+LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # of a stop that is looked at: a thousand less likely ones add nothing
 MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
 
 
@@ -56,7 +57,7 @@ def add_stops(
                 weight[k] = weight[k] + wp.float32(w)
                 shift[k] = shift[k] + wp.float32(w * away)
                 square[k] = square[k] + wp.float32(w * (away * away + place[2] * place[2]))
-                if survive < GONE:
+                if survive < LEAST_CHANCE:
                     break
         beyond[b] = beyond[b] + survive
 
@@ -128,7 +129,7 @@ def mixture_below(s: SensorParameters, stops: Stops, b: int, range_m: wp.float64
     p = stops.beyond[b] * cumulative(s, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for k in range(stops.offsets[b], stops.offsets[b + 1]):
         weight = wp.float64(stops.weight[k])
-        if weight > wp.float64(0.0):
+        if weight > LEAST_WEIGHT:
             p += weight * cumulative(s, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.spread_m[k]))
     return p
 
