@@ -83,7 +83,8 @@ def read_recording(
     beam_poses = poses_of_rays(source.chain, rays) if deskew and rays.shape[1] > 1 else None
 
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
-    readings = np.array([scan.ranges_m for scan in scans], dtype=np.float64)
+    with np.errstate(invalid="ignore"):  # NaN of the signalling kind
+        readings = np.array([scan.ranges_m for scan in scans], dtype=np.float64)
     judged = judge(name, readings, *limits, no_return=no_return, max_range_m=max_range_m)
     result = Scans(
         at_first, sign * layout.angles_rad(), judged.ranges_m, judged.max_range_m, judged.min_range_m,

@@ -1,0 +1,289 @@
+"""Recordings read back as the scans that were simulated, whoever wrote them."""
+
+import math
+
+import numpy as np
+import pytest
+import recordings as r
+
+import bayesmap as bm
+from bayesmap.io.logs import describe_log, read_log
+
+
+def same(read, wanted, atol=1e-9):
+    np.testing.assert_allclose(read.poses[:, :2], wanted.poses[:, :2], atol=atol)
+    np.testing.assert_allclose(np.sin(read.poses[:, 2] - wanted.poses[:, 2]), 0, atol=atol)
+    np.testing.assert_allclose(np.cos(read.poses[:, 2] - wanted.poses[:, 2]), 1, atol=atol)
+    np.testing.assert_array_equal(read.ranges_m, wanted.ranges_m)
+    np.testing.assert_allclose(read.angles_rad, wanted.angles_rad, atol=1e-6)  # single precision in the messages
+    np.testing.assert_allclose(read.stamps_s, wanted.stamps_s, atol=1e-6)
+    assert (read.min_range_m, read.max_range_m) == (wanted.min_range_m, wanted.max_range_m)
+
+
+@pytest.mark.parametrize("writer", r.WRITERS)
+def test_scans_and_poses_by_tf_are_those_that_were_simulated(tmp_path, writer):
+    messages, scans = r.robot()
+    reading = describe_log(r.written(tmp_path, messages, writer))
+    same(reading.scans, scans)
+    assert reading.notes == ()
+    assert (reading.pose_source, reading.fixed_frame, reading.sensor_frame) == ("/tf", "map", "laser")
+    np.testing.assert_allclose(reading.laser_offset, r.MOUNT, atol=1e-9)
+    assert reading.messages == {"/scan": 10, "/tf": 42, "/tf_static": 1}
+    assert reading.summary()["scan_topic"] == "/scan"
+
+
+@pytest.mark.parametrize("writer", ["rosbag1", "db3", "mcap"])
+def test_scans_and_poses_by_odometry_are_those_that_were_simulated(tmp_path, writer):
+    messages, scans = r.robot(tf_poses=False, odom=True)
+    reading = describe_log(r.written(tmp_path, messages, writer), pose_topic="/odom")
+    same(reading.scans, scans)
+    assert reading.pose_source == "/odom"
+    assert reading.notes == ()
+
+
+def test_the_only_topic_of_poses_is_found_without_being_named(tmp_path):
+    messages, scans = r.robot(tf_poses=False, odom=True)
+    reading = describe_log(r.written(tmp_path, messages))
+    same(reading.scans, scans)
+    assert "poses were taken from /odom, the only topic of poses" in reading.notes[0]
+
+
+@pytest.mark.parametrize("kind", [r.POSE, r.POSE_COV])
+def test_poses_of_a_body_without_a_name_are_taken_as_the_base_s(tmp_path, kind):
+    messages, scans = r.robot(tf_poses=False)
+    for t, pose in zip(r.POSE_TIMES, r.path_of(r.POSE_TIMES), strict=True):
+        told = r.posed(*pose)
+        told = told if kind == r.POSE else {"pose": told, "covariance": [0.0] * 36}
+        messages.append(("/pose", kind, t, {"header": r.header(t, "map"), "pose": told}))
+    reading = describe_log(r.written(tmp_path, messages), pose_topic="pose")
+    same(reading.scans, scans)
+    assert "taken as that of 'base_link'" in reading.notes[0]
+
+
+def test_without_a_transform_the_poses_are_the_sensor_s_and_a_note_says_so(tmp_path):
+    messages, _ = r.robot(tf_poses=False, odom=True, static=False)
+    reading = describe_log(r.written(tmp_path, messages), pose_topic="/odom")
+    np.testing.assert_allclose(reading.scans.poses[:, :2], r.path_of(r.SCAN_TIMES)[:, :2], atol=1e-9)
+    assert any("poses on /odom were taken as the sensor's" in note for note in reading.notes)
+
+
+def test_the_odometry_s_frame_can_be_chosen_and_poses_are_then_in_it(tmp_path):
+    messages, _ = r.robot()
+    scans = read_log(r.written(tmp_path, messages), fixed_frame="/odom")
+    x, y, yaw = r.path_of(r.SCAN_TIMES).T
+    expected = r.on(np.stack([y - 1.0, -x, yaw - math.pi / 2], -1))
+    np.testing.assert_allclose(scans.poses[:, :2], expected[:, :2], atol=1e-9)
+
+
+@pytest.mark.parametrize("writer", ["rosbag1", "mcap"])
+def test_the_posterior_of_a_recording_is_that_of_its_scans(tmp_path, writer):
+    messages, scans = r.robot()
+    read = read_log(r.written(tmp_path, messages, writer))
+    grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
+    options = {"prior": bm.Independent(0.3), "sensor": bm.BeamMixture(bm.Gaussian(0.1)), "chains": 2, "seed": 3}
+    a, b = (bm.infer(s, grid, warmup=10, draws=40, **options) for s in (read, scans))
+    # Angles in single precision differ by up to 1e-7: no draw turns out otherwise.
+    np.testing.assert_array_equal(a.draws, b.draws)
+
+
+def test_readings_mean_what_rep_117_says(tmp_path):
+    special = [math.inf, -math.inf, math.nan, 0.0, 0.05, 43.0, 42.0, 3.0]
+    messages, _ = r.robot()
+    messages = [m for m in messages if m[0] != "/scan"]
+    messages.append(("/scan", r.SCAN, 1.0, r.laser(1.0, special, np.linspace(-1, 1, 8))))
+    scans = read_log(r.written(tmp_path, messages))
+    nan = math.nan
+    np.testing.assert_array_equal(scans.ranges_m[0], [math.inf, -math.inf, nan, nan, nan, math.inf, 42.0, 3.0])
+
+
+def test_a_driver_that_knows_no_infinity_writes_range_max_for_no_return(tmp_path):
+    messages, _ = r.robot()
+    messages = [m for m in messages if m[0] != "/scan"]
+    messages.append(("/scan", r.SCAN, 1.0, r.laser(1.0, [0.0, 42.0, 43.0, 3.0], np.linspace(-1, 1, 4))))
+    file = r.written(tmp_path, messages)
+    np.testing.assert_array_equal(read_log(file).ranges_m[0], [math.nan, math.inf, math.inf, 3.0])
+    np.testing.assert_array_equal(read_log(file, no_return=0).ranges_m[0], [math.inf, 42.0, math.inf, 3.0])
+
+
+@pytest.mark.parametrize("beams", [40, 42])
+def test_readings_counted_off_by_one_are_accepted_with_a_note(tmp_path, beams):
+    messages, scans = r.robot()
+    rows = np.resize(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 2.0), (10, beams))
+    step = r.ANGLES[1] - r.ANGLES[0]
+    messages = [m for m in messages if m[0] != "/scan"]
+    for t, row in zip(r.SCAN_TIMES, rows, strict=True):
+        messages.append(("/scan", r.SCAN, t, r.laser(t, row, r.ANGLES)))
+    reading = describe_log(r.written(tmp_path, messages))
+    np.testing.assert_allclose(reading.scans.angles_rad, r.ANGLES[0] + step * np.arange(beams), atol=1e-6)
+    assert "one beam " + ("more" if beams == 40 else "less") in reading.notes[0]
+
+
+def test_a_scanner_that_turns_clockwise_sees_the_same_world(tmp_path):
+    messages, scans = r.robot()
+    messages = [m for m in messages if m[0] != "/scan"]
+    for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True):
+        messages.append(("/scan", r.SCAN, t, r.laser(t, row[::-1], r.ANGLES[::-1])))
+    read = read_log(r.written(tmp_path, messages))
+    assert (np.diff(read.angles_rad) < 0).all()
+    order = np.argsort(read.angles_rad)
+    np.testing.assert_array_equal(read.ranges_m[:, order], scans.ranges_m)
+
+
+def test_a_scanner_mounted_upside_down_sees_the_same_world(tmp_path):
+    messages, scans = r.robot(static=False)
+    messages = [m for m in messages if m[0] != "/scan"]
+    mount = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi)
+    messages.append(("/tf_static", r.TF, 0.0, r.tf(mount)))
+    for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True):
+        messages.append(("/scan", r.SCAN, t, r.laser(t, row[::-1], r.ANGLES)))  # the angles are symmetric
+    reading = describe_log(r.written(tmp_path, messages))
+    same(reading.scans, bm.Scans(
+        scans.poses, -r.ANGLES, scans.ranges_m[:, ::-1], 42.0, scans.min_range_m, stamps_s=scans.stamps_s
+    ))  # fmt: skip
+    assert "upside down" in reading.notes[-1]
+    a, b = (np.sort(s.hit_points_world(), axis=0) for s in (reading.scans, scans))
+    np.testing.assert_allclose(a, b, atol=1e-4)
+
+
+def test_de_skewing_undoes_the_sensor_s_motion_during_a_scan(tmp_path):
+    ray_s = 0.02  # a scan takes 0.8 s, in which the robot turns by 11 degrees
+    walls, _ = bm.worlds.tutorial()
+    grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
+    times = r.SCAN_TIMES[:8]
+    rays = times[:, None] + ray_s * np.arange(len(r.ANGLES))
+    poses = r.on(r.path_of(rays))
+    flat = poses.reshape(-1, 3) + [0, 0, 1] * np.tile(r.ANGLES, len(times))[:, None]
+    exact = bm.ranges(walls, grid, flat, [0.0], 42.0).reshape(rays.shape)
+    exact[exact == 42.0] = np.inf
+    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
+    for t, row in zip(times, exact, strict=True):
+        messages.append(("/scan", r.SCAN, t, r.laser(t, row, r.ANGLES, ray_s=ray_s)))
+    file = r.written(tmp_path, messages)
+    still, moved = read_log(file), describe_log(file, deskew=True)
+    assert moved.deskewed
+    np.testing.assert_allclose(moved.scans.beam_poses[..., :2], poses[..., :2], atol=5e-3)  # chords of the path's arc
+    np.testing.assert_allclose(moved.scans.beam_poses[:, 0], moved.scans.poses)
+    hit = np.isfinite(exact)
+    directions = np.stack([np.cos(flat[:, 2]), np.sin(flat[:, 2])], -1)[hit.ravel()]
+    truth = poses[hit][:, :2] + exact[hit][:, None] * directions
+    errors = [np.abs(s.hit_points_world() - truth).max() for s in (moved.scans, still)]
+    assert errors[0] < 0.02
+    assert errors[1] > 0.5
+
+
+def test_nothing_to_de_skew_is_said(tmp_path):
+    reading = describe_log(r.written(tmp_path, r.robot()[0]), deskew=True)
+    assert not reading.deskewed
+    assert any("nothing to de-skew" in note for note in reading.notes)
+
+
+def test_a_turn_past_pi_takes_the_shorter_arc(tmp_path):
+    messages = [("/scan", r.SCAN, 0.5, r.laser(0.5, [2.0, 2.0, 2.0], np.array([-1.0, 0.0, 1.0])))]
+    for t, yaw in ((0.0, 3.0), (1.0, -3.0)):
+        messages.append(("/odom", r.ODOM, t, r.odometry(t, 0, 0, yaw, child="laser")))
+    yaw = read_log(r.written(tmp_path, messages)).poses[0, 2]
+    assert abs(abs(yaw) - math.pi) < 1e-9
+
+
+def test_scans_without_a_pose_at_their_time_are_left_out(tmp_path):
+    messages, scans = r.robot()
+    first, last = r.SCAN_TIMES[2], r.SCAN_TIMES[7]
+    messages = [m for m in messages if m[0] != "/tf" or first <= m[2] <= last]
+    reading = describe_log(r.written(tmp_path, messages))
+    poses = [m[2] for m in messages if m[0] == "/tf"]
+    kept = (min(poses) <= r.SCAN_TIMES) & (max(poses) >= r.SCAN_TIMES)
+    assert 0 < kept.sum() < 10
+    np.testing.assert_array_equal(reading.scans.ranges_m, scans.ranges_m[kept])
+    assert f"{(~kept).sum()} scans were left out" in reading.notes[-1]
+
+
+def test_stamps_out_of_order_are_sorted(tmp_path):
+    messages, scans = r.robot()
+    laser = [m for m in messages if m[0] == "/scan"]
+    others = [m for m in messages if m[0] != "/scan"]
+    shuffled = [(a[0], a[1], b[2], a[3]) for a, b in zip(reversed(laser), laser, strict=True)]
+    reading = describe_log(r.written(tmp_path, sorted([*others, *shuffled], key=lambda m: m[2])))
+    same(reading.scans, scans)
+    assert reading.reordered == 9
+    assert "sorted by time" in reading.notes[0]
+
+
+@pytest.mark.parametrize("which", ["/scan", "both"])
+def test_without_stamps_the_times_of_receipt_are_used(tmp_path, which):
+    scans = r.simulated(r.SCAN_TIMES)
+    stamped = None if which == "both" else 0.0
+    messages = []
+    for t, pose in zip(r.POSE_TIMES, r.on(r.path_of(r.POSE_TIMES)), strict=True):
+        messages.append(("/odom", r.ODOM, t, r.odometry(None if stamped is None else t, *pose, child="laser")))
+    for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True):
+        messages.append(("/scan", r.SCAN, t, r.laser(None, row, r.ANGLES)))
+    reading = describe_log(r.written(tmp_path, messages), pose_topic="/odom")
+    np.testing.assert_allclose(reading.scans.stamps_s, scans.stamps_s, atol=1e-6)
+    assert any("no message on /scan says its time" in note for note in reading.notes)
+    assert any("no message on /odom says its time" in note for note in reading.notes) == (which == "both")
+
+
+def test_a_scan_that_is_there_twice_counts_once(tmp_path):
+    messages, _ = r.robot()
+    laser = [m for m in messages if m[0] == "/scan"]
+    other = ("/scan", r.SCAN, laser[3][2], {**laser[3][3], "ranges": [1.0] * 41})
+    reading = describe_log(r.written(tmp_path, sorted([*messages, *laser, other], key=lambda m: m[2])))
+    assert len(reading.scans) == 11
+    assert any("10 scans of /scan are in the recording twice" in note for note in reading.notes)
+    assert any("have the time of another, but other readings" in note for note in reading.notes)
+
+
+def test_poses_that_jump_are_named(tmp_path):
+    messages = []
+    for i in range(20):
+        x = 0.01 * i + (5.0 if i >= 12 else 0.0)
+        messages.append(("/odom", r.ODOM, 0.1 * i, r.odometry(0.1 * i, x, 0, 0, child="laser")))
+        messages.append(("/scan", r.SCAN, 0.1 * i, r.laser(0.1 * i, [1.0, 2.0, 3.0], np.array([-1.0, 0, 1.0]))))
+    reading = describe_log(r.written(tmp_path, messages), pose_topic="/odom")
+    assert len(reading.scans) == 20
+    assert "1 poses jump: the first is that of scan 12" in reading.notes[-1]
+
+
+def test_sonars_are_scans_of_one_beam_and_are_chosen_one_at_a_time(tmp_path):
+    left = r.transform(0.0, "base_link", "left", 0.1, 0.2, math.pi / 2)
+    right = r.transform(0.0, "base_link", "right", 0.1, -0.2, 0.0)
+    messages = [("/tf_static", r.TF, 0.0, r.tf(left, right))]
+    for t in r.POSE_TIMES:
+        messages.append(("/odom", r.ODOM, t, r.odometry(t, t, 0, 0)))
+        messages.append(("/sonar/left", r.RANGE, t, r.sonar(t, 2.0 + t, "left")))
+        messages.append(("/sonar/right", r.RANGE, t, r.sonar(t, 8.0, "right")))
+    file = r.written(tmp_path, messages)
+    with pytest.raises(bm.BadInput, match=r"choose one with --scan-topic: /sonar/left .*, /sonar/right"):
+        read_log(file, pose_topic="/odom")
+    left = read_log(file, scan_topic="/sonar/left", pose_topic="/odom")
+    right = read_log(file, scan_topic="sonar/right", pose_topic="/odom")
+    assert left.ranges_m.shape == right.ranges_m.shape == (21, 1)
+    np.testing.assert_allclose(
+        left.poses,
+        np.stack([r.POSE_TIMES + 0.1, 0 * r.POSE_TIMES + 0.2, 0 * r.POSE_TIMES + math.pi / 2], -1),
+        atol=1e-9,
+    )
+    np.testing.assert_allclose(left.ranges_m[:, 0], 2.0 + r.POSE_TIMES)
+    assert right.counts()["no_return"] == 21
+
+
+def test_scans_are_thinned_by_the_distance_travelled(tmp_path):
+    messages, scans = r.robot()
+    reading = describe_log(r.written(tmp_path, messages), thin_m=0.25)
+    steps = np.hypot(*np.diff(scans.poses[:, :2], axis=0).T)
+    assert 1 < len(reading.scans) < 10
+    assert reading.summary()["scans_read"] == 10
+    travelled = np.concatenate([[0], np.cumsum(steps)])
+    kept = np.searchsorted(scans.stamps_s, reading.scans.stamps_s - 1e-6)
+    assert (np.diff(travelled[kept]) >= 0.25).all()
+
+
+def test_several_files_of_a_recording_that_was_not_ended_are_one(tmp_path):
+    messages, scans = r.robot()
+    folder = tmp_path / "split"
+    folder.mkdir()
+    for i, part in enumerate((messages[:30], messages[30:])):
+        r.written(tmp_path / f"part{i}", part, "mcap").rename(folder / f"split_{i}.mcap")
+    reading = describe_log(folder)
+    same(reading.scans, scans)
+    assert "the folder has no metadata.yaml" in reading.notes[0]

@@ -1,0 +1,243 @@
+"""Recordings that cannot be used: one sentence that says what is there and what to give; nothing else is raised."""
+
+import math
+import shutil
+import sqlite3
+
+import numpy as np
+import pytest
+import recordings as r
+
+import bayesmap as bm
+from bayesmap.io.logs import describe_log, read_log
+
+CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-ros1")
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The same recording in each container."""
+    messages, _ = r.robot(odom=True)
+    folder = tmp_path_factory.mktemp("whole")
+    return {writer: r.written(folder / writer, messages, writer) for writer in CONTAINERS}
+
+
+def refused(path, **options):
+    with pytest.raises(bm.BadInput) as error:
+        read_log(path, **options)
+    assert str(error.value).startswith(str(path))
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def cut(whole, tmp_path, share):
+    content = whole.read_bytes()
+    path = tmp_path / whole.name
+    path.write_bytes(content[: int(len(content) * share)])
+    return path
+
+
+@pytest.mark.parametrize("writer", CONTAINERS)
+def test_a_truncated_recording_is_refused_and_read_as_far_as_it_goes_on_request(whole, tmp_path, writer):
+    path = cut(whole[writer], tmp_path, 0.7)
+    message = refused(path)
+    assert "damaged or cut short" in message
+    assert "--skip-bad-lines" in message
+    try:
+        reading = describe_log(path, skip_bad_lines=True, pose_topic="/odom")
+    except bm.BadInput as problem:
+        # What is left may hold no scan or no poses; then that is said.
+        told = str(problem)
+    else:
+        assert 0 < len(reading.scans) <= 10
+        told = f"{path}: {reading.notes[0]}"
+        assert "could be read" in told
+    assert told.startswith(str(path))
+
+
+@pytest.mark.parametrize("writer", ["rosbag1", "mcap", "mcap-ros1"])
+def test_what_is_left_of_a_truncated_recording_is_what_was_written(whole, tmp_path, writer):
+    _, scans = r.robot()
+    # The index at the end is gone, and a little of the data.
+    content = whole[writer].read_bytes()
+    path = tmp_path / whole[writer].name
+    path.write_bytes(content[: int(len(content) * 0.75)])
+    reading = describe_log(path, skip_bad_lines=True, pose_topic="/odom")
+    kept = len(reading.scans)
+    assert kept > 1
+    np.testing.assert_array_equal(reading.scans.ranges_m, scans.ranges_m[:kept])
+
+
+@pytest.mark.parametrize("skip", [False, True])
+def test_an_unindexed_bag_is_read_on_request(whole, tmp_path, skip):
+    content = bytearray(whole["rosbag1"].read_bytes())
+    at = content.index(b"index_pos=") + len(b"index_pos=")
+    content[at : at + 8] = bytes(8)
+    path = tmp_path / "active.bag"
+    path.write_bytes(content)
+    if skip:
+        assert len(read_log(path, skip_bad_lines=True)) == 10
+    else:
+        assert "not indexed" in refused(path)
+
+
+def test_a_recording_is_known_by_its_content_not_its_name(whole, tmp_path):
+    for writer in CONTAINERS:
+        path = tmp_path / f"{writer}.bin"
+        shutil.copy(whole[writer], path)
+        assert len(read_log(path)) == 10
+
+
+@pytest.mark.parametrize("content", [b"", b"#ROSBAG V2.0\n", b"\x89MCAP0\r\n", b"SQLite format 3\0", b"#ROSBAG V1.2\n"])
+@pytest.mark.parametrize("skip", [False, True])
+def test_empty_recordings_are_refused(tmp_path, content, skip):
+    path = tmp_path / "empty.bag"
+    path.write_bytes(content)
+    refused(path, skip_bad_lines=skip)
+
+
+def test_a_folder_that_is_no_recording_is_refused(tmp_path):
+    assert "metadata.yaml" in refused(tmp_path)
+    (tmp_path / "metadata.yaml").write_text("rosbag2_bagfile_information: [")
+    refused(tmp_path)
+    refused(tmp_path, skip_bad_lines=True)
+
+
+def test_a_missing_topic_is_answered_with_those_that_are_there(whole):
+    message = refused(whole["mcap"], scan_topic="/front/scan")
+    assert "/scan (sensor_msgs/msg/LaserScan, 10 messages)" in message
+    message = refused(whole["mcap"], scan_topic="/odom")
+    assert "it is a topic of nav_msgs/msg/Odometry" in message
+    message = refused(whole["mcap"], pose_topic="/amcl_pose")
+    assert "/odom (nav_msgs/msg/Odometry, 21 messages)" in message
+    assert "/tf (tf2_msgs/msg/TFMessage, 42 messages)" in message
+
+
+def test_a_recording_without_scans_lists_what_it_holds(tmp_path):
+    messages = [m for m in r.robot(odom=True)[0] if m[0] != "/scan"]
+    message = refused(r.written(tmp_path, messages))
+    assert "no topic holds sensor_msgs/msg/LaserScan or sensor_msgs/msg/Range" in message
+    assert "/odom (nav_msgs/msg/Odometry" in message
+
+
+def test_of_two_lasers_one_must_be_chosen(tmp_path):
+    messages, _ = r.robot()
+    rear = [("/rear", m[1], m[2], m[3]) for m in messages if m[0] == "/scan"][:4]
+    path = r.written(tmp_path, sorted([*messages, *rear], key=lambda m: m[2]))
+    message = refused(path)
+    assert "choose one with --scan-topic: /rear (" in message
+    assert "/scan (" in message
+    assert len(read_log(path, scan_topic="/rear")) == 4
+
+
+def test_without_a_chain_of_frames_the_known_ones_are_listed(tmp_path):
+    messages = [m for m in r.robot()[0] if m[0] != "/tf"]
+    message = refused(r.written(tmp_path, messages))
+    assert "known frames: base_link, laser" in message
+    assert "--fixed-frame" in message
+    both = r.robot()[0]
+    path = r.written(tmp_path / "both", both)
+    assert "the frame 'earth' is not known; known frames: base_link, laser, map, odom" in refused(
+        path, fixed_frame="earth"
+    )
+
+
+def test_several_topics_of_poses_are_listed_where_tf_does_not_help(tmp_path):
+    messages, _ = r.robot(tf_poses=False, odom=True)
+    messages += [("/wheels", *m[1:]) for m in messages if m[0] == "/odom"]
+    message = refused(r.written(tmp_path, sorted(messages, key=lambda m: m[2])))
+    assert "choose one with --pose-topic: there are /odom (" in message
+
+
+def test_poses_by_another_clock_are_noticed(tmp_path):
+    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
+    messages.append(("/scan", r.SCAN, 1.0, r.laser(5000.0, [1.0] * 41, r.ANGLES)))
+    assert "are both by the same clock?" in refused(r.written(tmp_path, messages))
+
+
+def replaced(change, which=4):
+    """The robot's messages with one scan changed."""
+    messages, scans = r.robot()
+    at = [i for i, m in enumerate(messages) if m[0] == "/scan"][which]
+    topic, kind, t, message = messages[at]
+    messages[at] = (topic, kind, t, {**message, **change})
+    return messages, scans
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"ranges": []}, "has no readings: its array of ranges is empty"),
+        ({"ranges": [1.0] * 30}, "has 30 readings, but angle_min"),
+        ({"ranges": [1.0] * 30, "angle_max": -2.0 + 29 * 0.1}, "but most scans of /scan have 41 beams"),
+        ({"angle_min": math.nan}, "has angle_min nan"),
+        ({"angle_increment": math.inf}, "angle_increment inf"),
+        ({"header": r.header(None, "laser")}, "does not say its time"),
+        ({"header": r.header(2.0, "other")}, "in frame 'other', but most scans"),
+    ],
+)
+def test_a_scan_that_cannot_be_used_is_named_and_left_out_on_request(tmp_path, change, reason):
+    messages, scans = replaced(change)
+    path = r.written(tmp_path, messages)
+    message = refused(path)
+    assert "message 5 on /scan" in message
+    assert reason in message
+    assert "--skip-bad-lines" in message
+    reading = describe_log(path, skip_bad_lines=True)
+    np.testing.assert_array_equal(reading.scans.ranges_m, np.delete(scans.ranges_m, 4, axis=0))
+    assert [str(skip) for skip in reading.skipped] == ["message 5 on /scan"]
+
+
+@pytest.mark.parametrize(
+    ("pose", "reason"),
+    [
+        ({"position": r.point(math.nan, 0), "orientation": r.quaternion(0.0)}, "has the position (nan, 0, 0)"),
+        ({"position": r.point(0, 0), "orientation": dict.fromkeys("xyzw", 0.0)}, "which is no unit quaternion"),
+    ],
+)
+def test_a_pose_that_is_none_is_named(tmp_path, pose, reason):
+    messages, _ = r.robot(tf_poses=False, odom=True)
+    at = [i for i, m in enumerate(messages) if m[0] == "/odom"][5]
+    topic, kind, t, message = messages[at]
+    messages[at] = (topic, kind, t, {**message, "pose": {**message["pose"], "pose": pose}})
+    path = r.written(tmp_path, messages)
+    message = refused(path, pose_topic="/odom")
+    assert "message 6 on /odom" in message
+    assert reason in message
+    assert len(read_log(path, pose_topic="/odom", skip_bad_lines=True)) == 10
+
+
+def test_a_storm_of_nan_leaves_the_other_scans_and_one_of_all_scans_is_refused(tmp_path):
+    nothing = [math.nan] * 41
+    messages, scans = replaced({"ranges": nothing})
+    read = read_log(r.written(tmp_path / "one", messages))
+    assert np.isnan(read.ranges_m[4]).all()
+    np.testing.assert_array_equal(np.delete(read.ranges_m, 4, 0), np.delete(scans.ranges_m, 4, 0))
+    every = [(*m[:3], {**m[3], "ranges": nothing}) if m[0] == "/scan" else m for m in messages]
+    assert "none of 410 readings in 10 scans is valid" in refused(r.written(tmp_path / "all", every))
+
+
+def test_a_sensor_on_its_side_is_refused(tmp_path):
+    messages, _ = r.robot(static=False)
+    side = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi / 2)
+    path = r.written(tmp_path, [("/tf_static", r.TF, 0.0, r.tf(side)), *messages])
+    assert "is tilted by 90 degrees" in refused(path)
+
+
+def test_topics_mean_nothing_to_a_carmen_log(tmp_path):
+    path = tmp_path / "robot.log"
+    path.write_text("FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n")
+    assert "a carmen file has no topics" in refused(path, scan_topic="/scan")
+
+
+def test_a_damaged_table_of_messages_is_read_as_far_as_it_goes(whole, tmp_path):
+    path = tmp_path / "cut.db3"
+    shutil.copy(whole["db3"], path)
+    with sqlite3.connect(path) as database:
+        database.execute(
+            "UPDATE messages SET data = zeroblob(7) WHERE id = (SELECT messages.id FROM messages JOIN topics "
+            "ON topic_id = topics.id WHERE name = '/scan' LIMIT 1)"
+        )
+    database.close()
+    assert "message 1 on /scan" in refused(path)
+    assert len(describe_log(path, skip_bad_lines=True).skipped) == 1
