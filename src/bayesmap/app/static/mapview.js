@@ -302,6 +302,9 @@ export class Session {
     this.generation = -1;
     this.walls = new Uint8Array(0);
     this.wallsVersion = 0;
+    this.packed = { version: -1, text: "" };
+    /** Whether the walls are ahead of the confirmed ones. */
+    this.ahead = false;
     /** @type {Message | null} the last `state` */
     this.state = null;
     /** @type {{text: string, walls: Uint8Array}} */
@@ -398,7 +401,8 @@ export class Session {
 
   /** @returns {MapDocument | null} */
   effectiveDocument() {
-    return this.document && { ...this.document, walls: toBase64(packBits(this.walls)) };
+    if (this.packed.version !== this.wallsVersion) this.packed = { version: this.wallsVersion, text: toBase64(packBits(this.walls)) };
+    return this.document && { ...this.document, walls: this.packed.text };
   }
 
   /** @param {Message} message @param {Buffers} buffers */
@@ -465,12 +469,16 @@ export class Session {
     if (!this.state) return;
     const document = /** @type {MapDocument} */ (this.state.document);
     const [nx, ny] = document.grid.shape;
-    if (document.walls !== this.confirmedWalls.text || this.confirmedWalls.walls.length !== nx * ny) {
+    const confirmed = this.confirmedWalls;
+    if (document.walls !== confirmed.text || confirmed.walls.length !== nx * ny) {
       this.confirmedWalls = { text: document.walls, walls: unpackBits(fromBase64(document.walls), nx * ny) };
     }
     this.document = { ...document, sensors: document.sensors.map((sensor) => ({ ...sensor })) };
-    this.walls = this.confirmedWalls.walls.slice();
-    this.wallsVersion++;
+    if (this.confirmedWalls !== confirmed || this.ahead) {
+      this.walls = this.confirmedWalls.walls.slice();
+      this.wallsVersion++;
+      this.ahead = false;
+    }
     if (this.state.view && !this.pending.some((edit) => edit.type === "view")) {
       const { layer, chain, draw } = this.state.view;
       this.view = { layer: layer ?? "mean", chain: chain ?? 0, draw: draw ?? null };
@@ -486,6 +494,7 @@ export class Session {
     if (edit.type === "walls") {
       for (const [x, y] of edit.cells) this.walls[x * ny + y] = edit.wall ? 1 : 0;
       this.wallsVersion++;
+      this.ahead = true;
     } else if (edit.type === "set") {
       Object.assign(document, edit.patch);
     } else if (edit.type === "view") {
@@ -588,6 +597,7 @@ export class Painter {
     this.mask = document.createElement("canvas").getContext("2d");
     this.hatch = document.createElement("canvas").getContext("2d");
     this.drawn = { field: /** @type {Field | null} */ (null), bits: /** @type {Uint8Array | null} */ (null), palette: "", hatch: "", walls: -1 };
+    this.image = new ImageData(1, 1);
     this.edges = new Path2D();
     /** @type {Map<string, Uint32Array>} */
     this.palettes = new Map();
@@ -697,20 +707,21 @@ export class Painter {
     if (drawn.field !== field || drawn.palette !== name) {
       const palette = this.palettes.get(name) ?? paletteOf(theme, entropy);
       this.palettes.set(name, palette);
-      const image = new ImageData(nx, ny);
+      if (this.image.width !== nx || this.image.height !== ny) this.image = new ImageData(nx, ny);
+      const { image } = this;
       const pixels = new Uint32Array(image.data.buffer);
       for (let row = 0, k = 0; row < ny; row++) {
         for (let i = ny - 1 - row; i < nx * ny; i += ny) pixels[k++] = palette[field.p[i] + (field.observed[i] ? 0 : 256)];
       }
-      cells.canvas.width = nx;
-      cells.canvas.height = ny;
+      put(cells.canvas, "width", nx);
+      put(cells.canvas, "height", ny);
       cells.putImageData(image, 0, 0);
       if (drawn.bits !== field.bits) {
         for (let row = 0, k = 0; row < ny; row++) {
           for (let i = ny - 1 - row; i < nx * ny; i += ny) pixels[k++] = field.observed[i] ? 0 : 0xff000000;
         }
-        mask.canvas.width = nx;
-        mask.canvas.height = ny;
+        put(mask.canvas, "width", nx);
+        put(mask.canvas, "height", ny);
         mask.putImageData(image, 0, 0);
         drawn.hatch = "";
       }
@@ -740,10 +751,8 @@ export class Painter {
         pen.lineTo(shift + size + 1, -1);
       }
       pen.stroke();
-      if (hatch.canvas.width !== canvas.width || hatch.canvas.height !== canvas.height) {
-        hatch.canvas.width = canvas.width;
-        hatch.canvas.height = canvas.height;
-      }
+      put(hatch.canvas, "width", canvas.width);
+      put(hatch.canvas, "height", canvas.height);
       hatch.setTransform(ratio, 0, 0, ratio, 0, 0);
       hatch.imageSmoothingEnabled = false;
       hatch.globalCompositeOperation = "copy";
@@ -815,7 +824,9 @@ export class Painter {
       const from = this.fromGrid({ x: (px - origin[0]) / resolution, y: (py - origin[1]) / resolution }, ny);
       for (let b = 0; b < beams; b++) {
         const range = scan.ranges[s * beams + b];
-        const hit = Number.isFinite(range) && range < document.max_range;
+        // a simulated beam that met nothing reads the longest range, give or take the noise
+        const met = scan.exact.length ? scan.exact[s * beams + b] : range;
+        const hit = Number.isFinite(range) && met < document.max_range;
         const length = ((hit ? range : document.max_range) / resolution) * scale;
         const angle = scan.angles[b] + yaw;
         const to = { x: from.x + length * Math.cos(angle), y: from.y - length * Math.sin(angle) };
@@ -1259,6 +1270,7 @@ class Hand {
   dragSensor(event) {
     const { gesture, session } = this;
     if (gesture?.kind !== "sensor") return;
+    this.point(null);
     const sensor = session.document?.sensors.find((candidate) => candidate.id === gesture.id);
     const point = this.at(event);
     if (!sensor) return;
@@ -1455,8 +1467,8 @@ function put(target, name, value) {
   if (target[name] !== value) target[name] = value;
 }
 
-/** @param {number | null | undefined} value @param {number} digits */
-const number = (value, digits) => (value == null || !Number.isFinite(value) ? "\u2013" : value.toFixed(digits));
+/** @param {number | null | undefined} value @param {number} digits @param {string} [unit] */
+const number = (value, digits, unit = "") => (value == null || !Number.isFinite(value) ? "\u2013" : value.toFixed(digits) + unit);
 
 const METHODS = {
   gibbs: "Gibbs, cell by cell",
@@ -1464,7 +1476,7 @@ const METHODS = {
   propagate: "Belief propagation",
   importance: "Importance sampling",
 };
-const ORDERS = { raster: "raster", radial: "radial, from the sensor", random: "random" };
+const ORDERS = { raster: "raster", radial: "radial", random: "random" };
 const KEYS = [
   ["D, E, S, P", "draw, erase, sensor, pan"],
   ["arrows", "move the cursor, the sensor or the view; with Shift by five cells"],
@@ -1840,7 +1852,7 @@ class Controls {
       ["ESS", "Effective sample size of the log joint", (field) => number(field.ess, 0)],
       ["R-hat", "Agreement of the chains on the log joint; 1 is full", (field) => number(field.rhat, 3)],
       ["log joint", "Log of prior times likelihood at the last sweep", (field) => number(field.log_joint, 1)],
-      ["update", "Time of the last update in the worker", (field) => (field.milliseconds == null ? "\u2013" : `${number(field.milliseconds, 1)} ms`)],
+      ["reply", "From the hand's last move to its picture", () => number(session.events.eventToPaint_ms.at(-1), 0, " ms")],
     ])) {
       const value = h("dd", { textContent: "\u2013" });
       values.append(h("div", { title }, h("dt", { textContent: label }), value));
@@ -1919,10 +1931,12 @@ class Controls {
       play.setAttribute("aria-label", label);
       play.replaceChildren(icon(this.playing ? "pause" : "play"));
     });
+    const truth = this.checkbox("True walls", () => this.show.truth, (on) => this.mark("truth", on));
+    this.each(() => put(truth, "hidden", Boolean(session.document) && session.document?.source.kind !== "simulation"));
     const marks = h(
       "div",
       { className: "checks", role: "group", "aria-label": "Marks" },
-      this.checkbox("True walls", () => this.show.truth, (on) => this.mark("truth", on)),
+      truth,
       this.checkbox("Rays", () => this.show.rays, (on) => this.mark("rays", on)),
       this.checkbox("Readings", () => this.show.readings, (on) => this.mark("readings", on)),
     );
@@ -1973,7 +1987,7 @@ class Controls {
     const slider = h("input", { type: "range", min: 0, step: 1, "aria-label": "Scan number" });
     const count = h("output");
     slider.addEventListener("input", () => session.act({ type: "scan", index: Number(slider.value) }));
-    const section = this.section("Scan", h("div", { className: "player" }, slider, count));
+    const section = this.section("Scan", h("div", { className: "player bare" }, slider, count));
     this.each(() => {
       const scans = session.document?.source.kind === "simulation" ? 0 : (session.document?.source.scans ?? 0);
       put(section, "hidden", scans < 2);
@@ -2241,6 +2255,7 @@ dd { font-weight: 600; white-space: nowrap; }
 .trace polyline { fill: none; stroke: var(--accent); stroke-width: 1.5; vector-effect: non-scaling-stroke; }
 .player { display: grid; grid-template-columns: auto 1fr auto; align-items: center; gap: 6px 10px; }
 .player select { grid-column: 2 / -1; }
+.player.bare { grid-template-columns: 1fr auto; }
 section .player button { width: 32px; padding: 0; }
 output { min-width: 84px; text-align: right; font-size: 12.5px; color: var(--soft); }
 footer { grid-area: foot; display: flex; gap: 6px 24px; justify-content: space-between; padding: 5px 16px 6px; border-top: 1px solid var(--line); background: var(--card); font-size: 12.5px; min-height: 30px; }
@@ -2732,6 +2747,9 @@ export default {
 async function start() {
   const host = /** @type {HTMLElement | null} */ (document.querySelector("[data-bayesmap]"));
   if (!host || host.shadowRoot) return;
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync("body { margin: 0; }");
+  document.adoptedStyleSheets.push(sheet);
   const recording = document.querySelector("script[data-recording]");
   if (recording) {
     expose(mount(host, recordedTransport(JSON.parse(recording.textContent ?? ""))));

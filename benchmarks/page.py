@@ -1,0 +1,199 @@
+"""How fast the page answers, measured in headless Chromium against a real server: `python -m benchmarks.page`.
+
+Prints one line a figure. Nothing is asserted; a noisy machine gives noisy figures, so each says how it was taken.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]
+EVENTS_PER_SECOND = 30.0
+
+
+@contextlib.contextmanager
+def served() -> Iterator[str]:
+    command = [sys.executable, "-m", "bayesmap", "app", "--no-browser", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield process.stdout.readline().strip()
+        finally:
+            process.terminate()
+
+
+def until(page: Any, condition: str) -> None:
+    while not page.evaluate(f"() => {{ const s = window.bayesmap?.snapshot(); return Boolean(s && ({condition})); }}"):
+        page.wait_for_timeout(5)
+
+
+def timed(page: Any, click: str, condition: str) -> float:
+    """Milliseconds in the page from a click on a button to the frame in which a condition holds."""
+    return float(
+        page.evaluate(
+            f"""() => new Promise((done) => {{
+              const root = document.querySelector("[data-bayesmap]").shadowRoot;
+              const button = [...root.querySelectorAll("button")].find((b) => b.textContent === "{click}");
+              const start = performance.now();
+              const look = () => {{
+                const s = bayesmap.snapshot();
+                if ({condition}) done(performance.now() - start);
+                else requestAnimationFrame(look);
+              }};
+              button.click();
+              look();
+            }})"""
+        )
+    )
+
+
+def tell(name: str, value: str) -> None:
+    print(f"{name:<58} {value}", flush=True)
+
+
+def spread(values: Any) -> str:
+    found = np.asarray(values)
+    if found.size == 0:
+        return "none"
+    return f"median {np.median(found):.0f} ms, p95 {np.percentile(found, 95):.0f} ms, worst {found.max():.0f} ms"
+
+
+def first_paint(browser: Any, url: str) -> None:
+    times = []
+    for _ in range(5):
+        context = browser.new_context(viewport={"width": 1280, "height": 860})
+        page = context.new_page()
+        page.add_init_script(
+            """const look = () => { if (window.bayesmap?.snapshot().painted) window.first = performance.now();
+               else requestAnimationFrame(look); }; look();"""
+        )
+        page.goto(url)
+        until(page, "window.first")
+        times.append(page.evaluate("window.first"))
+        context.close()
+    tell("first posterior painted, from navigation (5 times)", spread(times))
+
+
+def drag(page: Any, seconds: float, name: str) -> None:
+    """Drags the robot to and fro about where it stands, at 30 pointer events a second of the page's own clock."""
+    until(page, "s.painted?.generation === s.generation")
+    page.evaluate("bayesmap.snapshot().events.eventToPaint_ms.length = 0")
+    found = page.evaluate(
+        """([seconds, rate]) => new Promise((done) => {
+          const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas");
+          const s = bayesmap.snapshot();
+          const { resolution, origin } = s.document.grid;
+          const robot = s.sensors[0];
+          const half = (v, axis) => (v - origin[axis]) / resolution - 0.5;
+          const at = bayesmap.cellToClient(half(robot.x, 0), half(robot.y, 1));
+          const reach = 1.5 * s.transform.scale * Math.max(1, s.document.grid.shape[0] / 60);
+          const say = (type, x, y) => canvas.dispatchEvent(new PointerEvent(type,
+            { clientX: x, clientY: y, pointerId: 1, bubbles: true, pointerType: "mouse" }));
+          canvas.setPointerCapture = () => {};
+          const generations = new Set();
+          let sent = 0, stop = false;
+          const look = () => {
+            generations.add(bayesmap.snapshot().painted.generation);
+            if (!stop) requestAnimationFrame(look);
+          };
+          say("pointerdown", at.x, at.y);
+          const start = performance.now();
+          look();
+          const timer = setInterval(() => {
+            const t = (performance.now() - start) / 1000;
+            if (t > seconds) {
+              clearInterval(timer);
+              stop = true;
+              say("pointerup", at.x, at.y);
+              const painted = generations.size - 1;
+              const times = () => [...bayesmap.snapshot().events.eventToPaint_ms];
+              setTimeout(() => done({ painted, sent, seconds: t, times: times() }), 600);
+              return;
+            }
+            sent++;
+            say("pointermove", at.x + reach * Math.sin(2 * t), at.y + reach * Math.sin(3 * t) / 2);
+          }, 1000 / rate);
+        })""",
+        [seconds, EVENTS_PER_SECOND],
+    )
+    painted, sent = found["painted"] / found["seconds"], found["sent"] / found["seconds"]
+    rate = f"{painted:.1f} posteriors/s painted of {sent:.1f} events/s"
+    tell(f"{name}: drag for {seconds:.0f} s", rate)
+    tell(f"{name}: event to paint", f"{spread(found['times'])} ({len(found['times'])} events)")
+
+
+def large(page: Any) -> None:
+    page.get_by_role("button", name="New map").click()
+    page.get_by_label("World").select_option("building")
+    page.get_by_label("Width").fill("500")
+    page.get_by_label("Height").fill("500")
+    page.get_by_role("button", name="Create").click()
+    until(page, "s.document.grid.shape[0] === 500 && s.painted?.generation === s.generation")
+    page.wait_for_timeout(1500)
+
+
+def export_size(page: Any) -> None:
+    timed(page, "Run", "!s.running && s.draws.count === 1000 && s.seq.confirmed === s.seq.sent")
+    page.get_by_role("button", name="Export").click()
+    with page.expect_download() as waiting, tempfile.TemporaryDirectory() as folder:
+        page.get_by_role("button", name="Page with its draws").click()
+        file = Path(folder, "page.html")
+        waiting.value.save_as(file)
+        counts = re.search(r'"draws": ?\{[^}]*?"chains": ?(\d+)[^}]*?"count": ?(\d+)', file.read_text())
+        draws = "" if counts is None else f" with {int(counts[1]) * int(counts[2])} draws"
+        tell(f"exported page{draws}", f"{file.stat().st_size / 1000:.0f} kB")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=6.0, help="of every drag")
+    options = parser.parse_args()
+    from playwright.sync_api import sync_playwright
+
+    tell("load average before", " ".join(f"{load:.1f}" for load in os.getloadavg()) + f" on {os.cpu_count()} cores")
+    with served() as url, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGUMENTS)
+        first_paint(browser, url)
+        page = browser.new_page(viewport={"width": 1280, "height": 860})
+        page.goto(url)
+        until(page, "s.painted?.sweeps === 1000")
+        drag(page, options.seconds, "21 x 21, 100 beams")
+        page.wait_for_timeout(500)
+        kept = (
+            "s.generation === s.painted.generation && !s.running && s.painted.sweeps === 1000 && s.draws.count === 1000"
+        )
+        times = []
+        for _ in range(7):
+            before = page.evaluate("bayesmap.snapshot().generation")
+            times += [timed(page, "Run", f"{kept} && s.generation > {before}")]
+        tell("1000 Gibbs sweeps, two chains: click to last picture", spread(times))
+        export_size(page)
+        large(page)
+        drag(page, options.seconds, "500 x 500, 100 beams")
+        page.get_by_role("spinbutton", name="Sweeps").fill("100000")
+        page.get_by_role("spinbutton", name="Sweeps").press("Tab")
+        times = []
+        for _ in range(5):
+            page.get_by_role("button", name="Run", exact=True).click()
+            until(page, "s.running && !s.painted.approximate && s.painted.sweeps > 0")
+            times.append(timed(page, "Cancel", "!s.running"))
+        tell("500 x 500: cancel, click to the kept chain", spread(times))
+        browser.close()
+    time.sleep(0.1)
+
+
+if __name__ == "__main__":
+    main()
