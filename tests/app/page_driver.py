@@ -79,7 +79,7 @@ def snapshot(page):
     found = page.evaluate(READ)
     shape = found["document"]["grid"]["shape"]
     for name in ("probability", "observed", "walls"):
-        found[name] = np.frombuffer(base64.b64decode(found[name]), dtype=np.uint8).reshape(shape)
+        found[name] = np.frombuffer(base64.b64decode(found[name]), dtype=np.uint8).reshape(shape).astype(int)
     for name, values in (found["scan"] or {}).items():
         if isinstance(values, list):
             numbers = [value.replace("Infinity", "inf") if isinstance(value, str) else value for value in values]

@@ -281,7 +281,7 @@ const gradient = (color) =>
 const LIMITS = { cells: [2, 500], sensors: 32, angles: [10, 1000], noise: [0, 5], sweeps: [1, 100000] };
 
 /** Messages whose effect the page shows before they are confirmed. */
-const FORESEEN = new Set(["walls", "sensor", "set", "view"]);
+const FORESEEN = new Set(["walls", "sensor", "set", "view", "live"]);
 
 /** What the page knows. It changes by `receive` and `act`, and calls `changed` after. */
 export class Session {
@@ -497,6 +497,8 @@ export class Session {
       this.ahead = true;
     } else if (edit.type === "set") {
       Object.assign(document, edit.patch);
+    } else if (edit.type === "live") {
+      this.state = { .../** @type {Message} */ (this.state), live: edit.on };
     } else if (edit.type === "view") {
       this.view = { layer: edit.layer, chain: edit.chain ?? this.view.chain, draw: edit.draw ?? null };
     } else if (edit.type === "sensor" && edit.op === "move") {
