@@ -1,0 +1,151 @@
+"""The compiled density of readings given cells that stop some beams, and the prior's, equal the plain reference."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
+from oracle.field_worlds import Worlds, centres_of, draw_worlds
+
+import bayesmap as bm
+from bayesmap.inference.field_gibbs import build_field
+from bayesmap.kernels.field_score import FieldScore
+from bayesmap.kernels.rays import trace_rays
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
+SHARP = bm.BeamMixture(bm.Gaussian(0.004, 0.001), p_random=0.01, p_no_return=0.0, p_short=0.02)
+LONE = bm.Grid((5, 2), 0.4)
+PRIORS = {
+    "reflectivities": bm.Beta(0.8, 1.5),
+    "reflectivities by default": bm.Beta(),
+    "surfaces": bm.Surface(0.8, 1.5),
+    "thin surfaces": bm.Surface(0.8, 1.5, wander=0.6, spread=0.05, dof=4.0),
+    "surfaces by default": bm.Surface(),
+}
+# Single precision: a density is off by 1e-6 of itself, more where a surface is seen edge on.
+CLOSE = {"rtol": 3e-4, "atol": 3e-4}
+
+
+def kernel_log_likelihoods(worlds, truth):
+    """Of every beam under the given states, as a sweep works them out on the way."""
+    sampler = worlds.sampler(1, truth)
+    total, prior = sampler.sweep(0, worlds.problem.sensor, worlds.problem.prior)
+    return sampler._chains._fields[0].log_likelihood.numpy(), total[0], prior[0]
+
+
+@pytest.mark.parametrize("sensor", [SENSOR, SHARP], ids=["blunt", "sharp"])
+@pytest.mark.parametrize("name", PRIORS)
+def test_a_sweep_s_log_likelihood_is_the_reference_s(name, sensor):
+    prior = PRIORS[name]
+    worlds, truth = draw_worlds([7, len(name)], LONE, prior, sensor, 300, poses=2, beams=6)
+    paths = paths_of(worlds.problem.rays)
+    assert paths.far.sum() > 50
+    mine, total, _ = kernel_log_likelihoods(worlds, truth)
+    expected = log_likelihoods(paths, truth.astype(np.float32).astype(float), sensor, isinstance(prior, bm.Beta))
+    np.testing.assert_allclose(mine, expected, **CLOSE)
+    assert total == pytest.approx(expected.sum(), rel=1e-4)
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_a_score_s_density_is_the_reference_s_with_the_likelihood_of_every_entry(name):
+    prior = PRIORS[name]
+    plain = isinstance(prior, bm.Beta)
+    worlds, _ = draw_worlds([8, len(name)], LONE, prior, SENSOR, 100, poses=2, beams=6)
+    rays = worlds.problem.rays
+    score = FieldScore(replace(rays, near=rays.offsets[:-1]), SENSOR.kernel_parameters(), plain=plain)
+    paths = paths_of(rays, far=False)
+    rng, mean = np.random.default_rng(9), 0.0
+    for _ in range(5):
+        states = draw_states(rng, prior, centres_of(rays)).astype(np.float32)
+        score.add(states)
+        mean = mean + np.exp(log_likelihoods(paths, states.astype(float), SENSOR, plain)) / 5
+    np.testing.assert_allclose(score.log_mean_density(), np.log(mean), **CLOSE)
+
+
+@pytest.mark.parametrize("name", ["surfaces", "surfaces by default", "reflectivities by default"])
+def test_stops_far_from_the_reading_that_count_as_random_readings_hardly_matter(name):
+    """Readings of prior surfaces, whose spread has heavy tails, with the shortcut and with every entry's own law: the
+    shortcut costs less than 0.005 nats a beam, and nothing where cells are plain.
+    """
+    prior = PRIORS[name]
+    plain = isinstance(prior, bm.Beta)
+    grid = bm.Grid((24, 2), 0.1)
+    sensor = bm.BeamMixture(bm.Gaussian(0.02, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
+    rng = np.random.default_rng(10)
+    poses = np.column_stack([np.full(400, -0.05), rng.uniform(0.02, 0.18, 400), np.zeros(400)])
+    scans = bm.Scans(poses, [-0.03, 0.0, 0.03], np.ones((400, 3)), max_range_m=2.6)
+    whole = trace_rays(scans, grid, margin_m=np.inf, whole=True)
+    lost, far = [], 0
+    for _ in range(5):
+        states = draw_states(rng, prior, centres_of(whole))
+        readings = draw_readings(rng, paths_of(whole, far=False), states, sensor, plain)
+        rays = build_field(replace(scans, ranges_m=readings.reshape(400, 3)), grid, prior, sensor).rays
+        np.testing.assert_array_equal(rays.touched, whole.touched)
+        short, full = paths_of(rays), paths_of(replace(whole, range_m=readings), far=False)
+        lost.append(log_likelihoods(full, states, sensor, plain) - log_likelihoods(short, states, sensor, plain))
+        far += short.far.sum()
+    assert far > 1000
+    assert np.mean(np.abs(lost)) < (1e-9 if plain else 5e-3)
+
+
+@pytest.mark.parametrize("name", ["reflectivities", "surfaces"])
+def test_the_compiled_law_of_readings_adds_up_to_one(name):
+    prior = PRIORS[name]
+    plain = isinstance(prior, bm.Beta)
+    z = np.append(np.linspace(0.1, 3.0, 8001), [np.inf, -np.inf])
+    scans = bm.Scans(np.tile([-0.3, 0.33, 0.1], (len(z), 1)), [0.0], z[:, None], max_range_m=3.0, min_range_m=0.1)
+    rays = trace_rays(scans, LONE, margin_m=0.0, whole=True)
+    rays = replace(rays, near=rays.offsets[:-1])
+    for seed in range(4):
+        score = FieldScore(rays, SENSOR.kernel_parameters(), plain=plain)
+        score.add(draw_states(np.random.default_rng(seed), prior, centres_of(rays)).astype(np.float32))
+        p = np.exp(score.log_mean_density())
+        assert np.trapezoid(p[:-2], z[:-2]) + p[-2:].sum() == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_the_log_prior_is_the_reference_s_but_for_its_constant(name):
+    """The constant depends on the prior alone: sums over the same cells differ by the same number in all states."""
+    prior = PRIORS[name]
+    worlds, _ = draw_worlds([11, 0], bm.Grid((2, 2), 0.4), prior, SENSOR, 4, poses=1, beams=3)
+    rng, centres = np.random.default_rng(12), centres_of(worlds.problem.rays)
+    off = []
+    for _ in range(20):
+        state = draw_states(rng, prior, centres).astype(np.float32)
+        state[:, 0] = np.clip(state[:, 0], 1e-25, 1 - 1e-6)
+        _, _, mine = kernel_log_likelihoods(worlds, state)
+        off.append(mine - log_prior(prior, state.astype(float), centres).sum())
+    assert np.ptp(off) < 1e-3 * (1 + abs(np.mean(off)))
+
+
+@pytest.mark.parametrize("plain", [True, False])
+def test_nothing_is_impossible_but_no_density_is_nan(plain):
+    """Cells that stop everything, or nothing, and readings that such cells cannot give."""
+    prior = bm.Beta(1, 1) if plain else bm.Surface(1, 1)
+    sensor = bm.BeamMixture(bm.Gaussian(0.01), p_random=1e-3, p_no_return=0.0, p_short=0.0)
+    readings = np.array([[0.9, np.inf, -np.inf, np.nan, 0.0, 3.0]])
+    scans = bm.Scans([-0.3, 0.3, 0.0], np.linspace(-0.2, 0.2, 6), readings, max_range_m=3.0)
+    problem = build_field(scans, LONE, prior, sensor)
+    for m in (0.0, 1.0, 1e-30, 1 - 1e-7):
+        states = np.zeros((problem.rays.n_cells, 6))
+        states[:, 0], states[:, 3], states[:, 5] = m, 0.1, 0.1
+        states[:, 1:3] = problem.rays.centres_m()
+        worlds = Worlds(problem, LONE.shape, 1)
+        sampler = worlds.sampler(1, states)
+        for sweep in range(4):
+            log_likelihood, _ = sampler.sweep(sweep, sensor, prior)
+            assert np.isfinite(log_likelihood).all()
+            hits, met = sampler.counts()
+            assert hits.min() >= 0
+            assert max(hits.max(), met.max()) <= 5
+        score = FieldScore(problem.rays, sensor.kernel_parameters(), plain=plain)
+        score.add(states.astype(np.float32))
+        assert np.isfinite(score.log_mean_density()).all()
+
+
+def test_paths_hold_what_rays_hold():
+    worlds, _ = draw_worlds(13, LONE, bm.Beta(1, 1), SENSOR, 3)
+    rays, paths = worlds.problem.rays, paths_of(worlds.problem.rays)
+    assert isinstance(paths, Paths)
+    np.testing.assert_array_equal(paths.cell[paths.there], rays.cells)
+    np.testing.assert_allclose(paths.plain_m[paths.there], rays.distance_m)

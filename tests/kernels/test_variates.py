@@ -1,0 +1,154 @@
+"""Random variates and prior surfaces against scipy's laws, by Kolmogorov-Smirnov.
+
+False alarms: `ALPHA` = 1e-4 over this module.
+"""
+
+import numpy as np
+import pytest
+import warp as wp
+from oracle.verdict import ALPHA
+from scipy import stats
+
+import bayesmap as bm
+from bayesmap.kernels.cell_draws import CellPrior, fresh_surface
+from bayesmap.kernels.meeting import Cell
+from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
+from bayesmap.posterior.field import fresh_surfaces
+
+COUNT = 100_000
+SPACING = 1024
+SHAPES = (0.01, 0.1, 0.5, 0.999, 1.0, 2.5, 100.0)
+BETAS = ((0.02, 0.2), (0.02, 40.2), (0.5, 0.5), (1.0, 1.0), (3.5, 0.2), (200.0, 3000.0))
+CASES = 40  # tests of a law below, at most
+KEY = wp.uint64(0x123456789ABCDEF)
+
+
+@wp.kernel
+def draw_normal(key: wp.uint64, out: wp.array(dtype=wp.float64)):
+    i = wp.tid()
+    out[i] = normal(key, wp.uint64(i) * wp.uint64(SPACING))
+
+
+@wp.kernel
+def draw_log_gamma(key: wp.uint64, shape: wp.float64, out: wp.array(dtype=wp.float64)):
+    i = wp.tid()
+    out[i] = log_gamma_variate(shape, key, wp.uint64(i) * wp.uint64(SPACING))
+
+
+@wp.kernel
+def draw_beta(key: wp.uint64, a: wp.float64, b: wp.float64, out: wp.array(dtype=wp.float64)):
+    i = wp.tid()
+    out[i] = beta_variate(a, b, key, wp.uint64(i) * wp.uint64(SPACING))
+
+
+@wp.kernel
+def draw_surface(prior: CellPrior, key: wp.uint64, out: wp.array(dtype=Cell)):
+    i = wp.tid()
+    out[i] = fresh_surface(prior, wp.vec2(1.5, 2.5), Cell(), key, wp.uint64(i) * wp.uint64(SPACING))
+
+
+def drawn(kernel, *numbers):
+    out = wp.zeros(COUNT, dtype=wp.float64, device="cpu")
+    wp.launch(kernel, dim=COUNT, inputs=[KEY, *numbers, out], device="cpu")
+    return out.numpy()
+
+
+def follows(sample, cdf):
+    return stats.kstest(sample, cdf).pvalue > ALPHA / CASES
+
+
+def test_normal_variates():
+    assert follows(drawn(draw_normal), stats.norm.cdf)
+    assert not follows(1.04 * drawn(draw_normal), stats.norm.cdf)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_logarithms_of_gamma_variates(shape):
+    sample = drawn(draw_log_gamma, shape)
+    assert np.isfinite(sample).all()
+    assert follows(sample, stats.loggamma(shape).cdf)
+    assert not follows(sample, stats.loggamma(shape * 1.03).cdf)
+
+
+@pytest.mark.parametrize(("a", "b"), BETAS)
+def test_beta_variates(a, b):
+    sample = drawn(draw_beta, a, b)
+    assert ((sample >= 0) & (sample <= 1)).all()
+    # What underflows, or rounds to one, is compared as a share.
+    inner = (1e-280, 1 - 1e-15)
+    law = stats.beta(a, b)
+    for end, p in ((sample < inner[0], law.cdf(inner[0])), (sample > inner[1], law.sf(inner[1]))):
+        assert stats.binomtest(int(end.sum()), COUNT, min(p, 1.0)).pvalue > ALPHA / CASES
+    inside = sample[(sample >= inner[0]) & (sample <= inner[1])]
+    low, high = law.cdf(inner)
+    assert follows((law.cdf(inside) - low) / (high - low), stats.uniform.cdf)
+
+
+def test_the_counters_of_one_variate_do_not_meet_those_of_the_next():
+    """A gamma variate reads fewer counters than are set aside: neighbours at that distance are independent."""
+    logs = drawn(draw_log_gamma, 0.7)
+    at = wp.zeros(COUNT, dtype=wp.float64, device="cpu")
+    wp.launch(draw_next_log_gamma, dim=COUNT, inputs=[KEY, wp.float64(0.7), at], device="cpu")
+    assert abs(np.corrcoef(stats.rankdata(logs), stats.rankdata(at.numpy()))[0, 1]) < 4.5 / np.sqrt(COUNT)
+
+
+@wp.kernel
+def draw_next_log_gamma(key: wp.uint64, shape: wp.float64, out: wp.array(dtype=wp.float64)):
+    i = wp.tid()
+    out[i] = log_gamma_variate(shape, key, wp.uint64(i) * wp.uint64(SPACING) + wp.uint64(PER_GAMMA))
+
+
+def surface_functions(surfaces):
+    """Coordinates and some of their combinations, by name; surfaces (N, 5)."""
+    x, y, l11, l21, l22 = np.asarray(surfaces, dtype=float).T
+    return {
+        "x": x,
+        "y": y,
+        "log l11": np.log(l11),
+        "l21": l21,
+        "log l22": np.log(l22),
+        "correlation": l21 / np.hypot(l21, l22),
+        "area": np.log(l11 * l22),
+        "size": np.log(l11**2 + l21**2 + l22**2),
+        "tilt": l21 / l11,
+    }
+
+
+def by_kernel(prior):
+    """Prior surfaces of the kernel, about their centre, in edges of a cell, which are 0.5 m here."""
+    packed = CellPrior()
+    packed.a, packed.b = prior.a, prior.b
+    packed.tau_m, packed.psi_m2, packed.nu = prior.wander * 0.5, (prior.spread * 0.5) ** 2, prior.dof
+    out = wp.zeros(COUNT, dtype=Cell, device="cpu")
+    wp.launch(draw_surface, dim=COUNT, inputs=[packed, KEY, out], device="cpu")
+    surfaces = out.numpy()[:, 1:6].astype(float)
+    surfaces[:, :2] -= (1.5, 2.5)
+    return surfaces / 0.5
+
+
+def by_numpy(prior):
+    return fresh_surfaces(prior, np.random.default_rng(3), COUNT)
+
+
+def by_scipy(prior, seed=4):
+    rng = np.random.default_rng(seed)
+    sigma = stats.invwishart(prior.dof, prior.spread**2 * np.eye(2)).rvs(COUNT, random_state=rng)
+    factor = np.linalg.cholesky(sigma)
+    mean = prior.wander * rng.standard_normal((COUNT, 2))
+    return np.column_stack([mean, factor[:, 0, 0], factor[:, 1, 0], factor[:, 1, 1]])
+
+
+@pytest.mark.parametrize("dof", [2.5, 3.0, 6.0])
+@pytest.mark.parametrize("draw", [by_kernel, by_numpy])
+def test_prior_surfaces_follow_the_inverse_wishart(draw, dof):
+    prior = bm.Surface(1, 1, wander=0.4, spread=0.28, dof=dof)
+    mine, theirs = surface_functions(draw(prior)), surface_functions(by_scipy(prior))
+    for name, sample in mine.items():
+        assert stats.ks_2samp(sample, theirs[name]).pvalue > ALPHA / CASES / 9, name
+
+
+def test_prior_surfaces_with_x_and_y_the_wrong_way_round_are_rejected():
+    prior = bm.Surface(1, 1)
+    wrong = by_numpy(prior)[:, [0, 1, 4, 3, 2]]
+    mine, theirs = surface_functions(wrong), surface_functions(by_scipy(prior))
+    assert min(stats.ks_2samp(mine[name], theirs[name]).pvalue for name in mine) < ALPHA / CASES / 9

@@ -1,0 +1,70 @@
+"""The posterior of reflectivities on tiny maps, exactly: a mixture of Betas, one for each way in which beams may stop.
+
+Given where every beam stops, the likelihood is a product of m and 1 - m, so that the m are Beta; the weight of each way
+is worked out beam by beam, ways with the same counts of hits and passes being the same.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from oracle.field_law import reading_law
+from scipy import special, stats
+
+
+@dataclass(frozen=True)
+class BetaMixture:
+    """Weights (J,), and of each cell Beta(a, b) in each component, (J, T)."""
+
+    weight: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+
+    def cdf(self, cell):
+        """Cumulative distribution of a cell's reflectivity."""
+        pairs, which = np.unique(np.stack([self.a[:, cell], self.b[:, cell]]), axis=1, return_inverse=True)
+        weight = np.bincount(which.ravel(), self.weight)
+        return lambda m: stats.beta.cdf(np.atleast_1d(m)[:, None], *pairs) @ weight
+
+    def mean(self):
+        return self.weight @ (self.a / (self.a + self.b))
+
+    def pairs(self):
+        """E[m_i m_j], (T, T)."""
+        total = self.a + self.b
+        mean = self.a / total
+        out = np.einsum("j,jk,jl->kl", self.weight, mean, mean)
+        np.fill_diagonal(out, self.weight @ (mean * (self.a + 1) / (total + 1)))
+        return out
+
+
+def exact_reflectivities(paths, cells, prior, sensor):
+    """Enumerate; ``cells`` is how many there are."""
+    zero = (0,) * cells
+    ways = {(zero, zero): 1.0}
+    for b in range(len(paths.range_m)):
+        z = paths.range_m[b]
+        if np.isnan(z):
+            continue
+        crossed = paths.cell[b][paths.there[b]]
+        distance = np.append(paths.plain_m[b][paths.there[b]], np.inf)
+        law = reading_law(z, distance, 0.0, sensor, paths.limits)
+        if np.isfinite(z):
+            floor = sensor.p_random / (paths.limits.max_m - paths.limits.min_m)
+            law[:-1] = np.where(paths.far[b][paths.there[b]], floor, law[:-1])
+        after = {}
+        for (hits, passes), weight in ways.items():
+            p = list(passes)
+            for k in range(len(crossed) + 1):
+                h = list(hits)
+                if k < len(crossed):
+                    h[crossed[k]] += 1
+                key = (tuple(h), tuple(p))
+                after[key] = after.get(key, 0.0) + weight * law[k]
+                if k < len(crossed):
+                    p[crossed[k]] += 1
+        ways = after
+    counts = np.array(list(ways))  # (J, 2, T)
+    a, b = prior.a + counts[:, 0], prior.b + counts[:, 1]
+    log_weight = np.log(list(ways.values())) + (special.betaln(a, b) - special.betaln(prior.a, prior.b)).sum(axis=1)
+    weight = np.exp(log_weight - log_weight.max())
+    return BetaMixture(weight / weight.sum(), a, b)

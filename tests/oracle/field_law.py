@@ -1,0 +1,166 @@
+"""Beams through cells that stop only some of them: the whole generative model in NumPy, in double precision.
+
+Written from the definitions, with covariances instead of their factors and no shortcuts. A state is an array
+(..., T, 6): reflectivity, mean x and y in metres from the grid's corner, and l11, l21, l22 of Sigma = L L'. Leading
+axes are any number of states at once. Stops are numbered 0 .. K - 1 by entry, K for "nowhere".
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import special, stats
+
+GATE_WIDTH = 2.2
+
+
+class Paths(NamedTuple):
+    """All beams, padded to the longest: (B, K) arrays of entries, and a row for each beam."""
+
+    cell: np.ndarray
+    there: np.ndarray
+    plain_m: np.ndarray  # where the beam stops in a cell without a surface
+    far: np.ndarray  # entries at which only a random reading can have come back
+    start: np.ndarray
+    direction: np.ndarray
+    range_m: np.ndarray
+    limits: object
+
+
+def paths_of(rays, *, far=True):
+    """The beams of a `BeamRays`; without ``far`` no entry is taken for far."""
+    lengths = np.diff(rays.offsets)
+    column = np.arange(max(int(lengths.max(initial=0)), 1))
+    there = column < lengths[:, None]
+    at = np.where(there, rays.offsets[:-1, None] + column, 0)
+    pad = np.zeros(1)
+    cell = np.where(there, np.append(rays.cells, pad)[at], 0).astype(int)
+    plain_m = np.where(there, np.append(rays.distance_m, pad)[at], 0.0).astype(float)
+    is_far = there & (at < rays.near[:, None]) & far
+    lines = (rays.start_m.astype(float), rays.direction.astype(float))
+    return Paths(cell, there, plain_m, is_far, *lines, rays.range_m, rays.limits)
+
+
+def covariances(states):
+    l11, l21, l22 = np.moveaxis(states[..., 3:6], -1, 0)
+    return np.stack([np.stack([l11**2, l11 * l21], -1), np.stack([l11 * l21, l21**2 + l22**2], -1)], -1)
+
+
+def meet(states, start, direction):
+    """Chance of meeting the surface; mean and variance of where, of a point of it given that it lies on the beam."""
+    mean, sigma = states[..., 1:3] - start, covariances(states)
+    normal = np.stack([-direction[..., 1], direction[..., 0]], -1)
+    offset = (mean * normal).sum(-1)
+    across = np.einsum("...i,...ij,...j", normal, sigma, normal)
+    mixed = np.einsum("...i,...ij,...j", direction, sigma, normal)
+    along = np.einsum("...i,...ij,...j", direction, sigma, direction)
+    chance = 1 / (1 + (offset / (GATE_WIDTH * np.sqrt(across))) ** 6)
+    distance = (mean * direction).sum(-1) - mixed / across * offset
+    return chance, np.maximum(distance, 0.0), np.maximum(along - mixed**2 / across, 0.0)
+
+
+def stops(paths, states, plain):
+    """Of every entry: the chance that its cell stops a beam that comes to it, and where. (..., B, K) each."""
+    cells = states[..., paths.cell, :]
+    if plain:
+        chance, distance, variance = np.ones(paths.cell.shape), paths.plain_m, np.zeros(paths.cell.shape)
+    else:
+        chance, distance, variance = meet(cells, paths.start[:, None], paths.direction[:, None])
+    return np.where(paths.there, cells[..., 0] * chance, 0.0), distance, variance
+
+
+def stop_probabilities(stopped):
+    """(..., K) chances of being stopped on arrival to (..., K + 1) of stopping there."""
+    passed = np.cumprod(1 - stopped, axis=-1)
+    before = np.concatenate([np.ones_like(passed[..., :1]), passed], axis=-1)
+    return before * np.concatenate([stopped, np.ones_like(passed[..., :1])], axis=-1)
+
+
+def reading_law(z, distance, variance, sensor, limits):
+    """p(z | the beam stops at about the distance); an infinite distance means nowhere. A density where z is finite."""
+    z, distance, variance = np.broadcast_arrays(z, distance, variance)
+    wall = np.minimum(distance, limits.max_m)
+    scale = np.sqrt((sensor.noise.sigma_m + sensor.noise.sigma_per_m * wall) ** 2 + variance)
+    rate, shorts = sensor.rate_short_per_m, sensor.p_short
+    clear = 1 - shorts * (1 - np.exp(-rate * wall))
+    echo = np.where(distance <= limits.max_m, clear * (1 - sensor.p_no_return), 0.0)
+    known = 1 - sensor.p_random
+    inside = np.where(np.isfinite(z), z, 0.0)
+    x = (inside - wall) / scale
+    short = np.where(inside < wall, shorts * rate * np.exp(-rate * inside), 0.0)
+    finite = sensor.p_random / (limits.max_m - limits.min_m)
+    finite = finite + known * (short + echo * np.exp(-0.5 * x**2) / scale / np.sqrt(2 * np.pi))
+    silent = known * (clear - echo * special.ndtr((limits.max_m - wall) / scale))
+    blocked = shorts * (1 - np.exp(-rate * np.minimum(wall, limits.min_m)))
+    close = known * (blocked + echo * special.ndtr((limits.min_m - wall) / scale))
+    return np.select([np.isposinf(z), np.isneginf(z), np.isfinite(z)], [silent, close, finite], 1.0)
+
+
+def joint(paths, states, sensor, plain):
+    """p(stop, reading | state) of every beam and stop, (..., B, K + 1)."""
+    stopped, distance, variance = stops(paths, states, plain)
+    z = paths.range_m[:, None]
+    law = reading_law(z, distance, variance, sensor, paths.limits)
+    floor = sensor.p_random / (paths.limits.max_m - paths.limits.min_m)
+    law = np.where(paths.far & np.isfinite(z), floor, law)
+    nowhere = reading_law(z, np.inf, 0.0, sensor, paths.limits)
+    nowhere = np.broadcast_to(nowhere, (*law.shape[:-1], 1))
+    return stop_probabilities(stopped) * np.concatenate([law, nowhere], axis=-1)
+
+
+def log_likelihoods(paths, states, sensor, plain):
+    """log p(reading | state) of every beam, (..., B); 0 where it is invalid."""
+    return np.log(joint(paths, states, sensor, plain).sum(axis=-1))
+
+
+def draw_states(rng, prior, centres, count=()):
+    """States from the prior, (*count, T, 6); ``centres`` (T, 2) in metres, and the edge of a cell."""
+    centres, edge = centres
+    shape = (*count, len(centres))
+    states = np.zeros((*shape, 6))
+    states[..., 0] = rng.beta(prior.a, prior.b, shape)
+    if hasattr(prior, "dof"):
+        size = int(np.prod(shape))
+        sigma = stats.invwishart(prior.dof, (prior.spread * edge) ** 2 * np.eye(2)).rvs(size, random_state=rng)
+        factor = np.linalg.cholesky(np.reshape(sigma, (*shape, 2, 2)))
+        states[..., 1:3] = centres + prior.wander * edge * rng.standard_normal((*shape, 2))
+        states[..., 3], states[..., 4], states[..., 5] = factor[..., 0, 0], factor[..., 1, 0], factor[..., 1, 1]
+    return states
+
+
+def log_prior(prior, states, centres):
+    """Log density of (logit m, mean, log l11, l21, log l22) of every cell, (..., T), normalised."""
+    centres, edge = centres
+    m = states[..., 0]
+    total = prior.a * np.log(m) + prior.b * np.log1p(-m) - special.betaln(prior.a, prior.b)
+    if hasattr(prior, "dof"):
+        scale = (prior.spread * edge) ** 2
+        sigma = covariances(states).reshape(-1, 2, 2)
+        law = stats.invwishart(prior.dof, scale * np.eye(2))
+        of_sigma = np.reshape([law.logpdf(one) for one in sigma], m.shape)
+        # d(Sigma11, Sigma21, Sigma22) = 4 l11^3 l22^2 d(log l11, l21, log l22)
+        jacobian = np.log(4) + 3 * np.log(states[..., 3]) + 2 * np.log(states[..., 5])
+        of_mean = stats.norm.logpdf(states[..., 1:3], centres, prior.wander * edge).sum(axis=-1)
+        total = total + of_sigma + jacobian + of_mean
+    return total
+
+
+def draw_readings(rng, paths, state, sensor, plain):
+    """One reading for every beam: where it stops, and what the sensor makes of that; (B,)."""
+    limits = paths.limits
+    stopped, distance, variance = stops(paths, state, plain)
+    chances = np.cumsum(stop_probabilities(stopped), axis=-1)
+    beams = np.arange(len(chances))
+    stop = np.minimum((rng.random((len(chances), 1)) > chances).sum(axis=1), paths.cell.shape[1])
+    nowhere = stop == paths.cell.shape[1]
+    at = np.where(nowhere, 0, stop)
+    distance = np.where(nowhere, np.inf, distance[beams, at])
+    variance = np.where(nowhere, 0.0, variance[beams, at])
+    wall = np.minimum(distance, limits.max_m)
+    scale = np.sqrt((sensor.noise.sigma_m + sensor.noise.sigma_per_m * wall) ** 2 + variance)
+    reading = wall + scale * rng.standard_normal(wall.shape)
+    reading[(distance > limits.max_m) | (rng.random(wall.shape) < sensor.p_no_return)] = np.inf
+    thing = rng.exponential(1 / sensor.rate_short_per_m, wall.shape)
+    reading = np.where((rng.random(wall.shape) < sensor.p_short) & (thing < wall), thing, reading)
+    reading = np.where(reading > limits.max_m, np.inf, np.where(reading < limits.min_m, -np.inf, reading))
+    anywhere = rng.uniform(limits.min_m, limits.max_m, wall.shape)
+    return np.where(rng.random(wall.shape) < sensor.p_random, anywhere, reading)

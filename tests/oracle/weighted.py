@@ -1,0 +1,63 @@
+"""Do independent draws follow the law that weighted draws stand for? Marginals and products of pairs.
+
+Weights come from importance sampling from the prior, which needs nothing but the density under test. Their error is
+counted through the effective sample size, halved to be on the safe side: keep it well above the number of draws.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+
+@dataclass(frozen=True)
+class Weighted:
+    """Draws (N, D) with weights that add up to one."""
+
+    values: np.ndarray
+    weight: np.ndarray
+
+    @property
+    def size(self):
+        return 0.5 / (self.weight**2).sum()
+
+
+def weighted(values, log_weight):
+    weight = np.exp(log_weight - log_weight.max())
+    return Weighted(np.asarray(values, dtype=float), weight / weight.sum())
+
+
+def p_values(draws, law):
+    """Of the Kolmogorov-Smirnov distance of every marginal, and of the mean product of every pair of ranks."""
+    n, width = draws.shape
+    size = 1 / (1 / n + 1 / law.size)
+    mine, theirs, out = np.empty_like(draws), np.empty_like(law.values), []
+    for i in range(width):
+        order = np.argsort(law.values[:, i])
+        at, upto = law.values[order, i], np.cumsum(law.weight[order])
+        upto = np.append(0.0, upto / upto[-1])
+        x = np.sort(draws[:, i])
+        below, above = upto[np.searchsorted(at, x, side="left")], upto[np.searchsorted(at, x, side="right")]
+        step = np.arange(n + 1) / n
+        distance = max((below - step[:-1]).max(), (step[1:] - above).max())
+        out.append(stats.kstwobign.sf(max(distance, 0.0) * np.sqrt(size)))
+        mine[:, i] = upto[np.searchsorted(at, draws[:, i], side="right")] - 0.5
+        theirs[order, i] = upto[1:] - 0.5
+    for i in range(width):
+        for j in range(i):
+            drawn, all_of = mine[:, i] * mine[:, j], theirs[:, i] * theirs[:, j]
+            mean = law.weight @ all_of
+            variance = drawn.var() / n + law.weight @ (all_of - mean) ** 2 / law.size
+            out.append(2 * stats.norm.sf(abs(drawn.mean() - mean) / np.sqrt(variance)))
+    return np.array(out)
+
+
+def surface_coordinates(states, centres, edge, cells=None):
+    """States (..., T, 6) in metres as numbers for `p_values`, (..., 6 T): logit m, and the surface in edges."""
+    some = slice(None) if cells is None else cells
+    states, centres = states[..., some, :], centres[some]
+    m = np.clip(states[..., 0], 1e-30, 1 - 1e-7)
+    mean = (states[..., 1:3] - centres) / edge
+    shape = np.stack([np.log(states[..., 3] / edge), states[..., 4] / edge, np.log(states[..., 5] / edge)], axis=-1)
+    parts = np.concatenate([(np.log(m) - np.log1p(-m))[..., None], mean, shape], axis=-1)
+    return parts.reshape(*parts.shape[:-2], -1)
