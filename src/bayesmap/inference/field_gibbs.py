@@ -27,8 +27,8 @@ from bayesmap.sensor.rays import BeamRays
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
-CELLS_AROUND = 2.5
-SIGMAS_AROUND = 7.0
+CELLS_AROUND = 1.5
+SIGMAS_AROUND = 6.0
 """A stop further from its reading than so many cells and standard deviations counts as a random reading's."""
 
 
@@ -93,8 +93,10 @@ def prior_numbers(prior: CellPrior, edge_m: float) -> Any:
     from bayesmap.kernels.field import PriorNumbers
 
     if isinstance(prior, Surface):
-        return PriorNumbers(prior.a, prior.b, prior.wander * edge_m, (prior.spread * edge_m) ** 2, prior.dof)
-    return PriorNumbers(prior.a, prior.b, edge_m, edge_m**2, 3.0)
+        return PriorNumbers(
+            prior.a, prior.b, prior.wander * edge_m, (prior.spread * edge_m) ** 2, prior.dof, prior.extent * edge_m
+        )
+    return PriorNumbers(prior.a, prior.b, edge_m, edge_m**2, 3.0, edge_m)
 
 
 class FieldGibbs:

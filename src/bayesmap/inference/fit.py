@@ -142,7 +142,7 @@ def _refit_noise(
 def refit_prior(prior: CellPrior, hits: NDArray[np.int32], met: NDArray[np.int32], step: float) -> CellPrior:
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
 
-    Cells whose ``met`` is negative did not count in this sweep and are left out.
+    Cells whose ``met`` is negative have not counted yet and are left out.
     """
     counted = met >= 0
     pairs, times = np.unique(np.stack([hits[counted], met[counted]]), axis=1, return_counts=True)

@@ -106,7 +106,7 @@ def steps(guess: PlugIn) -> NDArray[np.float32]:
     """How far a proposal moves each cell's numbers, (T, 8), laid out as `bayesmap.kernels.cell_draws.stepped` reads
     them.
 
-    Cells in which no reading ends have zeros: their candidates come from the prior.
+    Cells in which no reading ends have zeros: they mostly rest, and their candidates come from the prior.
     """
     l11, l21, l22 = guess.factor_m.T
     size = np.where(guess.busy, STEP / np.sqrt(guess.hits + 1.0), 0.0)

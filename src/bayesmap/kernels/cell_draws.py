@@ -1,15 +1,16 @@
 r"""The other half of a sweep: the cells, given where the beams stopped.
 
-A cell that tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
-surface accepts it with probability min(1, exp(gain) p(candidate) / p(surface)), where the gain is the beams' part of
-the ratio (`bayesmap.kernels.stops`). Cells in which readings end try a small step in every other sweep, the others now
-and then a draw from the prior. Steps have sizes that are fixed beforehand: one that looked at where this chain's beams
-stopped would depend on what the acceptance conditions on.
+Cells in which readings end have a kernel of their own (`bayesmap.kernels.busy`). Of the others, one that tries no
+candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
+surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of
+the ratio (`bayesmap.kernels.stops`).
 
-The prior of a surface is mu ~ N(centre, tau^2 I), Sigma ~ InverseWishart(nu, psi I). Steps are taken in mu, log l11,
-l21 and log l22 of Sigma = L L'. In these coordinates the density is proportional to
+The prior of a surface is mu ~ N(centre, tau^2 I), and for Sigma an InverseWishart(nu, psi I) times exp(-tr Sigma / (2
+kappa^2)): beams of other cells say nothing about a surface that grows beyond its own, and the Wishart's tail alone
+would let it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these coordinates the density is
+proportional to
 
-    exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1):
+    exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1 - tr Sigma / (2 kappa^2)):
 
 the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
 """
@@ -18,17 +19,17 @@ import warp as wp
 
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stops import GAIN_UNITS, Field
+from bayesmap.kernels.stops import AWAKE, GAIN_UNITS, Field
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
 
 wp.set_module_options({"enable_backward": False})
 
 FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
 HIDDEN = wp.constant(wp.float32(0.0))
-STEP = wp.constant(wp.float32(1.0))
-FRESH = wp.constant(wp.float32(2.0))
-IDLE_EVERY = wp.constant(wp.uint64(16))
-"""How many sweeps a cell without readings waits, on average, between two candidates."""
+FRESH = wp.constant(wp.float32(1.0))
+IDLE_ROUND = wp.constant(16)
+IDLE_TRIES = wp.constant(4)
+"""Of 16 sweeps, a cell in which no reading ends draws its reflectivity in two, tries a candidate in one, and rests."""
 SHORT = wp.constant(wp.float64(0.3))
 
 # Counters of one cell in one sweep.
@@ -49,11 +50,12 @@ class CellPrior:
     tau_m: wp.float64
     psi_m2: wp.float64
     nu: wp.float64
+    kappa_m: wp.float64
 
 
 @wp.func
 def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """The cell with a surface drawn from the prior.
+    """The cell with a surface drawn from the prior, but for `log_temper`, which the acceptance makes good.
 
     Sigma^-1 = A A' / psi with Bartlett's lower triangular A; its inverse has the upper factor A^-T sqrt(psi), which
     turns into a lower one when x and y are exchanged, and the law does not care.
@@ -75,17 +77,34 @@ def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64,
 
 
 @wp.func
-def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """The cell with its surface moved by a random step, half of the time a short one."""
+def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
+    """The cell with its surface moved by a random step: mean, shape or both in turn; half of the time a short one."""
     size = wp.where(to_uniform(random_bits(key, at + AT_SIZE)) < wp.float64(0.5), SHORT, wp.float64(1.0))
     n = at + AT_STEP
+    turn = i % 3
+    if turn != 1:
+        cell = moved(cell, step, size, key, n)
+    if turn != 0:
+        cell = reshaped(cell, step, size, key, n + wp.uint64(4))
+    return cell
+
+
+@wp.func
+def moved(cell: Cell, step: Cell, size: wp.float64, key: wp.uint64, n: wp.uint64) -> Cell:
+    """A step of the mean, correlated like the surface it started from."""
     e_1 = size * normal(key, n)
     e_2 = size * normal(key, n + wp.uint64(2))
     cell[MEAN_X] = cell[MEAN_X] + wp.float32(e_1) * step[MEAN_X]
     cell[MEAN_Y] = cell[MEAN_Y] + wp.float32(e_1) * step[TRYING] + wp.float32(e_2) * step[MEAN_Y]
-    cell[L11] = cell[L11] * wp.exp(wp.float32(size * normal(key, n + wp.uint64(4))) * step[L11])
-    cell[L21] = cell[L21] + wp.float32(size * normal(key, n + wp.uint64(6))) * step[L21]
-    cell[L22] = cell[L22] * wp.exp(wp.float32(size * normal(key, n + wp.uint64(8))) * step[L22])
+    return cell
+
+
+@wp.func
+def reshaped(cell: Cell, step: Cell, size: wp.float64, key: wp.uint64, n: wp.uint64) -> Cell:
+    """A step of log l11, l21 and log l22."""
+    cell[L11] = cell[L11] * wp.exp(wp.float32(size * normal(key, n)) * step[L11])
+    cell[L21] = cell[L21] + wp.float32(size * normal(key, n + wp.uint64(2))) * step[L21]
+    cell[L22] = cell[L22] * wp.exp(wp.float32(size * normal(key, n + wp.uint64(4))) * step[L22])
     return cell
 
 
@@ -101,7 +120,17 @@ def log_surface_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float
     trace = one / (l11 * l11) + one / (l22 * l22) + q * q
     half = wp.float64(0.5)
     shape = -prior.nu * wp.log(l11) - (prior.nu + one) * wp.log(l22) - half * prior.psi_m2 * trace
+    shape += log_temper(prior, cell)
     return shape - half * (x * x + y * y) / (prior.tau_m * prior.tau_m)
+
+
+@wp.func
+def log_temper(prior: CellPrior, cell: Cell) -> wp.float64:
+    """The factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
+    l11 = wp.float64(cell[L11])
+    l21 = wp.float64(cell[L21])
+    l22 = wp.float64(cell[L22])
+    return wp.float64(-0.5) * (l11 * l11 + l21 * l21 + l22 * l22) / (prior.kappa_m * prior.kappa_m)
 
 
 @wp.func
@@ -125,7 +154,7 @@ def propose(
 ):
     """One thread a cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
 
-    A step of size zero in x marks a cell in which no reading ends.
+    A step of size zero in x marks a cell in which no reading ends, and which mostly rests.
     """
     c = first + wp.tid()
     for part in range(field.met.shape[0]):
@@ -134,18 +163,21 @@ def propose(
         field.gain[part, c] = wp.int64(0)
     cell = field.cells[c]
     cell[TRYING] = HIDDEN
+    field.glance[c] = AWAKE
     log_prior[c] = log_reflectivity_prior(prior, cell[REFLECTIVITY])
     if plain == 0:
         log_prior[c] = log_prior[c] + wp.float32(log_surface_prior(prior, centre_m[c], cell))
-        key = keys[1]
-        at = wp.uint64(c) * PER_CELL
-        busy = step[c][MEAN_X] > wp.float32(0.0)
-        if busy and (sweep + c) % 2 == 0:
-            cell[TRYING] = STEP
-            field.candidates[c] = stepped(cell, step[c], key, at)
-        elif not busy and random_bits(key, at + AT_SIZE) % IDLE_EVERY == wp.uint64(0):
-            cell[TRYING] = FRESH
-            field.candidates[c] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
+    key = keys[1]
+    at = wp.uint64(c) * PER_CELL
+    turn = (sweep + c) % IDLE_ROUND
+    if step[c][MEAN_X] > wp.float32(0.0):  # busy
+        if plain == 0:
+            field.glance[c] = cell[REFLECTIVITY]
+    elif plain == 0 and turn == IDLE_TRIES:
+        cell[TRYING] = FRESH
+        field.candidates[c] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
+    elif turn % 8 != 0:
+        field.glance[c] = cell[REFLECTIVITY]
     field.cells[c] = cell
 
 
@@ -153,14 +185,18 @@ def propose(
 def settle(
     first: int,
     prior: CellPrior,
-    centre_m: wp.array(dtype=wp.vec2),
     field: Field,
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
 ):
-    """One thread a cell, at the end of a sweep: accept or reject its candidate, or draw its reflectivity."""
+    """One thread a cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or rest.
+
+    ``hits`` and ``met`` keep the counts behind the cell's last reflectivity.
+    """
     c = first + wp.tid()
+    if field.glance[c] != AWAKE:
+        return
     key = keys[1]
     at = wp.uint64(c) * PER_CELL
     cell = field.cells[c]
@@ -179,13 +215,8 @@ def settle(
         met[c] = n_met
     else:
         candidate = field.candidates[c]
-        log_ratio = wp.float64(gain) * FROM_UNITS
-        if cell[TRYING] == STEP:
-            log_ratio += log_surface_prior(prior, centre_m[c], candidate)
-            log_ratio -= log_surface_prior(prior, centre_m[c], cell)
+        log_ratio = wp.float64(gain) * FROM_UNITS + log_temper(prior, candidate) - log_temper(prior, cell)
         if wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
             cell = candidate
-        hits[c] = n_hits
-        met[c] = -1
     cell[TRYING] = HIDDEN
     field.cells[c] = cell

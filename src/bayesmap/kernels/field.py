@@ -14,6 +14,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.busy import busy_index, update_busy
 from bayesmap.kernels.cell_draws import CellPrior, propose, settle
 from bayesmap.kernels.likelihood import sensor_parameters
 from bayesmap.kernels.meeting import Cell
@@ -35,6 +36,7 @@ class PriorNumbers:
     tau_m: float
     psi_m2: float
     nu: float
+    kappa_m: float
 
 
 def put_rays(rays: BeamRays, plain: bool, device: str) -> Any:
@@ -81,6 +83,7 @@ class FieldChains:
         edges = [rays.n_beams * i // parts for i in range(parts + 1)]
         self._parts = list(itertools.pairwise(edges))
         cells = rays.n_cells
+        self._busy = busy_index(rays, (steps[:, 1] > 0) & (not plain), device)
 
         def empty(shape: Any, dtype: Any) -> Any:
             return wp.zeros(shape, dtype=dtype, device=device)
@@ -89,14 +92,16 @@ class FieldChains:
         for state in states:
             field = Field()
             field.cells = as_cells(state, device)
-            field.candidates = empty(cells, Cell)
+            field.candidates, field.glance = empty(cells, Cell), empty(cells, wp.float32)
             field.met, field.hits = empty((parts, cells), wp.int32), empty((parts, cells), wp.int32)
             field.gain = empty((parts, cells), wp.int64)
             field.stop = empty(rays.n_beams, wp.int32)
             field.where = empty(rays.n_beams, wp.vec2)
             field.log_likelihood = empty(rays.n_beams, wp.float32)
             self._fields.append(field)
-        self._totals = [(empty(cells, wp.int32), empty(cells, wp.int32)) for _ in states]
+        self._totals = [(empty(cells, wp.int32), wp.full(cells, -1, dtype=wp.int32, device=device)) for _ in states]
+        incidences = self._busy.entry.shape[0]
+        self._said = [empty(incidences, wp.uint8) for _ in states]
         self._log_priors = [empty(cells, wp.float32) for _ in states]
 
     def sweep(
@@ -109,7 +114,7 @@ class FieldChains:
         """
         packed = CellPrior()
         packed.a, packed.b, packed.tau_m = prior.a, prior.b, prior.tau_m
-        packed.psi_m2, packed.nu = prior.psi_m2, prior.nu
+        packed.psi_m2, packed.nu, packed.kappa_m = prior.psi_m2, prior.nu, prior.kappa_m
         limits = RangeLimits(self.rays.limits.min_m, self.rays.limits.max_m)
         law = sensor_parameters(sensor, limits)
         keys = [
@@ -133,8 +138,12 @@ class FieldChains:
             wp.launch(draw_stops, dim=last - first, inputs=inputs, device=self.device)
 
         def finish(i: int) -> None:
-            inputs = [0, packed, self._centres, self._fields[i], keys[i], *self._totals[i]]
+            inputs = [0, packed, self._fields[i], keys[i], *self._totals[i]]
             wp.launch(settle, dim=cells, inputs=inputs, device=self.device)
+            if not self.plain:
+                inputs = [0, law, packed, self._rays, self._busy, self._centres, self._steps, self._fields[i]]
+                inputs += [self._said[i], keys[i], *self._totals[i]]
+                wp.launch(update_busy, dim=self._busy.cell.shape[0], inputs=inputs, device=self.device)
 
         self._each(start, chains)
         self._each(speak, [(i, part) for i in chains for part in range(len(self._parts))])
@@ -148,7 +157,7 @@ class FieldChains:
             for task in tasks:
                 work(task)
             return
-        for kernel in (propose, draw_stops, settle):
+        for kernel in (propose, draw_stops, settle, update_busy):
             devices.load_kernels(kernel, self.device)
         list(thread_pool(self.threads).map(work, tasks))
 
@@ -162,9 +171,9 @@ class FieldChains:
         return np.stack([np.array(field.cells.numpy()[:, :STATE_SIZE]) for field in self._fields])
 
     def counts(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """How many beams stopped in each cell in the last sweep, and how many met its surface and passed, (C, T) each.
+        """How many beams stopped in each cell, and how many met its surface and passed, (C, T) each.
 
-        ``met`` is -1 in cells that tried a candidate for their surface, for which met beams are not counted.
+        They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
         """
         hits, met = zip(*((h.numpy().copy(), m.numpy().copy()) for h, m in self._totals), strict=True)
         return np.stack(hits), np.stack(met)

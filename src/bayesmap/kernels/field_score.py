@@ -10,7 +10,7 @@ from bayesmap.kernels.field import as_cells, put_rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.meeting import Cell, Ray
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.stop_law import law_of, no_stop_law, stop_law
+from bayesmap.kernels.stop_law import law_of, no_stop_law, short_density, stop_law
 from bayesmap.kernels.stops import Rays, chance_at, plain_or_meet
 from bayesmap.sensor.model import KernelParameters
 from bayesmap.sensor.rays import BeamRays
@@ -39,6 +39,7 @@ def add_density(
     ray.y = rays.start_m[b][1]
     ray.ux = rays.direction[b][0]
     ray.uy = rays.direction[b][1]
+    short = short_density(law, reading)
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         cell = cells[rays.cells[k]]
@@ -48,7 +49,7 @@ def add_density(
         cell = cells[rays.cells[k]]
         m = plain_or_meet(rays, k, cell, ray)
         a = cell[0] * m.chance
-        p += wp.float64(free * a * stop_law(law, reading, m.distance_m, m.variance))
+        p += wp.float64(free * a * stop_law(law, reading, short, m.distance_m, m.variance))
         free = free * (one - a)
     p += wp.float64(free * no_stop_law(law, reading))
     total[b] = total[b] + p

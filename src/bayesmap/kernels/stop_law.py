@@ -13,6 +13,8 @@ wp.set_module_options({"enable_backward": False})
 INV_SQRT_2PI = wp.constant(wp.float32(0.3989422804014327))
 INV_SQRT_2 = wp.constant(wp.float32(0.7071067811865476))
 FAR = wp.constant(wp.float32(80.0))  # squared standard distance past which normal noise adds nothing
+IMPOSSIBLE = wp.constant(wp.float32(9.3576e-14))
+"""exp(LOG_IMPOSSIBLE) of `bayesmap.sensor.mixture`: least probability of a typed reading. No beam is impossible."""
 
 
 @wp.struct
@@ -68,7 +70,9 @@ def below(standard: wp.float32) -> wp.float32:
 
 @wp.func
 def short_density(law: Law, reading_m: wp.float32) -> wp.float32:
-    """Density of a passing object at the reading."""
+    """Density of a passing object at the reading; 0 for a typed one."""
+    if not wp.isfinite(reading_m):
+        return wp.float32(0.0)
     away = wp.max(reading_m, wp.float32(0.0))
     return law.p_known * law.p_short * law.rate_short_per_m * wp.exp(-law.rate_short_per_m * away)
 
@@ -76,31 +80,37 @@ def short_density(law: Law, reading_m: wp.float32) -> wp.float32:
 @wp.func
 def wall_density(law: Law, reading_m: wp.float32, distance_m: wp.float32, variance: wp.float32) -> wp.float32:
     """Density at a finite reading of what comes back from a stop at the distance."""
-    scale = scale_at(law, distance_m, variance)
-    x = (reading_m - distance_m) / scale
-    if x * x > FAR or distance_m > law.max_m:
+    sigma = law.sigma_m + law.sigma_per_m * distance_m
+    total = sigma * sigma + variance
+    error_sq = (reading_m - distance_m) * (reading_m - distance_m)
+    if error_sq > FAR * total or distance_m > law.max_m:
         return wp.float32(0.0)
-    density = INV_SQRT_2PI * wp.exp(wp.float32(-0.5) * x * x) / scale
+    density = INV_SQRT_2PI * wp.exp(wp.float32(-0.5) * error_sq / total) / wp.sqrt(total)
     return law.p_known * unblocked(law, distance_m) * law.p_return * density
 
 
 @wp.func
-def stop_law(law: Law, reading_m: wp.float32, distance_m: wp.float32, variance: wp.float32) -> wp.float32:
-    """p(reading | the beam stops at about the distance): a density, or the probability of a typed reading."""
+def stop_law(
+    law: Law, reading_m: wp.float32, short: wp.float32, distance_m: wp.float32, variance: wp.float32
+) -> wp.float32:
+    """p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
+
+    ``short`` is the density of a passing object at the reading, the same for all distances.
+    """
     one = wp.float32(1.0)
     wall = wp.min(distance_m, law.max_m)
     if wp.isfinite(reading_m):
         p = law.floor + wall_density(law, reading_m, distance_m, variance)
         if reading_m < wall:
-            p += short_density(law, reading_m)
+            p += short
         return p
     scale = scale_at(law, wall, variance)
     free = unblocked(law, wall)
     returned = wp.where(distance_m > law.max_m, wp.float32(0.0), free * law.p_return)
     if reading_m > wp.float32(0.0):  # no return
-        return law.p_known * (free - returned * below((law.max_m - wall) / scale))
+        return wp.max(law.p_known * (free - returned * below((law.max_m - wall) / scale)), IMPOSSIBLE)
     blocked = one - unblocked(law, wp.min(wall, law.min_m))
-    return law.p_known * (blocked + returned * below((law.min_m - wall) / scale))
+    return wp.max(law.p_known * (blocked + returned * below((law.min_m - wall) / scale)), IMPOSSIBLE)
 
 
 @wp.func
@@ -109,5 +119,5 @@ def no_stop_law(law: Law, reading_m: wp.float32) -> wp.float32:
     if wp.isfinite(reading_m):
         return law.floor + short_density(law, reading_m)
     if reading_m > wp.float32(0.0):
-        return law.p_known * unblocked(law, law.max_m)
-    return law.p_known * (wp.float32(1.0) - unblocked(law, law.min_m))
+        return wp.max(law.p_known * unblocked(law, law.max_m), IMPOSSIBLE)
+    return wp.max(law.p_known * (wp.float32(1.0) - unblocked(law, law.min_m)), IMPOSSIBLE)

@@ -9,6 +9,9 @@ A cell that a beam passes learns one of two things. In most sweeps: whether the 
 stopped), which given that it passed has probability g (1 - m) / (1 - a); met and stopped beams make its reflectivity's
 Beta. In sweeps in which a candidate for its surface is tried: log (1 - m g') / (1 - m g), the beam's part of the
 Metropolis ratio. Both are added up in whole numbers, so that the result does not depend on the order of beams.
+
+Most cells are free, and are told that by many beams in every sweep; they *rest* in most sweeps, learning nothing. What
+a resting cell with a reflectivity under single precision does to T is nothing, and it is passed at a glance.
 """
 
 import warp as wp
@@ -16,7 +19,7 @@ import warp as wp
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stop_law import Law, law_of, no_stop_law, stop_law
+from bayesmap.kernels.stop_law import Law, law_of, no_stop_law, short_density, stop_law
 
 wp.set_module_options({"enable_backward": False})
 
@@ -26,6 +29,9 @@ LEAST = wp.constant(wp.float32(1.0e-30))
 TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
 
 FAR = wp.constant(-1)  # a stop before the near entries
+AWAKE = wp.constant(wp.float32(-1.0))
+CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
+CLEAREST = wp.constant(wp.float32(1.0e-15))  # nor is a stop here worth weighing, whatever its density
 
 # Counters of a sweep's random numbers: one for each purpose and entry or beam.
 STREAM_CHOICE = wp.constant(wp.uint64(1 << 32))
@@ -49,12 +55,13 @@ class Rays:
 
 @wp.struct
 class Field:
-    """One chain: cells and candidates; what the beams told each cell in this sweep, a row for each part of the beams;
-    and for each beam the entry at which it stopped (its end if nowhere), the distance and variance of that stop, and
-    the log-likelihood of its reading, summed over all stops.
+    """One chain: cells, a glance at each (its reflectivity if it rests, else AWAKE) and candidates; what the beams told
+    each cell in this sweep, a row for each part of the beams; and for each beam the entry at which it stopped (its end
+    if nowhere), the distance and variance of that stop, and the log-likelihood of its reading, summed over all stops.
     """
 
     cells: wp.array(dtype=Cell)
+    glance: wp.array(dtype=wp.float32)
     candidates: wp.array(dtype=Cell)
     met: wp.array2d(dtype=wp.int32)
     hits: wp.array2d(dtype=wp.int32)
@@ -135,27 +142,34 @@ def draw_stops(
     ray.ux = rays.direction[b][0]
     ray.uy = rays.direction[b][1]
 
+    short = short_density(law, reading)
     free = wp.float32(1.0)
     for k in range(begin, near):
         c = rays.cells[k]
-        cell = field.cells[c]
-        g = chance_at(rays, cell, ray)
-        free = free * (one - cell[0] * g)
-        pass_by(field, part, c, cell, g, ray, key, k, 1)
+        glance = field.glance[c]
+        if glance < wp.float32(0.0) or glance > CLEAR:
+            cell = field.cells[c]
+            g = chance_at(rays, cell, ray)
+            free = free * (one - cell[0] * g)
+            if glance < wp.float32(0.0):
+                pass_by(field, part, c, cell, g, ray, key, k, 1)
     stopped_far = one - free
     total = wp.float64(law.floor) * wp.float64(stopped_far)
     choice = FAR
 
     for k in range(near, end):
-        cell = field.cells[rays.cells[k]]
-        m = plain_or_meet(rays, k, cell, ray)
-        a = cell[0] * m.chance
-        weight = wp.float64(free * a * stop_law(law, reading, m.distance_m, m.variance))
-        total += weight
-        u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
-        if u * total < weight:
-            choice = k
-        free = free * (one - a)
+        c = rays.cells[k]
+        glance = field.glance[c]
+        if glance < wp.float32(0.0) or glance > CLEAREST:
+            cell = field.cells[c]
+            m = plain_or_meet(rays, k, cell, ray)
+            a = cell[0] * m.chance
+            weight = wp.float64(free * a * stop_law(law, reading, short, m.distance_m, m.variance))
+            total += weight
+            u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
+            if u * total < weight:
+                choice = k
+            free = free * (one - a)
     weight = wp.float64(free * no_stop_law(law, reading))
     total += weight
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:
@@ -173,12 +187,13 @@ def draw_stops(
             free = free * (one - cell[0] * g)
             if choice == FAR and (one - free >= target or k == near - 1):
                 choice = k
-            if choice != FAR:
+            if choice != FAR and field.glance[c] < wp.float32(0.0):
                 pass_by(field, part, c, cell, g, ray, key, k, -1)
     for k in range(near, wp.min(choice, end)):
         c = rays.cells[k]
-        cell = field.cells[c]
-        pass_by(field, part, c, cell, chance_at(rays, cell, ray), ray, key, k, 1)
+        if field.glance[c] < wp.float32(0.0):
+            cell = field.cells[c]
+            pass_by(field, part, c, cell, chance_at(rays, cell, ray), ray, key, k, 1)
 
     field.stop[b] = choice
     if choice < end:
@@ -190,14 +205,14 @@ def draw_stops(
         if cell[TRYING] != wp.float32(0.0):
             old = meet(cell, ray)
             new = meet(field.candidates[c], ray)
-            after = wp.max(new.chance * hit_law(law, rays, choice, near, reading, new), LEAST)
-            before = wp.max(old.chance * hit_law(law, rays, choice, near, reading, old), LEAST)
+            after = wp.max(new.chance * hit_law(law, choice, near, reading, short, new), LEAST)
+            before = wp.max(old.chance * hit_law(law, choice, near, reading, short, old), LEAST)
             wp.atomic_add(field.gain, part, c, in_units(wp.log(after / before)))
 
 
 @wp.func
-def hit_law(law: Law, rays: Rays, k: int, near: int, reading: wp.float32, m: Meeting) -> wp.float32:
+def hit_law(law: Law, k: int, near: int, reading: wp.float32, short: wp.float32, m: Meeting) -> wp.float32:
     """p(z | stop) at entry k: that of a random reading at entries that are not near."""
     if k < near:
         return law.floor
-    return stop_law(law, reading, m.distance_m, m.variance)
+    return stop_law(law, reading, short, m.distance_m, m.variance)

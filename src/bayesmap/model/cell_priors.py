@@ -54,6 +54,7 @@ class Surface:
         wander: tau, how far a surface's mean may lie from its cell's centre.
         spread: sqrt(psi), the size of surfaces.
         dof: nu, how sure that is; more than 1.
+        extent: kappa, the size beyond which surfaces are unlikely: about that of a cell.
 
     Raises:
         BadInput: a number that is not positive, or too few degrees of freedom.
@@ -64,10 +65,11 @@ class Surface:
     wander: float = 0.4
     spread: float = 0.28
     dof: float = 3.0
+    extent: float = 0.35
 
     def __post_init__(self) -> None:
         _check_counts("Surface", self.a, self.b)
-        for name in ("wander", "spread"):
+        for name in ("wander", "spread", "extent"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
                 raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
@@ -83,6 +85,7 @@ class Surface:
         """The prior as plain JSON values."""
         return {
             "kind": "surface", "a": self.a, "b": self.b, "wander": self.wander, "spread": self.spread, "dof": self.dof,
+            "extent": self.extent,
         }  # fmt: skip
 
 

@@ -152,6 +152,18 @@ class FieldPosterior:
 
 def fresh_surfaces(prior: Surface, rng: np.random.Generator, count: int) -> Floats:
     """Surfaces drawn from the prior, in edges of a cell, (count, 5), as `bayesmap.kernels.cell_draws` draws them."""
+    out = np.zeros((count, 5))
+    left = np.arange(count)
+    while len(left):
+        drawn = _wishart_surfaces(prior, rng, len(left))
+        accepted = rng.random(len(left)) < np.exp(-0.5 * (drawn[:, 2:] ** 2).sum(axis=1) / prior.extent**2)
+        out[left[accepted]] = drawn[accepted]
+        left = left[~accepted]
+    return out
+
+
+def _wishart_surfaces(prior: Surface, rng: np.random.Generator, count: int) -> Floats:
+    """The same without the factor that bounds their size."""
     a11 = np.sqrt(rng.chisquare(prior.dof, count))
     a22 = np.sqrt(rng.chisquare(prior.dof - 1.0, count))
     a21 = rng.standard_normal(count)

@@ -1,0 +1,184 @@
+"""Cells in which readings end: all of a sweep's work on such a cell in one place.
+
+A busy cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, draws
+its reflectivity, and moves its surface by a few Metropolis steps; with m the reflectivity and g the chance of meeting,
+
+    log p(stops, readings | surface) = sum over passing beams log(1 - m g)
+                                     + sum over stopped beams log(g p(reading | stop)) + constant.
+
+The steps have sizes that are fixed beforehand: one that looked at where this chain's beams stopped would depend on what
+the acceptance conditions on.
+"""
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.cell_draws import (
+    AT_ACCEPT,
+    AT_BETA,
+    PER_CELL,
+    CellPrior,
+    log_surface_prior,
+    stepped,
+)
+from bayesmap.kernels.likelihood import SensorParameters
+from bayesmap.kernels.meeting import GATE_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, Ray, meet
+from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.stop_law import Law, law_of, short_density, stop_law
+from bayesmap.kernels.stops import LEAST, Field, Rays
+from bayesmap.kernels.variates import beta_variate
+from bayesmap.sensor.rays import BeamRays
+
+wp.set_module_options({"enable_backward": False})
+
+STEPS = wp.constant(6)
+"""Metropolis steps of a surface in each sweep."""
+FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
+STREAM_MET = wp.constant(wp.uint64(4 << 32))
+
+UNREACHED = wp.constant(wp.uint8(0))
+PASSED = wp.constant(wp.uint8(1))
+STOPPED = wp.constant(wp.uint8(2))
+
+
+@wp.struct
+class Busy:
+    """Incidences of the busy cells: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``.
+
+    For each its table entry, its beam, and how the beam passes the cell's centre: offset and direction.
+    """
+
+    cell: wp.array(dtype=wp.int32)
+    offsets: wp.array(dtype=wp.int32)
+    entry: wp.array(dtype=wp.int32)
+    beam: wp.array(dtype=wp.int32)
+    passing: wp.array(dtype=wp.vec3)
+
+
+def busy_index(rays: BeamRays, busy: NDArray[np.bool_], device: str) -> Busy:
+    """List the incidences of the busy cells."""
+    entry = np.nonzero(busy[rays.cells])[0]
+    cells = rays.cells[entry]
+    order = np.argsort(cells, kind="stable")
+    entry, cells = entry[order], cells[order]
+    beam = np.searchsorted(rays.offsets, entry, side="right") - 1
+    away = rays.centres_m()[cells] - rays.start_m[beam]
+    ux, uy = rays.direction[beam].astype(np.float64).T
+    passing = np.stack([ux * away[:, 1] - uy * away[:, 0], ux, uy], axis=-1)
+    which = np.nonzero(busy)[0]
+    there = Busy()
+    there.cell = devices.to_device(which, wp.int32, device)
+    there.offsets = devices.to_device(np.concatenate([np.searchsorted(cells, which), [len(cells)]]), wp.int32, device)
+    there.entry = devices.to_device(entry, wp.int32, device)
+    there.beam = devices.to_device(beam, wp.int32, device)
+    there.passing = wp.array(passing.astype(np.float32), dtype=wp.vec3, device=device)
+    return there
+
+
+@wp.func
+def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
+    """The chance of meeting a surface whose mean lies (dx, dy) from the cell's centre: as `meeting.gate`."""
+    offset = passing[0] + passing[1] * dy - passing[2] * dx
+    across_1 = cell[L21] * passing[1] - cell[L11] * passing[2]
+    across_2 = cell[L22] * passing[1]
+    r = offset * offset / (GATE_WIDTH_SQ * (across_1 * across_1 + across_2 * across_2))
+    return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+
+
+@wp.func
+def log_stops(
+    law: Law, rays: Rays, field: Field, busy: Busy, said: wp.array(dtype=wp.uint8), u: int, centre: wp.vec2, cell: Cell
+) -> wp.float64:
+    """The formula at the top, for one surface."""
+    one = wp.float32(1.0)
+    total = wp.float64(0.0)
+    product = one
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
+    m = cell[REFLECTIVITY]
+    for e in range(busy.offsets[u], busy.offsets[u + 1]):
+        if said[e] == PASSED:
+            product = product * wp.max(one - m * gate_of(busy.passing[e], dx, dy, cell), LEAST)
+        elif said[e] == STOPPED:
+            b = busy.beam[e]
+            ray = Ray()
+            ray.x = rays.start_m[b][0]
+            ray.y = rays.start_m[b][1]
+            ray.ux = busy.passing[e][1]
+            ray.uy = busy.passing[e][2]
+            met = meet(cell, ray)
+            p = law.floor
+            if busy.entry[e] >= rays.near[b]:
+                reading = rays.range_m[b]
+                p = stop_law(law, reading, short_density(law, reading), met.distance_m, met.variance)
+            product = product * wp.max(met.chance * p, LEAST)
+        if product < FEWEST:
+            total += wp.log(wp.float64(product))
+            product = one
+        if product > one / FEWEST:
+            total += wp.log(wp.float64(product))
+            product = one
+    return total + wp.log(wp.float64(product))
+
+
+@wp.kernel
+def update_busy(
+    first: int,
+    sensor: SensorParameters,
+    prior: CellPrior,
+    rays: Rays,
+    busy: Busy,
+    centre_m: wp.array(dtype=wp.vec2),
+    step: wp.array(dtype=Cell),
+    field: Field,
+    said: wp.array(dtype=wp.uint8),
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a busy cell: its reflectivity, then its surface."""
+    u = first + wp.tid()
+    c = busy.cell[u]
+    one = wp.float32(1.0)
+    law = law_of(sensor)
+    key = keys[1]
+    at = wp.uint64(c) * PER_CELL
+    cell = field.cells[c]
+    centre = centre_m[c]
+    m = cell[REFLECTIVITY]
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
+    n_hits = int(0)
+    n_met = int(0)
+    for e in range(busy.offsets[u], busy.offsets[u + 1]):
+        k = busy.entry[e]
+        stop = field.stop[busy.beam[e]]
+        if k < stop:
+            said[e] = PASSED
+            g = gate_of(busy.passing[e], dx, dy, cell)
+            x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
+            if x * (one - m * g) < g * (one - m):
+                n_met += 1
+        elif k == stop:
+            said[e] = STOPPED
+            n_hits += 1
+        else:
+            said[e] = UNREACHED
+    hits[c] = n_hits
+    met[c] = n_met
+    a = prior.a + wp.float64(n_hits)
+    b = prior.b + wp.float64(n_met)
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
+
+    present = log_stops(law, rays, field, busy, said, u, centre, cell) + log_surface_prior(prior, centre, cell)
+    for i in range(STEPS):
+        here = at + wp.uint64(256 + 32 * i)
+        candidate = stepped(cell, step[c], key, here, i)
+        value = log_stops(law, rays, field, busy, said, u, centre, candidate)
+        value += log_surface_prior(prior, centre, candidate)
+        if wp.log(to_uniform(random_bits(key, here + AT_ACCEPT))) < value - present:
+            cell = candidate
+            present = value
+    field.cells[c] = cell
