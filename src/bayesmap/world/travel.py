@@ -37,8 +37,9 @@ def thinned(scans: Scans, spacing_m: float) -> Scans:
     kept, i = [], 0
     while i < len(scans):
         kept.append(i)
-        # A hair less, so that ten steps of 0.1 m make a metre.
-        i = int(np.searchsorted(travelled, travelled[i] + spacing_m * (1 - 1e-9), side="left"))
+        # A hair less, so that ten steps of 0.1 m make a metre; but further than here, however small the spacing.
+        far = np.searchsorted(travelled, travelled[i] + spacing_m * (1 - 1e-9), side="left")
+        i = int(max(far, np.searchsorted(travelled, travelled[i], side="right")))
     return scans.select(np.array(kept, dtype=np.intp))
 
 
