@@ -1195,7 +1195,7 @@ class Hand {
     if (event.type === "pointerup") this.release();
     this.fingers.delete(event.pointerId);
     if (this.fingers.size === 0) this.gesture = null;
-    if (event.pointerType === "touch") this.point(null);
+    if (event.pointerType === "touch") this.point(this.cellAt(this.at(event))); // a finger cannot hover: its last cell stays
   }
 
   spread() {
@@ -1522,7 +1522,8 @@ class Controls {
     this.readout = h("div", { className: "readout", id: `${this.prefix}-readout` });
     this.each(() => {
       const cell = this.hand.cursor ?? this.hand.hover;
-      const idle = session.editable ? "Point at a cell, or press ? for the keys" : "Point at a cell";
+      const keys = session.editable && !matchMedia("(pointer: coarse)").matches;
+      const idle = keys ? "Point at a cell, or press ? for the keys" : "Point at a cell";
       put(this.readout, "textContent", cell ? describeCell(session, cell) : idle);
     });
     this.status = h("span", { role: "status", "aria-live": "polite" });
@@ -2669,7 +2670,7 @@ export function mount(element, transport, { embedded = false, document: adopted 
   transport.onstatus = (connection) => session.onstatus(connection);
   const online = () => transport.retry?.();
   const hash = async () => {
-    const document = embedded ? null : await fromFragment(location.hash).catch(() => null);
+    const document = embedded ? null : await takeFragment();
     if (document) session.act({ type: "hello", document });
   };
   window.addEventListener("online", online);
@@ -2745,6 +2746,13 @@ export default {
   },
 };
 
+/** The document of the address's fragment, which is taken off: a reload shows what has become of it. */
+async function takeFragment() {
+  const found = await fromFragment(location.hash).catch(() => null);
+  if (found) history.replaceState(null, "", location.pathname + location.search);
+  return found;
+}
+
 /** Mounts the page of the server, or the recording of a static export, where a document asks for it. */
 async function start() {
   const host = /** @type {HTMLElement | null} */ (document.querySelector("[data-bayesmap]"));
@@ -2760,7 +2768,6 @@ async function start() {
   const url = new URL("socket" + location.search, location.href);
   url.protocol = url.protocol.replace("http", "ws");
   url.hash = "";
-  const shared = await fromFragment(location.hash).catch(() => null);
-  expose(mount(host, webSocketTransport(url.href), { document: shared }));
+  expose(mount(host, webSocketTransport(url.href), { document: await takeFragment() }));
 }
 start();
