@@ -112,5 +112,7 @@ def steps(guess: PlugIn) -> NDArray[np.float32]:
     size = np.where(guess.busy, STEP / np.sqrt(guess.hits + 1.0), 0.0)
     out = np.zeros((len(size), 8), dtype=np.float32)
     out[:, 1], out[:, 2], out[:, 6] = size * l11, size * l22, size * l21
+    logit_sd = np.sqrt(1.0 / (guess.hits + 1.0) + 1.0 / (0.5 * guess.passes + 1.0))
+    out[:, 0] = np.where(guess.busy, 0.5 * STEP * logit_sd, 0.0)
     out[:, 3], out[:, 4], out[:, 5] = SHAPE_STEP * size, SHAPE_STEP * size * l22, SHAPE_STEP * size
     return out

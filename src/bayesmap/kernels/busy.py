@@ -1,10 +1,11 @@
 """Cells in which readings end: all of a sweep's work on such a cell in one place.
 
-A busy cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, draws
-its reflectivity, and moves its surface by a few Metropolis steps; with m the reflectivity and g the chance of meeting,
+A busy cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, and draws
+its reflectivity; then reflectivity and surface move together by a few Metropolis steps that no longer know who met what. With g
+the chance of meeting,
 
-    log p(stops, readings | surface) = sum over passing beams log(1 - m g)
-                                     + sum over stopped beams log(g p(reading | stop)) + constant.
+    log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
+                                        + sum over stopped beams log(m g p(reading | stop)).
 
 The steps have sizes that are fixed beforehand: one that looked at where this chain's beams stopped would depend on what
 the acceptance conditions on.
@@ -20,6 +21,7 @@ from bayesmap.kernels.cell_draws import (
     AT_BETA,
     PER_CELL,
     CellPrior,
+    log_reflectivity_prior,
     log_surface_prior,
     stepped,
 )
@@ -113,7 +115,7 @@ def log_stops(
             if busy.entry[e] >= rays.near[b]:
                 reading = rays.range_m[b]
                 p = stop_law(law, reading, short_density(law, reading), met.distance_m, met.variance)
-            product = product * wp.max(met.chance * p, LEAST)
+            product = product * wp.max(m * met.chance * p, LEAST)
         if product < FEWEST:
             total += wp.log(wp.float64(product))
             product = one
@@ -121,6 +123,13 @@ def log_stops(
             total += wp.log(wp.float64(product))
             product = one
     return total + wp.log(wp.float64(product))
+
+
+@wp.func
+def log_cell_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float64:
+    """Log prior of logit m and of the surface, up to a constant."""
+    surface = log_surface_prior(prior, centre, cell)
+    return surface + wp.float64(log_reflectivity_prior(prior, cell[REFLECTIVITY]))
 
 
 @wp.kernel
@@ -172,12 +181,12 @@ def update_busy(
     b = prior.b + wp.float64(n_met)
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
 
-    present = log_stops(law, rays, field, busy, said, u, centre, cell) + log_surface_prior(prior, centre, cell)
+    present = log_stops(law, rays, field, busy, said, u, centre, cell) + log_cell_prior(prior, centre, cell)
     for i in range(STEPS):
         here = at + wp.uint64(256 + 32 * i)
         candidate = stepped(cell, step[c], key, here, i)
         value = log_stops(law, rays, field, busy, said, u, centre, candidate)
-        value += log_surface_prior(prior, centre, candidate)
+        value += log_cell_prior(prior, centre, candidate)
         if wp.log(to_uniform(random_bits(key, here + AT_ACCEPT))) < value - present:
             cell = candidate
             present = value

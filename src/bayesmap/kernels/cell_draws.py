@@ -86,6 +86,16 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
         cell = moved(cell, step, size, key, n)
     if turn != 0:
         cell = reshaped(cell, step, size, key, n + wp.uint64(4))
+        cell = faded(cell, step, size, key, n + wp.uint64(10))
+    return cell
+
+
+@wp.func
+def faded(cell: Cell, step: Cell, size: wp.float64, key: wp.uint64, n: wp.uint64) -> Cell:
+    """A step of logit m: a wide surface that stops few of the beams it meets looks like a small one that stops many."""
+    m = wp.clamp(wp.float64(cell[REFLECTIVITY]), wp.float64(1.0e-30), wp.float64(1.0 - 1.0e-7))
+    odds = m / (wp.float64(1.0) - m) * wp.exp(size * normal(key, n) * wp.float64(step[REFLECTIVITY]))
+    cell[REFLECTIVITY] = wp.float32(odds / (wp.float64(1.0) + odds))
     return cell
 
 
