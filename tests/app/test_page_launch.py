@@ -2,7 +2,7 @@
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page_driver import brightness_at, colour_at, document, fragment, settled, snapshot
+from page_driver import brightness_at, colour_at, document, settled, snapshot
 
 
 def test_the_first_picture_is_the_posterior_of_the_tutorial(page):
@@ -86,4 +86,3 @@ def test_a_second_page_shows_the_same(open_page, server, page):
 def test_a_link_that_is_no_document_is_no_trouble(open_page, server):
     page = open_page(server + "#m=nonsense")
     assert snapshot(page)["document"]["version"] == 1
-    assert fragment({"a": 1}).startswith("#m=")
