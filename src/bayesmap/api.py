@@ -24,6 +24,7 @@ from bayesmap.inference.importance import Particles, sample_importance
 from bayesmap.inference.interrupt import stop_on_interrupt
 from bayesmap.inference.problem import Problem
 from bayesmap.inference.propagate import ROUNDS, Marginals, propagate
+from bayesmap.inference.resuming import check_same
 from bayesmap.inference.sampler import Order
 from bayesmap.inference.start import Start, default_start, start_maps
 from bayesmap.model.cell_priors import CellPrior
@@ -163,8 +164,8 @@ def infer(
         "sensor": describe(sensor),
     }  # fmt: skip
     settings["fingerprint"] = _fingerprint(settings, scans, grid, problem, start)
-    if resume is not None and resume.posterior.settings["fingerprint"] != settings["fingerprint"]:
-        raise BadInput(f"resume: the saved run was made with other {_difference(resume.posterior.settings, settings)}")
+    if resume is not None:
+        check_same(resume.posterior.settings, settings)
     if resume is not None and resume.posterior.sweep == 0:
         resume = None  # stopped before its first sweep: there is nothing to go on with
     before = None if resume is None else resume.posterior
@@ -273,11 +274,3 @@ def _fingerprint(
     if not isinstance(start, str):
         digest.update(np.ascontiguousarray(start, dtype=np.bool_).tobytes())
     return digest.hexdigest()[:16]
-
-
-def _difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str:
-    """Which settings differ, in words."""
-    names = [name for name in wanted if name != "fingerprint" and saved.get(name) != wanted[name]]
-    if not names:
-        return "scans or on another grid, or with another sensor"
-    return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names)

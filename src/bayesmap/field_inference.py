@@ -12,12 +12,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from bayesmap.errors import BadInput
 from bayesmap.field_run import FieldRun
 from bayesmap.inference.chain import Progress, Schedule
 from bayesmap.inference.field_chain import FieldResult, run_field
 from bayesmap.inference.field_gibbs import FieldProblem, build_field
 from bayesmap.inference.fit import Parameters
+from bayesmap.inference.resuming import check_same
 from bayesmap.model.cell_priors import Beta, CellPrior, Surface
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.sensor.describe import describe
@@ -85,10 +85,10 @@ def infer_field(
     began = time.perf_counter()
     fitting = job.sensor == FIT
     sensor = first_sensor(job.prior, job.grid.resolution) if isinstance(job.sensor, str) else job.sensor
-    problem = build_field(job.scans, job.grid, job.prior, sensor, hit_depth=job.hit_depth, device=job.device)
     settings = _settings(job, sensor)
-    if resume is not None and resume.posterior.settings["fingerprint"] != settings["fingerprint"]:
-        raise BadInput("resume: the saved run was made with other settings, scans or on another grid")
+    if resume is not None:
+        check_same(resume.posterior.settings, settings)
+    problem = build_field(job.scans, job.grid, job.prior, sensor, hit_depth=job.hit_depth, device=job.device)
     before = None if resume is None or resume.posterior.sweep == 0 else resume.posterior
     trace_seconds = time.perf_counter() - began
     spent = before.seconds["total"] if before else 0.0
@@ -164,6 +164,7 @@ def _posterior(
         log_prior=found.log_prior,
         warmup_log_joint=found.warmup_log_joint,
         states=found.states,
+        last_counts=found.last_counts,
         informed=found.informed,
         sweep=found.sweep,
         finished=found.finished,
@@ -184,6 +185,7 @@ def _result_of(posterior: FieldPosterior) -> FieldResult:
         log_prior=posterior.log_prior,
         warmup_log_joint=posterior.warmup_log_joint,
         states=posterior.states,
+        last_counts=posterior.last_counts,
         parameters=Parameters(posterior.sensor, posterior.prior),
         informed=posterior.informed,
         sweep=posterior.sweep,

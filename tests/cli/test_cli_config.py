@@ -48,7 +48,7 @@ def test_flags_win_over_set_over_file_over_defaults(office, tmp_path, short):
     path = write(tmp_path, "draws = 3\n[infer]\nchains = 1\nwarmup = 1\nthin = 2\n")
     result = call(
         "infer", office, "-o", tmp_path / "run", "-c", path, "--set", "warmup=2", "--set", "thin=3", "--thin", "1",
-        "--json", "--resolution", "0.25",
+        "--json", "--resolution", "0.25", "--cells", "binary",
     )  # fmt: skip
     assert result.exit_code == 0, result.stderr
     document = json.loads(result.stdout)

@@ -154,14 +154,27 @@ def test_choices_are_those_of_the_library():
     from typing import get_args
 
     from bayesmap.api import Method
-    from bayesmap.cli.keys import INFER, METHODS, ORDERS, STARTS
+    from bayesmap.cli import cells
+    from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
     from bayesmap.inference.propagate import ROUNDS
     from bayesmap.inference.sampler import Order
     from bayesmap.inference.start import Start
+    from bayesmap.model.cell_priors import Beta, Surface
     from bayesmap.model.defaults import HIT_DEPTH, P_WALL
+    from bayesmap.model.priors import Independent
 
     assert set(METHODS) == set(get_args(Method))
     assert set(ORDERS) == set(get_args(Order))
     assert set(STARTS) == set(get_args(Start))
     defaults = {key.name: key.default for key in INFER}
-    assert (defaults["prior"], defaults["hit_depth"], defaults["rounds"]) == (P_WALL, HIT_DEPTH, ROUNDS)
+    assert defaults["rounds"] == ROUNDS
+    binary = cells.settled({**defaults, "cells": "binary"})
+    assert cells.prior_of(binary).describe() == Independent(P_WALL).describe()
+    assert binary["hit_depth"] == HIT_DEPTH
+    kinds = {name: type(cells.prior_of(cells.settled({**defaults, "cells": name}))) for name in CELLS}
+    assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
+    # The help says what settings are where the user sets none.
+    unset = {key.name: key.unset for key in INFER}
+    assert unset["draws"] == f"{cells.DRAWS['surface']}; {cells.DRAWS['binary']} with binary cells"
+    assert unset["hit_depth"] == f"{cells.HIT_DEPTH['reflectivity']:g}; binary {HIT_DEPTH:g}"
+    assert unset["prior"] == f"{P_WALL:g}"

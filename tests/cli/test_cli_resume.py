@@ -1,5 +1,6 @@
 """Stopped runs: Ctrl-C, SIGKILL, and going on bit for bit."""
 
+import contextlib
 import json
 import os
 import signal
@@ -12,24 +13,46 @@ import bayesmap as bm
 from bayesmap.cli.folder import Folder
 
 LONG = (
-    "--resolution", "0.25", "--chains", "2", "--warmup", "20", "--draws", "30", "--thin", "400", "--no-progress",
+    "--resolution", "0.25", "--chains", "2", "--warmup", "20", "--draws", "30", "--no-progress",
     "--checkpoint-every", "0",
 )  # fmt: skip
-"""Options of a run of some seconds."""
+"""Options of a run of some seconds, but for the thinning."""
+THIN = {"binary": 400, "reflectivity": 4, "surface": 4}
+FIRST = {"binary": 20, "reflectivity": 1, "surface": 1}
+"""Sweeps after which there is a first checkpoint: a step of binary walls is as many sweeps as take some time."""
+
+WALLS = ("packed", "log_likelihood", "log_prior", "warmup_log_joint", "walls", "occupancy", "observed")
+FIELD = (
+    "touched", "busy", "reflectivity", "surfaces", "log_likelihood", "log_prior", "warmup_log_joint", "states",
+    "last_counts", "informed", "occupancy", "observed",
+)  # fmt: skip
 
 
 def same(one, other):
-    """Equal draws, traces and ends of the chains."""
-    for name in ("packed", "log_likelihood", "log_prior", "warmup_log_joint", "walls", "occupancy"):
-        np.testing.assert_array_equal(getattr(one.posterior, name), getattr(other.posterior, name))
+    """Equal draws, traces and ends of the chains, and the same fitted sensor and prior."""
+    field = isinstance(one, bm.FieldRun)
+    for name in FIELD if field else WALLS:
+        np.testing.assert_array_equal(getattr(one.posterior, name), getattr(other.posterior, name), err_msg=name)
+    for name in ("sensor", "sweep", "settings", *(("prior",) if field else ())):
+        assert getattr(one.posterior, name) == getattr(other.posterior, name)
 
 
-@pytest.fixture(scope="module")
-def uninterrupted(office, tmp_path_factory):
+def long(cells):
+    """Options of a run of some seconds, of this kind of cells."""
+    return (*LONG, "--cells", cells, "--thin", THIN[cells])
+
+
+@pytest.fixture(scope="module", params=["surface", "reflectivity", "binary"])
+def uninterrupted(request, office, tmp_path_factory):
+    """A kind of cells, and the run over them that nothing stopped."""
     folder = tmp_path_factory.mktemp("whole") / "run"
-    result = call("infer", office, "-o", folder, *LONG)
+    result = call("infer", office, "-o", folder, *long(request.param), "--checkpoint-every", "30")
     assert result.exit_code == 0, result.stderr
-    return bm.load(folder / "run.nc")
+    return request.param, bm.load(folder / "run.nc")
+
+
+BOTH = pytest.mark.parametrize("cells", ["surface", "binary"])
+OTHER_CELLS = {"surface": "prior ({'kind': 'surface'", "binary": "the saved run is one over walls"}
 
 
 def interrupt_at_checkpoint(monkeypatch):
@@ -44,8 +67,8 @@ def interrupt_at_checkpoint(monkeypatch):
 
 
 def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, uninterrupted):
-    folder = tmp_path / "run"
-    process = start("infer", office, "-o", folder, *LONG, "--json")
+    (cells, whole), folder = uninterrupted, tmp_path / "run"
+    process = start("infer", office, "-o", folder, *long(cells), "--json")
     wait_for(folder / "run.nc", process)
     process.send_signal(signal.SIGINT)
     out, errors = process.communicate()
@@ -56,34 +79,58 @@ def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, unint
     assert list(document["outputs"]) == ["run.nc"]
     stopped = bm.load(folder / "run.nc")
     assert not stopped.finished
-    assert 20 <= stopped.posterior.sweep < uninterrupted.posterior.sweep
+    assert FIRST[cells] <= stopped.posterior.sweep < whole.posterior.sweep
     assert sorted(path.name for path in folder.iterdir()) == ["config.toml", "run.nc"]
 
     # The settings need not be said again.
     resumed = call("infer", office, "-o", folder, "--resume", "--json")
     assert resumed.exit_code == 0, resumed.stderr
     assert json.loads(resumed.stdout)["finished"] is True
-    same(bm.load(folder / "run.nc"), uninterrupted)
+    same(bm.load(folder / "run.nc"), whole)
 
 
 def test_sigkill_leaves_the_last_checkpoint_whole(office, tmp_path, uninterrupted):
-    folder = tmp_path / "run"
-    process = start("infer", office, "-o", folder, *LONG)
+    (cells, whole), folder = uninterrupted, tmp_path / "run"
+    process = start("infer", office, "-o", folder, *long(cells))
     wait_for(folder / "run.nc", process)
     process.kill()
     process.communicate()
     assert process.returncode == -signal.SIGKILL
-    assert bm.load(folder / "run.nc").posterior.sweep >= 20
+    assert bm.load(folder / "run.nc").posterior.sweep >= FIRST[cells]
     resumed = call("infer", office, "-o", folder, "--resume")
     assert resumed.exit_code == 0, resumed.stderr
-    same(bm.load(folder / "run.nc"), uninterrupted)
+    same(bm.load(folder / "run.nc"), whole)
 
 
-def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, tmp_path, short, monkeypatch):
+def test_a_run_stopped_again_and_again_is_the_same(office, tmp_path, uninterrupted, monkeypatch):
+    (cells, whole), folder, seen = uninterrupted, tmp_path / "run", []
+    if cells == "binary":
+        return  # its steps are long: tests of the library stop its chains anywhere
+    save = Folder.checkpoint
+
+    def checkpoint(self, run):
+        save(self, run)
+        # While the sensor is being fitted, at the end of warm-up, before the first draw, and between two draws.
+        if run.posterior.sweep in (2, 5, 20, 21, 60) and run.posterior.sweep not in seen:
+            seen.append(run.posterior.sweep)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
+    assert call("infer", office, "-o", folder, *long(cells)).exit_code == 130
+    for _ in range(4):
+        assert call("infer", office, "-o", folder, "--resume").exit_code == 130
+    assert seen == [2, 5, 20, 21, 60]
+    result = call("infer", office, "-o", folder, "--resume")
+    assert result.exit_code == 0, result.stderr
+    same(bm.load(folder / "run.nc"), whole)
+
+
+@BOTH
+def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, tmp_path, short, monkeypatch, cells):
     folder = tmp_path / "run"
     with monkeypatch.context() as patch:
         interrupt_at_checkpoint(patch)
-        assert call("infer", office, "-o", folder, *short).exit_code == 130
+        assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 130
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
     other = tmp_path / "other.log"
     other.write_text("\n".join(office.read_text().splitlines()[:-1]))
@@ -91,6 +138,8 @@ def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, t
         ([office, "--seed", "4"], "seed (0, now 4)"),
         ([office, "--draws", "9", "--thin", "2"], "draws (8, now 9); thin (1, now 2)"),
         ([office, "--resolution", "0.5"], "the saved run was made with other"),
+        ([office, "--sensor", "mixture:0.03"], "the saved run was made with other sensor ("),
+        ([office, "--cells", "reflectivity"], OTHER_CELLS[cells]),
         ([other], "scans or on another grid"),
     ):
         result = call("infer", *arguments, "-o", folder, "--resume")
@@ -106,15 +155,17 @@ def test_resume_where_nothing_was_saved_starts_from_the_beginning(office, tmp_pa
     assert "no run to resume; starting from the beginning" in result.stderr
 
 
-def test_resume_of_a_finished_run_changes_nothing(office, tmp_path, short):
+@BOTH
+def test_resume_of_a_finished_run_changes_nothing(office, tmp_path, short, cells):
     folder = tmp_path / "run"
-    assert call("infer", office, "-o", folder, *short).exit_code == 0
+    assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 0
     before = bm.load(folder / "run.nc")
     assert call("infer", office, "-o", folder, "--resume").exit_code == 0
     same(bm.load(folder / "run.nc"), before)
 
 
-def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, monkeypatch):
+@BOTH
+def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, monkeypatch, cells):
     folder = tmp_path / "run"
     save = Folder.checkpoint
 
@@ -123,26 +174,55 @@ def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, 
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
-    result = call("infer", office, "-o", folder, *short)
+    result = call("infer", office, "-o", folder, *short, "--cells", cells)
     assert result.exit_code == 130
     assert f"the last checkpoint is kept; go on with:\n  bayesmap infer {office}" in result.stderr
     assert bm.load(folder / "run.nc").posterior.sweep == 5
 
 
-def test_interrupted_in_its_warm_up_a_run_has_no_picture_yet(office, tmp_path, monkeypatch):
+@BOTH
+def test_interrupted_in_its_warm_up_a_run_has_no_picture_yet(office, tmp_path, monkeypatch, cells):
     folder = tmp_path / "run"
-    long = ("--resolution", "0.25", "--warmup", "20000", "--draws", "2", "--checkpoint-every", "0", "--chains", "1")
+    never = ("--resolution", "0.25", "--warmup", "20000", "--draws", "2", "--checkpoint-every", "0", "--chains", "1")
     interrupt_at_checkpoint(monkeypatch)
-    assert call("infer", office, "-o", folder, *long).exit_code == 130
-    assert 0 < bm.load(folder / "run.nc").posterior.sweep < 20000
-    for command in ("render", "export"):
-        result = call(command, folder / "run.nc")
+    assert call("infer", office, "-o", folder, *never, "--cells", cells).exit_code == 130
+    run = bm.load(folder / "run.nc")
+    assert 0 < run.posterior.sweep < 20000
+    for what in ("figure", "mean", "draw", "animation", *(("width", "surfaces") if cells == "surface" else ())):
+        result = call("render", folder / "run.nc", "--what", what)
         assert result.exit_code == 3
         assert "the run has no draws yet" in result.stderr
+    result = call("export", folder / "run.nc")
+    assert result.exit_code == 3
+    assert "the run has no draws yet" in result.stderr
+    with pytest.raises(bm.BadInput, match="stopped before its first draw"):
+        run.plot()
+    assert json.loads(call("info", folder / "run.nc", "--json").stdout)["run"]["draws"] == 0
 
 
-def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monkeypatch):
-    save = bm.Run.save
+@BOTH
+def test_interrupted_before_its_first_sweep_nothing_is_kept_but_the_settings(
+    office, tmp_path, short, monkeypatch, cells
+):
+    folder = tmp_path / "run"
+
+    @contextlib.contextmanager
+    def at_once():
+        yield lambda: True
+
+    monkeypatch.setattr("bayesmap.api.stop_on_interrupt", at_once)
+    result = call("infer", office, "-o", folder, *short, "--cells", cells, "--json")
+    assert result.exit_code == 130
+    assert "interrupted before there was anything to save; start again with:" in result.stderr
+    document = json.loads(result.stdout)
+    assert (document["sweeps"], document["draws"], document["outputs"]) == (0, 0, {})
+    assert [path.name for path in folder.iterdir()] == ["config.toml"]
+
+
+@BOTH
+def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monkeypatch, cells):
+    kind = bm.Run if cells == "binary" else bm.FieldRun
+    save = kind.save
     calls = []
 
     def full(self, path):
@@ -151,7 +231,7 @@ def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monke
             raise OSError(28, "No space left on device")
         save(self, path)
 
-    monkeypatch.setattr(bm.Run, "save", full)
-    result = call("infer", office, "-o", tmp_path / "run", *short)
+    monkeypatch.setattr(kind, "save", full)
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells)
     assert result.exit_code == 0
     assert "checkpoint could not be written: No space left on device" in result.stderr

@@ -31,7 +31,7 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
     if out["draws"] < 1:  # the library allows none, where marginals are all that is wanted
         raise BadInput(f"draws: give 1 or more, got {out['draws']}; the picture and the map are made from them")
     if cells != "binary":
-        for name, plain in (("prior", None), ("start", None), ("method", "gibbs")):
+        for name, plain in (("prior", None), ("start", None), ("method", "gibbs"), ("order", "radial")):
             if values[name] != plain:
                 raise BadInput(f"{name}: {values[name]!r} is for binary walls; add --cells binary")
     return out

@@ -168,6 +168,10 @@ def _infer(
             folder.begin(toml)
             tell(event)
 
+        def on_checkpoint(run: Run) -> None:
+            folder.begin(toml)  # a short warm-up may be over before anything was told of it
+            folder.checkpoint(run)
+
         run = infer(
             train,
             grid,
@@ -175,7 +179,7 @@ def _infer(
             sensor=cells.sensor_for(values, sensor, grid.resolution),  # type: ignore[arg-type]
             resume=saved,
             on_progress=on_progress,
-            on_checkpoint=folder.checkpoint,
+            on_checkpoint=on_checkpoint,
             checkpoint_every_s=values["checkpoint_every"],
             **{name: values[name] for name in PASSED_ON},
         )

@@ -30,6 +30,8 @@ class FieldResult:
         log_likelihood, log_prior: of every kept draw, (chains, kept); the prior in unconstrained coordinates.
         warmup_log_joint: of the states before each warm-up sweep, (chains, done warm-up sweeps).
         states: where the chains stand, (chains, T, 6).
+        last_counts: hits and met of each cell when it last drew its reflectivity, (2, chains, T): cells of which no
+            beam tells anything draw seldom, and the fit looks at what they counted then.
         parameters: sensor and prior as they are now: fitted, if they were to be.
         informed: in how many (kept sweep, chain) pairs some beam told each cell something, of those that counted, two
             rows, (2, T).
@@ -44,6 +46,7 @@ class FieldResult:
     log_prior: NDArray[np.float64]
     warmup_log_joint: NDArray[np.float64]
     states: NDArray[np.float32]
+    last_counts: NDArray[np.int32]
     parameters: Parameters
     informed: NDArray[np.int32]
     sweep: int
@@ -87,7 +90,8 @@ def run_field(
         checkpoint_every_s: see above.
         should_stop: asked between two sweeps.
     """
-    sampler = FieldGibbs(problem, chains, seed, threads=threads, states=None if resume is None else resume.states)
+    states, counts = (None, None) if resume is None else (resume.states, resume.last_counts)
+    sampler = FieldGibbs(problem, chains, seed, threads=threads, states=states, counts=counts)
     record = _Record(problem, schedule, chains, resume)
     told = saved = time.monotonic()
     while record.sweep < schedule.sweeps and not should_stop():
@@ -183,6 +187,7 @@ class _Record:
             log_prior=self.log_prior[:, : self.kept],
             warmup_log_joint=self.warmup_log_joint[:, : self.warmed],
             states=sampler.states(),
+            last_counts=np.stack(sampler.counts()),
             parameters=self.parameters,
             informed=self.informed.copy(),
             sweep=self.sweep,

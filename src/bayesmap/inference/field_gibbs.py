@@ -110,8 +110,9 @@ class FieldGibbs:
         *,
         threads: int | None = None,
         states: NDArray[np.float32] | None = None,
+        counts: NDArray[np.int32] | None = None,
     ) -> None:
-        """Start chains about the plug-in guess, or from given states (C, T, 6)."""
+        """Start chains about the plug-in guess, or go on from given states (C, T, 6) and counts (2, C, T)."""
         from bayesmap.kernels.field import FieldChains
 
         self.problem = problem
@@ -127,6 +128,7 @@ class FieldGibbs:
             stream=STREAM_SWEEPS,
             threads=threads,
             device=problem.device,
+            counts=counts,
         )
         every = max(1, math.ceil(problem.rays.n_beams * len(states) / BEAMS_LOOKED_AT))
         self._looked_at = slice(every // 2, None, every)

@@ -81,6 +81,7 @@ def _write(posterior: FieldPosterior, file: Any) -> None:
     write_arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
     write_arrays(constant, ("chain", "cell", "state_part"), state=posterior.states)
     write_arrays(constant, ("informed_part", "cell"), informed=posterior.informed)
+    write_arrays(constant, ("count_part", "chain", "cell"), last_counts=posterior.last_counts)
 
 
 def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
@@ -106,6 +107,7 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
         log_prior=stats["log_prior"][:],
         warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
         states=constant["state"][:],
+        last_counts=constant["last_counts"][:],
         informed=constant["informed"][:],
         sweep=header["sweep"],
         finished=header["finished"],
@@ -121,8 +123,9 @@ def checksum(posterior: FieldPosterior, header: dict[str, Any]) -> str:
     scans = posterior.scans
     for array in (
         posterior.touched, posterior.busy, posterior.reflectivity, posterior.surfaces, posterior.log_likelihood,
-        posterior.log_prior, posterior.warmup_log_joint, posterior.states, posterior.informed, posterior.occupancy,
-        posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s, scans.beam_poses,
+        posterior.log_prior, posterior.warmup_log_joint, posterior.states, posterior.last_counts, posterior.informed,
+        posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s,
+        scans.beam_poses,
     ):  # fmt: skip
         if array is not None:
             digest.update(np.ascontiguousarray(array).tobytes())

@@ -72,7 +72,9 @@ class FieldChains:
         stream: int,
         threads: int | None,
         device: str,
+        counts: NDArray[np.int32] | None = None,
     ) -> None:
+        """Put chains that stand at ``states``, (C, T, 6), on the device; ``counts`` (2, C, T) if they go on."""
         self.rays, self.device, self.plain = rays, device, int(plain)
         self._rays = put_rays(rays, plain, device)
         self._steps = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
@@ -99,7 +101,11 @@ class FieldChains:
             field.where = empty(rays.n_beams, wp.vec2)
             field.log_likelihood = empty(rays.n_beams, wp.float32)
             self._fields.append(field)
-        self._totals = [(empty(cells, wp.int32), wp.full(cells, -1, dtype=wp.int32, device=device)) for _ in states]
+        if counts is None:
+            counts = np.stack([np.zeros((len(states), cells)), np.full((len(states), cells), -1)]).astype(np.int32)
+        self._totals = [
+            tuple(wp.array(of[chain], dtype=wp.int32, device=device) for of in counts) for chain in range(len(states))
+        ]
         incidences = self._busy.entry.shape[0]
         self._said = [empty(incidences, wp.uint8) for _ in states]
         self._log_priors = [empty(cells, wp.float32) for _ in states]

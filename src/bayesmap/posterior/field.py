@@ -40,7 +40,7 @@ class FieldPosterior:
         observed: cells of which some beam says something in at least half of the draws, (nx, ny).
         log_likelihood, log_prior: of every draw, (chains, draws); the prior in unconstrained coordinates.
         warmup_log_joint: (chains, warm-up sweeps).
-        states, informed, sweep: where the chains stand: all that is needed to go on.
+        states, last_counts, informed, sweep: where the chains stand: all that is needed to go on.
         finished: false if the run was stopped early.
     """
 
@@ -59,6 +59,7 @@ class FieldPosterior:
     log_prior: Floats
     warmup_log_joint: Floats
     states: NDArray[np.float32]
+    last_counts: NDArray[np.int32]
     informed: NDArray[np.int32]
     sweep: int
     finished: bool
