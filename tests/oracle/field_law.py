@@ -120,15 +120,28 @@ def draw_states(rng, prior, centres, count=()):
     states[..., 0] = rng.beta(prior.a, prior.b, shape)
     if hasattr(prior, "dof"):
         size = int(np.prod(shape))
-        sigma = stats.invwishart(prior.dof, (prior.spread * edge) ** 2 * np.eye(2)).rvs(size, random_state=rng)
+        sigma = draw_covariances(rng, prior, size) * edge**2
         factor = np.linalg.cholesky(np.reshape(sigma, (*shape, 2, 2)))
         states[..., 1:3] = centres + prior.wander * edge * rng.standard_normal((*shape, 2))
         states[..., 3], states[..., 4], states[..., 5] = factor[..., 0, 0], factor[..., 1, 0], factor[..., 1, 1]
     return states
 
 
+def draw_covariances(rng, prior, count):
+    """Inverse-Wishart covariances in edges, large ones thinned out: kept with chance exp(-tr / (2 extent^2))."""
+    law = stats.invwishart(prior.dof, prior.spread**2 * np.eye(2))
+    sigma = np.empty((0, 2, 2))
+    while len(sigma) < count:
+        more = np.reshape(law.rvs(2 * count + 2, random_state=rng), (-1, 2, 2))
+        keep = rng.random(len(more)) < np.exp(-np.trace(more, axis1=1, axis2=2) / (2 * prior.extent**2))
+        sigma = np.concatenate([sigma, more[keep]])
+    return sigma[:count]
+
+
 def log_prior(prior, states, centres):
-    """Log density of (logit m, mean, log l11, l21, log l22) of every cell, (..., T), normalised."""
+    """Log density of (logit m, mean, log l11, l21, log l22) of every cell, (..., T); normalised but for the factor
+    that thins out large surfaces.
+    """
     centres, edge = centres
     m = states[..., 0]
     total = prior.a * np.log(m) + prior.b * np.log1p(-m) - special.betaln(prior.a, prior.b)
@@ -140,7 +153,8 @@ def log_prior(prior, states, centres):
         # d(Sigma11, Sigma21, Sigma22) = 4 l11^3 l22^2 d(log l11, l21, log l22)
         jacobian = np.log(4) + 3 * np.log(states[..., 3]) + 2 * np.log(states[..., 5])
         of_mean = stats.norm.logpdf(states[..., 1:3], centres, prior.wander * edge).sum(axis=-1)
-        total = total + of_sigma + jacobian + of_mean
+        thinned = -np.trace(sigma, axis1=1, axis2=2).reshape(m.shape) / (2 * (prior.extent * edge) ** 2)
+        total = total + of_sigma + jacobian + of_mean + thinned
     return total
 
 

@@ -1,6 +1,6 @@
 """Little worlds whose cells stop some beams, many side by side: one sweep moves them all, and each is a chain.
 
-A world is a small grid; world w stands at block (w % side, w // side) of one large grid. No beam leaves its world.
+A world is a small grid; world w stands at block (w % side, w // side) of one large grid.
 """
 
 import math
@@ -13,22 +13,32 @@ import bayesmap as bm
 from bayesmap.inference.field_gibbs import FieldGibbs, FieldProblem, build_field
 
 
-def side_by_side(rays, worlds):
-    """Rays of ``worlds`` times as many scans on a small grid, as rays on one large grid with a block for each world."""
-    nx, ny = rays.grid.shape
+def corners(shape, worlds, gap):
+    """Lower left cell of each world on the large grid, (worlds, 2), and that grid's shape."""
     side = math.ceil(math.sqrt(worlds))
-    world_of_beam = np.arange(rays.n_beams) // (rays.n_beams // worlds)
-    block = np.stack([world_of_beam % side * nx, world_of_beam // side * ny], axis=-1)
+    w = np.arange(worlds)
+    pitch = np.array(shape) + gap
+    return np.stack([w % side, w // side], axis=-1) * pitch, tuple((side * pitch).tolist())
+
+
+def side_by_side(rays, worlds):
+    """Rays of ``worlds`` times as many scans on a small grid, as rays on one large grid with a block for each world.
+
+    Blocks lie so far apart that no reading ends in another's.
+    """
+    nx, ny = rays.grid.shape
+    corner, shape = corners((nx, ny), worlds, math.ceil(rays.limits.max_m / rays.grid.resolution) + 1)
+    x, y = corner[:, :1] + np.arange(nx * ny) // ny, corner[:, 1:] + np.arange(nx * ny) % ny
+    touched = np.sort((x * shape[1] + y).ravel())
+    world = np.arange(rays.n_beams) // (rays.n_beams // worlds)
+    entry_world = np.repeat(world, np.diff(rays.offsets))
     flat = rays.touched[rays.cells]
-    corner = np.repeat(block, np.diff(rays.offsets), axis=0)
-    cells = (flat // ny + corner[:, 0]) * (ny * side) + flat % ny + corner[:, 1]
-    grid = bm.Grid((nx * side, ny * side), rays.grid.resolution)
     return replace(
         rays,
-        grid=grid,
-        touched=np.arange(grid.n_cells, dtype=np.int32),
-        cells=cells.astype(np.int32),
-        start_m=(rays.start_m + block * rays.grid.resolution).astype(np.float32),
+        grid=bm.Grid(shape, rays.grid.resolution),
+        touched=touched.astype(np.int32),
+        cells=np.searchsorted(touched, (x * shape[1] + y)[entry_world, flat]).astype(np.int32),
+        start_m=(rays.start_m + corner[world] * rays.grid.resolution).astype(np.float32),
     )
 
 
@@ -40,23 +50,22 @@ class Worlds:
     shape: tuple
     count: int
 
+    def corners(self):
+        rays = self.problem.rays
+        return corners(self.shape, self.count, math.ceil(rays.limits.max_m / rays.grid.resolution) + 1)[0]
+
     def cells(self):
         """Numbers of the cells of each world, (count, nx * ny)."""
         nx, ny = self.shape
-        side = self.problem.rays.grid.shape[0] // nx
-        w = np.arange(self.count)[:, None]
-        i = np.arange(nx * ny)
-        return (i // ny + w % side * nx) * (ny * side) + i % ny + w // side * ny
+        corner, i = self.corners(), np.arange(nx * ny)
+        flat = (corner[:, :1] + i // ny) * self.problem.rays.grid.shape[1] + corner[:, 1:] + i % ny
+        return np.searchsorted(self.problem.rays.touched, flat)
 
     def split(self, states):
         """States (T, 6) of all cells as (count, nx * ny, 6), surfaces in the world's own coordinates, in edges."""
         edge = self.problem.rays.grid.resolution
-        cells = self.cells()
-        out = np.asarray(states, dtype=float)[cells]
-        corner = np.array(self.shape) * edge
-        side = self.problem.rays.grid.shape[0] // self.shape[0]
-        w = np.arange(self.count)
-        out[..., 1:3] -= (np.stack([w % side, w // side], axis=-1) * corner)[:, None]
+        out = np.asarray(states, dtype=float)[self.cells()]
+        out[..., 1:3] -= self.corners()[:, None] * edge
         out[..., 1:] /= edge
         return out
 

@@ -93,7 +93,8 @@ def test_drawn_readings_follow_the_density(plain):
 
 
 def test_the_prior_of_surfaces_has_the_jacobian_of_its_coordinates():
-    prior, centres = bm.Surface(0.7, 1.3, wander=0.5, spread=0.4, dof=3.5), (np.array([[0.25, 0.25]]), 0.5)
+    prior = bm.Surface(0.7, 1.3, wander=0.5, spread=0.4, dof=3.5, extent=0.6)
+    centres = (np.array([[0.25, 0.25]]), 0.5)
     state = STATES[0]
 
     def sigma(log11, l21, log22):
@@ -109,6 +110,7 @@ def test_the_prior_of_surfaces_has_the_jacobian_of_its_coordinates():
         + stats.norm(0.25, 0.25).logpdf(state[1:3]).sum()
         + stats.beta(0.7, 1.3).logpdf(0.6)
         + np.log(0.6 * 0.4)  # d m / d logit m
+        - (s11 + s22) / (2 * 0.3**2)
     )
     assert log_prior(prior, state[None], centres)[0] == pytest.approx(expected, rel=1e-7)
 

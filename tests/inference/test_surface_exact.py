@@ -1,0 +1,95 @@
+"""Surfaces in one and two cells against importance sampling from the prior with a million draws.
+
+A few thousand copies of a world side by side are independent chains; compared are the marginals of logit m, mean,
+log l11, l21 and log l22 of all cells, and the mean products of all pairs of their ranks. False alarms: `ALPHA` = 1e-4
+over this module.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from oracle.field_law import draw_states, log_likelihoods, log_prior, paths_of
+from oracle.field_worlds import build_worlds, centres_of, copies
+from oracle.verdict import ALPHA
+from oracle.weighted import p_values, surface_coordinates, weighted
+
+import bayesmap as bm
+
+DRAWS, AT_ONCE, COPIES = 1_000_000, 50_000, 2500
+TESTS = 1000  # p-values in this module, at most
+EDGE = 0.5
+
+BLUNT = bm.BeamMixture(bm.Gaussian(0.12, 0.02), p_random=0.1, p_no_return=0.15, p_short=0.1, rate_short_per_m=0.8)
+SHARP = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.05, p_no_return=0.05, p_short=0.05)
+
+ONE = bm.Scans(
+    [[-0.4, 0.25, 0.0], [0.2, -0.6, np.pi / 2]], [-0.12, 0.1],
+    [[0.62, 0.7], [np.inf, 0.8]], max_range_m=2.0, min_range_m=0.15,
+)  # fmt: skip
+TWO = bm.Scans(
+    [[-0.4, 0.2, 0.05], [0.45, -0.5, 1.4]], [-0.1, 0.15],
+    [[0.65, 1.1], [np.inf, 0.72]], max_range_m=2.0, min_range_m=0.15,
+)  # fmt: skip
+NOTHING = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[np.inf, 1.9]], max_range_m=2.0)  # no reading ends in the cell
+
+WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0)
+CASES = {
+    "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
+    "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
+    "two cells": ((2, 1), TWO, BLUNT, bm.Surface(2.0, 1.0, wander=0.3, spread=0.3, dof=5.0)),
+    "one cell without readings": ((1, 1), NOTHING, BLUNT, WEAK),
+}
+
+
+def by_importance(shape, scans, law, prior, count=DRAWS):
+    """Draws from the prior, weighted by their likelihood."""
+    rays = build_worlds(scans, bm.Grid(shape, EDGE), prior, law, 1).problem.rays
+    rng, centres, paths = np.random.default_rng(31), centres_of(rays), paths_of(rays)
+    values, log_weights = [], []
+    for _ in range(count // AT_ONCE):
+        states = draw_states(rng, prior, centres, (AT_ONCE,))
+        values.append(surface_coordinates(states, *centres))
+        log_weights.append(log_likelihoods(paths, states, law, False).sum(axis=-1))
+    return weighted(np.concatenate(values), np.concatenate(log_weights))
+
+
+def drawn(shape, scans, law, prior, sweeps, seed=17):
+    worlds = copies(scans, bm.Grid(shape, EDGE), prior, law, COPIES)
+    states = worlds.split(worlds.sweep(worlds.sampler(seed), 0, sweeps))
+    nx, ny = shape
+    cell = np.arange(nx * ny)
+    return surface_coordinates(states, np.stack([cell // ny + 0.5, cell % ny + 0.5], axis=-1), 1.0)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_draws_follow_the_posterior(name):
+    case = CASES[name]
+    law = by_importance(*case)
+    assert law.size > 8 * COPIES
+    assert p_values(drawn(*case, sweeps=400), law).min() > ALPHA / TESTS
+
+
+def test_wrong_twins_are_rejected():
+    """A prior with one l11 too many, or too fond of 1 - m; a mean that is pulled; a wrong sensor."""
+    shape, scans, law, prior = CASES["one cell, blunt"]
+    mine, right = drawn(shape, scans, law, prior, 400), by_importance(shape, scans, law, prior)
+    assert p_values(mine, right).min() > ALPHA / TESTS
+    logit_m, x, _, log_l11, _, _ = right.values.T
+    tilts = {"Jacobian": log_l11, "reflectivity": -0.2 * np.logaddexp(0, logit_m), "mean": -1.5 * x}
+    twins = {name: weighted(right.values, np.log(right.weight + 1e-300) + tilt) for name, tilt in tilts.items()}
+    twins["noise"] = by_importance(shape, scans, replace(law, noise=bm.Gaussian(0.25)), prior, DRAWS // 2)
+    for name, twin in twins.items():
+        assert p_values(mine, twin).min() < ALPHA / TESTS, name
+
+
+def test_the_oracle_s_prior_draws_have_the_oracle_s_prior_density():
+    """Reweighted from one prior to another, they follow the other: density and draws belong together."""
+    one, other = bm.Surface(1.0, 1.0, 0.4, 0.3, 4.0), bm.Surface(1.4, 1.0, 0.35, 0.3, 4.5)
+    centres = (np.array([[0.25, 0.25]]), EDGE)
+    rng = np.random.default_rng(3)
+    states = draw_states(rng, one, centres, (20_000,))
+    ratio = (log_prior(other, states, centres) - log_prior(one, states, centres)).sum(axis=-1)
+    law = weighted(surface_coordinates(states, *centres), ratio)
+    mine = surface_coordinates(draw_states(rng, other, centres, (2000,)), *centres)
+    assert p_values(mine, law).min() > ALPHA / TESTS
