@@ -97,11 +97,23 @@ class FieldRun(Run):
         save_field(self.posterior, path)
 
     def plot(self, **options: Any) -> Figure:
-        """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`."""
+        """A figure of mean, width of the 90 % interval, readings and one draw, with surfaces where they can be seen.
+
+        Options are those of `bayesmap.viz.figure.posterior_figure`.
+
+        Raises:
+            BadInput: a run that was stopped before its first draw.
+        """
         from bayesmap.viz.figure import posterior_figure
 
         self._need_marginals()
         if self.n_draws and "draw" not in options:
             options["draw"] = self.map_of(0, -1)
         options.setdefault("scans", self.posterior.scans)
+        options.setdefault("label", "reflectivity")
+        if "width" not in options:
+            lower, upper = self.interval(0.9)
+            options["width"] = upper - lower
+        if self.posterior.kind == "surface":
+            options.setdefault("surfaces", self.surfaces())
         return posterior_figure(self.grid, self.occupancy, self.observed, **options)

@@ -49,7 +49,7 @@ def run_document(run: Run) -> dict[str, Any]:
         "log_evidence": finite(posterior.log_evidence),
         "rhat_max": diagnostics["rhat_max"],
         "ess_min": diagnostics["ess_min"],
-        "unchanged_cells": diagnostics["unchanged_cells"],
+        "unchanged_cells": diagnostics["unchanged_cells"] or 0,
         "diagnostics": diagnostics,
         "problems": summary.problems(),
         "peak_memory_mb": peak_memory_mb(),

@@ -32,7 +32,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     An older picture of the same name is replaced.
 
     \b
-    figure                  mean, entropy, readings and one draw
+    figure                  mean, how sure, readings and one draw
     mean, entropy, draw     one panel
     deviation, width        how sure: of a wall's probability the standard
                             deviation, of a reflectivity the 90 % interval's
@@ -65,7 +65,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     label = pictures.quantity(run)
     if what == "figure":
         options = {} if draw is None else {"draw": draw}
-        write_figure(run.plot(truth=walls, label=label, **options), target)
+        write_figure(run.plot(truth=walls, **options), target)
     elif what == "trace":
         from bayesmap.viz.diagnostics import trace_figure
 

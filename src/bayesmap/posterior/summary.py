@@ -24,7 +24,8 @@ class Summary:
         ess_log_joint_bulk, ess_log_joint_tail: effective sample sizes of the log joint.
         rhat_max, ess_min: worst over the observed cells that changed.
         unchanged_cells: cells with one value in all draws; they have no R-hat and are counted apart.
-        disagreeing_cells: cells that never changed within a chain but differ between chains.
+        disagreeing_cells: cells that never changed within a chain but differ between chains. Both are of walls, and
+            None where a cell's state is a number, which no two draws share.
         rhat_high_cells: observed cells with an R-hat over 1.05, those that disagree included.
         effective_sample_size: of the weights, for importance sampling.
         microseconds_per_sweep: of one chain on one core.
@@ -37,8 +38,8 @@ class Summary:
     ess_log_joint_tail: float
     rhat_max: float
     ess_min: float
-    unchanged_cells: int
-    disagreeing_cells: int
+    unchanged_cells: int | None
+    disagreeing_cells: int | None
     rhat_high_cells: int
     effective_sample_size: float
     microseconds_per_sweep: float
@@ -55,7 +56,7 @@ class Summary:
         """One line a diagnostic that the method has, then what is wrong, if anything."""
         lines = []
         for name, value in asdict(self).items():
-            if isinstance(value, float) and math.isnan(value):
+            if value is None or (isinstance(value, float) and math.isnan(value)):
                 continue
             shown = f"{value:.4g}" if isinstance(value, float) else str(value)
             lines.append(f"{name.replace('_', ' '):26} {shown}")

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 from bayesmap.viz import maps, overlays, palette
 from bayesmap.viz.cells import as_observed
 from bayesmap.viz.layout import Layout, lay_out, tick_locator
+from bayesmap.viz.surfaces import draw_surfaces
 from bayesmap.viz.writing import need_ending, write_whole
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
@@ -27,6 +28,11 @@ from bayesmap.world.scans import Scans
 FONT_PT = 9.0
 COARSE_CELLS = 100
 """In maps of at most so many cells a side a cell is large enough that an outline does not hide it."""
+LEAST_STROKE_PT = 2.5
+"""Strokes of surfaces are drawn where cells are at least so large on the page."""
+
+Surfaces = tuple[ArrayLike, ArrayLike, ArrayLike]
+"""Means (n, 2) and covariances (n, 2, 2) in metres, and reflectivities (n,)."""
 
 _rc_lock = threading.Lock()
 
@@ -41,8 +47,10 @@ def posterior_figure(
     scans: Scans | None = None,
     title: str | None = None,
     label: str = "probability of wall",
+    width: ArrayLike | None = None,
+    surfaces: Surfaces | None = None,
 ) -> Figure:
-    """The posterior at a glance: the probability of wall, its entropy in bits, the readings, and one draw.
+    """The posterior at a glance: the mean, how sure it is, the readings, and one draw.
 
     The panels stand in a row, four in a square, or stacked if the map is long.
 
@@ -55,7 +63,10 @@ def posterior_figure(
             large enough that an outline does not hide them, or if there are no readings.
         scans: rays, readings and poses; without them their panel is left out.
         title: a line over the figure.
-        label: what ``occupancy`` is.
+        label: what ``occupancy`` is, and a draw of numbers.
+        width: of the 90 % interval of each cell's reflectivity, shape (nx, ny): drawn in place of the entropy in bits
+            of a wall.
+        surfaces: strokes over the mean, where cells are large enough on the page to show them.
 
     Returns:
         A figure with its own Agg canvas, outside pyplot's global state; write it with `write_figure`.
@@ -66,7 +77,8 @@ def posterior_figure(
     """
     seen = as_observed(grid, observed)
     scans = scans if scans is not None and len(scans) else None
-    shown = ["mean", "entropy"] + ["data"] * (scans is not None) + ["draw"] * (draw is not None)
+    doubt = "entropy" if width is None else "width"
+    shown = ["mean", doubt] + ["data"] * (scans is not None) + ["draw"] * (draw is not None)
     layout = lay_out(grid, len(shown), bars=2, titled=title is not None)
     size_in = layout.figure[0] / layout.dpi, layout.figure[1] / layout.dpi
     figure = Figure(figsize=size_in, dpi=layout.dpi, facecolor="white")
@@ -77,8 +89,11 @@ def posterior_figure(
     }
 
     mean = maps.draw_probability(panels["mean"], grid, occupancy, seen)
-    entropy = maps.draw_entropy(panels["entropy"], grid, occupancy, seen)
-    images = [mean, entropy]
+    if width is None:
+        uncertainty, unit = maps.draw_entropy(panels[doubt], grid, occupancy, seen), "entropy [bits]"
+    else:
+        uncertainty, unit = maps.draw_width(panels[doubt], grid, width, seen), "width of the 90 % interval"
+    images = [mean, uncertainty]
     if "data" in panels:
         images.append(maps.draw_sample(panels["data"], grid, np.zeros(grid.shape, dtype=np.bool_), seen))
     if "draw" in panels:
@@ -87,13 +102,15 @@ def posterior_figure(
     for image in images:
         image.set_interpolation("nearest" if layout.exact else "auto")
     keys = _draw_overlays(panels, grid, truth, scans)
+    if surfaces is not None:
+        keys += _draw_strokes(panels["mean"], grid, surfaces, 72.0 * layout.panel[0] / layout.dpi / grid.shape[0])
 
-    titles = {"data": "readings", "mean": "posterior mean", "entropy": "uncertainty", "draw": "one draw"}
+    titles = {"data": "readings", "mean": "posterior mean", doubt: "uncertainty", "draw": "one draw"}
     for position, (name, panel) in enumerate(panels.items()):
         letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
     ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
     color_bar(figure, layout, layout.corners[0], mean, label, ticks)
-    color_bar(figure, layout, layout.corners[1], entropy, "entropy [bits]", ticks)
+    color_bar(figure, layout, layout.corners[1], uncertainty, unit, ticks)
     _legend(
         figure,
         keys,
@@ -132,7 +149,7 @@ def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
     coarse = max(grid.shape) <= COARSE_CELLS
     keys: list[Artist] = []
     if truth is not None:
-        over = [name for name in panels if name != "entropy"]
+        over = [name for name in panels if name not in ("entropy", "width")]
         if "data" in panels and not coarse:
             over = ["data"]
         outlines = [overlays.draw_truth_outline(panels[name], grid, truth) for name in over]
@@ -143,6 +160,16 @@ def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
         marks = [overlays.draw_sensor(panels[name], scans.poses) for name in over]
         keys.append(marks[0][0])
     return keys
+
+
+def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -> list[Artist]:
+    """The surfaces, as thick as a fifth of a cell, and their legend key; none in cells that are too small."""
+    if cell_pt < LEAST_STROKE_PT:
+        return []
+    thickness_pt = float(np.clip(cell_pt / 5.0, 0.6, 1.6))
+    color = palette.SURFACE
+    longest_m = 1.5 * grid.resolution
+    return [draw_surfaces(panel, *surfaces, width_pt=thickness_pt, longest_m=longest_m, color=color)]
 
 
 def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:

@@ -37,6 +37,7 @@ RAY: Final = "#0072B2"
 READING: Final = "#0072B2"
 NO_RETURN: Final = "#CC79A7"
 SENSOR: Final = "#009E73"
+SURFACE: Final = "#56B4E9"
 TEXT: Final = "#2B2F36"
 FRAME: Final = "#6B7078"
 

@@ -70,6 +70,7 @@ def draw_surfaces(
     *,
     width_pt: float = 1.0,
     longest_m: float = np.inf,
+    color: str | None = None,
 ) -> LineCollection:
     """One stroke a surface, as opaque as its weight.
 
@@ -80,6 +81,7 @@ def draw_surfaces(
         weights: reflectivity, or probability that there is a surface, in [0, 1], shape (n,).
         width_pt: of a stroke.
         longest_m: strokes are cut to this length.
+        color: of the strokes; by default that of walls.
 
     Returns:
         All strokes, labelled "surface"; those fainter than `FAINTEST` are left out.
@@ -91,7 +93,8 @@ def draw_surfaces(
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
     seen = alpha >= FAINTEST
-    colors = np.tile(to_rgba(tuple(palette.probability_colors(2)[1])), (int(seen.sum()), 1))
+    ink = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
+    colors = np.tile(ink, (int(seen.sum()), 1))
     colors[:, 3] = alpha[seen]
     lines = LineCollection(
         list(strokes[seen]), colors=colors, linewidths=width_pt, capstyle="round", label="surface", zorder=2.5
