@@ -14,7 +14,6 @@ import bayesmap as bm
 from bayesmap.kernels.cell_draws import CellPrior, fresh_surface
 from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
-from bayesmap.posterior.field import fresh_surfaces
 
 COUNT = 100_000
 SPACING = 1024
@@ -129,7 +128,7 @@ def by_kernel(prior):
 
 
 def by_numpy(prior):
-    return fresh_surfaces(prior, np.random.default_rng(3), COUNT)
+    return prior.sample_surfaces(np.random.default_rng(3), COUNT)
 
 
 def by_scipy(prior):

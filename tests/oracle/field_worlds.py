@@ -116,3 +116,18 @@ def draw_worlds(seed, grid, prior, sensor, worlds, *, poses=2, beams=5, limits=(
     readings = draw_readings(rng, paths_of(before), truth, sensor, plain).reshape(whole.ranges_m.shape)
     readings[rng.random(readings.shape) < invalid] = np.nan
     return build_worlds(replace(whole, ranges_m=readings), grid, prior, sensor, worlds), truth
+
+
+def scans_of_all_kinds(seed, grid, *, poses=5, beams=9, limits=(0.1, 3.0), lattice=False):
+    """Readings of every kind from anywhere in and about a grid; on a ``lattice`` from corners and along lines."""
+    rng = np.random.default_rng(seed)
+    size = np.array(grid.shape) * grid.resolution
+    xy = np.array(grid.origin) + rng.uniform(-0.1, 1.1, (poses, 2)) * size
+    where = np.column_stack([xy, rng.uniform(-np.pi, np.pi, poses)])
+    if lattice:
+        half = grid.resolution / 2
+        where = np.round(where / [half, half, np.pi / 4]) * [half, half, np.pi / 4]
+    readings = rng.uniform(limits[0], 0.6 * limits[1], (poses, beams))
+    readings.ravel()[rng.choice(readings.size, 6, replace=False)] = [np.inf, np.inf, -np.inf, -np.inf, np.nan, np.nan]
+    angles = np.arange(beams) * (np.pi / 4 if lattice else 0.7)
+    return bm.Scans(where, angles, readings, max_range_m=limits[1], min_range_m=limits[0])

@@ -75,7 +75,8 @@ def trace_rays(
     device = devices.resolve(device)
     ranges = scans.ranges_m.ravel()
     finite = np.isfinite(ranges)
-    reach_m = np.where(finite & (not whole), np.minimum(ranges + margin_m, scans.max_range_m), scans.max_range_m)
+    hits_m = np.where(finite, ranges, 0.0)
+    reach_m = np.where(finite & (not whole), np.minimum(hits_m + margin_m, scans.max_range_m), scans.max_range_m)
     longest = np.where(np.isnan(ranges), -1.0, reach_m / grid.resolution)
     starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
     angles_rad = scans.beam_angles_world().ravel()
@@ -99,7 +100,7 @@ def trace_rays(
     geometry = [wp.float64(grid.resolution), wp.float64(hit_depth)]
     launch(fill_cells, beams, [*grid.shape, *rays, offsets_dev, *geometry, cells, distance_m], device)
 
-    nearest_m = np.where(finite, ranges, -np.inf) - margin_m - grid.resolution
+    nearest_m = np.where(finite, hits_m - margin_m - grid.resolution, -np.inf)
     near = wp.empty(beams, dtype=wp.int32, device=device)
     inputs: list[Any] = [offsets_dev, distance_m, devices.to_device(nearest_m, wp.float32, device), near]
     launch(find_near, beams, inputs, device)

@@ -69,8 +69,9 @@ class BeamRays:
         return np.stack([self.touched // ny + 0.5, self.touched % ny + 0.5], axis=-1) * self.grid.resolution
 
     def end_points_m(self) -> NDArray[np.float64]:
-        """Where each reading ends, metres from the lower left corner, shape (B, 2); not finite where it is no hit."""
-        return np.asarray(self.start_m + self.range_m[:, None] * self.direction.astype(np.float64))
+        """Where each reading ends, metres from the lower left corner, shape (B, 2); NaN where it is no hit."""
+        range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
+        return np.asarray(self.start_m + range_m[:, None] * self.direction.astype(np.float64))
 
     def to_grid(self, values: NDArray[np.float64], elsewhere: float) -> NDArray[np.float64]:
         """Spread one value for each touched cell, (..., T), over the grid, (..., nx, ny)."""
