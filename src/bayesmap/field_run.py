@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+OCCUPIED, FREE = 0.3, 0.1
+"""Reflectivities above and below which a robot's map of occupied, free and unknown cells calls a cell so."""
+
+
 @dataclass(frozen=True, eq=False)
 class FieldRun(Run):
     """The posterior over reflectivities, and perhaps surfaces, that a call of `bayesmap.infer` found.
@@ -117,3 +121,23 @@ class FieldRun(Run):
         if self.posterior.kind == "surface":
             options.setdefault("surfaces", self.surfaces())
         return posterior_figure(self.grid, self.occupancy, self.observed, **options)
+
+    def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, ...]:
+        """Write the map, or the trajectory, for other programs, as `Run.export` does.
+
+        A wall's probability must be over one half to say that it is likely there; a cell that stops three beams in ten
+        for certain is no place for a robot. So maps of occupied, free and unknown cells have thresholds of their own
+        here, `OCCUPIED` and `FREE`, unless some are given.
+
+        Raises:
+            BadInput: as `Run.export`.
+        """
+        from bayesmap.io.exports import format_of
+
+        mode = options.get("mode")
+        if mode is None and format_of(path, options.get("format")) == "map-server":
+            mode = "trinary"
+        if mode == "trinary":
+            for name, value in (("occupied_thresh", OCCUPIED), ("free_thresh", FREE)):
+                options[name] = value if options.get(name) is None else options[name]
+        return super().export(path, **options)

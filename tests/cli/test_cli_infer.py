@@ -8,7 +8,10 @@ from data import intel_log
 from shell import call
 
 import bayesmap as bm
+from bayesmap.field_inference import first_sensor
 from bayesmap.io.map_server import read_map
+from bayesmap.model.cell_priors import prior_from
+from bayesmap.sensor.describe import describe
 
 KEYS = {
     "schema_version", "version", "grid", "scans", "beams", "incidences", "method", "order", "prior", "sensor", "chains",
@@ -18,20 +21,53 @@ KEYS = {
 FILES = {"run.nc", "posterior.png", "map.yaml", "map.pgm", "summary.json", "config.toml"}
 
 
-def test_everything_is_left_in_the_folder(office_run):
-    assert {path.name for path in office_run.iterdir()} == FILES
-    run = bm.load(office_run / "run.nc")
+OF_KIND = {
+    "surface": {"kind": "surface", "hit_depth": 0.5, "start": "readings", "order": None},
+    "reflectivity": {"kind": "beta", "hit_depth": 0.5, "start": "readings", "order": None},
+    "binary": {"kind": "independent", "hit_depth": 0.25, "start": "prior", "order": "radial"},
+}
+ALL = pytest.mark.parametrize("cells", list(OF_KIND))
+
+
+@ALL
+def test_everything_is_left_in_the_folder(office, office_run, tmp_path, short, cells):
+    folder = office_run
+    if cells != "surface":
+        folder = tmp_path / "run"
+        assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 0
+    assert {path.name for path in folder.iterdir()} == FILES
+    run = bm.load(folder / "run.nc")
     assert run.finished
-    occupancy, grid = read_map(office_run / "map.yaml")
+    assert isinstance(run, bm.FieldRun) == (cells != "binary")
+    occupancy, grid = read_map(folder / "map.yaml")
     assert grid == run.grid
     assert np.isnan(occupancy[~run.observed]).all()
-    assert (office_run / "posterior.png").read_bytes().startswith(b"\x89PNG")
+    occupied, free = (0.65, 0.25) if cells == "binary" else (0.3, 0.1)
+    np.testing.assert_array_equal(occupancy == 1, run.observed & (run.occupancy > occupied))
+    np.testing.assert_array_equal(occupancy == 0, run.observed & (run.occupancy < free))
+    assert (folder / "posterior.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_the_document(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--holdout", "4", "--json", "--seed", "5")
+@ALL
+def test_the_document(office, tmp_path, short, cells):
+    options = ("--holdout", "4", "--json", "--seed", "5", "--cells", cells)
+    result = call("infer", office, "-o", tmp_path / "run", *short, *options)
     assert result.exit_code == 0, result.stderr
     document = json.loads(result.stdout)
+    assert document["cells"] == cells
+    assert {**document, "kind": document["prior"]["kind"]}.items() >= OF_KIND[cells].items()
+    if cells == "binary":
+        assert document["fitted"] is None
+    else:
+        assert document["sensor"] == "fit"
+        fitted = document["fitted"]
+        assert fitted["prior"]["kind"] == document["prior"]["kind"]
+        first = first_sensor(prior_from(document["prior"]), 0.25)
+        assert fitted["sensor"] != describe(first)
+        assert fitted["sensor"] == describe(bm.load(tmp_path / "run" / "run.nc").posterior.sensor)
+        assert document["unchanged_cells"] == 0  # no two draws of a number are the same
+        assert document["diagnostics"]["unchanged_cells"] is None
+        assert "unchanged" not in str(bm.load(tmp_path / "run" / "run.nc").summary())
     assert document.keys() >= KEYS
     assert json.loads((tmp_path / "run" / "summary.json").read_text()) == document
     run = bm.load(tmp_path / "run" / "run.nc")
@@ -68,10 +104,32 @@ def test_strict_exits_4_but_leaves_everything(office, tmp_path, short):
 
 
 @pytest.mark.parametrize("method", ["block", "propagate", "importance"])
-def test_other_methods(office, tmp_path, short, method):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--method", method, "--particles", "500", "--json")
+def test_other_methods_of_binary_walls(office, tmp_path, short, method):
+    options = ("--cells", "binary", "--method", method, "--particles", "500", "--json")
+    result = call("infer", office, "-o", tmp_path / "run", *short, *options)
     assert result.exit_code == 0, result.stderr
     assert json.loads(result.stdout)["method"] == method
+
+
+def test_binary_walls_with_a_fitted_sensor(office, tmp_path, short):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", "binary", "--sensor", "fit", "--json")
+    assert result.exit_code == 0, result.stderr
+    sensor = json.loads(result.stdout)["sensor"]
+    assert sensor["kind"] == "mixture"
+    again = call("infer", office, "-o", tmp_path / "run", "--resume", "--json")
+    assert again.exit_code == 0, again.stderr
+    assert json.loads(again.stdout)["sensor"] == sensor
+
+
+def test_a_sensor_that_is_given_is_not_fitted(office, tmp_path, short):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--sensor", "mixture:0.03", "--json")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document["sensor"]["noise"] == {"kind": "gaussian", "sigma_m": 0.03, "sigma_per_m": 0.0}
+    assert document["fitted"] is None
+    run = bm.load(tmp_path / "run" / "run.nc")
+    assert run.posterior.sensor == bm.BeamMixture(bm.Gaussian(0.03))
+    assert run.posterior.prior == bm.Surface()
 
 
 def test_the_cells_of_a_given_map(office, tmp_path, short):

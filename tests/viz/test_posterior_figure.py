@@ -244,3 +244,33 @@ def test_reflectivities_have_draws_in_shades_and_a_name_of_their_own():
     (panel,) = (ax for ax in figure.axes if ax.get_label() == "draw")
     np.testing.assert_allclose(panel.images[0].get_array().T, draw)
     assert [ax.get_xlabel() for ax in figure.axes if ax.get_label() == "reflectivity"] == ["reflectivity"]
+
+
+def surfaces():
+    x, y = (axis[: min(len(axis) for axis in GRID.centers_m())] for axis in GRID.centers_m())
+    means = np.stack([x, y], axis=-1)
+    return means, np.tile(np.diag([0.04, 0.001]) * GRID.resolution**2, (len(means), 1, 1)), np.ones(len(means))
+
+
+def test_reflectivities_have_intervals_and_shades(tmp_path):
+    numbers = 0.5 * occupancy()
+    figure = full(draw=numbers, width=numbers, label="reflectivity")
+    assert names(figure) == ["mean", "width", "data", "draw", "reflectivity", "width of the 90 % interval"]
+    (legend,) = figure.legends
+    assert not {"wall", "free"} & {text.get_text() for text in legend.get_texts()}
+    with pytest.raises(BadInput, match="width runs from"):
+        full(width=numbers + 1.0)
+
+
+def test_surfaces_lie_over_the_mean_where_cells_are_large_enough():
+    def strokes(figure):
+        mean = next(ax for ax in figure.axes if ax.get_label() == "mean")
+        return [line for line in mean.collections if line.get_label() == "surface"]
+
+    figure = full(surfaces=surfaces())
+    (lines,) = strokes(figure)
+    assert len(lines.get_segments()) == len(surfaces()[0])
+    assert "surface" in [text.get_text() for text in figure.legends[0].get_texts()]
+    fine = Grid(shape=(500, 500), resolution=0.01, origin=GRID.origin)
+    nothing = np.zeros(fine.shape)
+    assert not strokes(posterior_figure(fine, nothing, surfaces=surfaces()))

@@ -138,8 +138,8 @@ EXPORT = (
         "Occupied, free and unknown; or per cent.",
         "trinary for map-server, scale for recordings",
     ),
-    Key("occupied_thresh", float, None, "Above it a cell is occupied.", "0.65, or 1 with scale"),
-    Key("free_thresh", float, None, "Below it a cell is free.", "0.25, or 0 with scale"),
+    Key("occupied_thresh", float, None, "Above it a cell is occupied.", "walls 0.65, reflectivities 0.3; 1 with scale"),
+    Key("free_thresh", float, None, "Below it a cell is free.", "walls 0.25, reflectivities 0.1; 0 with scale"),
 )
 
 SCORE = (
