@@ -108,7 +108,10 @@ def test_info_on_a_carmen_log_and_on_a_saved_run(office, office_run):
     run = json.loads(call("info", office_run / "run.nc", "--json").stdout)
     assert run["format"] == "bayesmap run"
     assert run["run"]["scans"] == run["sensors"][0]["scans"] == 12
-    assert "12 of 60 beams" in call("info", office_run / "run.nc").stdout
+    shown = call("info", office_run / "run.nc").stdout
+    assert "12 of 60 beams" in shown
+    assert "cells of 0.25 m, reflectivities and surfaces" in shown
+    assert "fitted sensor: noise " in shown
 
 
 @pytest.mark.parametrize("content", [None, b"", b"prose\n", b"\x89HDF\r\n\x1a\n"])

@@ -85,8 +85,12 @@ def _map(result: Result) -> bytes:
 
     packed = io.BytesIO()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
-        mean = np.clip(result.mean(), 0.0, 1.0)
-        paths = write_map(Path(folder) / "map.yaml", mean, result.document.grid, result.observed())
+        target = Path(folder) / "map.yaml"
+        if result.run is not None:  # which knows its own thresholds
+            paths = result.run.export(target)
+        else:
+            mean = np.clip(result.mean(), 0.0, 1.0)
+            paths = write_map(target, mean, result.document.grid, result.observed())
         with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
             for path in paths:
                 archive.write(path, path.name)

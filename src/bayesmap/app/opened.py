@@ -125,7 +125,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
     document = replace(
         document,
         method=method if method in METHODS else "gibbs",
-        order=settings.get("order", "radial"),
+        order=settings.get("order") or "radial",  # cells of numbers have none
         sweeps=max(1, min(100_000, int(run.posterior.sweep))),
         seed=min(2**31 - 1, int(settings.get("seed", 0))),
     )

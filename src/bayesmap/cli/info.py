@@ -104,11 +104,24 @@ def _lines(document: dict[str, Any]) -> list[str]:
 def _run_lines(run: dict[str, Any]) -> list[str]:
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
     state = "finished" if run["finished"] else "not finished"
-    return [
-        f"grid: {nx} x {ny} cells of {resolution:g} m",
+    states = {"binary": "walls or free", "reflectivity": "reflectivities", "surface": "reflectivities and surfaces"}
+    lines = [
+        f"grid: {nx} x {ny} cells of {resolution:g} m, {states[run['cells']]}",
         f"method: {run['method']}, {run['chains']} chains, {run['draws']:,} draws each, "
         f"{run['sweeps']:,} sweeps, {state}",
     ]
+    if run["fitted"]:
+        lines.append(f"fitted sensor: {_sensor_words(run['fitted']['sensor'])}")
+    return lines
+
+
+def _sensor_words(sensor: dict[str, Any]) -> str:
+    """A beam mixture's numbers, as one would say them."""
+    noise = sensor["noise"]
+    return (
+        f"noise {100 * noise['sigma_m']:.2g} cm + {100 * noise['sigma_per_m']:.2g} cm per metre; "
+        f"chance {sensor['p_random']:.2g}, no return {sensor['p_no_return']:.2g}, objects {sensor['p_short']:.2g}"
+    )
 
 
 def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
