@@ -98,12 +98,13 @@ def run_field(
         began = time.perf_counter()
         number, warming = record.sweep, record.sweep < schedule.warmup
         keep = not warming and (number - schedule.warmup) % schedule.thin == 0
-        before = sampler.states() if keep else None
+        if keep:
+            record.keep(sampler)
         parameters = record.parameters
         log_likelihood, log_prior = sampler.sweep(number, parameters.sensor, parameters.prior)
         if warming and number >= fit.FIRST_SWEEP:
             record.parameters = _refitted(sampler, parameters, number, fit_sensor, fit_prior)
-        record.add(sampler, before, log_likelihood, log_prior, warming)
+        record.add(sampler, log_likelihood, log_prior, warming, keep)
         record.seconds += time.perf_counter() - began
         now = time.monotonic()
         if on_progress is not None and (now - told > TELL_EVERY_S or record.sweep == schedule.sweeps):
@@ -152,29 +153,37 @@ class _Record:
             self.informed += resume.informed
             self.parameters, self.sweep, self.seconds = resume.parameters, resume.sweep, resume.seconds
 
+    def keep(self, sampler: FieldGibbs) -> None:
+        """Take the cells as they stand for the next draw, chain by chain: all of them at once are the size of a map."""
+        for chain in range(len(self.reflectivity)):
+            cells = sampler.cells(chain)
+            self.reflectivity[chain, self.kept] = cells[:, 0]
+            if len(self.busy):
+                surfaces = cells[self.busy, 1:].astype(np.float64)
+                surfaces[:, :2] -= self.centres
+                self.surfaces[chain, self.kept] = surfaces / self.edge
+
     def add(
         self,
         sampler: FieldGibbs,
-        before: NDArray[np.float32] | None,
         log_likelihood: NDArray[np.float64],
         log_prior: NDArray[np.float64],
         warming: bool,
+        kept: bool,
     ) -> None:
+        """Note a sweep: its densities are those of the cells before it, which is what was kept."""
         self.sweep += 1
         if warming:
             self.warmup_log_joint[:, self.warmed] = log_likelihood + log_prior
             self.warmed += 1
             return
-        hits, met = sampler.counts()
-        self.informed[0] += ((met >= 0) & (hits + met > 0)).sum(axis=0, dtype=np.int32)
-        self.informed[1] += (met >= 0).sum(axis=0, dtype=np.int32)
-        if before is None:
+        for chain in range(len(self.reflectivity)):
+            hits, met = sampler.counted(chain)
+            counted = met >= 0
+            self.informed[0] += counted & (hits + met > 0)
+            self.informed[1] += counted
+        if not kept:
             return
-        self.reflectivity[:, self.kept] = before[:, :, 0]
-        if len(self.busy):
-            surfaces = before[:, self.busy, 1:].astype(np.float64)
-            surfaces[..., :2] -= self.centres
-            self.surfaces[:, self.kept] = surfaces / self.edge
         self.log_likelihood[:, self.kept] = log_likelihood
         self.log_prior[:, self.kept] = log_prior
         self.kept += 1

@@ -146,6 +146,14 @@ class FieldGibbs:
         """A copy of all cells, (C, T, 6)."""
         return self._chains.states()
 
+    def cells(self, chain: int) -> NDArray[np.float32]:
+        """All cells of a chain, (T, 6): on the CPU not a copy, and to be read before the next sweep."""
+        return self._chains.cells(chain)
+
+    def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Hits and met of one chain, (T,) each, likewise."""
+        return self._chains.counted(chain)
+
     def counts(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Hits and met of the last sweep, (C, T) each."""
         return self._chains.counts()

@@ -102,7 +102,8 @@ class FieldChains:
             field.log_likelihood = empty(rays.n_beams, wp.float32)
             self._fields.append(field)
         if counts is None:
-            counts = np.stack([np.zeros((len(states), cells)), np.full((len(states), cells), -1)]).astype(np.int32)
+            counts = np.zeros((2, len(states), cells), dtype=np.int32)
+            counts[1] = -1
         self._totals = [
             tuple(wp.array(of[chain], dtype=wp.int32, device=device) for of in counts) for chain in range(len(states))
         ]
@@ -172,16 +173,25 @@ class FieldChains:
         """Number of chains."""
         return len(self._fields)
 
-    def states(self) -> NDArray[np.float32]:
-        """A copy of all cells, (C, T, 6)."""
-        return np.stack([np.array(field.cells.numpy()[:, :STATE_SIZE]) for field in self._fields])
+    def cells(self, chain: int) -> NDArray[np.float32]:
+        """All cells of a chain, (T, 6): on the CPU not a copy, and good until the next sweep."""
+        return np.asarray(self._fields[chain].cells.numpy()[:, :STATE_SIZE])
 
-    def counts(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """How many beams stopped in each cell, and how many met its surface and passed, (C, T) each.
+    def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """How many beams stopped in each cell of a chain, and how many met its surface and passed, (T,) each, likewise.
 
         They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
         """
-        hits, met = zip(*((h.numpy().copy(), m.numpy().copy()) for h, m in self._totals), strict=True)
+        hits, met = self._totals[chain]
+        return np.asarray(hits.numpy()), np.asarray(met.numpy())
+
+    def states(self) -> NDArray[np.float32]:
+        """A copy of all cells, (C, T, 6)."""
+        return np.stack([self.cells(chain) for chain in range(self.n_chains)])
+
+    def counts(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Copies of all chains' counts, (C, T) each."""
+        hits, met = zip(*(self.counted(chain) for chain in range(self.n_chains)), strict=True)
         return np.stack(hits), np.stack(met)
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
