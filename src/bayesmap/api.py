@@ -37,7 +37,7 @@ from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
 Method = Literal["exact", "importance", "gibbs", "block", "propagate"]
-Stage = Literal["propagate", "warm-up", "draws", "particles"]
+Stage = Literal["fit", "propagate", "warm-up", "draws", "particles"]
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,8 @@ def infer(
         raise BadInput("resume: the saved run is one over reflectivities or surfaces, not over walls")
     began = time.perf_counter()
     if isinstance(sensor, str):
-        sensor = fit_sensor(scans, grid, hit_depth=hit_depth, seed=seed, device=device)
+        tell = _teller(on_progress, "fit")
+        sensor = fit_sensor(scans, grid, hit_depth=hit_depth, seed=seed, device=device, on_progress=tell)
     problem = _build(scans, grid, prior, sensor, hit_depth, device)
     start = default_start(problem) if start is None else start
     settings: dict[str, Any] = {
@@ -201,10 +202,10 @@ def infer(
         return common.chains(result, warm, threads)
 
 
-def _teller(on_progress: Callable[[Event], None] | None) -> Callable[[Progress], None]:
+def _teller(on_progress: Callable[[Event], None] | None, only: Stage | None = None) -> Callable[[Progress], None]:
     def tell(progress: Progress) -> None:
         if on_progress is not None:
-            stage: Stage = "warm-up" if progress.warming_up else "draws"
+            stage: Stage = only or ("warm-up" if progress.warming_up else "draws")
             on_progress(Event(stage, progress.done, progress.total, float(progress.log_joint.mean())))
 
     return tell

@@ -56,7 +56,15 @@ def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
     return BeamMixture(Gaussian(sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
 
 
-def fit_sensor(scans: Scans, grid: Grid, *, hit_depth: float, seed: int = 0, device: str = "cpu") -> BeamMixture:
+def fit_sensor(
+    scans: Scans,
+    grid: Grid,
+    *,
+    hit_depth: float,
+    seed: int = 0,
+    device: str = "cpu",
+    on_progress: Callable[[Progress], None] | None = None,
+) -> BeamMixture:
     """The sensor that explains scans best, with the map unknown: from a short run over reflectivities.
 
     Raises:
@@ -64,7 +72,8 @@ def fit_sensor(scans: Scans, grid: Grid, *, hit_depth: float, seed: int = 0, dev
     """
     prior = Beta()
     problem = build_field(scans, grid, prior, first_sensor(prior, grid.resolution), hit_depth=hit_depth, device=device)
-    found = run_field(problem, Schedule(FIT_SWEEPS, 0), 1, seed, fit_sensor=True, fit_prior=True)
+    schedule = Schedule(FIT_SWEEPS, 0)
+    found = run_field(problem, schedule, 1, seed, fit_sensor=True, fit_prior=True, on_progress=on_progress)
     return found.parameters.sensor
 
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 Tell = Callable[["Event"], None]
 
 STAGES = {
+    "fit": ("fitting the sensor", "sweeps"),
     "propagate": ("belief propagation", "rounds"),
     "warm-up": ("warm-up", "sweeps"),
     "draws": ("drawing", "sweeps"),
@@ -49,16 +50,16 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
     )
     with bar:
         task = bar.add_task(begin, total=None, count="", log_joint="")
-        counted = ""
+        counted: tuple[str, int] | None = None
 
         def tell(event: Event) -> None:
             nonlocal counted
             name, unit = STAGES[event.stage]
             count = f"{event.done:,}/{event.total:,} {unit} ETA"
             joint = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
-            if unit != counted:  # another clock, or the estimate would mix rounds with sweeps
+            if (unit, event.total) != counted:  # another clock, or the estimate would mix rounds with sweeps
                 bar.reset(task, total=event.total, description=name, count=count, log_joint=joint)
-                counted = unit
+                counted = (unit, event.total)
             bar.update(task, description=name, completed=event.done, count=count, log_joint=joint)
 
         yield tell
