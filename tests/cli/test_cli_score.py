@@ -13,15 +13,25 @@ FAST = ("--holdout", "4")
 @pytest.fixture(scope="module")
 def heldout_run(office, tmp_path_factory):
     """The office, inferred without every fourth scan."""
+    return held_out("binary", office, tmp_path_factory)
+
+
+@pytest.fixture(scope="module", params=["binary", "reflectivity", "surface"])
+def run_of_each_kind(request, office, tmp_path_factory):
+    """The same for every kind of cells: its name, the run, and what infer said."""
+    return request.param, *held_out(request.param, office, tmp_path_factory)
+
+
+def held_out(cells, office, tmp_path_factory):
     folder = tmp_path_factory.mktemp("score") / "run"
-    options = ("--cells", "binary", "--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8")
+    options = ("--cells", cells, "--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8")
     result = call("infer", office, "-o", folder, *options, *FAST, "--json")
     assert result.exit_code == 0, result.stderr
     return folder / "run.nc", json.loads(result.stdout)
 
 
-def test_the_document_agrees_with_infer_and_with_python(office, heldout_run):
-    path, inferred = heldout_run
+def test_the_document_agrees_with_infer_and_with_python(office, run_of_each_kind):
+    cells, path, inferred = run_of_each_kind
     result = call("score", path, office, *FAST, "--json")
     assert result.exit_code == 0, result.stderr
     document = json.loads(result.stdout)
@@ -32,7 +42,7 @@ def test_the_document_agrees_with_infer_and_with_python(office, heldout_run):
     assert document["baselines"] is None
     run = bm.load(path)
     _, held = bm.read_log(office, max_range_m=run.posterior.scans.max_range_m).holdout(4)
-    assert document["score"] == {"map": "binary posterior", **bm.score(run, held).as_json()}
+    assert document["score"] == {"map": f"{cells} posterior", **bm.score(run, held).as_json()}
 
 
 def test_the_table(office, heldout_run, tmp_path):
