@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -94,11 +95,15 @@ class FieldRun(Run):
             raise BadInput("score: none of the scans has a valid reading")
         return float(np.nanmean(field_beam_log_scores(self.posterior, heldout_scans, sensor)))
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to one netCDF file, whole or not at all."""
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        on_progress: Callable[[int, int], None] = lambda done, total: None,
+    ) -> None:
+        """Write everything to one netCDF file, whole or not at all; ``on_progress`` is told what part is written."""
         from bayesmap.io.saved_field import save_field
 
-        save_field(self.posterior, path)
+        save_field(self.posterior, path, on_progress)
 
     def plot(self, **options: Any) -> Figure:
         """A figure of mean, width of the 90 % interval, readings and one draw, with surfaces where they can be seen.

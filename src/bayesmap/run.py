@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -100,11 +101,15 @@ class Run:
         """
         return log_score(self.posterior, heldout_scans, sensor)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to one netCDF file, whole or not at all."""
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        on_progress: Callable[[int, int], None] = lambda done, total: None,
+    ) -> None:
+        """Write everything to one netCDF file, whole or not at all; ``on_progress`` is told what part is written."""
         from bayesmap.io.saved import save
 
-        save(self.posterior, path)
+        save(self.posterior, path, on_progress)
 
     def plot(self, **options: Any) -> Figure:
         """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`.

@@ -8,9 +8,9 @@ plain arrays; a checksum over all of it tells a damaged file from a whole one.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
+from bayesmap.io.checksum import checksum_of
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.packing import pack, unpack
 from bayesmap.posterior.posterior import Posterior
@@ -33,17 +34,26 @@ FORMAT_VERSION = 2  # 2 has fields too; walls are written as in 1
 CHUNK_BYTES = 16 << 20  # of draws that are unpacked, and compressed, at a time
 
 
-def save(posterior: Posterior, path: str | os.PathLike[str]) -> None:
+def save(
+    posterior: Posterior,
+    path: str | os.PathLike[str],
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> None:
     """Write a posterior, whole or not at all.
+
+    Args:
+        posterior: what to write.
+        path: where.
+        on_progress: told how many of all draws have been written.
 
     Raises:
         BadInput: the folder cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-        _write(posterior, file)
+        _write(posterior, file, on_progress)
 
 
-def _write(posterior: Posterior, file: Any) -> None:
+def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], None]) -> None:
     grid, scans = posterior.grid, posterior.scans
     chains, draws, _ = posterior.packed.shape
     nx, ny = grid.shape
@@ -84,6 +94,7 @@ def _write(posterior: Posterior, file: Any) -> None:
     for chain in range(chains):
         for i in range(0, draws, at_once):
             walls[chain, i : i + at_once] = unpack(posterior.packed[chain, i : i + at_once], grid.shape).view(np.int8)
+            on_progress(chain * draws + min(i + at_once, draws), chains * draws)
 
     write_arrays(
         file.createGroup("sample_stats"),
@@ -119,13 +130,13 @@ def write_scans(file: Any, scans: Scans) -> Any:
     return constant
 
 
-def write_arrays(group: Any, dimensions: tuple[str, ...], **arrays: NDArray[Any]) -> None:
-    """Write arrays of the same dimensions, compressed; dimensions that are new get the arrays' sizes."""
+def write_arrays(group: Any, dimensions: tuple[str, ...], compressed: bool = True, **arrays: NDArray[Any]) -> None:
+    """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
     for name, values in arrays.items():
         for dimension, size in zip(dimensions, values.shape, strict=True):
             if dimension not in group.dimensions:
                 group.createDimension(dimension, size)
-        group.createVariable(name, values.dtype, dimensions, zlib=True, complevel=1)[:] = values
+        group.createVariable(name, values.dtype, dimensions, zlib=compressed, complevel=1)[:] = values
 
 
 def load_posterior(path: str | os.PathLike[str]) -> Posterior | FieldPosterior:
@@ -232,13 +243,10 @@ def scans_from(file: Any, header: dict[str, Any]) -> Scans:
 
 
 def _checksum(posterior: Posterior, header: dict[str, Any]) -> str:
-    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     scans = posterior.scans
-    for array in (
+    arrays = (
         posterior.packed, posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.walls,
         posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m,
         posterior.log_weights, posterior.belief_changes, scans.stamps_s, scans.beam_poses,
-    ):  # fmt: skip
-        if array is not None:
-            digest.update(np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()
+    )  # fmt: skip
+    return checksum_of(json.dumps(header, sort_keys=True), arrays)

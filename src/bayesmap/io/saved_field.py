@@ -7,9 +7,9 @@ Cells that no beam touches are not in it: the dimension ``cell`` counts the touc
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,8 @@ import netCDF4
 import numpy as np
 
 from bayesmap.io.atomic import write_whole
+from bayesmap.io.checksum import checksum_of
+from bayesmap.io.half_draws import read_half, write_half
 from bayesmap.io.saved import FORMAT, FORMAT_VERSION, scans_from, write_arrays, write_scans
 from bayesmap.model.cell_priors import prior_from
 from bayesmap.posterior.field import FieldPosterior
@@ -26,18 +28,42 @@ from bayesmap.sensor.mixture import BeamMixture
 from bayesmap.version import __version__
 from bayesmap.world.grid import Grid
 
+SURFACE = ("mean_x", "mean_y", "l11", "l21", "l22")
+"""What a surface is made of, as the file calls it."""
 
-def save_field(posterior: FieldPosterior, path: str | os.PathLike[str]) -> None:
+
+def save_field(
+    posterior: FieldPosterior,
+    path: str | os.PathLike[str],
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> None:
     """Write a posterior, whole or not at all.
+
+    Args:
+        posterior: what to write.
+        path: where.
+        on_progress: told how many of all numbers of the draws have been written.
 
     Raises:
         BadInput: the folder cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-        _write(posterior, file)
+        _write(posterior, file, on_progress)
 
 
-def _write(posterior: FieldPosterior, file: Any) -> None:
+def _counter(total: int, on_progress: Callable[[int, int], None]) -> Callable[[int], None]:
+    """Adds up counts, and tells the sum."""
+    done = 0
+
+    def told(count: int) -> None:
+        nonlocal done
+        done += count
+        on_progress(done, total)
+
+    return told
+
+
+def _write(posterior: FieldPosterior, file: Any, on_progress: Callable[[int, int], None]) -> None:
     grid, scans = posterior.grid, posterior.scans
     header = {
         "cells": posterior.kind,
@@ -64,11 +90,11 @@ def _write(posterior: FieldPosterior, file: Any) -> None:
     )
     draws = file.createGroup("posterior")
     write_arrays(draws, ("cell",), cell_x=posterior.touched // grid.shape[1], cell_y=posterior.touched % grid.shape[1])
-    write_arrays(draws, ("chain", "draw", "cell"), reflectivity=posterior.reflectivity.astype(np.float32))
+    told = _counter(posterior.reflectivity.size + posterior.surfaces.size, on_progress)
+    write_half(draws, "reflectivity", ("chain", "draw", "cell"), posterior.reflectivity, told)
     write_arrays(draws, ("surface_cell",), surface_of=posterior.busy)
-    for i, name in enumerate(("mean_x", "mean_y", "l11", "l21", "l22")):
-        part = posterior.surfaces[..., i].astype(np.float32)
-        write_arrays(draws, ("chain", "draw", "surface_cell"), **{f"surface_{name}": part})
+    for i, name in enumerate(SURFACE):
+        write_half(draws, f"surface_{name}", ("chain", "draw", "surface_cell"), posterior.surfaces[..., i], told)
     write_arrays(
         file.createGroup("sample_stats"),
         ("chain", "draw"),
@@ -79,7 +105,8 @@ def _write(posterior: FieldPosterior, file: Any) -> None:
     write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
     constant = write_scans(file, scans)
     write_arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
-    write_arrays(constant, ("chain", "cell", "state_part"), state=posterior.states)
+    # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
+    write_arrays(constant, ("chain", "cell", "state_part"), compressed=False, state=posterior.states)
     write_arrays(constant, ("informed_part", "cell"), informed=posterior.informed)
     write_arrays(constant, ("count_part", "chain", "cell"), last_counts=posterior.last_counts)
 
@@ -88,7 +115,11 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
     """The posterior of an open file."""
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
-    parts = [draws[f"surface_{name}"][:] for name in ("mean_x", "mean_y", "l11", "l21", "l22")]
+    reflectivity = np.empty(draws["reflectivity"].shape, dtype=np.float16)
+    read_half(draws["reflectivity"], reflectivity)
+    surfaces = np.empty((*draws["surface_l11"].shape, len(SURFACE)), dtype=np.float16)
+    for i, name in enumerate(SURFACE):
+        read_half(draws[f"surface_{name}"], surfaces[..., i])
     sensor = from_description(header["sensor"])
     assert isinstance(sensor, BeamMixture)
     return FieldPosterior(
@@ -99,8 +130,8 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
         settings=header["settings"],
         touched=(draws["cell_x"][:] * grid.shape[1] + draws["cell_y"][:]).astype(np.int32),
         busy=draws["surface_of"][:],
-        reflectivity=draws["reflectivity"][:].astype(np.float16),
-        surfaces=np.stack(parts, axis=-1).astype(np.float16),
+        reflectivity=reflectivity,
+        surfaces=surfaces,
         occupancy=constant["occupancy"][:],
         observed=constant["observed"][:] != 0,
         log_likelihood=stats["log_likelihood"][:],
@@ -119,14 +150,11 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
 
 def checksum(posterior: FieldPosterior, header: dict[str, Any]) -> str:
     """Of everything in the file."""
-    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     scans = posterior.scans
-    for array in (
+    arrays = (
         posterior.touched, posterior.busy, posterior.reflectivity, posterior.surfaces, posterior.log_likelihood,
         posterior.log_prior, posterior.warmup_log_joint, posterior.states, posterior.last_counts, posterior.informed,
         posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s,
         scans.beam_poses,
-    ):  # fmt: skip
-        if array is not None:
-            digest.update(np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()
+    )  # fmt: skip
+    return checksum_of(json.dumps(header, sort_keys=True), arrays)
