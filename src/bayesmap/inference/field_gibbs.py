@@ -118,11 +118,11 @@ class FieldGibbs:
         self.problem = problem
         if states is None:
             rng = np.random.default_rng([seed, STREAM_START])
-            states = starts(problem.guess, problem.prior, chains, rng)
+            states = starts(problem.guess, problem.prior, problem.rays.grid.resolution, chains, rng)
         self._chains = FieldChains(
             problem.rays,
             states,
-            steps(problem.guess),
+            steps(problem.guess, problem.rays.grid.resolution),
             plain=problem.plain,
             seed=seed,
             stream=STREAM_SWEEPS,

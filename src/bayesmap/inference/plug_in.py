@@ -14,8 +14,12 @@ from bayesmap.model.cell_priors import CellPrior, Surface
 from bayesmap.sensor.rays import BeamRays
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
-STEP = 1.3  # over the square root of hits: accepts about half
-SHAPE_STEP = 0.7
+LOGIT_STEP = 1.0
+ALONG = 0.25
+EXTENT = 0.5
+ACROSS = 1.5
+THICKNESS = 1.2
+"""Sizes of steps: they accept a third to a half."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,8 +90,13 @@ def end_cells(rays: BeamRays) -> NDArray[np.int32]:
     return np.where(inside & (rays.touched[place] == flat), place, -1).astype(np.int32)
 
 
-def starts(guess: PlugIn, prior: CellPrior, chains: int, rng: np.random.Generator) -> NDArray[np.float32]:
-    """States for several chains, (C, T, 6), scattered about the guess about as widely as the posterior."""
+def starts(
+    guess: PlugIn, prior: CellPrior, edge_m: float, chains: int, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """States for several chains, (C, T, 6), scattered about the guess about as widely as the posterior.
+
+    Cells in which no reading ends have surfaces from the prior.
+    """
     cells = len(guess.hits)
     states = np.zeros((chains, cells, 6), dtype=np.float32)
     width = 1.0 / np.sqrt(guess.hits + 1.0)
@@ -99,20 +108,30 @@ def starts(guess: PlugIn, prior: CellPrior, chains: int, rng: np.random.Generato
         state[:, 1] = guess.mean_m[:, 0] + l11 * e1
         state[:, 2] = guess.mean_m[:, 1] + l21 * e1 + l22 * e2
         state[:, 3], state[:, 4], state[:, 5] = l11, l21, l22
+        if isinstance(prior, Surface):
+            idle = ~guess.busy
+            surfaces = prior.sample_surfaces(rng, int(idle.sum())) * edge_m
+            state[idle, 1:3] = guess.mean_m[idle] + surfaces[:, :2]
+            state[idle, 3:] = surfaces[:, 2:]
     return states
 
 
-def steps(guess: PlugIn) -> NDArray[np.float32]:
-    """How far a proposal moves each cell's numbers, (T, 8), laid out as `bayesmap.kernels.cell_draws.stepped` reads
-    them.
+def steps(guess: PlugIn, edge_m: float) -> NDArray[np.float32]:
+    """Frame and size of each cell's steps, (T, 8), as `bayesmap.kernels.surface_steps` reads them.
 
-    Cells in which no reading ends have zeros: they mostly rest, and their candidates come from the prior.
+    Along the wall steps are a part of the cell; across it they shrink with the readings. Cells in which no reading ends
+    have steps of size zero: they mostly rest, and their candidates come from the prior.
     """
     l11, l21, l22 = guess.factor_m.T
-    size = np.where(guess.busy, STEP / np.sqrt(guess.hits + 1.0), 0.0)
-    out = np.zeros((len(size), 8), dtype=np.float32)
-    out[:, 1], out[:, 2], out[:, 6] = size * l11, size * l22, size * l21
-    logit_sd = np.sqrt(1.0 / (guess.hits + 1.0) + 1.0 / (0.5 * guess.passes + 1.0))
-    out[:, 0] = np.where(guess.busy, 0.5 * STEP * logit_sd, 0.0)
-    out[:, 3], out[:, 4], out[:, 5] = SHAPE_STEP * size, SHAPE_STEP * size * l22, SHAPE_STEP * size
+    var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
+    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
+    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
+    thickness = np.sqrt(np.maximum(half - off, (1e-3 * edge_m) ** 2))
+    few = 1.0 / np.sqrt(guess.hits + 1.0)
+    logit = np.sqrt(1.0 / (guess.hits + 1.0) + 1.0 / (0.5 * guess.passes + 1.0))
+    across = ACROSS * thickness * few
+    out = np.zeros((len(few), 8), dtype=np.float32)
+    for i, size in enumerate((LOGIT_STEP * logit, ALONG * edge_m, across, EXTENT, across, THICKNESS * few)):
+        out[:, i] = np.where(guess.busy, size, 0.0)
+    out[:, 6], out[:, 7] = np.cos(angle), np.sin(angle)
     return out

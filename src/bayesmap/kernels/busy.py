@@ -1,8 +1,8 @@
 """Cells in which readings end: all of a sweep's work on such a cell in one place.
 
-A busy cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, and draws
-its reflectivity; then reflectivity and surface move together by a few Metropolis steps that no longer know who met what. With g
-the chance of meeting,
+A busy cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, and
+draws its reflectivity; then reflectivity and surface move together by a few Metropolis steps that no longer know who
+met what. With g the chance of meeting,
 
     log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
                                         + sum over stopped beams log(m g p(reading | stop)).
@@ -23,13 +23,13 @@ from bayesmap.kernels.cell_draws import (
     CellPrior,
     log_reflectivity_prior,
     log_surface_prior,
-    stepped,
 )
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import GATE_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, Ray, meet
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.stop_law import Law, law_of, short_density, stop_law
 from bayesmap.kernels.stops import LEAST, Field, Rays
+from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
 from bayesmap.sensor.rays import BeamRays
 
@@ -126,9 +126,9 @@ def log_stops(
 
 
 @wp.func
-def log_cell_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float64:
-    """Log prior of logit m and of the surface, up to a constant."""
-    surface = log_surface_prior(prior, centre, cell)
+def log_cell_prior(prior: CellPrior, cell: Cell) -> wp.float64:
+    """Log prior of logit m and of the surface in its frame, up to a constant: the same in all frames."""
+    surface = log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
     return surface + wp.float64(log_reflectivity_prior(prior, cell[REFLECTIVITY]))
 
 
@@ -181,13 +181,14 @@ def update_busy(
     b = prior.b + wp.float64(n_met)
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
 
-    present = log_stops(law, rays, field, busy, said, u, centre, cell) + log_cell_prior(prior, centre, cell)
+    framed = into_frame(cell, step[c], centre)
+    present = log_stops(law, rays, field, busy, said, u, centre, cell) + log_cell_prior(prior, framed)
     for i in range(STEPS):
         here = at + wp.uint64(256 + 32 * i)
-        candidate = stepped(cell, step[c], key, here, i)
-        value = log_stops(law, rays, field, busy, said, u, centre, candidate)
-        value += log_cell_prior(prior, centre, candidate)
+        candidate = stepped(framed, step[c], key, here + wp.uint64(1), i)
+        value = log_stops(law, rays, field, busy, said, u, centre, out_of_frame(candidate, step[c], centre))
+        value += log_cell_prior(prior, candidate)
         if wp.log(to_uniform(random_bits(key, here + AT_ACCEPT))) < value - present:
-            cell = candidate
+            framed = candidate
             present = value
-    field.cells[c] = cell
+    field.cells[c] = out_of_frame(framed, step[c], centre)

@@ -30,13 +30,10 @@ FRESH = wp.constant(wp.float32(1.0))
 IDLE_ROUND = wp.constant(16)
 IDLE_TRIES = wp.constant(4)
 """Of 16 sweeps, a cell in which no reading ends draws its reflectivity in two, tries a candidate in one, and rests."""
-SHORT = wp.constant(wp.float64(0.3))
 
 # Counters of one cell in one sweep.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT = wp.constant(wp.uint64(0))
-AT_SIZE = wp.constant(wp.uint64(1))
-AT_STEP = wp.constant(wp.uint64(2))
 AT_BETA = wp.constant(wp.uint64(32))
 AT_FRESH = wp.constant(wp.uint64(256))
 
@@ -73,48 +70,6 @@ def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64,
     cell[L11] = wp.float32(scale / a22)
     cell[L21] = wp.float32(-scale * a21 / (a11 * a22))
     cell[L22] = wp.float32(scale / a11)
-    return cell
-
-
-@wp.func
-def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
-    """The cell with its surface moved by a random step: mean, shape or both in turn; half of the time a short one."""
-    size = wp.where(to_uniform(random_bits(key, at + AT_SIZE)) < wp.float64(0.5), SHORT, wp.float64(1.0))
-    n = at + AT_STEP
-    turn = i % 3
-    if turn != 1:
-        cell = moved(cell, step, size, key, n)
-    if turn != 0:
-        cell = reshaped(cell, step, size, key, n + wp.uint64(4))
-        cell = faded(cell, step, size, key, n + wp.uint64(10))
-    return cell
-
-
-@wp.func
-def faded(cell: Cell, step: Cell, size: wp.float64, key: wp.uint64, n: wp.uint64) -> Cell:
-    """A step of logit m: a wide surface that stops few of the beams it meets looks like a small one that stops many."""
-    m = wp.clamp(wp.float64(cell[REFLECTIVITY]), wp.float64(1.0e-30), wp.float64(1.0 - 1.0e-7))
-    odds = m / (wp.float64(1.0) - m) * wp.exp(size * normal(key, n) * wp.float64(step[REFLECTIVITY]))
-    cell[REFLECTIVITY] = wp.float32(odds / (wp.float64(1.0) + odds))
-    return cell
-
-
-@wp.func
-def moved(cell: Cell, step: Cell, size: wp.float64, key: wp.uint64, n: wp.uint64) -> Cell:
-    """A step of the mean, correlated like the surface it started from."""
-    e_1 = size * normal(key, n)
-    e_2 = size * normal(key, n + wp.uint64(2))
-    cell[MEAN_X] = cell[MEAN_X] + wp.float32(e_1) * step[MEAN_X]
-    cell[MEAN_Y] = cell[MEAN_Y] + wp.float32(e_1) * step[TRYING] + wp.float32(e_2) * step[MEAN_Y]
-    return cell
-
-
-@wp.func
-def reshaped(cell: Cell, step: Cell, size: wp.float64, key: wp.uint64, n: wp.uint64) -> Cell:
-    """A step of log l11, l21 and log l22."""
-    cell[L11] = cell[L11] * wp.exp(wp.float32(size * normal(key, n)) * step[L11])
-    cell[L21] = cell[L21] + wp.float32(size * normal(key, n + wp.uint64(2))) * step[L21]
-    cell[L22] = cell[L22] * wp.exp(wp.float32(size * normal(key, n + wp.uint64(4))) * step[L22])
     return cell
 
 

@@ -12,6 +12,9 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bayesmap.errors import BadInput
 
 
@@ -87,6 +90,25 @@ class Surface:
             "kind": "surface", "a": self.a, "b": self.b, "wander": self.wander, "spread": self.spread, "dof": self.dof,
             "extent": self.extent,
         }  # fmt: skip
+
+    def sample_surfaces(self, rng: np.random.Generator, count: int) -> NDArray[np.float64]:
+        """Draw surfaces: mean x, y less the centre, and l11, l21, l22 of Sigma = L L', in edges, (count, 5)."""
+        out = np.zeros((count, 5))
+        left = np.arange(count)
+        while len(left):
+            drawn = self._sample_unbounded(rng, len(left))
+            accepted = rng.random(len(left)) < np.exp(-0.5 * (drawn[:, 2:] ** 2).sum(axis=1) / self.extent**2)
+            out[left[accepted]] = drawn[accepted]
+            left = left[~accepted]
+        return out
+
+    def _sample_unbounded(self, rng: np.random.Generator, count: int) -> NDArray[np.float64]:
+        """The same without the factor that bounds their size: Bartlett's factor of the Wishart, inverted."""
+        a11 = np.sqrt(rng.chisquare(self.dof, count))
+        a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
+        a21 = rng.standard_normal(count)
+        mean = self.wander * rng.standard_normal((2, count))
+        return np.stack([*mean, self.spread / a22, -self.spread * a21 / (a11 * a22), self.spread / a11], axis=-1)
 
 
 CellPrior = Beta | Surface

@@ -144,32 +144,11 @@ class FieldPosterior:
                 states[:, 0] = rng.beta(self.prior.a, self.prior.b, len(touched))
                 states[known, 0] = self.reflectivity[chain, draw, place[known]]
                 if isinstance(self.prior, Surface):
-                    states[:, 1:] = fresh_surfaces(self.prior, rng, len(touched))
+                    states[:, 1:] = self.prior.sample_surfaces(rng, len(touched))
                     states[with_surface, 1:] = self.surfaces[chain, draw, number[place[with_surface]]]
                     states[:, 1:] *= edge
                     states[:, 1:3] += centre
                 yield states
-
-
-def fresh_surfaces(prior: Surface, rng: np.random.Generator, count: int) -> Floats:
-    """Surfaces drawn from the prior, in edges of a cell, (count, 5), as `bayesmap.kernels.cell_draws` draws them."""
-    out = np.zeros((count, 5))
-    left = np.arange(count)
-    while len(left):
-        drawn = _wishart_surfaces(prior, rng, len(left))
-        accepted = rng.random(len(left)) < np.exp(-0.5 * (drawn[:, 2:] ** 2).sum(axis=1) / prior.extent**2)
-        out[left[accepted]] = drawn[accepted]
-        left = left[~accepted]
-    return out
-
-
-def _wishart_surfaces(prior: Surface, rng: np.random.Generator, count: int) -> Floats:
-    """The same without the factor that bounds their size."""
-    a11 = np.sqrt(rng.chisquare(prior.dof, count))
-    a22 = np.sqrt(rng.chisquare(prior.dof - 1.0, count))
-    a21 = rng.standard_normal(count)
-    mean = prior.wander * rng.standard_normal((2, count))
-    return np.stack([*mean, prior.spread / a22, -prior.spread * a21 / (a11 * a22), prior.spread / a11], axis=-1)
 
 
 def field_beam_log_scores(posterior: FieldPosterior, scans: Scans, sensor: BeamMixture | None = None) -> Floats:
