@@ -122,7 +122,7 @@ def _refitted(sampler: FieldGibbs, now: Parameters, sweep: int, fit_sensor: bool
     if fit_sensor:
         sensor = fit.refit_sensor(sensor, sampler.stops(), sampler.problem.rays.limits, step)
     if fit_prior and sweep % fit.PRIOR_EVERY == 0:
-        prior = fit.refit_prior(prior, *sampler.counts(), step)
+        prior = fit.refit_prior(prior, *sampler.counts(), fit.prior_gain(sweep))
     return Parameters(sensor, prior)
 
 

@@ -54,6 +54,11 @@ def gain(sweep: int) -> float:
     return float((sweep - FIRST_SWEEP + 1.0) ** -0.7)
 
 
+def prior_gain(sweep: int) -> float:
+    """The same for the prior, which is looked at in every `PRIOR_EVERY`-th sweep only."""
+    return gain(FIRST_SWEEP + sweep // PRIOR_EVERY - 1)
+
+
 def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: float) -> BeamMixture:
     """Move the sensor's parameters towards those that make the readings likeliest, given the stops."""
     z, hit = stops.range_m, np.isfinite(stops.range_m)
@@ -82,14 +87,22 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
     # Maximisation.
     valid = float((hit | silent).sum())
     p_random = _share(by_chance.sum(), valid, sensor.p_random)
-    missing = float((silent & stops.stopped).sum())
+    # A stop within reach that did not return was missed, or its reading lay out of range.
+    reached = stops.stopped & (stops.distance_m <= limits.max_m)
+    out_of_range = (1.0 - sensor.p_no_return) * special.ndtr((t - limits.max_m) / scale)
+    share_missed = sensor.p_no_return / np.maximum(sensor.p_no_return + out_of_range, LEAST_SHARE)
+    missing = float((silent & reached) @ share_missed)
     p_no_return = _share(missing, missing + by_wall.sum(), sensor.p_no_return)
     # An object may also have stood behind where the beam ended, unseen.
     free = np.where(hit, by_wall, silent * 1.0)
     behind = free * sensor.p_short * np.exp(-rate * t) / unblocked
-    objects = by_object.sum() + behind.sum()
-    p_short = _share(objects, by_object.sum() + free.sum(), sensor.p_short)
+    # Nor are those that stood too close to be measured: for each one further on there are so many.
+    too_close = math.expm1(rate * limits.min_m)
+    seen, further = by_object.sum(), by_object.sum() + behind.sum()
+    objects = further * (1.0 + too_close)
+    p_short = _share(objects, seen + further * too_close + free.sum(), sensor.p_short)
     metres = (by_object * reading).sum() + (behind * (t + 1.0 / rate)).sum()
+    metres += further * (too_close / rate - limits.min_m)
     rate_new = (objects + PSEUDO_BEAMS) / (metres + PSEUDO_BEAMS / rate)
     noise = _refit_noise(sensor.noise, reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
 
@@ -145,6 +158,8 @@ def refit_prior(prior: CellPrior, hits: NDArray[np.int32], met: NDArray[np.int32
     Cells whose ``met`` is negative have not counted yet and are left out.
     """
     counted = met >= 0
+    if not counted.any():
+        return prior
     pairs, times = np.unique(np.stack([hits[counted], met[counted]]), axis=1, return_counts=True)
     h, p = pairs.astype(np.float64)
 
