@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 
+MOST_SPREAD = 3.0
+
 
 @dataclass(frozen=True)
 class Beta:
@@ -60,7 +62,7 @@ class Surface:
         extent: kappa, the size beyond which surfaces are unlikely: about that of a cell.
 
     Raises:
-        BadInput: a number that is not positive, or too few degrees of freedom.
+        BadInput: a number that is not positive, too few degrees of freedom, or surfaces much larger than their extent.
     """
 
     a: float = 0.02
@@ -78,6 +80,10 @@ class Surface:
                 raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
         if not (math.isfinite(self.dof) and self.dof > 1):
             raise BadInput(f"Surface: dof must exceed 1, got {self.dof!r}")
+        if self.spread > MOST_SPREAD * self.extent:  # next to no draw would be small enough
+            raise BadInput(
+                f"Surface: spread must not exceed {MOST_SPREAD:g} times extent, got {self.spread!r} and {self.extent!r}"
+            )
 
     @property
     def mean(self) -> float:

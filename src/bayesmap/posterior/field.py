@@ -130,11 +130,10 @@ class FieldPosterior:
         What the draws do not hold comes from the prior: cells that no beam of the run touched, and the surfaces of
         cells in which no reading ended. Lengths are metres from the grid's lower left corner.
         """
-        place = np.minimum(np.searchsorted(self.touched, touched), len(self.touched) - 1)
-        known = self.touched[place] == touched
-        number = np.full(len(self.touched), -1)
-        number[self.busy] = np.arange(len(self.busy))
-        with_surface = known & (number[place] >= 0)
+        held, place = (np.full(self.grid.n_cells, -1, dtype=np.int32) for _ in range(2))
+        held[self.touched] = np.arange(len(self.touched))
+        place[self.touched[self.busy]] = np.arange(len(self.busy))
+        known, with_surface = held[touched] >= 0, place[touched] >= 0
         edge, ny = self.grid.resolution, self.grid.shape[1]
         centre = np.stack([touched // ny + 0.5, touched % ny + 0.5], axis=-1) * edge
         rng = np.random.default_rng([seed, len(touched)])
@@ -142,10 +141,10 @@ class FieldPosterior:
             for draw in range(self.n_draws):
                 states = np.zeros((len(touched), 6), dtype=np.float32)
                 states[:, 0] = rng.beta(self.prior.a, self.prior.b, len(touched))
-                states[known, 0] = self.reflectivity[chain, draw, place[known]]
+                states[known, 0] = self.reflectivity[chain, draw, held[touched[known]]]
                 if isinstance(self.prior, Surface):
                     states[:, 1:] = self.prior.sample_surfaces(rng, len(touched))
-                    states[with_surface, 1:] = self.surfaces[chain, draw, number[place[with_surface]]]
+                    states[with_surface, 1:] = self.surfaces[chain, draw, place[touched[with_surface]]]
                     states[:, 1:] *= edge
                     states[:, 1:3] += centre
                 yield states
