@@ -18,6 +18,7 @@ from bayesmap.posterior.summary import Summary
 from bayesmap.run import Run
 from bayesmap.sensor.mixture import BeamMixture
 from bayesmap.sensor.model import SensorModel
+from bayesmap.sensor.noise import Gaussian
 from bayesmap.world.scans import Reading, Scans
 
 if TYPE_CHECKING:
@@ -87,8 +88,8 @@ class FieldRun(Run):
         Raises:
             BadInput: no draws, no valid reading, or a sensor of another kind than the run's.
         """
-        if sensor is not None and not isinstance(sensor, BeamMixture):
-            raise BadInput(f"score: this run's map is scored by a BeamMixture, not by a {type(sensor).__name__}")
+        if sensor is not None and not (isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian)):
+            raise BadInput(f"score: this run's map is scored by a BeamMixture with Gaussian noise, not by {sensor!r}")
         if self.n_draws == 0:
             raise BadInput("score: the run has no draws yet; let it finish its warm-up")
         if not (heldout_scans.readings != Reading.INVALID).any():

@@ -1,0 +1,159 @@
+"""What users get from a run over reflectivities or surfaces is what its draws say."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from oracle.field_law import log_likelihoods, paths_of
+from oracle.field_worlds import scans_of_all_kinds
+
+import bayesmap as bm
+from bayesmap.kernels.rays import trace_rays
+from bayesmap.posterior.field import field_beam_log_scores
+
+GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
+SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)
+PRIORS = {"reflectivities": bm.Beta(0.5, 1.0), "surfaces": bm.Surface(0.5, 1.0)}
+KINDS = pytest.mark.parametrize("kind", PRIORS)
+TRAIN = scans_of_all_kinds(5, GRID, poses=30)
+
+
+@cache
+def run_of(kind, draws=8):
+    return bm.infer(TRAIN, GRID, prior=PRIORS[kind], sensor=SENSOR, chains=2, warmup=20, draws=draws, hit_depth=0.5)
+
+
+@KINDS
+def test_draws_and_their_mean_cover_the_grid(kind):
+    run = run_of(kind)
+    assert isinstance(run, bm.FieldRun)
+    assert run.draws.shape == (2, 8, 4, 3)
+    assert run.n_draws == 8
+    np.testing.assert_allclose(run.occupancy, run.draws.mean(axis=(0, 1), dtype=float), atol=1e-3)
+    np.testing.assert_allclose(run.map_of(1, 3), run.draws[1, 3], atol=1e-6)
+    assert run.log_joint.shape == (2, 8)
+
+
+def test_where_no_beam_comes_draws_and_intervals_are_the_prior_s():
+    scans = bm.Scans([-1.5, 3.2, 0.0], [0.0], [[1.2]], max_range_m=3.0)
+    run = bm.infer(scans, GRID, prior=bm.Beta(1.0, 1.0), sensor=SENSOR, chains=1, warmup=5, draws=400)
+    elsewhere = np.ones(GRID.shape, dtype=bool)
+    elsewhere.ravel()[run.posterior.touched] = False
+    assert elsewhere.sum() == 8
+    assert (run.occupancy[elsewhere] == 0.5).all()
+    assert (run.draws[..., elsewhere] == 0.5).all()
+    lower, upper = run.interval(0.8)
+    np.testing.assert_allclose(lower[elsewhere], 0.1)
+    np.testing.assert_allclose(upper[elsewhere], 0.9)
+
+
+@KINDS
+def test_intervals_are_quantiles_of_the_draws(kind):
+    run = run_of(kind)
+    flat = run.posterior.reflectivity.reshape(16, -1).astype(float)
+    for level in (0.5, 0.9):
+        lower, upper = run.interval(level)
+        for end, q in ((lower, 0.5 - level / 2), (upper, 0.5 + level / 2)):
+            np.testing.assert_allclose(end.ravel()[run.posterior.touched], np.quantile(flat, q, axis=0), atol=1e-12)
+    for level in (0.0, 1.0, 90):
+        with pytest.raises(bm.BadInput, match="level"):
+            run.interval(level)
+
+
+def test_mean_surfaces_are_means_over_draws_in_the_world_frame():
+    posterior = run_of("surfaces").posterior
+    mean, covariance, reflectivity = run_of("surfaces").surfaces()
+    flat = posterior.touched[posterior.busy]
+    draws = posterior.surfaces.reshape(16, -1, 5).astype(float) * 0.5
+    for u in (0, len(flat) // 2, len(flat) - 1):
+        centre = np.array([-1.0, 2.0]) + (np.array([flat[u] // 3, flat[u] % 3]) + 0.5) * 0.5
+        np.testing.assert_allclose(mean[u], centre + draws[:, u, :2].mean(axis=0))
+        factors = np.zeros((16, 2, 2))
+        factors[:, 0, 0], factors[:, 1, 0], factors[:, 1, 1] = draws[:, u, 2:].T
+        np.testing.assert_allclose(covariance[u], np.mean(factors @ factors.transpose(0, 2, 1), axis=0))
+        m = posterior.reflectivity[:, :, posterior.busy[u]].astype(float)
+        assert reflectivity[u] == pytest.approx(m.mean())
+    with pytest.raises(bm.BadInput, match=r"Surface\(\)"):
+        run_of("reflectivities").surfaces()
+
+
+def states_of(posterior, chain, draw, touched):
+    """One draw's cells, (T', 6), in metres from the corner; every touched cell must be busy."""
+    place = {int(flat): i for i, flat in enumerate(posterior.touched)}
+    number = {int(cell): u for u, cell in enumerate(posterior.busy)}
+    states = np.zeros((len(touched), 6))
+    for i, flat in enumerate(touched):
+        cell = place[int(flat)]
+        states[i, 0] = posterior.reflectivity[chain, draw, cell]
+        if posterior.kind == "surface":
+            states[i, 1:] = posterior.surfaces[chain, draw, number[cell]].astype(float) * 0.5
+            states[i, 1:3] += (np.array([flat // 3, flat % 3]) + 0.5) * 0.5
+    return states
+
+
+@KINDS
+def test_the_log_score_is_the_log_mean_density_of_the_reference(kind):
+    run, posterior = run_of(kind), run_of(kind).posterior
+    if kind == "surfaces":
+        assert len(posterior.busy) == len(posterior.touched) == 12
+    held = scans_of_all_kinds(6, GRID, poses=7)
+    rays = trace_rays(held, GRID, margin_m=0.0, hit_depth=0.5, whole=True)
+    paths, density = paths_of(rays, far=False), 0.0
+    for chain in range(2):
+        for draw in range(8):
+            states = states_of(posterior, chain, draw, rays.touched)
+            density = density + np.exp(log_likelihoods(paths, states, SENSOR, kind == "reflectivities")) / 16
+    valid = ~np.isnan(held.ranges_m.ravel())
+    mine = field_beam_log_scores(posterior, held)
+    assert np.isnan(mine[~valid]).all()
+    np.testing.assert_allclose(mine[valid], np.log(density)[valid], atol=2e-3)
+    assert run.log_score(held) == pytest.approx(np.log(density)[valid].mean(), abs=1e-3)
+
+
+@KINDS
+def test_a_score_may_be_by_another_mixture_but_not_by_another_kind_of_sensor(kind):
+    run = run_of(kind)
+    blunt = replace(SENSOR, noise=bm.Gaussian(0.3))
+    assert run.log_score(TRAIN, sensor=SENSOR) == run.log_score(TRAIN)
+    assert run.log_score(TRAIN, sensor=blunt) != run.log_score(TRAIN)
+    for other in (bm.Gaussian(0.1), bm.BeamMixture(bm.StudentT(0.1))):
+        with pytest.raises(bm.BadInput, match="BeamMixture"):
+            run.log_score(TRAIN, sensor=other)
+    with pytest.raises(bm.BadInput, match="valid reading"):
+        run.log_score(replace(TRAIN, ranges_m=np.full(TRAIN.ranges_m.shape, np.nan)))
+
+
+@KINDS
+def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
+    """A run over nothing but the first column; a held-out beam through the last two."""
+    scans = bm.Scans([-0.9, 1.5, np.pi / 2], [0.0], [[0.7]], max_range_m=3.0)
+    run = bm.infer(scans, GRID, prior=PRIORS[kind], sensor=SENSOR, chains=1, warmup=2, draws=3000, hit_depth=0.5)
+    held = bm.Scans([0.6, 1.9, np.pi / 2], [0.0], [[np.inf]], max_range_m=3.0)
+    # Plain cells in the way: three, each passed with the chance 1 - a / (a + b) = 2/3.
+    score = run.log_score(held)
+    if kind == "reflectivities":
+        rays = trace_rays(held, GRID, margin_m=0.0, whole=True)
+        state = np.zeros((3, 6))
+        state[:, 0] = 1 / 3
+        expected = log_likelihoods(paths_of(rays), state, SENSOR, True)[0]  # linear in every m
+        assert score == pytest.approx(expected, abs=4.5 * 0.45 / np.sqrt(3000))
+    else:
+        assert -1.5 < score < 0.0
+
+
+@KINDS
+def test_the_summary_judges_reflectivities(kind):
+    summary = run_of(kind, draws=40).summary()
+    assert summary.finished
+    assert 0.98 < summary.rhat_max < 20  # a few sweeps
+    assert 1 < summary.ess_min <= 200
+    assert not summary.unchanged_cells
+    assert summary.microseconds_per_sweep > 0
+    short = run_of(kind, draws=2).summary()
+    assert np.isnan(short.rhat_max)
+
+
+@KINDS
+def test_it_is_drawn(kind):
+    assert len(run_of(kind).plot().axes) >= 3
