@@ -17,6 +17,7 @@ from bayesmap.world.scans import Scans
 
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 8192
+FRESH_CELLS = 1 << 14  # cells drawn from the prior, at least, where a prediction needs some
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,13 +138,16 @@ class FieldPosterior:
         edge, ny = self.grid.resolution, self.grid.shape[1]
         centre = np.stack([touched // ny + 0.5, touched % ny + 0.5], axis=-1) * edge
         rng = np.random.default_rng([seed, len(touched)])
+        # Drawn once and passed on from cell to cell: each draw of the map takes them up from another place.
+        fresh = np.zeros((max(len(touched), FRESH_CELLS), 6), dtype=np.float32)
+        fresh[:, 0] = rng.beta(self.prior.a, self.prior.b, len(fresh))
+        if isinstance(self.prior, Surface):
+            fresh[:, 1:] = self.prior.sample_surfaces(rng, len(fresh))
         for chain in range(self.reflectivity.shape[0]):
             for draw in range(self.n_draws):
-                states = np.zeros((len(touched), 6), dtype=np.float32)
-                states[:, 0] = rng.beta(self.prior.a, self.prior.b, len(touched))
+                states = np.roll(fresh, int(rng.integers(len(fresh))), axis=0)[: len(touched)]
                 states[known, 0] = self.reflectivity[chain, draw, held[touched[known]]]
                 if isinstance(self.prior, Surface):
-                    states[:, 1:] = self.prior.sample_surfaces(rng, len(touched))
                     states[with_surface, 1:] = self.surfaces[chain, draw, place[touched[with_surface]]]
                     states[:, 1:] *= edge
                     states[:, 1:3] += centre
