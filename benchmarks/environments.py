@@ -6,7 +6,7 @@ virtual environment of its own under `.bench/`, with every package pinned in
 cannot be installed (no network, no suitable Python) is reported in one line and left out: the benchmark
 of bayesmap itself must run on any machine.
 
-`python -m benchmarks.environments genjax numpyro` makes them without running anything.
+`python -m benchmarks.environments genjax numpyro` makes these two without running anything.
 """
 
 import hashlib
@@ -25,6 +25,7 @@ INSTALL_TIMEOUT_S = 900
 PYTHONS = {
     "genjax": ((3, 11), (3, 12)),
     "numpyro": ((3, 11), (3, 12), (3, 13), (3, 14)),
+    "pyoctomap": ((3, 11), (3, 12), (3, 13), (3, 14)),
 }
 """The peers, and the Python versions for which all their pinned packages have wheels, preferred first."""
 

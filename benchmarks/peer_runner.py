@@ -17,7 +17,7 @@ import os
 import statistics
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 
@@ -27,12 +27,16 @@ from benchmarks.environments import PEERS, Unavailable, ensure
 
 __all__ = ["CASES", "PeerResult", "Unavailable", "run_peer", "tutorial_data"]
 
-SCRIPTS = {"genjax": "genjax_tutorial.py", "numpyro": "numpyro_discrete_gibbs.py"}
+SCRIPTS = {"genjax": "genjax_tutorial.py", "numpyro": "numpyro_discrete_gibbs.py", "pyoctomap": "pyoctomap_pass.py"}
 CASES = {
     "genjax": ("raster", "radial", "incremental", "block", "importance"),
     "numpyro": ("dense", "sparse"),
+    "pyoctomap": ("pass",),
 }
 """What each peer can be timed on; its script says more under `--help` and in its docstring."""
+
+ON_THE_TUTORIAL = ("genjax", "numpyro")
+"""Peers that bring their problem along; the others are handed scans."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +47,13 @@ class PeerResult:
         peer: the peer's name.
         case: the case's name.
         what: what one unit of work is.
-        prior: prior wall probability of a cell.
+        prior: prior wall probability of a cell, NaN if it has none.
         seconds_per_sweep: elapsed, one figure a repeat, compilation and warm-up excluded.
         cpu_seconds_per_sweep: processor time of the same repeats, summed over cores.
         set_up_seconds: tracing, compilation and the first repeat.
         cores: how many cores the peer was allowed to use.
-        log_joint_of_truth: log p(true walls, readings) in the peer's model. Systems that disagree on it
-            are not running the same problem, and their ratio means nothing.
+        log_joint_of_truth: log p(true walls, readings) in the peer's model, NaN if it has none. Systems that
+            disagree on it are not running the same problem, and their ratio means nothing.
         versions: of Python and the packages that matter.
     """
 
@@ -108,6 +112,7 @@ def run_peer(
     prior: float | None = None,
     cores: int | None = 1,
     timeout_s: float = 900.0,
+    arguments: Sequence[str] = (),
 ) -> PeerResult | Unavailable:
     """Time one case of one peer, in its own environment, which is made first if need be.
 
@@ -121,6 +126,7 @@ def run_peer(
             GenJAX's blocks and importance sampling are nearly twice as fast on two: compare those with
             ours on equally many. The limit needs Linux.
         timeout_s: after which the peer is given up.
+        arguments: more of the script's, such as the scans that it is to work on.
 
     Returns:
         The figures, or the reason why there are none.
@@ -131,7 +137,7 @@ def run_peer(
     python = ensure(name)
     if isinstance(python, Unavailable):
         return python
-    command = [str(python), str(PEERS / SCRIPTS[name]), "--case", case, "--repeats", str(repeats), "--json"]
+    command = [str(python), str(PEERS / SCRIPTS[name]), "--case", case, "--repeats", str(repeats), "--json", *arguments]
     if prior is not None:
         command += ["--prior", str(prior)]
     try:
@@ -181,11 +187,11 @@ def _clean_environment() -> dict[str, str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Time the peers' cases; one JSON document a line.")
-    parser.add_argument("peers", nargs="*", choices=[[], *CASES], help="default: all")
+    parser.add_argument("peers", nargs="*", choices=[[], *ON_THE_TUTORIAL], help="default: all")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--cores", type=int, default=1)
     options = parser.parse_args()
-    for name in options.peers or CASES:
+    for name in options.peers or ON_THE_TUTORIAL:
         for case in CASES[name]:
             result = run_peer(name, case, options.repeats, cores=options.cores)
             if isinstance(result, Unavailable):

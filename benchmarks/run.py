@@ -22,7 +22,8 @@ from bayesmap import __version__
 from benchmarks.figure import Figure
 
 BASELINE = Path(__file__).with_name("baseline.json")
-SUITES = ("ranges", "tutorial", "scaling", "building", "programs")
+SUITES = ("ranges", "tutorial", "scaling", "building", "surfaces", "programs")
+HAVE_SLOW_PARTS = {"surfaces"}
 WORSE = 1.5
 TIMES = {"us/sweep", "us/edit", "ms/sweep", "s"}
 
@@ -40,10 +41,11 @@ def yardstick_seconds() -> float:
     return statistics.median(times)
 
 
-def measure(suites: list[str], device: str, with_peers: bool) -> Iterator[Figure]:
+def measure(suites: list[str], device: str, with_peers: bool, slow: bool) -> Iterator[Figure]:
     """Figures as they come."""
     for suite in suites:
-        yield from importlib.import_module(f"benchmarks.suites.{suite}").run(device, with_peers)
+        more = {"slow": slow} if suite in HAVE_SLOW_PARTS else {}
+        yield from importlib.import_module(f"benchmarks.suites.{suite}").run(device, with_peers, **more)
 
 
 def comparable(figure: dict[str, object] | Figure, yardstick_s: float) -> float:
@@ -63,6 +65,7 @@ def main() -> int:
     parser.add_argument("suites", nargs="*", help=f"of: {', '.join(SUITES)} (all)")
     parser.add_argument("--device", default="cpu")
     parser.add_argument("--no-peers", action="store_true")
+    parser.add_argument("--slow", action="store_true", help="surfaces: at 20 and 5 cm too, which takes many minutes")
     parser.add_argument("--json", type=Path, help="also write the figures there")
     parser.add_argument("--save", action="store_true", help="make these figures the baseline")
     options = parser.parse_args()
@@ -75,7 +78,8 @@ def main() -> int:
     python = platform.python_version()
     print(f"bayesmap {__version__}, Python {python}, {options.device}, yardstick {yardstick * 1e3:.1f} ms")
     figures, worse = {}, []
-    for figure in measure(options.suites or list(SUITES), options.device, not options.no_peers):
+    suites = options.suites or list(SUITES)
+    for figure in measure(suites, options.device, not options.no_peers, options.slow):
         figures[figure.name] = asdict(figure)
         before = saved["figures"].get(figure.name) if options.device == saved.get("device", "cpu") else None
         change = ""

@@ -1,22 +1,33 @@
-"""Does the cost of a sweep stay linear in the beams?"""
+"""Does the cost of a sweep stay linear in the beams, or in the incidences?"""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 import bayesmap as bm
+from bayesmap.field_inference import first_sensor
+from bayesmap.inference.field_gibbs import FieldGibbs, build_field
 from bayesmap.inference.gibbs import Gibbs
 from bayesmap.inference.problem import Problem
 from bayesmap.kernels.trace import trace
 from bayesmap.world.tutorial import TUTORIAL_GRID
-from benchmarks.figure import Figure
+from benchmarks.figure import Figure, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time
 
 BEAMS = (100, 200, 400, 800, 1600)
 
+SCANS, SCAN_BEAMS = (25, 50, 100, 200, 400), 180
+SETTLING = 20
+
 
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
-    """The tutorial's map with 100 to 1600 beams: the exponent of a power law fitted to the sweep times."""
+    """Exponents of power laws fitted to the times of sweeps."""
+    yield from walls_of_the_tutorial(device)
+    yield from surfaces_of_a_building(device)
+
+
+def walls_of_the_tutorial(device: str) -> Iterator[Figure]:
+    """Binary walls of the tutorial's map, seen by 100 to 1600 beams."""
     walls, pose = bm.worlds.tutorial()
     times = []
     for beams in BEAMS:
@@ -29,3 +40,36 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
         yield figure
     exponent = float(np.polyfit(np.log(BEAMS), np.log(times), 1)[0])
     yield Figure("scaling/exponent", exponent, "", against="sweep time ~ beams^exponent, 100 to 1600 beams")
+
+
+def surfaces_of_a_building(device: str) -> Iterator[Figure]:
+    """Surfaces of a simulated building at 10 cm, seen by 25 to 400 scans of one patrol."""
+    world = bm.worlds.building(seed=1, size_m=(30.0, 20.0), resolution=0.1)
+    poses = bm.worlds.patrol(world, max(SCANS), seed=1)
+    angles = np.arange(SCAN_BEAMS) / SCAN_BEAMS * 2 * np.pi
+    sensor, prior = first_sensor(bm.Surface(), world.grid.resolution), bm.Surface()
+    everything = bm.simulate(
+        world.walls, world.grid, poses, angles, sensor=sensor, max_range_m=20.0, seed=1, opacity=world.opacity
+    )
+    incidences, times = [], []
+    for scans in SCANS:
+        some = everything.select(slice(None, None, max(SCANS) // scans))
+        problem = build_field(some, world.grid, prior, sensor, device=device)
+        sampler, number = FieldGibbs(problem, 1, 0, threads=1), iter(range(1_000_000))
+        for _ in range(SETTLING):
+            sampler.sweep(next(number), sensor, prior)
+        sweeps = 16 * max(1, 100 // scans)  # a whole round of resting cells, or several
+
+        def work(sampler: FieldGibbs = sampler, number: Iterator[int] = number, sweeps: int = sweeps) -> int:
+            for _ in range(sweeps):
+                sampler.sweep(next(number), sensor, prior)
+            return sweeps
+
+        against = f"{problem.rays.n_incidences:,} incidences"
+        name = f"scaling/surface_{len(some) * SCAN_BEAMS}_beams"
+        figure = timed(name, work, unit="ms/sweep", scale=1e3, repeats=5, against=against)
+        incidences.append(problem.rays.n_incidences)
+        times.append(figure.value)
+        yield figure
+    exponent = float(np.polyfit(np.log(incidences), np.log(times), 1)[0])
+    yield Figure("scaling/surface_exponent", exponent, "", against="sweep time ~ incidences^exponent, surfaces")

@@ -1,0 +1,148 @@
+"""The Intel log as users have it: reflectivities and surfaces with a fitted sensor, and what the map is worth."""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import bayesmap as bm
+from bayesmap.field_inference import first_sensor
+from bayesmap.inference.chain import Schedule
+from bayesmap.inference.field_chain import run_field
+from bayesmap.inference.field_gibbs import FieldGibbs, build_field
+from bayesmap.loading import load
+from bayesmap.posterior.baselines import BASELINES, fit_baseline
+from bayesmap.posterior.field import FieldPosterior
+from bayesmap.posterior.scoring import score_posterior, score_prediction
+from bayesmap.world.grid import Grid
+from bayesmap.world.scans import Scans
+from benchmarks.figure import Figure, ratio, timed
+from benchmarks.peer_runner import Unavailable, run_peer
+
+LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
+RESOLUTION_M, MAX_RANGE_M, EVERY = 0.1, 20.0, 10
+SLOW_RESOLUTIONS_M = (0.2, 0.05)
+PRIORS = {"reflectivity": bm.Beta(), "surface": bm.Surface()}
+SETTLING = 30
+SWEEPS = 5
+
+# Peak memory as the kernel counts it for this program alone: ru_maxrss is inherited from whoever started it.
+PROGRAM = r"""
+import re, sys
+from pathlib import Path
+from bayesmap.cli.main import main
+try:
+    main(sys.argv[1:])
+finally:
+    peak = re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())
+    print(int(peak[1]) / 1024, file=sys.stderr)
+"""
+
+
+def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
+    """Sweeps on one core, the whole program on all, what its map is worth, and a pass of OctoMap.
+
+    Args:
+        device: of the kernels; the whole program is run on the CPU only.
+        with_peers: whether to time OctoMap.
+        slow: whether to map at 20 and 5 cm too.
+    """
+    if not LOG.exists():
+        print(f"skipped: surfaces: {LOG} is not there (set BAYESMAP_DATA)", flush=True)
+        return
+    scans = bm.read_log(LOG).limited(MAX_RANGE_M)
+    train, _ = scans.holdout(EVERY)
+    grid = Grid.covering(scans, RESOLUTION_M)
+    sweeps = {}
+    for kind in PRIORS:
+        figure = sweep_time(kind, train, grid, device)
+        sweeps[kind] = figure.value * 1e-3
+        yield figure
+    if with_peers:
+        yield from octomap(train, sweeps)
+    if device != "cpu":
+        return
+    for resolution_m in (RESOLUTION_M, *(SLOW_RESOLUTIONS_M if slow else ())):
+        yield from whole_program(scans, resolution_m, repeats=3 if resolution_m == RESOLUTION_M else 1)
+
+
+def sweep_time(kind: str, train: Scans, grid: Grid, device: str) -> Figure:
+    """Milliseconds of a sweep of one settled chain on one core, the sensor fitted."""
+    prior = PRIORS[kind]
+    problem = build_field(train, grid, prior, first_sensor(prior, grid.resolution), device=device)
+    settled = run_field(problem, Schedule(SETTLING, 0), 1, 0, fit_sensor=True, fit_prior=True)
+    sampler = FieldGibbs(problem, 1, 0, threads=1, states=settled.states, counts=settled.last_counts)
+    parameters, number = settled.parameters, [SETTLING]
+
+    def sweeps() -> int:
+        for _ in range(SWEEPS):
+            sampler.sweep(number[0], parameters.sensor, parameters.prior)
+            number[0] += 1
+        return SWEEPS
+
+    against = f"{problem.rays.n_beams:,} beams, {problem.rays.n_incidences * 1e-6:.1f} M incidences, one core"
+    return timed(f"surfaces/{kind}_sweep", sweeps, unit="ms/sweep", scale=1e3, against=against)
+
+
+def octomap(train: Scans, sweeps_s: dict[str, float]) -> Iterator[Figure]:
+    """One pass of OctoMap over the same scans, as a multiple of one of our sweeps."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scans.npz"
+        arrays = {"poses": train.poses, "angles_rad": train.angles_rad, "ranges_m": train.ranges_m}
+        np.savez(path, **arrays, max_range_m=train.max_range_m)
+        given = ("--scans", str(path), "--resolution", str(RESOLUTION_M))
+        result = run_peer("pyoctomap", "pass", repeats=5, cores=1, arguments=given)
+    if isinstance(result, Unavailable):
+        print(f"skipped: {result.reason}", flush=True)
+        return
+    what = f"OctoMap, one pass on one core: {result.median_s * 1e3:.0f} ms; cpu/wall {result.cpu_per_wall:.2f}"
+    for kind, ours_s in sweeps_s.items():
+        yield ratio(f"surfaces/octomap_{kind}", result.median_s, ours_s, what)
+
+
+def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[Figure]:
+    """`bayesmap infer` with its defaults, in a process of its own, then the score of what it found."""
+    name = f"surfaces/{round(100 * resolution_m)}_cm"
+    asked = ["--resolution", str(resolution_m), "--max-range", str(MAX_RANGE_M), "--holdout", str(EVERY)]
+    seconds, peaks, documents = [], [], []
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(repeats):
+            command = [sys.executable, "-c", PROGRAM, "infer", str(LOG), *asked, "-o", folder, "--force", "--json"]
+            began = time.perf_counter()
+            done = subprocess.run(command, capture_output=True, text=True, check=True)
+            seconds.append(time.perf_counter() - began)
+            peaks.append(float(done.stderr.splitlines()[-1]))
+            documents.append(json.loads(done.stdout))
+        posterior = load(Path(folder) / "run.nc").posterior
+    assert isinstance(posterior, FieldPosterior)
+    document = documents[-1]
+    spread = (min(seconds), max(seconds))
+    what = f"{document['chains']} chains of {document['sweeps']} sweeps, all cores, score of held-out beams included"
+    yield Figure(f"{name}/whole_program", statistics.median(seconds), "s", spread=spread, against=what)
+    yield Figure(f"{name}/peak_memory", max(peaks), "MB")
+    found = document["diagnostics"]
+    against = f"of the log likelihood {found['rhat_log_likelihood']:.3f}; {document['draws']} draws a chain"
+    yield Figure(f"{name}/rhat_log_joint", found["rhat_log_joint"], "", against=against)
+    yield from score(name, scans, posterior)
+
+
+def score(name: str, scans: Scans, posterior: FieldPosterior) -> Iterator[Figure]:
+    """Held-out beams: how much better than the hit-count ratio tuned on the training scans, and how honest."""
+    train, heldout = scans.holdout(EVERY)
+    ours = score_posterior(posterior, heldout)
+    fitted = fit_baseline(BASELINES[0], train, posterior.grid)
+    theirs = score_prediction(fitted.predictor, heldout)
+    above = ours.nats_per_beam - theirs.nats_per_beam
+    against = f"{ours.nats_per_beam:.3f} +- {ours.nats_per_beam_error:.3f}; {fitted.name} {theirs.nats_per_beam:.3f}"
+    yield Figure(f"{name}/above_hit_ratio", above, "nats/beam", "higher", against=against)
+    for coverage in ours.coverage:
+        if coverage.level == 0.8:
+            width = f"intervals of 80 %, their median width {coverage.median_width_m:.3f} m"
+            yield Figure(f"{name}/coverage_80", 100 * coverage.share.value, "%", "higher", against=width)
