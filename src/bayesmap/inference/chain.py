@@ -18,6 +18,7 @@ from bayesmap.inference.sampler import Info, State, WallSampler
 STEP_SECONDS = 0.25
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step
 BUFFER_BYTES = 64 << 20  # draws of one step, before they are packed
+CHECKPOINT_SHARE = 0.1  # of the time, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +98,8 @@ def run_chains(
         resume: continue these chains, with the same sampler, schedule and seed: the result is bit for bit that of
             chains that never stopped.
         on_progress: told after every step.
-        on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds.
+        on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
+            often where it takes so long that it would hold the chains up.
         checkpoint_every_s: see above.
         should_stop: asked between two steps; when true the chains so far are returned.
 
@@ -112,7 +114,7 @@ def run_chains(
         state = sampler.init(resume.walls.reshape(-1, *shape) != 0, seed, resume.sweep)
         record = _Record.resumed(resume, schedule)
 
-    saved_at = time.monotonic()
+    saved_at, pause_s = time.monotonic(), checkpoint_every_s
     per_sweep = SECONDS_PER_INCIDENCE * sampler.problem.table.n_incidences
     while state.sweep < schedule.sweeps and not should_stop():
         warming = state.sweep < schedule.warmup
@@ -127,10 +129,17 @@ def run_chains(
             last = info.log_likelihood[:, -1] + info.log_prior[:, -1]
             on_progress(Progress(state.sweep, schedule.sweeps, last, warming))
         warmed_up = warming and state.sweep == schedule.warmup
-        if on_checkpoint is not None and (warmed_up or time.monotonic() - saved_at > checkpoint_every_s):
+        now = time.monotonic()
+        if on_checkpoint is not None and (warmed_up or now - saved_at > pause_s):
             on_checkpoint(record.chains(state))
             saved_at = time.monotonic()
+            pause_s = pause_after(saved_at - now, checkpoint_every_s)
     return replace(record.chains(state), finished=state.sweep >= schedule.sweeps)
+
+
+def pause_after(checkpoint_s: float, every_s: float) -> float:
+    """Seconds to the next checkpoint, where the last one took so long: as asked, if one is asked for at every step."""
+    return max(every_s, checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
 
 
 def _step_sweeps(left: int, per_sweep_s: float, multiple: int, state: State) -> int:

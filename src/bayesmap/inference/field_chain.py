@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.inference import fit
-from bayesmap.inference.chain import Progress, Schedule
+from bayesmap.inference.chain import Progress, Schedule, pause_after
 from bayesmap.inference.field_gibbs import FieldGibbs, FieldProblem
 from bayesmap.inference.fit import Parameters
 
@@ -86,7 +86,8 @@ def run_field(
         threads: as many as there are cores if None; the result does not depend on it.
         resume: go on with these chains, made with the same arguments: bit for bit as if they had never stopped.
         on_progress: told about four times a second.
-        on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds.
+        on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
+            often where it takes so long that it would hold the chains up.
         checkpoint_every_s: see above.
         should_stop: asked between two sweeps.
     """
@@ -94,6 +95,7 @@ def run_field(
     sampler = FieldGibbs(problem, chains, seed, threads=threads, states=states, counts=counts)
     record = _Record(problem, schedule, chains, resume)
     told = saved = time.monotonic()
+    pause_s = checkpoint_every_s
     while record.sweep < schedule.sweeps and not should_stop():
         began = time.perf_counter()
         number, warming = record.sweep, record.sweep < schedule.warmup
@@ -111,9 +113,10 @@ def run_field(
             on_progress(Progress(record.sweep, schedule.sweeps, log_likelihood + log_prior, warming))
             told = now
         warmed_up = warming and record.sweep == schedule.warmup
-        if on_checkpoint is not None and (warmed_up or now - saved > checkpoint_every_s):
+        if on_checkpoint is not None and (warmed_up or now - saved > pause_s):
             on_checkpoint(record.result(sampler))
             saved = time.monotonic()
+            pause_s = pause_after(saved - now, checkpoint_every_s)
     return replace(record.result(sampler), finished=record.sweep >= schedule.sweeps)
 
 

@@ -14,6 +14,7 @@ from bayesmap.model.cell_priors import CellPrior, Surface
 from bayesmap.sensor.rays import BeamRays
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
+FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
 LOGIT_STEP = 1.0
 ALONG = 0.25
 EXTENT = 0.5
@@ -109,8 +110,10 @@ def starts(
         state[:, 2] = guess.mean_m[:, 1] + l21 * e1 + l22 * e2
         state[:, 3], state[:, 4], state[:, 5] = l11, l21, l22
         if isinstance(prior, Surface):
-            idle = ~guess.busy
-            surfaces = prior.sample_surfaces(rng, int(idle.sum())) * edge_m
+            idle = np.nonzero(~guess.busy)[0]
+            surfaces = prior.sample_surfaces(rng, min(len(idle), FRESH)) * edge_m
+            if len(idle) > FRESH:
+                surfaces = surfaces[rng.integers(FRESH, size=len(idle))]
             state[idle, 1:3] = guess.mean_m[idle] + surfaces[:, :2]
             state[idle, 3:] = surfaces[:, 2:]
     return states

@@ -123,7 +123,7 @@ class FieldPosterior:
             second[:, 1, 1] += l21**2 + l22**2
         second[:, 1, 0] = second[:, 0, 1]
         n = max(len(draws), 1)
-        return centre + mean / n, second / n, self.draws_of(slice(None))[:, self.busy].mean(axis=0)
+        return centre + mean / n, second / n, self.reflectivity[:, :, self.busy].mean(axis=(0, 1), dtype=np.float64)
 
     def cells_for(self, touched: NDArray[np.int32], seed: int = 0) -> Iterator[NDArray[np.float32]]:
         """Each draw's cell states for other rays, whose touched cells are these flat indices, (T', 6).
