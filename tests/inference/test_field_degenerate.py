@@ -101,6 +101,16 @@ def test_priors_of_any_size_give_reflectivities(a, b):
     assert np.isfinite(run.log_score(ROOM))
 
 
+@pytest.mark.parametrize(
+    "shape",
+    [{"spread": 1e-5}, {"spread": 5.0, "extent": 10.0}, {"dof": 1.01}, {"dof": 500.0}, {"wander": 1e-4}],
+    ids=str,
+)
+def test_priors_of_any_shape_give_surfaces(shape):
+    sharp = bm.BeamMixture(bm.Gaussian(1e-3, 1e-4))
+    assert_sound(infer("surfaces", ROOM, prior=bm.Surface(**shape), sensor=sharp, warmup=40))
+
+
 @pytest.mark.parametrize("sensor", [bm.Gaussian(0.1), bm.StudentT(0.1), bm.BeamMixture(bm.StudentT(0.1))])
 @KINDS
 def test_other_sensors_are_refused_with_the_one_that_is_right(kind, sensor):

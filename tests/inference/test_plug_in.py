@@ -69,8 +69,8 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior(problem):
 
 
 def test_only_busy_cells_step(problem):
-    moved = steps(problem.guess) != 0
-    assert moved[problem.guess.busy][:, 1:4].all()
+    moved = steps(problem.guess, problem.rays.grid.resolution)[:, :6] != 0
+    assert moved[problem.guess.busy].all()
     assert not moved[~problem.guess.busy].any()
 
 

@@ -20,6 +20,10 @@ wp.set_module_options({"enable_backward": False})
 
 COSINE, SINE = 6, 7
 SHORT = wp.constant(wp.float64(0.3))
+LEAST_M = wp.constant(wp.float64(1.0e-30))
+MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))
+"""Beyond these logit m takes no step, neither there nor back: single precision could not undo it."""
+THINNEST = wp.constant(wp.float32(1.0e-12))  # variance that rounding must not take away, square metres
 
 
 @wp.func
@@ -32,7 +36,7 @@ def turned(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
     var_y = cell[L21] * cell[L21] + cell[L22] * cell[L22]
     area = cell[L11] * cell[L22]
     cross = wp.float32(2.0) * cosine * sine * both
-    first = wp.sqrt(cosine * cosine * var_x + cross + sine * sine * var_y)
+    first = wp.sqrt(wp.max(cosine * cosine * var_x + cross + sine * sine * var_y, THINNEST))
     mixed = cosine * sine * (var_y - var_x) + (cosine * cosine - sine * sine) * both
     cell[MEAN_X] = cosine * x + sine * y
     cell[MEAN_Y] = cosine * y - sine * x
@@ -72,9 +76,11 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
     e_2 = wp.float32(size * normal(key, at + wp.uint64(3)))
     e_3 = size * normal(key, at + wp.uint64(5))
     if i % 2 == 0:
-        m = wp.clamp(wp.float64(cell[REFLECTIVITY]), wp.float64(1.0e-30), wp.float64(1.0 - 1.0e-7))
-        odds = m / (one - m) * wp.exp(e_3 * wp.float64(step[REFLECTIVITY]))
-        cell[REFLECTIVITY] = wp.float32(odds / (one + odds))
+        m = wp.float64(cell[REFLECTIVITY])
+        odds = m / wp.max(one - m, LEAST_M) * wp.exp(e_3 * wp.float64(step[REFLECTIVITY]))
+        other = odds / (one + odds)
+        if wp.min(m, other) > LEAST_M and wp.max(m, other) < MOST_M:
+            cell[REFLECTIVITY] = wp.float32(other)
         cell[MEAN_X] = cell[MEAN_X] + e_1 * step[MEAN_X]
         cell[L11] = cell[L11] * wp.exp(e_2 * step[L11])
     else:

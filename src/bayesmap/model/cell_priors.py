@@ -103,7 +103,9 @@ class Surface:
         left = np.arange(count)
         while len(left):
             drawn = self._sample_unbounded(rng, len(left))
-            accepted = rng.random(len(left)) < np.exp(-0.5 * (drawn[:, 2:] ** 2).sum(axis=1) / self.extent**2)
+            with np.errstate(over="ignore"):  # what is too large for a number is too large
+                size = (drawn[:, 2:] ** 2).sum(axis=1) / self.extent**2
+            accepted = rng.random(len(left)) < np.exp(-0.5 * size)
             out[left[accepted]] = drawn[accepted]
             left = left[~accepted]
         return out
@@ -114,7 +116,9 @@ class Surface:
         a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
         a21 = rng.standard_normal(count)
         mean = self.wander * rng.standard_normal((2, count))
-        return np.stack([*mean, self.spread / a22, -self.spread * a21 / (a11 * a22), self.spread / a11], axis=-1)
+        with np.errstate(divide="ignore", over="ignore"):
+            shape = (self.spread / a22, -self.spread * a21 / (a11 * a22), self.spread / a11)
+        return np.stack([*mean, *shape], axis=-1)
 
 
 CellPrior = Beta | Surface
