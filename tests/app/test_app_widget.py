@@ -1,5 +1,6 @@
 """The widget without a browser: what its view would send, and what it would be sent."""
 
+import os
 import queue
 
 import numpy as np
@@ -90,6 +91,16 @@ def test_a_malformed_message_is_answered_by_an_error(shown):
     for content in (None, [], {"type": "nonsense", "seq": 9}):
         view.widget._handle_custom_msg(content, [])
         assert view.until("error")[0]["text"]
+
+
+def test_the_worker_ends_with_the_channel_which_is_all_that_marimo_closes(shown):
+    view = shown()
+    view.until("field")
+    worker = view.widget._supervisor.pid
+    os.kill(worker, 0)
+    view.widget.comm.close()
+    with pytest.raises(ProcessLookupError):
+        os.kill(worker, 0)
 
 
 def test_a_document_that_is_none_is_bad_input():

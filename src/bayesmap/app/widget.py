@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextvars
 import tempfile
+import threading
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,8 @@ class MapWidget(anywidget.AnyWidget):
     """The interactive page in Jupyter and marimo.
 
     ``MapWidget()`` is the live page on the tutorial's map; ``MapWidget(run)`` shows a finished run, its draws and its
-    scans. The worker process starts when the widget is first shown, and ends with `close` or with the kernel.
+    scans. The worker process starts when the widget is first shown, and ends with `close`, with the kernel, and in
+    marimo also when the cell is run again or the visitor of an app has gone.
 
     Args:
         run: what to show; nothing for the live page.
@@ -55,6 +57,7 @@ class MapWidget(anywidget.AnyWidget):
         self._session = Session(_shown(run, first))
         self._later = _on_this_loop()
         self.on_msg(self._receive)
+        self._end_with_notebook()
 
     @property
     def document(self) -> dict[str, Any]:
@@ -78,13 +81,38 @@ class MapWidget(anywidget.AnyWidget):
 
     def close(self) -> None:
         """End the worker and the widget."""
+        self._end()
+        super().close()
+
+    def _end(self) -> None:
         if self._supervisor is not None:
             self._supervisor.stop()
             self._supervisor = None
         if self._folder is not None:
             self._folder.cleanup()
             self._folder = None
-        super().close()
+
+    def _end_with_notebook(self) -> None:
+        """End the worker also where the notebook forgets the widget without closing it, as marimo does."""
+        # when a cell is run again, its widgets' channels are closed, and not the widgets
+        if (channel := self.comm) is not None:
+            close = channel.close
+
+            def close_and_end(*arguments: Any, **options: Any) -> None:
+                self._end()
+                close(*arguments, **options)
+
+            channel.close = close_and_end
+
+        # a visitor of an app has a thread, and when they have gone nothing is closed, but the thread ends
+        thread = threading.current_thread()
+        if thread is not threading.main_thread() and _loop() is not None:
+
+            def end_after() -> None:
+                thread.join()
+                self._end()
+
+            threading.Thread(target=end_after, name="bayesmap-end", daemon=True).start()
 
     def _receive(self, _widget: object, content: Any, _buffers: object) -> None:
         """A message of the view's."""
@@ -141,9 +169,8 @@ def _shown(run: Run | None, first: Document) -> Document:
 
 def _on_this_loop() -> Callable[[Callable[[], None]], None]:
     """How the supervisor's threads reach the notebook: through its event loop, or directly where there is none."""
-    try:
-        loop = asyncio.get_running_loop()
-    except RuntimeError:
+    loop = _loop()
+    if loop is None:
         return lambda call: call()
     context = contextvars.copy_context()
 
@@ -152,3 +179,10 @@ def _on_this_loop() -> Callable[[Callable[[], None]], None]:
             loop.call_soon_threadsafe(call, context=context)
 
     return later
+
+
+def _loop() -> asyncio.AbstractEventLoop | None:
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None

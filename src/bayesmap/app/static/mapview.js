@@ -1735,7 +1735,8 @@ class Controls {
       this.button("redo", "Redo", () => session.act({ type: "redo" }), { title: "Redo (Ctrl+Y)", when: () => Boolean(session.state?.can_redo) }),
       h("span", { className: "gap" }),
       this.button("grid", "New map", () => this.command("new"), { text: "New map", when: live }),
-      this.button("link", "Share", () => this.command("share"), { text: "Share", when: live }),
+      // a notebook's address holds no map, and may hold the notebook's token
+      ...(this.hand.embedded ? [] : [this.button("link", "Share", () => this.command("share"), { text: "Share", when: live })]),
     ];
     for (const element of only) this.each(() => put(element, "hidden", session.recorded));
     const help = this.button("help", "Help", () => this.command("help"), { title: "Help (?)" });
