@@ -1,0 +1,122 @@
+"""The widget in marimo and in JupyterLab: it infers, it is drawn on, it shows a run, and it asks nobody else."""
+
+import contextlib
+import os
+import time
+
+import notebook_driver
+import numpy as np
+import page_driver
+import pytest
+from page_driver import DESKTOP, act, brightness_at, pid_of_worker, press_and_drag, settled, snapshot, until
+
+import bayesmap as bm
+
+pytest.importorskip("anywidget")
+
+HOMES = {
+    "marimo run": notebook_driver.marimo_app,
+    "marimo edit": notebook_driver.marimo_editor,
+    "jupyterlab": notebook_driver.jupyterlab,
+}
+LIVE = "import bayesmap as bm\nbm.MapWidget(seed=3)"
+FINISHED = "import bayesmap as bm\nbm.MapWidget(bm.load({path!r}))"
+
+
+@pytest.fixture
+def show(browser, tmp_path, monkeypatch):
+    """Runs a cell in a notebook and waits for the widget's picture; no errors, and no request leaves the machine."""
+    monkeypatch.setattr(page_driver, "WAIT_SECONDS", notebook_driver.CELL_SECONDS)
+    troubles = []
+
+    def local(address):
+        if not address.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "blob:", "data:", "about:")):
+            troubles.append(address)
+
+    with contextlib.ExitStack() as stack:
+        context = stack.enter_context(contextlib.closing(browser.new_context(**DESKTOP)))
+
+        def shown(home, source):
+            page = context.new_page()
+            page.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
+            page.on("pageerror", lambda error: troubles.append(str(error)))
+            page.on("request", lambda request: local(request.url))
+            page.on("websocket", lambda opened: local(opened.url))
+            canvas, page.server = stack.enter_context(HOMES[home](page, tmp_path, source))
+            stack.callback(page.close)  # before its server ends
+            canvas.wait_for(timeout=notebook_driver.CELL_SECONDS * 1000)
+            canvas.scroll_into_view_if_needed()
+            until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
+            return page
+
+        yield shown
+    assert troubles == []
+
+
+@pytest.mark.parametrize("home", HOMES)
+def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
+    page = show(home, LIVE)
+    for label in ("True walls", "Rays", "Readings"):  # so that a cell's pixels are its probability
+        page.get_by_role("checkbox", name=label).uncheck()
+    before = settled(page)
+    assert before["document"]["seed"] == 3
+    assert before["painted"]["method"] == "gibbs"
+    free, walls = before["walls"] == 0, before["walls"] == 1
+    seen, sure = before["observed"] == 1, before["probability"] / 255
+    assert sure[seen & walls].mean() > 0.7
+    assert sure[seen & free].mean() < 0.05
+    assert not before["walls"][6:10, 12].any()
+    assert brightness_at(page, 8, 12) > 200
+
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    act(page, lambda: press_and_drag(page, [(6, 12), (9, 12)]))
+    after = settled(page)
+    drawn = after["walls"] != before["walls"]
+    assert np.argwhere(drawn).tolist() == [[x, 12] for x in range(6, 10)]
+    assert (after["probability"][6:10, 12] > 200).sum() >= 3
+    assert brightness_at(page, 8, 12) < 100
+    act(page, lambda: page.get_by_role("button", name="Undo").click())
+    assert np.array_equal(settled(page)["walls"], before["walls"])
+    assert not page.get_by_role("button", name="Share").is_visible()  # a notebook's address holds no map
+
+
+@pytest.mark.parametrize("home", ["marimo run", "jupyterlab"])
+def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
+    walls, pose = bm.worlds.tutorial()
+    grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
+    angles = np.linspace(0, 2 * np.pi, 30, endpoint=False)
+    scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0, seed=0)
+    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=sensor, chains=2, warmup=5, draws=20)
+    run.save(tmp_path / "run.nc")
+
+    page = show(home, FINISHED.format(path=str(tmp_path / "run.nc")))
+    until(page, "s.draws.count === 20 && s.draws.chains === 2")
+    shown = snapshot(page)
+    assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
+    page.get_by_role("radio", name="One draw").check()
+    page.get_by_label("Chain").select_option("1")
+    page.get_by_role("slider", name="Draw number").fill("7")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 7 && s.painted.chain === 1")
+    assert np.array_equal(snapshot(page)["probability"] > 0, run.draws[1, 7])
+    assert not page.get_by_role("button", name="Run", exact=True).is_visible()
+
+
+def test_the_worker_ends_when_the_visitor_of_an_app_has_gone(show):
+    page = show("marimo run", LIVE)
+    server = page.server
+    worker = pid_of_worker(server)
+    page.close()
+    deadline = time.monotonic() + notebook_driver.CELL_SECONDS
+    while runs(worker):
+        assert time.monotonic() < deadline, "the worker outlived its page"
+        time.sleep(0.1)
+    assert server.poll() is None
+
+
+def runs(pid):
+    """Whether there is a process of this number."""
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
