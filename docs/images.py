@@ -9,22 +9,33 @@ from pathlib import Path
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.model.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.cli.pictures import log_odds_map
+from bayesmap.viz.comparison import Candidate, comparison_figure
 from bayesmap.viz.figure import write_figure
+from bayesmap.viz.palette import SURFACE
+from bayesmap.viz.surfaces import draw_surfaces
+from bayesmap.viz.window import window
 from bayesmap.world.tutorial import TUTORIAL_GRID
 
 IMAGES = Path(__file__).with_name("images")
+ROOMS = (6.0, 19.0), (-5.0, 6.5)  # x and y of the building's picture, metres
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 
 
 def building() -> None:
-    """A real building at 10 cm: mean and entropy of 4 x 100 draws."""
+    """A few rooms of a real building at 10 cm: what log-odds make of the scans, and the posterior with its surfaces."""
     scans, _ = bm.read_log(LOG).limited(20.0).holdout(10)
     grid = bm.Grid.covering(scans, 0.1)
-    run = bm.infer(
-        scans, grid, prior=bm.Independent(P_WALL), sensor=default_sensor(0.1), hit_depth=HIT_DEPTH, warmup=50, draws=100
-    )
-    write_figure(run.plot(scans=None, draw=None), IMAGES / "building.png")
+    run = bm.infer(scans, grid, prior=bm.Surface(), sensor="fit", warmup=50, draws=50)
+    part, cut = window(grid, *ROOMS)
+    log_odds, seen = log_odds_map(run)
+    maps = [
+        Candidate("log-odds", log_odds[cut], seen[cut]),
+        Candidate("posterior over surfaces", run.occupancy[cut], run.observed[cut]),
+    ]
+    figure = comparison_figure(part, maps, label="chance that a beam stops")
+    draw_surfaces(figure.axes[1], *run.surfaces(), color=SURFACE)
+    write_figure(figure, IMAGES / "building.png")
 
 
 def tutorial() -> None:
