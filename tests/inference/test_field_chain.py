@@ -83,6 +83,7 @@ def test_progress_is_told_of_warm_up_and_draws_to_the_last_sweep(monkeypatch):
     monkeypatch.setattr(field_chain, "TELL_EVERY_S", -1.0)
     events = []
     infer("reflectivities", on_progress=events.append)
+    events = [event for event in events if event.stage in ("warm-up", "draws")]
     assert [event.done for event in events] == list(range(1, 19))
     assert [event.stage for event in events] == ["warm-up"] * 12 + ["draws"] * 6
     assert all(np.isfinite(event.log_joint) for event in events)

@@ -6,11 +6,12 @@ over this module.
 """
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 from oracle.field_law import draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import build_worlds, centres_of, copies
+from oracle.field_worlds import build_worlds, copies
 from oracle.verdict import ALPHA
 from oracle.weighted import p_values, surface_coordinates, weighted
 
@@ -33,7 +34,7 @@ TWO = bm.Scans(
 )  # fmt: skip
 NOTHING = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[np.inf, 1.9]], max_range_m=2.0)  # no reading ends in the cell
 
-WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0)
+WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
 CASES = {
     "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
     "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
@@ -42,16 +43,21 @@ CASES = {
 }
 
 
-def by_importance(shape, scans, law, prior, count=DRAWS):
+@cache
+def prior_states(shape, prior):
+    """A million states from the prior, in metres, and centres and edge of their cells."""
+    cell = np.arange(shape[0] * shape[1])
+    centres = (np.stack([cell // shape[1] + 0.5, cell % shape[1] + 0.5], axis=-1) * EDGE, EDGE)
+    return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,)), centres
+
+
+def by_importance(shape, scans, law, prior):
     """Draws from the prior, weighted by their likelihood."""
-    rays = build_worlds(scans, bm.Grid(shape, EDGE), prior, law, 1).problem.rays
-    rng, centres, paths = np.random.default_rng(31), centres_of(rays), paths_of(rays)
-    values, log_weights = [], []
-    for _ in range(count // AT_ONCE):
-        states = draw_states(rng, prior, centres, (AT_ONCE,))
-        values.append(surface_coordinates(states, *centres))
-        log_weights.append(log_likelihoods(paths, states, law, False).sum(axis=-1))
-    return weighted(np.concatenate(values), np.concatenate(log_weights))
+    states, centres = prior_states(shape, prior)
+    paths = paths_of(build_worlds(scans, bm.Grid(shape, EDGE), prior, law, 1).problem.rays)
+    parts = [states[i : i + AT_ONCE] for i in range(0, DRAWS, AT_ONCE)]
+    log_weights = [log_likelihoods(paths, part, law, False).sum(axis=-1) for part in parts]
+    return weighted(surface_coordinates(states, *centres), np.concatenate(log_weights))
 
 
 def drawn(shape, scans, law, prior, sweeps, seed=17):
@@ -78,7 +84,7 @@ def test_wrong_twins_are_rejected():
     logit_m, x, _, log_l11, _, _ = right.values.T
     tilts = {"Jacobian": log_l11, "reflectivity": -0.2 * np.logaddexp(0, logit_m), "mean": -1.5 * x}
     twins = {name: weighted(right.values, np.log(right.weight + 1e-300) + tilt) for name, tilt in tilts.items()}
-    twins["noise"] = by_importance(shape, scans, replace(law, noise=bm.Gaussian(0.25)), prior, DRAWS // 2)
+    twins["noise"] = by_importance(shape, scans, replace(law, noise=bm.Gaussian(0.25)), prior)
     for name, twin in twins.items():
         assert p_values(mine, twin).min() < ALPHA / TESTS, name
 

@@ -132,7 +132,7 @@ def draw_covariances(rng, prior, count):
     law = stats.invwishart(prior.dof, prior.spread**2 * np.eye(2))
     sigma = np.empty((0, 2, 2))
     while len(sigma) < count:
-        more = np.reshape(law.rvs(2 * count + 2, random_state=rng), (-1, 2, 2))
+        more = np.reshape(law.rvs(int(1.5 * (count - len(sigma))) + 2, random_state=rng), (-1, 2, 2))
         keep = rng.random(len(more)) < np.exp(-np.trace(more, axis1=1, axis2=2) / (2 * prior.extent**2))
         sigma = np.concatenate([sigma, more[keep]])
     return sigma[:count]
