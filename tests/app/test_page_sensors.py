@@ -113,3 +113,19 @@ def test_a_large_map_is_dragged_on_too(open_page, server):
     assert after["sensors"][0]["x"] == pytest.approx(sensor["x"] + 0.4, abs=0.15)
     assert after["painted"]["generation"] > before["generation"]
     assert after["probability"].shape == (500, 500)
+
+
+def test_a_refusal_is_said_until_something_else_is_done(open_page, server):
+    page = open_page(server, document())
+    page.get_by_label("x (m)").fill("-5")
+    page.keyboard.press("Tab")
+    page.get_by_role("status").get_by_text("outside the map").wait_for()
+    act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.3") or page.keyboard.press("Tab"))
+    until(page, "s.status.text === 'Ready'")
+
+
+def test_a_heading_is_any_number_of_turns(open_page, server):
+    page = open_page(server, document())
+    act(page, lambda: page.get_by_label("heading").fill("720090") or page.keyboard.press("Tab"))
+    assert settled(page)["sensors"][0]["yaw"] == pytest.approx(np.pi / 2)
+    assert snapshot(page)["status"]["level"] == "info"

@@ -324,6 +324,8 @@ export class Session {
     /** @type {{x: number, y: number, beams: number} | null} */
     this.cell = null;
     this.status = { text: "Connecting", level: "info" };
+    /** The last action before the status: what is said of a refusal holds until another is done. */
+    this.saidAt = 0;
     this.worker = "starting";
     this.events = { paints: 0, stale: 0, eventToPaint_ms: /** @type {number[]} */ ([]) };
     /** @type {{seq: number, time: number}[]} pointer events whose picture is still to come */
@@ -364,6 +366,7 @@ export class Session {
   /** @param {string} text @param {string} [level] */
   say(text, level = "info") {
     this.status = { text, level };
+    this.saidAt = this.acted;
     this.changed();
   }
 
@@ -431,9 +434,11 @@ export class Session {
         break;
       case "status":
         this.status = { text: sentence(message.text), level: message.level ?? "info" };
+        this.saidAt = this.acted;
         break;
       case "error":
         this.status = { text: sentence([message.text, message.remedy].filter(Boolean).join("; ")), level: "error" };
+        this.saidAt = this.acted;
         this.pending = this.pending.filter((edit) => edit.seq !== message.seq);
         this.waiting = this.waiting.filter((event) => event.seq !== message.seq);
         this.rebuild();
@@ -456,7 +461,8 @@ export class Session {
 
   /** @param {Message} message */
   receiveState(message) {
-    if (this.status.text === "Connecting") this.status = { text: "Ready", level: "info" };
+    const overcome = this.status.level !== "info" && (message.seq ?? 0) > this.saidAt && !/worker/.test(this.status.text);
+    if (this.status.text === "Connecting" || overcome) this.status = { text: "Ready", level: "info" };
     this.state = message;
     this.generation = Math.max(this.generation, message.generation);
     this.seqOfGeneration.set(message.generation, message.seq ?? 0);
@@ -2025,7 +2031,7 @@ class Controls {
     const heading = this.numberInput(
       "heading (\u00b0)",
       () => Math.round(((hand.sensor?.yaw ?? 0) * 180) / Math.PI),
-      (value) => hand.sensor && hand.moveSensor(hand.sensor, { yaw: (value * Math.PI) / 180 }, undefined),
+      (value) => hand.sensor && hand.moveSensor(hand.sensor, { yaw: ((value % 360) * Math.PI) / 180 }, undefined),
       { step: 5 },
     );
     const add = this.button("plus", "Add a sensor", () => hand.addSensor(), { text: "Add" });
