@@ -78,3 +78,11 @@ def test_the_figure_hatches_what_nobody_saw_and_takes_maps_without_surfaces():
 def test_what_is_no_surface_is_named(means, covariances, weights, says):
     with pytest.raises(BadInput, match=says):
         draw_surfaces(panel(), means, covariances, weights)
+
+
+def test_surfaces_too_faint_to_be_seen_still_have_a_key():
+    for means, weights in ((np.zeros((0, 2)), []), ([[1.5, 2.25]], [0.001])):
+        ax = panel()
+        lines = draw_surfaces(ax, means, [covariance(0.0, 0.1, 0.01)] * len(means) or np.zeros((0, 2, 2)), weights)
+        assert len(lines.get_segments()) == 0
+        assert [key.get_text() for key in ax.figure.legend(handles=[lines]).get_texts()] == ["surface"]

@@ -190,7 +190,8 @@ def _read_flat_yaml(path: Path) -> dict[str, str]:
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path}: cannot be read: {error}") from None
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise BadInput(f"{path}: cannot be read: {reason}") from None
     entries: dict[str, str] = {}
     key = ""
     for number, raw in enumerate(lines, start=1):

@@ -94,8 +94,10 @@ def draw_surfaces(
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
     seen = alpha >= FAINTEST
     ink = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
-    colors = np.tile(ink, (int(seen.sum()), 1))
-    colors[:, 3] = alpha[seen]
+    # A collection of nothing keeps one colour too: its key in a legend asks for it.
+    colors = np.tile(ink, (max(int(seen.sum()), 1), 1))
+    if seen.any():
+        colors[:, 3] = alpha[seen]
     lines = LineCollection(
         list(strokes[seen]), colors=colors, linewidths=width_pt, capstyle="round", label="surface", zorder=2.5
     )
