@@ -157,3 +157,13 @@ def test_the_summary_judges_reflectivities(kind):
 @KINDS
 def test_it_is_drawn(kind):
     assert len(run_of(kind).plot().axes) >= 3
+
+
+def test_where_no_reading_ended_there_are_no_surfaces_and_the_run_is_drawn():
+    nothing = bm.Scans(TRAIN.poses, TRAIN.angles_rad, np.full(TRAIN.ranges_m.shape, np.inf), max_range_m=0.4)
+    run = bm.infer(nothing, GRID, prior=PRIORS["surfaces"], sensor=SENSOR, chains=2, warmup=1, draws=2, hit_depth=0.5)
+    mean, covariance, reflectivity = run.surfaces()
+    assert mean.shape == (0, 2)
+    assert covariance.shape == (0, 2, 2)
+    assert reflectivity.shape == (0,)
+    run.plot()

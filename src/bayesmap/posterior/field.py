@@ -114,7 +114,7 @@ class FieldPosterior:
         flat = self.touched[self.busy]
         centre = np.stack([flat // ny + 0.5, flat % ny + 0.5], axis=-1) * edge + np.array(self.grid.origin)
         mean, second = np.zeros((len(flat), 2)), np.zeros((len(flat), 2, 2))
-        draws = self.surfaces.reshape(-1, *self.surfaces.shape[2:])
+        draws = self.surfaces.reshape(self.surfaces.shape[0] * self.n_draws, *self.surfaces.shape[2:])
         for surface in draws:
             x, y, l11, l21, l22 = surface.astype(np.float64).T * edge
             mean += np.stack([x, y], axis=-1)
