@@ -88,6 +88,7 @@ def test_missing_and_truncated_logs(office, tmp_path):
 @pytest.mark.parametrize("command", ["render", "export"])
 def test_missing_and_truncated_runs(office_run, tmp_path, command):
     assert "no such file" in refuse(command, tmp_path / "none.nc")
+    assert "a folder; give the run.nc in it" in refuse(command, office_run)
     whole = (office_run / "run.nc").read_bytes()
     cut = tmp_path / "run.nc"
     for content in (whole[: len(whole) // 2], b"", b"not netCDF"):

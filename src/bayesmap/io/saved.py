@@ -147,7 +147,7 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior | FieldPosterior:
     """
     path = Path(path)
     if not path.is_file():
-        raise BadInput(f"{path}: no such file")
+        raise BadInput(f"{path}: a folder; give the run.nc in it" if Path(path).is_dir() else f"{path}: no such file")
     posterior: Posterior | FieldPosterior
     try:
         with netCDF4.Dataset(path, "r") as file:
