@@ -27,6 +27,8 @@ FIRST_SWEEP = 3
 PRIOR_EVERY = 5
 LEAST_SIGMA_M = 1e-3
 LEAST_SHARE = 1e-5
+LEAST_RANDOM = 5e-4
+"""Where scans are few, a map can explain every reading that it was made from; those to come are not so obliging."""
 PSEUDO_BEAMS = 2.0
 """Beams that the present value of a share counts for: a log without any such reading must not make it zero."""
 
@@ -115,7 +117,7 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
             moved(sensor.noise.sigma_m, noise.sigma_m),
             moved(max(sensor.noise.sigma_per_m, 1e-6), max(noise.sigma_per_m, 1e-6)),
         ),
-        p_random=moved(sensor.p_random, p_random),
+        p_random=max(moved(sensor.p_random, p_random), LEAST_RANDOM),
         p_no_return=moved(max(sensor.p_no_return, LEAST_SHARE), p_no_return),
         p_short=moved(max(sensor.p_short, LEAST_SHARE), p_short),
         rate_short_per_m=moved(rate, rate_new),
