@@ -37,12 +37,14 @@ from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
 Method = Literal["exact", "importance", "gibbs", "block", "propagate"]
-Stage = Literal["fit", "propagate", "warm-up", "draws", "particles"]
+Stage = Literal[
+    "trace", "compile", "start", "fit", "propagate", "warm-up", "draws", "particles", "save", "score"
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Event:
-    """Progress of a run: ``done`` of ``total`` sweeps, rounds or particles, and the mean log joint where known."""
+    """Progress of a run: ``done`` of ``total`` of whatever the stage counts, and the mean log joint where known."""
 
     stage: Stage
     done: int
@@ -145,6 +147,7 @@ def infer(
             return infer_field(
                 job,
                 resume=resume,
+                on_stage=_stages(on_progress),
                 on_progress=_teller(on_progress),
                 on_checkpoint=on_checkpoint,
                 checkpoint_every_s=checkpoint_every_s,
@@ -207,6 +210,14 @@ def _teller(on_progress: Callable[[Event], None] | None, only: Stage | None = No
         if on_progress is not None:
             stage: Stage = only or ("warm-up" if progress.warming_up else "draws")
             on_progress(Event(stage, progress.done, progress.total, float(progress.log_joint.mean())))
+
+    return tell
+
+
+def _stages(on_progress: Callable[[Event], None] | None) -> Callable[[Stage, int, int], None]:
+    def tell(stage: Stage, done: int, total: int) -> None:
+        if on_progress is not None:
+            on_progress(Event(stage, done, total))
 
     return tell
 

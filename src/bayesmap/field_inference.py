@@ -8,6 +8,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -81,6 +82,7 @@ def infer_field(
     job: FieldJob,
     *,
     resume: FieldRun | None,
+    on_stage: Callable[[Literal["compile", "trace", "start"], int, int], None],
     on_progress: Callable[[Progress], None],
     on_checkpoint: Callable[[FieldRun], None] | None,
     checkpoint_every_s: float,
@@ -97,7 +99,16 @@ def infer_field(
     settings = _settings(job, sensor)
     if resume is not None:
         check_same(resume.posterior.settings, settings)
-    problem = build_field(job.scans, job.grid, job.prior, sensor, hit_depth=job.hit_depth, device=job.device)
+    problem = build_field(
+        job.scans,
+        job.grid,
+        job.prior,
+        sensor,
+        hit_depth=job.hit_depth,
+        device=job.device,
+        on_progress=partial(on_stage, "trace"),
+    )
+    _prepare(problem, on_stage)
     before = None if resume is None or resume.posterior.sweep == 0 else resume.posterior
     trace_seconds = time.perf_counter() - began
     spent = before.seconds["total"] if before else 0.0
@@ -122,6 +133,18 @@ def infer_field(
         should_stop=should_stop,
     )
     return as_run(result)
+
+
+def _prepare(problem: FieldProblem, on_stage: Callable[[Literal["compile", "trace", "start"], int, int], None]) -> None:
+    """Compile and count beforehand what the chains would otherwise wait for in silence."""
+    from bayesmap.kernels.field import KERNELS, load_field_kernels
+
+    on_stage("compile", 0, len(KERNELS))
+    for done in load_field_kernels(problem.device):
+        on_stage("compile", done, len(KERNELS))
+    on_stage("start", 0, 2)
+    _ = problem.guess
+    on_stage("start", 1, 2)
 
 
 def _settings(job: FieldJob, sensor: SensorModel) -> dict[str, Any]:

@@ -82,8 +82,15 @@ class FieldRun(Run):
     def _summary(self) -> Summary:
         return summarise_field(self.posterior)
 
-    def log_score(self, heldout_scans: Scans, sensor: SensorModel | None = None) -> float:
+    def log_score(
+        self,
+        heldout_scans: Scans,
+        sensor: SensorModel | None = None,
+        on_progress: Callable[[int, int], None] = lambda done, total: None,
+    ) -> float:
         """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
+
+        ``on_progress`` is told how many of how many draws have been looked at.
 
         Raises:
             BadInput: no draws, no valid reading, or a sensor of another kind than the run's.
@@ -94,7 +101,7 @@ class FieldRun(Run):
             raise BadInput("score: the run has no draws yet; let it finish its warm-up")
         if not (heldout_scans.readings != Reading.INVALID).any():
             raise BadInput("score: none of the scans has a valid reading")
-        return float(np.nanmean(field_beam_log_scores(self.posterior, heldout_scans, sensor)))
+        return float(np.nanmean(field_beam_log_scores(self.posterior, heldout_scans, sensor, on_progress)))
 
     def save(
         self,

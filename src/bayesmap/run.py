@@ -94,12 +94,19 @@ class Run:
     def _summary(self) -> Summary:
         return summarise(self.posterior)
 
-    def log_score(self, heldout_scans: Scans, sensor: SensorModel | None = None) -> float:
+    def log_score(
+        self,
+        heldout_scans: Scans,
+        sensor: SensorModel | None = None,
+        on_progress: Callable[[int, int], None] = lambda done, total: None,
+    ) -> float:
         """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
+
+        ``on_progress`` is told how many of how many draws have been looked at.
 
         ``sensor`` is needed only for a loaded run whose sensor model is of your own making.
         """
-        return log_score(self.posterior, heldout_scans, sensor)
+        return log_score(self.posterior, heldout_scans, sensor, on_progress)
 
     def save(
         self,

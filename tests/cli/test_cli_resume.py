@@ -59,7 +59,7 @@ def interrupt_at_checkpoint(monkeypatch):
     """Press Ctrl-C as soon as the first checkpoint is there."""
     save = Folder.checkpoint
 
-    def checkpoint(self, run):
+    def checkpoint(self, run, *told):
         save(self, run)
         os.kill(os.getpid(), signal.SIGINT)
 
@@ -108,7 +108,7 @@ def test_a_run_stopped_again_and_again_is_the_same(office, tmp_path, uninterrupt
         return  # its steps are long: tests of the library stop its chains anywhere
     save = Folder.checkpoint
 
-    def checkpoint(self, run):
+    def checkpoint(self, run, *told):
         save(self, run)
         # While the sensor is being fitted, at the end of warm-up, before the first draw, and between two draws.
         if run.posterior.sweep in (2, 5, 20, 21, 60) and run.posterior.sweep not in seen:
@@ -169,7 +169,7 @@ def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, 
     folder = tmp_path / "run"
     save = Folder.checkpoint
 
-    def checkpoint(self, run):
+    def checkpoint(self, run, *told):
         save(self, run)
         raise KeyboardInterrupt
 
@@ -225,7 +225,7 @@ def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monke
     save = kind.save
     calls = []
 
-    def full(self, path):
+    def full(self, path, *told):
         calls.append(path)
         if len(calls) == 1:
             raise OSError(28, "No space left on device")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bayesmap.cli.progress import progress, stage
 from bayesmap.cli.talk import Talk, as_json
 from bayesmap.errors import BadInput
 
@@ -77,10 +79,10 @@ class Folder:
         with write_whole(self.config) as partial:
             partial.write_text(toml, encoding="utf-8")
 
-    def checkpoint(self, run: Run) -> None:
+    def checkpoint(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run so far; a full disk is no reason to lose the hours to come."""
         try:
-            run.save(self.run)
+            run.save(self.run, on_progress)
             self.talk.detail(f"checkpoint after {run.posterior.sweep:,} sweeps: {self.run}")
         except OSError as error:
             self.talk.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
@@ -93,10 +95,12 @@ class Folder:
         """
         from bayesmap.viz.figure import write_figure
 
-        run.save(self.run)
+        with stage(self.talk, "save") as tell:
+            run.save(self.run, tell)
         picture = self.path / "posterior.png"
-        write_figure(run.plot(), picture)
-        return [self.run, picture, *run.export(self.path / "map.yaml")]
+        with progress(self.talk, "drawing the map"):
+            write_figure(run.plot(), picture)
+            return [self.run, picture, *run.export(self.path / "map.yaml")]
 
     def write_document(self, document: dict[str, Any]) -> None:
         """Keep the JSON document."""

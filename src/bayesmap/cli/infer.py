@@ -12,7 +12,7 @@ import click
 from bayesmap.cli import cells, sensors
 from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.progress import progress
+from bayesmap.cli.progress import SETTING_UP, progress, stage
 from bayesmap.cli.settings import Settings, as_toml, read_file
 from bayesmap.cli.talk import Talk
 from bayesmap.errors import BadInput
@@ -76,8 +76,9 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         _leave(folder, run, reading, go_on)
 
     outputs = folder.write_products(run)
-    score = _score(run, heldout, values["holdout"])
-    document = _document(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
+    score = _score(call.talk, run, heldout, values["holdout"])
+    with progress(call.talk, "comparing the chains"):
+        document = _document(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
     folder.write_document(document)
     _report(call.talk, document)
     call.talk.result(document, document["outputs"].values())
@@ -165,12 +166,13 @@ def _infer(
     with progress(folder.talk, "tracing beams") as tell:
 
         def on_progress(event: Event) -> None:
-            folder.begin(toml)
+            if event.stage not in SETTING_UP:
+                folder.begin(toml)
             tell(event)
 
         def on_checkpoint(run: Run) -> None:
             folder.begin(toml)  # a short warm-up may be over before anything was told of it
-            folder.checkpoint(run)
+            folder.checkpoint(run, lambda done, total: tell(Event("save", done, total)))
 
         run = infer(
             train,
@@ -192,7 +194,8 @@ def _leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoRetur
     kept: list[Path] = []
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
     if run.posterior.sweep > 0:
-        run.save(folder.run)
+        with stage(folder.talk, "save") as tell:
+            run.save(folder.run, tell)
         kept = [folder.run]
         folder.talk.say(f"interrupted after {run.posterior.sweep:,} sweeps, which are saved; go on with:\n  {go_on}")
     else:
@@ -201,11 +204,13 @@ def _leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoRetur
     click.get_current_context().exit(INTERRUPTED)
 
 
-def _score(run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
+def _score(talk: Talk, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
     if heldout is None:
         return None
     valid = heldout.n_beams - heldout.counts()["invalid"]
-    return {"every": every, "beams": valid, "nats_per_beam": run.log_score(heldout)}
+    with stage(talk, "score") as tell:
+        nats = run.log_score(heldout, on_progress=tell)
+    return {"every": every, "beams": valid, "nats_per_beam": nats}
 
 
 def _document(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:

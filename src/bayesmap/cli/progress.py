@@ -4,23 +4,33 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from bayesmap.cli.talk import Talk
 
 if TYPE_CHECKING:
+    from rich.progress import TaskID
+
     from bayesmap.api import Event
 
 Tell = Callable[["Event"], None]
 
 STAGES = {
+    "compile": ("compiling kernels, once", "kernels"),
+    "trace": ("tracing beams", "beams"),
+    "start": ("setting up chains", "parts"),
     "fit": ("fitting the sensor", "sweeps"),
     "propagate": ("belief propagation", "rounds"),
     "warm-up": ("warm-up", "sweeps"),
     "draws": ("drawing", "sweeps"),
     "particles": ("importance sampling", "particles"),
+    "save": ("saving", "%"),
+    "score": ("scoring held-out beams", "draws"),
 }
 """The stages of a run as a user reads them, and what is counted in each."""
+
+SETTING_UP = ("compile", "trace", "start", "fit")
+"""Stages in which it may still turn out that a run cannot be."""
 
 
 @contextlib.contextmanager
@@ -49,17 +59,34 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
         transient=True,
     )
     with bar:
-        task = bar.add_task(begin, total=None, count="", log_joint="")
-        counted: tuple[str, int] | None = None
+        shown = bar.add_task(begin, total=None, count="", log_joint="")
+        # A clock for each thing that is counted, or the estimate would mix rounds with sweeps. They go on when a
+        # checkpoint has come between.
+        clocks: dict[tuple[str, int], TaskID] = {}
 
         def tell(event: Event) -> None:
-            nonlocal counted
+            nonlocal shown
             name, unit = STAGES[event.stage]
-            count = f"{event.done:,}/{event.total:,} {unit} ETA"
+            clock = (unit, event.total)
+            if clock not in clocks or (event.done == 0 and event.stage == "save"):
+                clocks[clock] = bar.add_task(name, total=event.total, completed=event.done, count="", log_joint="")
+            if shown != clocks[clock]:
+                bar.update(shown, visible=False)
+                shown = clocks[clock]
+            amount = f"{event.done:,}/{event.total:,} {unit}"
+            count = f"{100 * event.done // max(event.total, 1)} %" if unit == "%" else amount
             joint = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
-            if (unit, event.total) != counted:  # another clock, or the estimate would mix rounds with sweeps
-                bar.reset(task, total=event.total, description=name, count=count, log_joint=joint)
-                counted = (unit, event.total)
-            bar.update(task, description=name, completed=event.done, count=count, log_joint=joint)
+            bar.update(
+                shown, description=name, completed=event.done, count=f"{count} ETA", log_joint=joint, visible=True
+            )
 
         yield tell
+
+
+@contextlib.contextmanager
+def stage(talk: Talk, name: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
+    """The same for a stage on its own, which tells how much of how much is done."""
+    from bayesmap.api import Event
+
+    with progress(talk, STAGES[name][0]) as tell:
+        yield lambda done, total: tell(Event(name, done, total))

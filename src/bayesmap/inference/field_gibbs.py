@@ -8,6 +8,7 @@ each cell's reflectivity is a Beta, and its surface takes a Metropolis step. The
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -67,8 +68,9 @@ def build_field(
     *,
     hit_depth: float = 0.5,
     device: str = "cpu",
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> FieldProblem:
-    """Trace the scans' rays, as far as their readings can be explained.
+    """Trace the scans' rays, as far as their readings can be explained; ``on_progress`` is told of beams done.
 
     Raises:
         BadInput: a sensor that is not a `BeamMixture` of Gaussian noise, or too many incidences.
@@ -84,7 +86,7 @@ def build_field(
         )
     ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
     margin_m = CELLS_AROUND * grid.resolution + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
-    rays = trace_rays(scans, grid, margin_m=margin_m, hit_depth=hit_depth, device=device)
+    rays = trace_rays(scans, grid, margin_m=margin_m, hit_depth=hit_depth, device=device, on_progress=on_progress)
     return FieldProblem(rays, prior, sensor, device)
 
 

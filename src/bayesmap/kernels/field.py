@@ -5,7 +5,7 @@ chain is a thread, and the counts are atomic. They are whole numbers, so the res
 """
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -56,6 +56,16 @@ def as_cells(states: NDArray[np.float32], device: str) -> Any:
     padded = np.zeros((len(states), 8), dtype=np.float32)
     padded[:, : states.shape[1]] = states
     return wp.array(padded, dtype=Cell, device=device)
+
+
+KERNELS = (propose, draw_stops, settle, update_busy)
+
+
+def load_field_kernels(device: str) -> Iterator[int]:
+    """Compile what sweeps need, or fetch it from Warp's cache, and count the kernels that are there."""
+    for done, kernel in enumerate(KERNELS, 1):
+        devices.load_kernels(kernel, device)
+        yield done
 
 
 class FieldChains:
@@ -164,7 +174,7 @@ class FieldChains:
             for task in tasks:
                 work(task)
             return
-        for kernel in (propose, draw_stops, settle, update_busy):
+        for kernel in KERNELS:
             devices.load_kernels(kernel, self.device)
         list(thread_pool(self.threads).map(work, tasks))
 

@@ -34,16 +34,18 @@ if hasattr(os, "register_at_fork"):  # a forked child has the pools, but none of
     os.register_at_fork(after_in_child=thread_pool.cache_clear)
 
 
-def launch(kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None) -> None:
-    """Run ``kernel(first, *inputs)`` over ``size`` elements: on the CPU in one slice a thread."""
+def launch(
+    kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
+) -> None:
+    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on: on the CPU in one slice a thread."""
     if size == 0:
         return
     threads = min(threads or available_cores(), size) if device == "cpu" else 1
     if threads == 1:
-        wp.launch(kernel, dim=size, inputs=[0, *inputs], device=device)
+        wp.launch(kernel, dim=size, inputs=[begin, *inputs], device=device)
         return
     load_kernels(kernel, device)  # once, before the threads would all try
-    edges = [size * i // threads for i in range(threads + 1)]
+    edges = [begin + size * i // threads for i in range(threads + 1)]
 
     def run(i: int) -> None:
         wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *inputs], device=device)

@@ -1,5 +1,6 @@
 """Tracing rays: as the beam table is traced, but keeping the geometry instead of likelihoods."""
 
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,9 @@ from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
+
+BEAMS_AT_ONCE = 1 << 16
+"""Traced before the next report."""
 
 
 @wp.kernel
@@ -56,6 +60,7 @@ def trace_rays(
     hit_depth: float = 0.5,
     whole: bool = False,
     device: str = "cpu",
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> BeamRays:
     """Follow every beam through the grid.
 
@@ -68,6 +73,7 @@ def trace_rays(
         hit_depth: where in a plain cell a beam stops, as a fraction of its chord.
         whole: keep all entries to the end of the sensor's range, for predicting readings.
         device: where to trace; the rays come back in main memory.
+        on_progress: told how many beams of how many are done; each is followed twice.
 
     Raises:
         BadInput: more incidences than 32-bit indices can count.
@@ -84,8 +90,11 @@ def trace_rays(
     rays = [devices.to_device(column, wp.float64, device) for column in columns]
     beams = len(ranges)
 
+    inputs: list[Any]
     counts = wp.empty(beams, dtype=wp.int32, device=device)
-    launch(count_cells, beams, [*grid.shape, *rays, counts], device)
+    for begin, size in _pieces(beams):
+        launch(count_cells, size, [*grid.shape, *rays, counts], device, begin=begin)
+        on_progress((begin + size) // 2, beams)
     ends = np.cumsum(counts.numpy(), dtype=np.int64)
     total = int(ends[-1]) if beams else 0
     if total > MAX_INCIDENCES:
@@ -98,11 +107,14 @@ def trace_rays(
     cells = wp.empty(total, dtype=wp.int32, device=device)
     distance_m = wp.empty(total, dtype=wp.float32, device=device)
     geometry = [wp.float64(grid.resolution), wp.float64(hit_depth)]
-    launch(fill_cells, beams, [*grid.shape, *rays, offsets_dev, *geometry, cells, distance_m], device)
+    for begin, size in _pieces(beams):
+        inputs = [*grid.shape, *rays, offsets_dev, *geometry, cells, distance_m]
+        launch(fill_cells, size, inputs, device, begin=begin)
+        on_progress((beams + begin + size) // 2, beams)
 
     nearest_m = np.where(finite, hits_m - margin_m - grid.resolution, -np.inf)
     near = wp.empty(beams, dtype=wp.int32, device=device)
-    inputs: list[Any] = [offsets_dev, distance_m, devices.to_device(nearest_m, wp.float32, device), near]
+    inputs = [offsets_dev, distance_m, devices.to_device(nearest_m, wp.float32, device), near]
     launch(find_near, beams, inputs, device)
 
     marks = wp.zeros(grid.n_cells, dtype=wp.uint8, device=device)
@@ -123,3 +135,9 @@ def trace_rays(
         range_m=ranges,
         limits=RangeLimits(scans.min_range_m, scans.max_range_m),
     )
+
+
+def _pieces(beams: int) -> Iterator[tuple[int, int]]:
+    """First beam and number of beams of each piece."""
+    for begin in range(0, beams, BEAMS_AT_ONCE):
+        yield begin, min(BEAMS_AT_ONCE, beams - begin)

@@ -1,5 +1,6 @@
 """Scoring beams under many maps: where does each beam first hit in every draw?"""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from bayesmap.kernels.parallel import launch
 from bayesmap.sensor.table import BeamTable
 
 wp.set_module_options({"enable_backward": False})
+
+DRAWS_AT_ONCE = 32
 
 
 @wp.func
@@ -59,15 +62,25 @@ def add_densities(
             total[b] = total[b] + wp.exp(value - most[b])
 
 
-def log_mean_density(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.float64]:
-    """Log of each beam's likelihood averaged over packed maps (draws, bytes): the log predictive density, (B,)."""
+def log_mean_density(
+    table: BeamTable,
+    packed: NDArray[np.uint8],
+    device: str = "cpu",
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> NDArray[np.float64]:
+    """Log of each beam's likelihood averaged over packed maps (draws, bytes): the log predictive density, (B,).
+
+    ``on_progress`` is told how many of how many draws have been looked at.
+    """
     device = devices.resolve(device)
     beams = table.n_beams
     most: Any = wp.full(beams, -1.0e300, dtype=wp.float64, device=device)
     total = wp.zeros(beams, dtype=wp.float64, device=device)
     inputs = _on_device(table, device)
-    inputs += [devices.to_device(packed, wp.uint8, device), most, total]
-    launch(add_densities, beams, inputs, device)
+    for i in range(0, len(packed), DRAWS_AT_ONCE):
+        some = packed[i : i + DRAWS_AT_ONCE]
+        launch(add_densities, beams, [*inputs, devices.to_device(some, wp.uint8, device), most, total], device)
+        on_progress(i + len(some), len(packed))
     return np.asarray(most.numpy() + np.log(total.numpy() / len(packed)))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -154,7 +154,12 @@ class FieldPosterior:
                 yield states
 
 
-def field_beam_log_scores(posterior: FieldPosterior, scans: Scans, sensor: BeamMixture | None = None) -> Floats:
+def field_beam_log_scores(
+    posterior: FieldPosterior,
+    scans: Scans,
+    sensor: BeamMixture | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> Floats:
     """Log predictive density of every reading, NaN where it is invalid, log mean over draws, in nats, (B,)."""
     from bayesmap.kernels.field_score import FieldScore
     from bayesmap.kernels.rays import trace_rays
@@ -168,6 +173,7 @@ def field_beam_log_scores(posterior: FieldPosterior, scans: Scans, sensor: BeamM
     score = FieldScore(rays, parameters, plain=posterior.kind == "reflectivity")
     for states in posterior.cells_for(rays.touched):
         score.add(states)
+        on_progress(score.draws, posterior.reflectivity.shape[0] * posterior.n_draws)
     scores = score.log_mean_density()
     scores[np.isnan(rays.range_m)] = np.nan
     return scores

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,11 +13,16 @@ from bayesmap.sensor.model import SensorModel
 from bayesmap.world.scans import Reading, Scans
 
 
-def beam_log_scores(posterior: Posterior, scans: Scans, sensor: SensorModel | None = None) -> NDArray[np.float64]:
+def beam_log_scores(
+    posterior: Posterior,
+    scans: Scans,
+    sensor: SensorModel | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> NDArray[np.float64]:
     """Log predictive density of every reading, log mean over draws of p(reading | draw), in nats.
 
     Densities are per metre for hits, probabilities for typed readings. Invalid readings are left out. ``sensor`` is the
-    law of the readings; that of the run if None.
+    law of the readings; that of the run if None. ``on_progress`` is told how many of how many draws are done.
 
     Returns:
         One number for each valid beam.
@@ -38,10 +45,16 @@ def beam_log_scores(posterior: Posterior, scans: Scans, sensor: SensorModel | No
     if not valid.any():
         raise BadInput("score: none of the scans has a valid reading")
     table = trace(scans, posterior.grid, sensor, hit_depth=posterior.settings["hit_depth"])
-    scores = log_mean_density(table, posterior.packed.reshape(-1, posterior.packed.shape[-1]))
+    draws = posterior.packed.reshape(-1, posterior.packed.shape[-1])
+    scores = log_mean_density(table, draws, on_progress=on_progress)
     return np.asarray(scores[valid])
 
 
-def log_score(posterior: Posterior, scans: Scans, sensor: SensorModel | None = None) -> float:
+def log_score(
+    posterior: Posterior,
+    scans: Scans,
+    sensor: SensorModel | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> float:
     """Mean of `beam_log_scores`: nats per beam."""
-    return float(beam_log_scores(posterior, scans, sensor).mean())
+    return float(beam_log_scores(posterior, scans, sensor, on_progress).mean())
