@@ -31,6 +31,18 @@ def test_whole_rays_cross_the_beam_table_s_cells_in_its_order(case):
     np.testing.assert_array_equal(rays.touched, np.unique(table.cells))
 
 
+def test_beams_are_traced_some_at_a_time_to_the_same_rays(case, monkeypatch):
+    grid, scans = case
+    whole, told = trace_rays(scans, grid, margin_m=MARGIN_M), []
+    monkeypatch.setattr("bayesmap.kernels.rays.BEAMS_AT_ONCE", 7)
+    pieces = trace_rays(scans, grid, margin_m=MARGIN_M, on_progress=lambda *now: told.append(now))
+    for name in ("touched", "offsets", "cells", "distance_m", "near"):
+        np.testing.assert_array_equal(getattr(pieces, name), getattr(whole, name))
+    done = [done for done, _ in told]
+    assert done == sorted(done)
+    assert told[-1] == (whole.n_beams, whole.n_beams)
+
+
 @pytest.mark.parametrize("depth", [0.0, 0.5, 1.0])
 def test_a_plain_stop_is_at_the_given_part_of_the_chord(case, depth):
     grid, scans = case

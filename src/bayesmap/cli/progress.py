@@ -53,7 +53,7 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
         TextColumn("{task.description}"),
         BarColumn(bar_width=24),
         TextColumn("{task.fields[count]}"),
-        TimeRemainingColumn(elapsed_when_finished=True),
+        TimeRemainingColumn(),
         TextColumn("{task.fields[log_joint]}"),
         console=Console(stderr=True),
         transient=True,
@@ -68,7 +68,7 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
             nonlocal shown
             name, unit = STAGES[event.stage]
             clock = (unit, event.total)
-            if clock not in clocks or (event.done == 0 and event.stage == "save"):
+            if clock not in clocks:
                 clocks[clock] = bar.add_task(name, total=event.total, completed=event.done, count="", log_joint="")
             if shown != clocks[clock]:
                 bar.update(shown, visible=False)

@@ -1,0 +1,96 @@
+"""What a terminal shows of a run: every stage by its name, with a count where there is one; elsewhere nothing."""
+
+import os
+import pty
+import subprocess
+
+import pytest
+from shell import COMMAND, SOURCE, call
+
+from bayesmap.api import Event
+from bayesmap.cli.progress import SETTING_UP, STAGES, progress
+from bayesmap.cli.talk import Talk
+
+
+def on_a_terminal(*arguments):
+    """What a command writes to a terminal."""
+    ours, theirs = pty.openpty()
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "COLUMNS": "100"}
+    command = [*COMMAND, *map(str, arguments)]
+    process = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=environment)
+    os.close(theirs)
+    written = b""
+    while True:
+        try:
+            part = os.read(ours, 1 << 16)
+        except OSError:  # the other end is closed
+            break
+        if not part:
+            break
+        written += part
+    os.close(ours)
+    assert process.wait() == 0, written.decode()
+    return written.decode()
+
+
+@pytest.mark.parametrize("cells", ["surface", "binary"])
+def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
+    asked = [
+        "infer",
+        office,
+        "--resolution",
+        "0.25",
+        "--warmup",
+        "4",
+        "--draws",
+        "4",
+        "--holdout",
+        "2",
+        "--cells",
+        cells,
+    ]
+    shown = on_a_terminal(*asked, "-o", tmp_path / "seen")
+    for name in ("tracing beams", "saving", "drawing the map", "scoring held-out beams", "comparing the chains"):
+        assert name in shown, name
+    quiet = call(*asked, "-o", tmp_path / "piped")
+    assert quiet.exit_code == 0
+    assert "saving" not in quiet.stderr
+
+
+def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
+    from rich.progress import Progress
+
+    tasks, clock = [], []
+    add, update = Progress.add_task, Progress.update
+
+    def adding(self, *given, **options):
+        tasks.append(add(self, *given, **options))
+        return tasks[-1]
+
+    def updating(self, task, **options):
+        update(self, task, **options)
+        if "completed" in options:
+            clock.append((task, options["completed"], options["count"]))
+
+    monkeypatch.setattr(Progress, "add_task", adding)
+    monkeypatch.setattr(Progress, "update", updating)
+    monkeypatch.setattr(Talk, "draws_bar", True)
+    with progress(Talk(), "beginning") as tell:
+        for event in (Event("draws", 3, 9), Event("save", 1, 8), Event("save", 8, 8), Event("draws", 4, 9, -1.5)):
+            tell(event)
+    draws, save = tasks[1:]
+    assert clock == [
+        (draws, 3, "3/9 sweeps ETA"),
+        (save, 1, "12 % ETA"),
+        (save, 8, "100 % ETA"),
+        (draws, 4, "4/9 sweeps ETA"),
+    ]
+
+
+def test_every_stage_has_a_name():
+    from typing import get_args
+
+    from bayesmap.api import Stage
+
+    assert set(STAGES) == set(get_args(Stage))
+    assert set(SETTING_UP) <= set(STAGES)
