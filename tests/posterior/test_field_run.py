@@ -10,7 +10,7 @@ from oracle.field_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.posterior.field import field_beam_log_scores
+from bayesmap.posterior.field import field_beam_log_scores, quantiles_of_halves
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)
@@ -167,3 +167,13 @@ def test_where_no_reading_ended_there_are_no_surfaces_and_the_run_is_drawn():
     assert covariance.shape == (0, 2, 2)
     assert reflectivity.shape == (0,)
     run.plot()
+
+
+@pytest.mark.parametrize("draws", [1, 2, 7, 200])
+def test_quantiles_of_halves_are_those_of_numpy(draws):
+    rng = np.random.default_rng(draws)
+    halves = rng.beta(0.1, 0.5, (draws, 50)).astype(np.float16)
+    halves[:, :5] = np.array([0.0, 1.0, 6e-8, 3e-5, 0.5], dtype=np.float16)
+    at = (0.0, 0.05, 0.5, 0.77, 1.0)
+    found = quantiles_of_halves(halves, at)
+    np.testing.assert_allclose(found, np.quantile(halves.astype(float), at, axis=0), rtol=1e-12, atol=1e-15)

@@ -17,6 +17,7 @@ from bayesmap.world.scans import Scans
 
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 8192
+CELLS_AROUND = SIGMAS_AROUND = 10.0
 FRESH_CELLS = 1 << 14  # cells drawn from the prior, at least, where a prediction needs some
 
 
@@ -87,18 +88,14 @@ class FieldPosterior:
         out[..., self.touched] = values
         return out.reshape(*values.shape[:-1], *self.grid.shape)
 
-    def draws_of(self, cells: slice) -> Floats:
-        """All draws of some touched cells, (chains * draws, cells)."""
-        part = self.reflectivity[:, :, cells]
-        return part.reshape(-1, part.shape[-1]).astype(np.float64)
-
     def interval(self, level: float) -> tuple[Floats, Floats]:
         """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each."""
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
         ends = np.empty((2, len(self.touched)))
         for i in range(0, len(self.touched), CELLS_AT_ONCE):
             some = slice(i, i + CELLS_AT_ONCE)
-            ends[:, some] = np.quantile(self.draws_of(some), tails, axis=0)
+            part = self.reflectivity[:, :, some]
+            ends[:, some] = quantiles_of_halves(part.reshape(-1, part.shape[-1]), tails)
         before = stats.beta(self.prior.a, self.prior.b).ppf(tails)
         lower, upper = (self.to_grid(ends[i], float(before[i])) for i in (0, 1))
         return lower, upper
@@ -154,6 +151,18 @@ class FieldPosterior:
                 yield states
 
 
+def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Floats:
+    """Quantiles of numbers that are not negative, (draws, cells), linear between draws, (len(at), cells).
+
+    As `numpy.quantile`, but ten times as fast: the bits of such numbers, read as integers, have the same order.
+    """
+    ordered = np.sort(np.ascontiguousarray(draws.T).view(np.uint16), axis=1).view(np.float16)
+    place = np.array(at) * (len(draws) - 1)
+    below = np.floor(place).astype(np.intp)
+    low, high = (ordered[:, k].T.astype(np.float64) for k in (below, np.minimum(below + 1, len(draws) - 1)))
+    return np.asarray(low + (high - low) * (place - below)[:, None])
+
+
 def field_beam_log_scores(
     posterior: FieldPosterior,
     scans: Scans,
@@ -165,9 +174,11 @@ def field_beam_log_scores(
     from bayesmap.kernels.rays import trace_rays
 
     sensor = posterior.sensor if sensor is None else sensor
-    rays = trace_rays(
-        scans, posterior.grid, margin_m=np.inf, hit_depth=float(posterior.settings["hit_depth"]), whole=True
-    )
+    # Stops further from a reading than this explain it as chance or a passing object alone.
+    ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()
+    margin_m = CELLS_AROUND * posterior.grid.resolution + SIGMAS_AROUND * sensor.noise.scale_at(ranges)
+    hit_depth = float(posterior.settings["hit_depth"])
+    rays = trace_rays(scans, posterior.grid, margin_m=margin_m, hit_depth=hit_depth)
     parameters = sensor.kernel_parameters()
     assert parameters is not None
     score = FieldScore(rays, parameters, plain=posterior.kind == "reflectivity")
