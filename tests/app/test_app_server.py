@@ -198,7 +198,7 @@ def test_a_message_out_of_all_bounds_ends_the_connection_and_not_the_server(addr
 def test_a_flood_is_stopped_and_the_server_lives(address):
     with Page(address) as page:
         with contextlib.suppress(Exception):
-            for _ in range(4000):
+            for _ in range(40_000):  # until it is closed: a loaded machine sends slowly
                 page.socket.send('{"type": "undo", "seq": 1}')
         errors, code = [], None
         try:
