@@ -33,18 +33,6 @@ PRIORS = {"reflectivity": bm.Beta(), "surface": bm.Surface()}
 SETTLING = 30
 SWEEPS = 5
 
-# Peak memory as the kernel counts it for this program alone: ru_maxrss is inherited from whoever started it.
-PROGRAM = r"""
-import re, sys
-from pathlib import Path
-from bayesmap.cli.main import main
-try:
-    main(sys.argv[1:])
-finally:
-    peak = re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())
-    print(int(peak[1]) / 1024, file=sys.stderr)
-"""
-
 
 def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
     """Sweeps on one core, the whole program on all, what its map is worth, and a pass of OctoMap.
@@ -111,14 +99,13 @@ def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[F
     """`bayesmap infer` with its defaults, in a process of its own, then the score of what it found."""
     name = f"surfaces/{round(100 * resolution_m)}_cm"
     asked = ["--resolution", str(resolution_m), "--max-range", str(MAX_RANGE_M), "--holdout", str(EVERY)]
-    seconds, peaks, documents = [], [], []
+    seconds, documents = [], []
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(repeats):
-            command = [sys.executable, "-c", PROGRAM, "infer", str(LOG), *asked, "-o", folder, "--force", "--json"]
+            command = [sys.executable, "-m", "bayesmap.cli.main", "infer", str(LOG), *asked, "-o", folder, "--force"]
             began = time.perf_counter()
-            done = subprocess.run(command, capture_output=True, text=True, check=True)
+            done = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
             seconds.append(time.perf_counter() - began)
-            peaks.append(float(done.stderr.splitlines()[-1]))
             documents.append(json.loads(done.stdout))
         posterior = load(Path(folder) / "run.nc").posterior
     assert isinstance(posterior, FieldPosterior)
@@ -126,7 +113,7 @@ def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[F
     spread = (min(seconds), max(seconds))
     what = f"{document['chains']} chains of {document['sweeps']} sweeps, all cores, score of held-out beams included"
     yield Figure(f"{name}/whole_program", statistics.median(seconds), "s", spread=spread, against=what)
-    yield Figure(f"{name}/peak_memory", max(peaks), "MB")
+    yield Figure(f"{name}/peak_memory", max(found["peak_memory_mb"] for found in documents), "MB")
     found = document["diagnostics"]
     against = f"of the log likelihood {found['rhat_log_likelihood']:.3f}; {document['draws']} draws a chain"
     yield Figure(f"{name}/rhat_log_joint", found["rhat_log_joint"], "", against=against)

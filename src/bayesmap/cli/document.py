@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import resource
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bayesmap.version import __version__
@@ -63,5 +65,9 @@ def finite(value: Any) -> float | None:
 
 def peak_memory_mb() -> float:
     """The most memory that this process has held, in megabytes."""
+    with contextlib.suppress(OSError):  # Linux; what getrusage says there is inherited from whoever started us
+        for line in Path("/proc/self/status").read_text().splitlines():
+            if line.startswith("VmHWM:"):
+                return round(int(line.split()[1]) / 1024, 1)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return round(peak / (1e6 if sys.platform == "darwin" else 1e6 / 1024), 1)
