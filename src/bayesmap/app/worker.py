@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import sys
@@ -10,6 +11,10 @@ from typing import Any
 
 from bayesmap.app.tasks import Infer, Report, Task
 from bayesmap.errors import BadInput
+
+
+NICE = 10
+"""The page and its server come first: a picture that cannot be painted is no use."""
 
 
 def serve(pipe: Connection, path: str | None) -> None:
@@ -59,6 +64,8 @@ def _warm() -> None:
 def main(arguments: list[str]) -> None:
     """``descriptor [path]``: the descriptor of the inherited end of the pipe, and the file to show."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
+    with contextlib.suppress(AttributeError, OSError):
+        os.nice(NICE)
     pipe: Any = Connection(int(arguments[0]))
     try:
         serve(pipe, arguments[1] if len(arguments) > 1 else None)
