@@ -13,8 +13,8 @@ from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.reach import reach_frequency
 
 TOLERANCE = 1e-3
-THREADS_FROM_INCIDENCES = 20_000
-"""Smaller tables are done before a second thread has begun."""
+THREADS_FROM_INCIDENCES = 200_000
+"""Smaller tables leave the other cores to the page, which paints with them."""
 
 
 class Preview:
