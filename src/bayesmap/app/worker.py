@@ -12,7 +12,6 @@ from typing import Any
 from bayesmap.app.tasks import Infer, Report, Task
 from bayesmap.errors import BadInput
 
-
 NICE = 10
 """The page and its server come first: a picture that cannot be painted is no use."""
 
