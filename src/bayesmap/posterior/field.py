@@ -18,7 +18,7 @@ from bayesmap.world.scans import Scans
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 8192
 CELLS_AROUND = SIGMAS_AROUND = 10.0
-FRESH_CELLS = 1 << 14  # cells drawn from the prior, at least, where a prediction needs some
+FRESH_CELLS = 1 << 16  # cells drawn from the prior, of which predictions take those that they need
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,15 +134,16 @@ class FieldPosterior:
         known, with_surface = held[touched] >= 0, place[touched] >= 0
         edge, ny = self.grid.resolution, self.grid.shape[1]
         centre = np.stack([touched // ny + 0.5, touched % ny + 0.5], axis=-1) * edge
-        rng = np.random.default_rng([seed, len(touched)])
-        # Drawn once and passed on from cell to cell: each draw of the map takes them up from another place.
-        fresh = np.zeros((max(len(touched), FRESH_CELLS), 6), dtype=np.float32)
+        rng = np.random.default_rng(seed)
+        # Drawn once and passed on from cell to cell: each draw of the map takes them up from another place, and what a
+        # cell gets does not depend on which others are asked for.
+        fresh = np.zeros((FRESH_CELLS, 6), dtype=np.float32)
         fresh[:, 0] = rng.beta(self.prior.a, self.prior.b, len(fresh))
         if isinstance(self.prior, Surface):
             fresh[:, 1:] = self.prior.sample_surfaces(rng, len(fresh))
         for chain in range(self.reflectivity.shape[0]):
             for draw in range(self.n_draws):
-                states = np.roll(fresh, int(rng.integers(len(fresh))), axis=0)[: len(touched)]
+                states = fresh[(touched + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
                 states[known, 0] = self.reflectivity[chain, draw, held[touched[known]]]
                 if isinstance(self.prior, Surface):
                     states[with_surface, 1:] = self.surfaces[chain, draw, place[touched[with_surface]]]
