@@ -5,8 +5,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.crossings import rays
 from bayesmap.kernels.parallel import available_cores, launch
+from bayesmap.kernels.trace import walk_columns
 from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
@@ -61,7 +61,7 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[n
     threads = available_cores()
     bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
     counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
-    inputs = [*grid.shape, *rays(scans, grid, longest, device), devices.to_device(hit, wp.uint8, device)]
+    inputs = [*grid.shape, *walk_columns(scans, grid, longest, device), devices.to_device(hit, wp.uint8, device)]
     launch(count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device)
     hits, passes = (a.numpy().sum(axis=0, dtype=np.int32) for a in counts)
     return hits, passes

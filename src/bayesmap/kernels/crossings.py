@@ -1,7 +1,5 @@
 """Tracing beams for prediction: every cell up to the sensor's range, whatever was read."""
 
-from typing import Any
-
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
@@ -9,19 +7,11 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.trace import count_cells, fill_cells
+from bayesmap.kernels.trace import count_cells, fill_cells, walk_columns
 from bayesmap.sensor.crossings import Crossings
 from bayesmap.sensor.table import MAX_INCIDENCES
 from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
-
-
-def rays(scans: Scans, grid: Grid, longest_m: NDArray[np.float64], device: str) -> list[Any]:
-    """Start, direction and length of every beam in units of cells, as the walks take them; beam ``s * A + a``."""
-    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
-    longest = np.broadcast_to(longest_m, (scans.n_beams,)) / grid.resolution
-    columns = (starts[:, 0], starts[:, 1], scans.beam_angles_world().ravel(), longest)
-    return [devices.to_device(column, wp.float64, device) for column in columns]
 
 
 def trace_crossings(
@@ -46,7 +36,7 @@ def trace_crossings(
     beams = scans.n_beams
     longest = np.full(beams, scans.max_range_m) if longest_m is None else np.minimum(longest_m, scans.max_range_m)
     longest = np.where(np.isnan(scans.ranges_m.ravel()), -1.0, longest)
-    lines = rays(scans, grid, longest, device)
+    lines = walk_columns(scans, grid, longest, device)
     counts = wp.empty(beams, dtype=wp.int32, device=device)
     launch(count_cells, beams, [*grid.shape, *lines, counts], device)
     ends = np.cumsum(counts.numpy(), dtype=np.int64)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.trace import count_cells, fill_cells
+from bayesmap.kernels.trace import count_cells, fill_cells, walk_columns
 from bayesmap.sensor.model import RangeLimits
 from bayesmap.sensor.rays import BeamRays
 from bayesmap.sensor.table import MAX_INCIDENCES
@@ -83,11 +83,9 @@ def trace_rays(
     finite = np.isfinite(ranges)
     hits_m = np.where(finite, ranges, 0.0)
     reach_m = np.where(finite & (not whole), np.minimum(hits_m + margin_m, scans.max_range_m), scans.max_range_m)
-    longest = np.where(np.isnan(ranges), -1.0, reach_m / grid.resolution)
+    rays = walk_columns(scans, grid, np.where(np.isnan(ranges), -1.0, reach_m), device)
     starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
     angles_rad = scans.beam_angles_world().ravel()
-    columns = (starts[:, 0], starts[:, 1], angles_rad, longest)
-    rays = [devices.to_device(column, wp.float64, device) for column in columns]
     beams = len(ranges)
 
     inputs: list[Any]

@@ -76,6 +76,14 @@ def fill_cells(
         w = walk_next(w)
 
 
+def walk_columns(scans: Scans, grid: Grid, longest_m: NDArray[np.float64], device: str) -> list[Any]:
+    """Start, direction and length of every beam in units of cells, as the walks take them; beam ``s * A + a``."""
+    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
+    longest = np.broadcast_to(longest_m, (scans.n_beams,)) / grid.resolution
+    columns = (starts[:, 0], starts[:, 1], scans.beam_angles_world().ravel(), longest)
+    return [devices.to_device(column, wp.float64, device) for column in columns]
+
+
 def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
     """Build the beam table of some scans.
 
@@ -93,13 +101,9 @@ def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0
     device = devices.resolve(device)
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     ranges = scans.ranges_m.ravel()
-    longest = np.minimum(sensor.reach_m(ranges, limits), limits.max_m) / grid.resolution
-    longest[np.isnan(ranges)] = -1.0  # an invalid reading has no entry at all
-    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
-    rays = [
-        devices.to_device(column, wp.float64, device)
-        for column in (starts[:, 0], starts[:, 1], scans.beam_angles_world().ravel(), longest)
-    ]
+    longest_m = np.minimum(sensor.reach_m(ranges, limits), limits.max_m)
+    longest_m[np.isnan(ranges)] = -1.0  # an invalid reading has no entry at all
+    rays = walk_columns(scans, grid, longest_m, device)
     beams = len(ranges)
 
     counts = wp.empty(beams, dtype=wp.int32, device=device)
