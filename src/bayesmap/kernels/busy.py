@@ -25,10 +25,10 @@ from bayesmap.kernels.cell_draws import (
     log_surface_prior,
 )
 from bayesmap.kernels.likelihood import SensorParameters
-from bayesmap.kernels.meeting import GATE_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, Ray, meet
+from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, gate_at, meet, ray_from
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stop_law import Law, law_of, short_density, stop_law
-from bayesmap.kernels.stops import LEAST, Field, Rays
+from bayesmap.kernels.stop_law import Law, law_of, short_density
+from bayesmap.kernels.stops import LEAST, Field, Rays, hit_law
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
 from bayesmap.sensor.rays import BeamRays
@@ -85,8 +85,7 @@ def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.
     offset = passing[0] + passing[1] * dy - passing[2] * dx
     across_1 = cell[L21] * passing[1] - cell[L11] * passing[2]
     across_2 = cell[L22] * passing[1]
-    r = offset * offset / (GATE_WIDTH_SQ * (across_1 * across_1 + across_2 * across_2))
-    return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+    return gate_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.func
@@ -105,16 +104,9 @@ def log_stops(
             product = product * wp.max(one - m * gate_of(busy.passing[e], dx, dy, cell), LEAST)
         elif said[e] == STOPPED:
             b = busy.beam[e]
-            ray = Ray()
-            ray.x = rays.start_m[b][0]
-            ray.y = rays.start_m[b][1]
-            ray.ux = busy.passing[e][1]
-            ray.uy = busy.passing[e][2]
-            met = meet(cell, ray)
-            p = law.floor
-            if busy.entry[e] >= rays.near[b]:
-                reading = rays.range_m[b]
-                p = stop_law(law, reading, short_density(law, reading), met.distance_m, met.variance)
+            met = meet(cell, ray_from(rays.start_m[b], rays.direction[b]))
+            reading = rays.range_m[b]
+            p = hit_law(law, busy.entry[e], rays.near[b], reading, short_density(law, reading), met)
             product = product * wp.max(m * met.chance * p, LEAST)
         if product < FEWEST:
             total += wp.log(wp.float64(product))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.field import as_cells, put_rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
-from bayesmap.kernels.meeting import Cell, Ray
+from bayesmap.kernels.meeting import Cell, ray_from
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.stop_law import law_of, no_stop_law, short_density, stop_law
 from bayesmap.kernels.stops import Rays, chance_at, plain_or_meet
@@ -34,11 +34,7 @@ def add_density(
     if wp.isnan(reading):
         total[b] = total[b] + wp.float64(1.0)
         return
-    ray = Ray()
-    ray.x = rays.start_m[b][0]
-    ray.y = rays.start_m[b][1]
-    ray.ux = rays.direction[b][0]
-    ray.uy = rays.direction[b][1]
+    ray = ray_from(rays.start_m[b], rays.direction[b])
     short = short_density(law, reading)
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):

@@ -46,13 +46,30 @@ class Meeting:
 
 
 @wp.func
+def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
+    """A beam by its start and its direction."""
+    ray = Ray()
+    ray.x = start_m[0]
+    ray.y = start_m[1]
+    ray.ux = direction[0]
+    ray.uy = direction[1]
+    return ray
+
+
+@wp.func
+def gate_at(offset: wp.float32, across: wp.float32) -> wp.float32:
+    """The chance of meeting a surface, by the offset of its mean and its variance across the beam."""
+    r = offset * offset / (GATE_WIDTH_SQ * across)
+    return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+
+
+@wp.func
 def gate(cell: Cell, ray: Ray) -> wp.float32:
     """The chance that the beam meets the cell's surface."""
     offset = ray.ux * (cell[2] - ray.y) - ray.uy * (cell[1] - ray.x)
     across_1 = cell[4] * ray.ux - cell[3] * ray.uy
     across_2 = cell[5] * ray.ux
-    r = offset * offset / (GATE_WIDTH_SQ * (across_1 * across_1 + across_2 * across_2))
-    return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+    return gate_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.func
@@ -68,9 +85,8 @@ def meet(cell: Cell, ray: Ray) -> Meeting:
     across = across_1 * across_1 + across_2 * across_2
     slope = (along_1 * across_1 + along_2 * across_2) / across
     area = cell[3] * cell[5]
-    r = offset * offset / (GATE_WIDTH_SQ * across)
     m = Meeting()
-    m.chance = wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+    m.chance = gate_at(offset, across)
     m.distance_m = wp.max(ray.ux * rx + ray.uy * ry - slope * offset, wp.float32(0.0))
     m.variance = area * area / across
     return m

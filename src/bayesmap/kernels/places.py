@@ -11,7 +11,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.meeting import Cell, Ray, meet
+from bayesmap.kernels.meeting import Cell, meet, ray_from
 from bayesmap.sensor.crossings import Crossings
 
 wp.set_module_options({"enable_backward": False})
@@ -47,13 +47,8 @@ def meet_cell(p: Places, draw: int, beam: int, k: int, cell: int) -> wp.vec3d:
         cell: its column in the batch.
     """
     if p.surfaces != 0:
-        ray = Ray()
-        ray.x = p.start_m[beam][0]
-        ray.y = p.start_m[beam][1]
-        ray.ux = p.direction[beam][0]
-        ray.uy = p.direction[beam][1]
         state = p.surface[draw, cell]
-        met = meet(state, ray)
+        met = meet(state, ray_from(p.start_m[beam], p.direction[beam]))
         chance = wp.float64(state[0]) * wp.float64(met.chance)
         return wp.vec3d(chance, wp.float64(met.distance_m), wp.sqrt(wp.float64(met.variance)))
     spread = wp.float64(0.0)

@@ -17,7 +17,7 @@ a resting cell with a reflectivity under single precision does to T is nothing, 
 import warp as wp
 
 from bayesmap.kernels.likelihood import SensorParameters
-from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet
+from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet, ray_from
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.stop_law import Law, law_of, no_stop_law, short_density, stop_law
 
@@ -136,11 +136,7 @@ def draw_stops(
         if not wp.isnan(reading):
             field.log_likelihood[b] = wp.log(no_stop_law(law, reading))
         return
-    ray = Ray()
-    ray.x = rays.start_m[b][0]
-    ray.y = rays.start_m[b][1]
-    ray.ux = rays.direction[b][0]
-    ray.uy = rays.direction[b][1]
+    ray = ray_from(rays.start_m[b], rays.direction[b])
 
     short = short_density(law, reading)
     free = wp.float32(1.0)
