@@ -4,6 +4,7 @@ import contextlib
 import importlib.util
 import json
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -61,7 +62,13 @@ def jupyterlab(page, folder, source):
     address = f"http://127.0.0.1:{port}/lab/tree/map.ipynb?token={TOKEN}"
     with listening(command, folder, f"http://127.0.0.1:{port}/api") as process:
         page.goto(address)
-        run_by_keys(page, ".jp-Notebook .cm-content", "Shift+Enter")
+        deadline = time.monotonic() + CELL_SECONDS
+        while True:  # before the kernel is connected, JupyterLab drops a cell that is run
+            run_by_keys(page, ".jp-Notebook .cm-content", "Shift+Enter")
+            page.wait_for_timeout(2000)
+            if re.search(r"[*\d]", page.locator(".jp-InputPrompt").first.inner_text()):
+                break
+            assert time.monotonic() < deadline, "JupyterLab never ran the cell"
         yield page.locator(".jp-OutputArea-output canvas[role=application]"), process
 
 
