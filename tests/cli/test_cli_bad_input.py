@@ -6,6 +6,9 @@ import re
 import pytest
 from shell import call
 
+from bayesmap.cli.keys import SECTIONS
+from bayesmap.cli.rules import RULES, checked
+
 NAN_POSE = "FLASER 2 1.0 1.0 nan 0 0 0 0 0 1.0 host 1.0\n"
 GOOD = "FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 {t} host {t}\n"
 
@@ -51,20 +54,12 @@ def test_logs(tmp_path, text, place, remedy):
         (["--sensor", "gaussian:-0.2"], "sigma_m must be a positive number of metres, got -0.2"),
         (["--sensor", "magic"], "unknown kind 'magic'; known: default"),
         (["--resolution", "1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
-        (["--resolution", "-1"], "resolution must be a positive number of metres, got -1.0"),
-        (["--prior", "1.5", "--cells", "binary"], "must lie in [0, 1], got 1.5"),
         (["--prior", "0.3"], "prior: 0.3 is for binary walls; add --cells binary"),
         (["--method", "block"], "method: 'block' is for binary walls; add --cells binary"),
         (["--order", "raster", "--cells", "reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
         (["--start", "zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
         (["--sensor", "gaussian:0.05"], "need a BeamMixture sensor with Gaussian noise (on the command line mixture"),
-        (["--hit-depth", "2"], "hit_depth must lie in [0, 1], got 2.0"),
-        (["--chains", "0"], "chains must be a whole number of 1 or more, got 0"),
-        (["--draws", "-1"], "draws: give 1 or more, got -1"),
-        (["--warmup", "-1"], "warmup must be a whole number of 0 or more, got -1"),
-        (["--holdout", "1"], "hold out every n-th scan with n >= 2, got 1"),
         (["--holdout", "1000"], "too few to hold out every 1000-th"),
-        (["--no-return", "nan"], "--no-return nan"),
         (["--device", "cuda:9"], "there is: cpu"),
         (["--device", "cuda:9", "--cells", "binary"], "there is: cpu"),
         (["--method", "exact", "--cells", "binary"], "exact"),
@@ -74,6 +69,50 @@ def test_logs(tmp_path, text, place, remedy):
 def test_settings(office, tmp_path, arguments, message):
     assert message in refuse("infer", office, "-o", tmp_path / "run", *arguments)
     assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "setting", "value", "wanted"),
+    [
+        ("infer", "chains", "0", "a whole number of 1 or more, got 0"),
+        ("infer", "draws", "-1", "a whole number of 1 or more, got -1"),
+        ("infer", "warmup", "-1", "a whole number of 0 or more, got -1"),
+        ("infer", "warmup", "99999999999999999999", "1,000,000,000 at most, got 99999999999999999999"),
+        ("infer", "thin", "0", "a whole number of 1 or more, got 0"),
+        ("infer", "threads", "0", "a whole number of 1 or more, got 0"),
+        ("infer", "seed", "-3", "a whole number of 0 or more, got -3"),
+        ("infer", "holdout", "1", "2 or more, for every n-th scan, or 0, got 1"),
+        ("infer", "checkpoint_every", "-1", "0 or a positive number of seconds, got -1.0"),
+        ("infer", "checkpoint_every", "nan", "0 or a positive number of seconds, got nan"),
+        ("infer", "resolution", "-1", "a positive number of metres, got -1.0"),
+        ("infer", "max_range", "inf", "a positive number of metres, got inf"),
+        ("infer", "no_return", "nan", "the log's number in metres, or inf if it has none, got nan"),
+        ("infer", "thin_scans", "-1", "0 or a positive number of metres, got -1.0"),
+        ("infer", "prior", "1.5", "a number from 0 to 1, got 1.5"),
+        ("infer", "hit_depth", "2", "a number from 0 to 1, got 2.0"),
+        ("simulate", "scans", "0", "a whole number of 1 or more, got 0"),
+        ("demo", "particles", "0", "a whole number of 1 or more, got 0"),
+        ("score", "holdout", "1", "2 or more, for every n-th scan, or 0, got 1"),
+        ("render", "frames", "0", "a whole number of 1 or more, got 0"),
+        ("export", "free_thresh", "-0.1", "a number from 0 to 1, got -0.1"),
+    ],
+)
+def test_numbers_are_refused_before_any_file_is_looked_at(tmp_path, command, setting, value, wanted):
+    files = {"infer": 1, "score": 2, "render": 1, "export": 1}.get(command, 0) * [tmp_path / "nowhere"]
+    flag = "--" + setting.replace("_", "-")
+    config = tmp_path / "my.toml"
+    config.write_text(f"[{command}]\n{setting} = {value}\n")
+    message = f"{flag} must be {wanted}"
+    assert refuse(command, *files, flag, value) == f"bayesmap: error: {message}"
+    assert refuse(command, *files, "--set", f"{setting}={value}") == f"bayesmap: error: {message}"
+    assert refuse(command, *files, "-c", config) == f"bayesmap: error: {config}: {message}"
+
+
+def test_every_default_keeps_its_rule():
+    for keys in SECTIONS.values():
+        for key in keys:
+            assert checked(key, key.default) == key.default
+    assert RULES.keys() <= {key.name for keys in SECTIONS.values() for key in keys}
 
 
 def test_missing_and_truncated_logs(office, tmp_path):
@@ -112,7 +151,7 @@ def test_a_damaged_checkpoint_is_not_resumed(office, office_run, tmp_path):
         (["--angles", "1"], "give 2 to 100,000 beams"),
         (["--fov", "400"], r"must lie in \(0, 360\] degrees"),
         (["--sensor", "gaussian:-1"], "positive"),
-        (["--max-range", "-3"], "largest range must be a positive number"),
+        (["--max-range", "-3"], "--max-range must be a positive number of metres, got -3.0"),
     ],
 )
 def test_simulate(tmp_path, arguments, message):

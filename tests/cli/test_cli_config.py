@@ -75,7 +75,7 @@ def test_a_bare_key_holds_for_all_commands_that_have_it(tmp_path):
         ("[infer]\nstrict = 1\n", "strict must be true or false, got 1"),
         ("[infer]\nprior = true\n", "prior must be a number, got True"),
         ("[infer]\nmethod = 'magic'\n", "method: 'magic' is not one of"),
-        ("seed = -1\n", "seed: -1 is not in the range x>=0"),
+        ("seed = -1\n", "--seed must be a whole number of 0 or more, got -1"),
         ("[infer\n", "not valid TOML"),
     ],
 )

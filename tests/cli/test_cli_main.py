@@ -49,7 +49,6 @@ def test_every_command_is_listed_and_described():
         ["infer", "x.log", "--set", "chains"],
         ["infer", "x.log", "--set", "chians=2"],
         ["infer", "x.log", "--resume", "--force"],
-        ["infer", "x.log", "--seed", "-3"],
         ["simulate", "-o", "scans.txt"],
         ["simulate", "--pose", "here"],
     ],

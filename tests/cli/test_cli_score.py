@@ -103,7 +103,7 @@ def test_another_recording_is_scored_whole(office_run, tmp_path):
         (("nowhere.nc", "LOG"), 3, "nowhere.nc: no such file"),
         (("RUN", "LOG", "--all"), 3, "the run was made from 9 of its 12 scans"),
         (("RUN", "LOG", "--holdout", "0"), 3, "--holdout 0 leaves nothing to score"),
-        (("RUN", "LOG", "--holdout", "1"), 3, "n >= 2, got 1"),
+        (("RUN", "LOG", "--holdout", "1"), 3, "--holdout must be 2 or more, for every n-th scan, or 0, got 1"),
         (("RUN", "LOG", "--picture", "scores.txt"), 3, "end its name in one of .png, .pdf, .svg"),
         (("RUN",), 2, "Missing argument"),
     ],

@@ -11,6 +11,7 @@ import click
 from click.core import ParameterSource
 
 from bayesmap.cli.keys import SECTIONS, Key, Value
+from bayesmap.cli.rules import checked
 from bayesmap.cli.settings import Settings, layered, read_file, read_pairs
 from bayesmap.cli.talk import Talk
 
@@ -70,7 +71,7 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
             for key in keys:
                 value = given.pop(key.name)
                 if context.get_parameter_source(key.name) is ParameterSource.COMMANDLINE:
-                    flags[key.name] = value
+                    flags[key.name] = checked(key, value)
             config, pairs = given.pop("config"), given.pop("pairs")
             quiet, verbose = given.pop("quiet"), given.pop("verbose")
             context.meta[VERBOSE] = verbose

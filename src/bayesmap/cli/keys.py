@@ -57,7 +57,7 @@ class Key:
         return reader
 
 
-SEED = Key("seed", click.IntRange(min=0), 0, "Of all random numbers.", metavar="INTEGER")
+SEED = Key("seed", int, 0, "Of all random numbers.")
 
 INFER = (
     Key("resolution", float, 0.1, "Edge of a cell in metres."),

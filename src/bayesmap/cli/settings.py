@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 from bayesmap.cli.keys import SECTIONS, Key, Value
+from bayesmap.cli.rules import checked
 from bayesmap.errors import BadInput
 
 Settings = dict[str, dict[str, Value]]
@@ -28,7 +29,7 @@ def read_file(path: str | Path) -> Settings:
     """The settings that a TOML file makes: tables named like the commands; keys outside them hold for all.
 
     Raises:
-        BadInput: a file that cannot be read or is not TOML, an unknown table or key, a value of another type.
+        BadInput: a file that cannot be read or is not TOML, an unknown table or key, a value it cannot have.
     """
     try:
         tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
@@ -45,7 +46,7 @@ def read_file(path: str | Path) -> Settings:
             if isinstance(value, dict):
                 for key, entry in value.items():
                     _put(found, [_known(name, SECTIONS, "table")], key, entry)
-    except _Wrong as problem:
+    except (_Wrong, BadInput) as problem:
         raise BadInput(f"{path}: {problem}") from None
     return found
 
@@ -59,6 +60,7 @@ def read_pairs(pairs: Iterable[str], section: str | None) -> Settings:
 
     Raises:
         click.BadParameter: no equals sign, an unknown key, a value that cannot be read.
+        BadInput: a number that the setting cannot have.
     """
     found: Settings = {}
     for pair in pairs:
@@ -135,13 +137,13 @@ def _put(found: Settings, homes: list[str], name: str, value: Any) -> None:
 
 
 def _checked(key: Key, value: Any) -> Value:
-    """The value as the key's type, by the rules of the flag of that name."""
+    """The value as the key's type, as the flag of that name reads it."""
     numeric = isinstance(value, int | float) and not isinstance(value, bool)
     if key.kind is bool:
         wanted, fits = "true or false", isinstance(value, bool)
     elif key.kind is float:
         wanted, fits = "a number", numeric
-    elif key.kind is int or isinstance(key.kind, click.IntRange):
+    elif key.kind is int:
         wanted, fits = "a whole number", numeric and float(value).is_integer()
     else:
         wanted, fits = "a text", isinstance(value, str)
@@ -151,7 +153,7 @@ def _checked(key: Key, value: Any) -> Value:
         result: Value = key.type.convert(value, None, None)
     except click.BadParameter as error:
         raise _Wrong(f"{key.name}: {error.message.rstrip('.')}") from None
-    return result
+    return checked(key, result)
 
 
 def _typed(text: str) -> Any:

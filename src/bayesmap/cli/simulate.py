@@ -52,10 +52,6 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
     beams = (100 if tutorial else 180) if values["angles"] is None else values["angles"]
     angles = fan(beams, (360.0 if tutorial else 180.0) if values["fov"] is None else values["fov"])
     max_range_m = (42.0 if tutorial else 30.0) if values["max_range"] is None else values["max_range"]
-    if not 0 < max_range_m < math.inf:
-        raise BadInput(
-            f"max_range: the sensor's largest range must be a positive number of metres, got {max_range_m:g}"
-        )
 
     from bayesmap.io.carmen_writer import write_carmen
     from bayesmap.io.map_server import write_map
