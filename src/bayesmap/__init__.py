@@ -7,11 +7,13 @@ matplotlib is loaded until something needs it.
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
 from bayesmap.version import __version__ as __version__
 
+TYPE_CHECKING = False  # typing's own would load typing, in the first moments of every command
 if TYPE_CHECKING:
+    from typing import Any
+
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
     from bayesmap.errors import BadInput as BadInput

@@ -17,7 +17,7 @@ from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatu
 from websockets.sync.client import connect
 
 from bayesmap.app.worlds import tutorial_document
-from bayesmap.cli.main import cli
+from bayesmap.cli.group import cli
 
 
 def call(*arguments):

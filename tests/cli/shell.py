@@ -11,7 +11,7 @@ from typing import Any
 
 from click.testing import CliRunner, Result
 
-from bayesmap.cli.main import cli
+from bayesmap.cli.group import cli
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 COMMAND = [sys.executable, "-m", "bayesmap.cli.main"]

@@ -11,7 +11,7 @@ from shell import SOURCE, call, start
 
 import bayesmap
 from bayesmap.cli import infer as infer_module
-from bayesmap.cli.main import COMMANDS
+from bayesmap.cli.group import COMMANDS
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["--version"], *([name, "--help"] for name in COMMANDS)])

@@ -10,12 +10,13 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from bayesmap.cli.early import INTERRUPTED as INTERRUPTED
 from bayesmap.cli.keys import SECTIONS, Key, Value
 from bayesmap.cli.rules import checked
 from bayesmap.cli.settings import Settings, layered, read_file, read_pairs
 from bayesmap.cli.talk import Talk
 
-FAILURE, BAD_INPUT, PROBLEMS, INTERRUPTED = 1, 3, 4, 130
+FAILURE, BAD_INPUT, PROBLEMS = 1, 3, 4
 """Exit codes, beside click's own 2 for usage."""
 
 VERBOSE = "bayesmap.verbose"

@@ -1,0 +1,106 @@
+"""The commands, and what a failure looks like.
+
+Exit codes: 0 fine, 1 failure, 2 usage, 3 bad input, 4 finished with ``--strict`` but the diagnostics found a
+problem, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+from typing import Any
+
+import click
+
+from bayesmap.cli import early
+from bayesmap.cli.command import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE
+from bayesmap.cli.talk import complain
+from bayesmap.errors import BadInput
+from bayesmap.version import __version__
+
+COMMANDS = {
+    "demo": "The tutorial's map, end to end: scan, infer, pictures.",
+    "simulate": "Draw the scans of a robot in a known world.",
+    "info": "Say what is in a log, a recording or a saved run.",
+    "infer": "Infer the walls from a log of range scans.",
+    "score": "Score a saved run on held-out scans.",
+    "render": "Draw a saved run.",
+    "export": "Write a saved run for robots and other programs.",
+    "app": "Draw walls, drag the robot, watch the posterior live.",
+    "config": "Print the effective settings as TOML.",
+}
+"""In the order of use; each lives in the module of its name, loaded when it is called."""
+
+EPILOG = """Results go to standard output, progress and messages to standard error. Exit codes: 0 fine, 1 failure,
+2 usage, 3 bad input, 4 with --strict: the diagnostics found a problem, 130 interrupted."""
+
+
+class Commands(click.Group):
+    """A group that loads a command when it is called, and turns exceptions into one line and an exit code."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """In the order of use."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Load the command's module."""
+        if cmd_name not in COMMANDS:
+            near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
+            hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(COMMANDS)}"
+            raise click.UsageError(f"no such command {cmd_name!r}{hint}", ctx)
+        command = importlib.import_module(f"bayesmap.cli.{cmd_name}").command
+        assert isinstance(command, click.Command)
+        command.name = cmd_name
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without loading them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; a failure is one line on standard error."""
+        try:
+            early.over()
+            return super().invoke(ctx)
+        except (click.ClickException, click.exceptions.Exit):
+            raise
+        except BrokenPipeError:
+            return ctx.exit(0)
+        except (Exception, KeyboardInterrupt) as error:
+            code, line = explain(error)
+            if code == FAILURE and ctx.meta.get(VERBOSE):
+                import traceback
+
+                complain(traceback.format_exc().rstrip())
+            elif code == FAILURE and not isinstance(error, OSError | MemoryError):
+                line += "; -v shows where it happened (please report it)"
+            complain("bayesmap: error: " + " ".join(line.split()))
+            return ctx.exit(code)
+
+
+def explain(error: BaseException) -> tuple[int, str]:
+    """The exit code of an exception, and a line about it."""
+    if isinstance(error, BadInput):
+        return BAD_INPUT, str(error)
+    if isinstance(error, KeyboardInterrupt | click.Abort):
+        return INTERRUPTED, "interrupted"
+    if isinstance(error, OSError):
+        return FAILURE, _of_system(error)
+    if isinstance(error, MemoryError):
+        return FAILURE, "out of memory; use a coarser --resolution, fewer chains, or fewer draws"
+    return FAILURE, f"unexpected {type(error).__name__}: {error}"
+
+
+def _of_system(error: OSError) -> str:
+    reason = error.strerror or str(error)
+    return f"{error.filename}: {reason}" if error.filename else reason
+
+
+@click.group(cls=Commands, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="bayesmap")
+def cli() -> None:
+    """Where are the walls, and how sure are we?
+
+    bayesmap infers the posterior over a 2-D map of walls from noisy range scans. Begin with: bayesmap demo
+    """

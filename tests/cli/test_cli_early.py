@@ -1,0 +1,62 @@
+"""Ctrl-C in the first moments, while modules are being loaded: exit code 130 and one line, wherever it comes."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from shell import SOURCE
+
+PRESS = """
+import os, signal, sys
+
+def press(event, given):
+    if event == "import" and given[0] == sys.argv[1]:
+        sys.argv[1] = ""
+        os.kill(os.getpid(), signal.SIGINT)
+
+sys.addaudithook(press)
+from bayesmap.cli.main import main
+main(sys.argv[2:])
+"""
+"""Presses Ctrl-C when a module begins to be loaded."""
+
+
+def interrupted(module, *arguments, ignoring=False):
+    """The exit code and both streams of a process that gets Ctrl-C when it loads a module."""
+    command = [sys.executable, "-c", PRESS, module, *map(str, arguments)]
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+
+    def ignore():
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    done = subprocess.run(
+        command,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=ignore if ignoring else None,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize(
+    "module", ["bayesmap.cli.group", "difflib", "click", "click.core", "bayesmap.cli.keys", "bayesmap.cli.settings"]
+)
+def test_while_the_command_line_is_loaded(module):
+    assert interrupted(module, "--help") == (130, "", "bayesmap: error: interrupted\n")
+
+
+@pytest.mark.parametrize("module", ["bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.world.scans"])
+def test_while_a_command_is_loaded(office, tmp_path, module):
+    told = interrupted(module, "infer", office, "-o", tmp_path / "run")
+    assert told == (130, "", "bayesmap: error: interrupted\n")
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_process_that_ignores_ctrl_c_goes_on_ignoring_it():
+    code, shown, _ = interrupted("click", "--version", ignoring=True)
+    assert code == 0
+    assert shown.startswith("bayesmap, version")
