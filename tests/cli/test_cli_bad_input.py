@@ -127,13 +127,24 @@ def test_missing_and_truncated_logs(office, tmp_path):
 @pytest.mark.parametrize("command", ["render", "export"])
 def test_missing_and_truncated_runs(office_run, tmp_path, command):
     assert "no such file" in refuse(command, tmp_path / "none.nc")
-    assert "a folder; give the run.nc in it" in refuse(command, office_run)
     whole = (office_run / "run.nc").read_bytes()
     cut = tmp_path / "run.nc"
     for content in (whole[: len(whole) // 2], b"", b"not netCDF"):
         cut.write_bytes(content)
         assert "damaged or truncated" in refuse(command, cut)
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+
+
+@pytest.mark.parametrize("command", ["render", "export", "info", "app"])
+def test_a_run_s_folder_where_the_run_is_wanted(office_run, command):
+    assert refuse(command, office_run) == f"bayesmap: error: {office_run}: a folder; give the run.nc in it"
+
+
+def test_a_run_where_its_log_is_wanted(office_run, tmp_path):
+    assert "a run's folder; give a log or a recording" in refuse("infer", office_run, "-o", tmp_path / "run")
+    assert "not a log; give the log" in refuse("infer", office_run / "run.nc", "-o", tmp_path / "run")
+    assert "a run's folder; give the log that" in refuse("score", office_run / "run.nc", office_run)
+    assert not (tmp_path / "run").exists()
 
 
 def test_a_damaged_checkpoint_is_not_resumed(office, office_run, tmp_path):

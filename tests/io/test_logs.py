@@ -57,8 +57,17 @@ def test_whatever_a_file_holds_it_is_read_or_refused(tmp_path_factory, content, 
 def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
     with pytest.raises(BadInput, match=r"absent\.log: cannot be read: No such file"):
         read_log(tmp_path / "absent.log")
-    with pytest.raises(BadInput, match="cannot be read: Is a directory"):
+    with pytest.raises(BadInput, match=r"a folder, but not a ROS 2 bag's.*; give a file$"):
         read_log(tmp_path)
+    (tmp_path / "b.log.gz").touch()
+    with pytest.raises(BadInput, match=r"; give a file in it, such as b\.log\.gz$"):
+        read_log(tmp_path)
+
+
+def test_a_saved_run_is_not_taken_for_a_broken_log(tmp_path):
+    (tmp_path / "run.nc").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    with pytest.raises(BadInput, match=r"run\.nc: a saved run or another netCDF file, not a log; give the log"):
+        read_log(tmp_path / "run.nc")
 
 
 def test_the_intel_log_is_read_as_its_description_says():

@@ -103,7 +103,7 @@ def open_file(path: str) -> Opened:
     Raises:
         BadInput: no such file, or one that cannot be read as either.
     """
-    if not Path(path).is_file():
+    if not Path(path).exists():
         raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
     if path.endswith(".nc"):
         return opened_run(load(path), Path(path).name)

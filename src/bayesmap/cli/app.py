@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.given import LOG, need_file
 from bayesmap.cli.talk import write_out
-from bayesmap.errors import BadInput
 
 
 @takes(None)
@@ -29,8 +27,8 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
     bayesmap app runs/office/run.nc --no-browser --port 8000
     bayesmap app office.log.gz
     """
-    if file is not None and not Path(file).is_file():
-        raise BadInput(f"{file}: no such file; give a saved run (.nc) or a log of range scans")
+    if file is not None:
+        need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
 
     from bayesmap.app.server import serve
     from bayesmap.app.worlds import tutorial_document

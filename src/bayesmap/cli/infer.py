@@ -12,10 +12,10 @@ import click
 from bayesmap.cli import cells, sensors
 from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
+from bayesmap.cli.given import LOG, need_file
 from bayesmap.cli.progress import SETTING_UP, progress, stage
 from bayesmap.cli.settings import Settings, as_toml, read_file
 from bayesmap.cli.talk import Talk
-from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
@@ -54,8 +54,7 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     """
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
-    if not Path(log).exists():
-        raise BadInput(f"{log}: no such file; give a log or a recording (bayesmap info FILE says what is in one)")
+    need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk, resuming=resume)
     values = call.values(_settings_of(folder) if resume else None)
     values = cells.settled(values)

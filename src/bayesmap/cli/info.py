@@ -9,12 +9,10 @@ from typing import Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.given import LOG, need_file
 from bayesmap.cli.talk import write_out
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
-
-SAVED_RUNS = (b"\x89HDF", b"CDF")
-"""How netCDF files begin."""
 
 
 @takes(None)
@@ -29,8 +27,7 @@ def command(call: Call, file: str) -> None:
     bayesmap info recording.mcap
     bayesmap info runs/office/run.nc --json
     """
-    if not Path(file).exists():
-        raise BadInput(f"{file}: no such file; give a log, a recording, or a run.nc")
+    need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
     document = _saved_run(file) if _is_saved_run(file) else _log(file)
     if call.talk.as_json:
         call.talk.result(document, [])
@@ -39,6 +36,8 @@ def command(call: Call, file: str) -> None:
 
 
 def _is_saved_run(file: str) -> bool:
+    from bayesmap.io.logs import SAVED_RUNS
+
     if not Path(file).is_file():
         return False
     try:

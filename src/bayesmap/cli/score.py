@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.given import need_file
 from bayesmap.cli.talk import write_out
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -44,8 +45,7 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
     from bayesmap.run import score
 
     values = call.values()
-    if not Path(log).is_file():
-        raise BadInput(f"{log}: no such file; give the log that the run was made from")
+    need_file(log, "the log that the run was made from", runs=False)
     if picture is not None:
         from bayesmap.viz.writing import need_ending
 

@@ -29,6 +29,10 @@ FORMATS = (
     "NumPy .npz",
 )
 LINES_LOOKED_AT = 1000
+ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz")
+"""What logs that are files are usually called."""
+SAVED_RUNS = (b"\x89HDF", b"CDF")
+"""How netCDF files begin."""
 TEXT_FORMATS = ("carmen", "g2o", "csv")
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
@@ -129,9 +133,11 @@ def format_of(path: str | os.PathLike[str]) -> str:
     try:
         if where.is_dir():
             inside = sorted(entry.name for entry in where.iterdir())
-            if not inside or not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd")) for n in inside):
+            if not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd")) for n in inside):
+                logs = [n for n in inside if n.endswith(ENDINGS)]
                 raise BadInput(
-                    f"{name}: cannot be read: Is a directory, without the metadata.yaml, .db3 or .mcap of a ROS 2 bag"
+                    f"{name}: a folder, but not a ROS 2 bag's: metadata.yaml, .db3 and .mcap are missing; "
+                    + (f"give a file in it, such as {logs[0]}" if logs else "give a file")
                 )
             return "folder"
         with where.open("rb") as file:
@@ -146,6 +152,8 @@ def format_of(path: str | os.PathLike[str]) -> str:
         return "mcap"
     if start.startswith(NPZ_MAGIC):
         return "npz"
+    if start.startswith(SAVED_RUNS):
+        raise BadInput(f"{name}: a saved run or another netCDF file, not a log; give the log")
     return _text_format(name)
 
 
