@@ -96,6 +96,24 @@ def test_another_recording_is_scored_whole(office_run, tmp_path):
     assert (document["heldout"]["every"], document["heldout"]["scans"]) == (None, 5)
 
 
+def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
+    asked = ("--scan-topic", "/scan", "--pose-topic", "/odom", "--thin-scans", "0.5")
+    few = ("--resolution", "0.25", "--chains", "1", "--warmup", "2", "--draws", "3", "--holdout", "3")
+    assert call("infer", recording, "-o", tmp_path, *few, *asked).exit_code == 0
+    run = tmp_path / "run.nc"
+    result = call("score", run, recording, "--holdout", "3", *asked, "--json")
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["heldout"]["scans"] == 2
+    picture = tmp_path / "missed.png"
+    held_out = ("--what", "residuals", "--heldout", recording, "--holdout", "3", "-o", picture)
+    assert call("render", run, *held_out, *asked).exit_code == 0
+    assert picture.exists()
+    for command in (("score", run, recording, "--holdout", "3"), ("render", run, *held_out)):
+        refused = call(*command)
+        assert refused.exit_code == 3
+        assert "choose one with --scan-topic" in refused.stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [

@@ -14,6 +14,7 @@ from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.given import LOG, need_file
 from bayesmap.cli.progress import SETTING_UP, progress, stage
+from bayesmap.cli.reading import options_of
 from bayesmap.cli.settings import Settings, as_toml, read_file
 from bayesmap.cli.talk import Talk
 
@@ -112,17 +113,7 @@ def _saved(folder: Folder) -> Run | None:
 def _read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
     from bayesmap.io.logs import describe_log
 
-    reading = describe_log(
-        log,
-        no_return=values["no_return"],
-        skip_bad_lines=values["skip_bad_lines"],
-        max_range_m=values["max_range"],
-        scan_topic=values["scan_topic"],
-        pose_topic=values["pose_topic"],
-        fixed_frame=values["fixed_frame"],
-        deskew=values["deskew"],
-        thin_m=values["thin_scans"],
-    )
+    reading = describe_log(log, max_range_m=values["max_range"], **options_of(values))
     scans, counts = reading.scans, reading.scans.counts()
     code = reading.no_return_m
     coded = "no code for no return" if code is None else f"{code:g} m is no return ({reading.no_return.origin})"

@@ -59,6 +59,17 @@ class Key:
 
 SEED = Key("seed", int, 0, "Of all random numbers.")
 
+READING = (
+    Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
+    Key("skip_bad_lines", bool, False, "Leave out malformed lines and messages instead of refusing the log."),
+    Key("scan_topic", str, None, "Of a recording: where the scans are.", "the only topic of scans", "TOPIC"),
+    Key("pose_topic", str, None, "Of a recording: where the poses are.", "/tf, or the only topic of poses", "TOPIC"),
+    Key("fixed_frame", str, None, "Of a recording's /tf: the frame of the map.", "map, odom or world", "FRAME"),
+    Key("deskew", bool, False, "Give each beam the pose of its own time, by a recording's time_increment."),
+    Key("thin_scans", float, 0.0, "Keep a scan each time the robot has gone this far; 0: all.", metavar="METRES"),
+)
+"""Of a log, wherever one is read: a run is scored on its own log read as it was for the run."""
+
 INFER = (
     Key("resolution", float, 0.1, "Edge of a cell in metres."),
     Key(
@@ -70,13 +81,7 @@ INFER = (
         "MAP.yaml",
     ),
     Key("max_range", float, None, "Longer readings are no return.", "the longest hit of the log", "METRES"),
-    Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
-    Key("skip_bad_lines", bool, False, "Leave out malformed lines and messages instead of refusing the log."),
-    Key("scan_topic", str, None, "Of a recording: where the scans are.", "the only topic of scans", "TOPIC"),
-    Key("pose_topic", str, None, "Of a recording: where the poses are.", "/tf, or the only topic of poses", "TOPIC"),
-    Key("fixed_frame", str, None, "Of a recording's /tf: the frame of the map.", "map, odom or world", "FRAME"),
-    Key("deskew", bool, False, "Give each beam the pose of its own time, by a recording's time_increment."),
-    Key("thin_scans", float, 0.0, "Keep a scan each time the robot has gone this far; 0: all.", metavar="METRES"),
+    *READING,
     Key("cells", click.Choice(CELLS), "surface", "A cell's state: reflectivity with or without a surface, or a wall."),
     Key("method", click.Choice(METHODS), "gibbs", "Sampler; block suits rare walls, propagate is instant but rough."),
     Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
@@ -127,6 +132,7 @@ RENDER = (
     Key("frames", int, 100, "Frames of an animation, at most."),
     Key("window", str, None, "Part of the map to draw, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1"),
     Key("holdout", int, 10, "Every n-th scan of --heldout was held out; 0: another recording, whole.", metavar="N"),
+    *READING,
 )
 
 EXPORT = (
@@ -144,8 +150,7 @@ EXPORT = (
 
 SCORE = (
     Key("holdout", int, 10, "Every n-th scan was held out when the run was made.", metavar="N"),
-    Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
-    Key("skip_bad_lines", bool, False, "Leave out malformed lines instead of refusing the log."),
+    *READING,
     SEED,
 )
 

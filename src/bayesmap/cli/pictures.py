@@ -102,23 +102,6 @@ def interval_width(run: Run) -> NDArray[np.float64]:
     return np.asarray(upper - lower)
 
 
-def heldout_scans(run: Run, log: str | None, every: int) -> Scans:
-    """The scans of a log that a run did not see: every n-th, by the rule of `infer --holdout`; all for 0.
-
-    Raises:
-        BadInput: no log is named, it cannot be read, or the run was made from some of the scans.
-    """
-    from bayesmap.io.logs import read_log
-    from bayesmap.posterior.heldout import unseen_scans
-
-    if log is None:
-        raise BadInput(
-            "residuals and surprise are those of scans that the run did not see: name their log by --heldout"
-        )
-    scans = read_log(log, max_range_m=run.posterior.scans.max_range_m)
-    return unseen_scans(run.posterior.scans, scans, every, log)
-
-
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
     """The log-odds map of the run's scans, by OctoMap's numbers and unclamped, and the cells it saw, (nx, ny)."""
     from bayesmap.kernels.counts import count_hits

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.reading import heldout_scans
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -43,6 +44,8 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     surfaces                a stroke a cell, where its hits lie
     trace, weights          of the log joint; of importance sampling
     animation               of a chain
+
+    LOG is read as it was for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
     """
     from bayesmap.cli import pictures
     from bayesmap.loading import load
@@ -82,7 +85,10 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     elif what in ("residuals", "surprise"):
         from bayesmap.viz.residuals import residuals_figure, surprise_scale
 
-        ends, numbers_shown = pictures.misses(run, pictures.heldout_scans(run, heldout, values["holdout"]), what)
+        if heldout is None:
+            raise BadInput(f"{what}: that of scans which the run did not see; name their log by --heldout")
+        scans = heldout_scans(run, heldout, values, values["holdout"])
+        ends, numbers_shown = pictures.misses(run, scans, what)
         scale = surprise_scale(numbers_shown) if what == "surprise" else None
         write_figure(residuals_figure(grid, mean, ends, numbers_shown, observed, scale=scale), target)
     elif what == "log-odds":

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.given import need_file
+from bayesmap.cli.reading import heldout_scans
 from bayesmap.cli.talk import write_out
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -36,16 +36,16 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
     bayesmap infer office.log.gz --holdout 10 -o runs/office
     bayesmap score runs/office/run.nc office.log.gz --compare --picture calibration.png
 
+    LOG is read as it was for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
+
     Columns: mean log predictive density of a reading, with its standard error over scans; how many readings lie in
     their central 50, 80 and 95 % intervals; median width of the 80 % interval; distance of the probability integral
     transform from uniform; and Brier score and log loss of first hits. docs/scoring.md has the formulas.
     """
     from bayesmap.loading import load
-    from bayesmap.posterior.heldout import unseen_scans
     from bayesmap.run import score
 
     values = call.values()
-    need_file(log, "the log that the run was made from", runs=False)
     if picture is not None:
         from bayesmap.viz.writing import need_ending
 
@@ -54,7 +54,7 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
     every = 0 if whole else values["holdout"]
     if every == 0 and not whole:
         raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
-    heldout = unseen_scans(run.posterior.scans, _read(run, log, values), every, log)
+    heldout = heldout_scans(run, log, values, every)
     call.talk.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
     rows: list[tuple[str, Score]] = [(_name(run), score(run, heldout, seed=values["seed"]))]
     fits: list[Fitted] = []
@@ -78,18 +78,6 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
 def _name(run: Run) -> str:
     """Such as "surface posterior"."""
     return f"{getattr(run.posterior, 'kind', 'binary')} posterior"
-
-
-def _read(run: Run, log: str, values: dict[str, Any]) -> Scans:
-    """The log, read as it was for the run: with the same largest range."""
-    from bayesmap.io.logs import read_log
-
-    return read_log(
-        log,
-        no_return=values["no_return"],
-        skip_bad_lines=values["skip_bad_lines"],
-        max_range_m=run.posterior.scans.max_range_m,
-    )
 
 
 def _baselines(call: Call, run: Run, heldout: Scans, seed: int) -> list[tuple[Fitted, Score]]:

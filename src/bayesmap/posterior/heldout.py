@@ -46,7 +46,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
     if not seen.any():
         raise BadInput(
             f"{where}: none of the run's scans is in it: not the log that the run was made from, or read with another "
-            "--no-return; to score another recording of the same place whole, give --all"
+            "--no-return, topic or --deskew; to score another recording of the same place whole, give --all"
         )
     held = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
     if held is None or not held.any():
