@@ -174,7 +174,7 @@ def _posterior(
     rays, prior = problem.rays, found.parameters.prior
     draws = found.reflectivity.shape[0] * found.reflectivity.shape[1]
     if draws:
-        mean = found.reflectivity.mean(axis=(0, 1), dtype=np.float64)
+        mean = found.expected.mean(axis=(0, 1), dtype=np.float64)
         occupancy = rays.to_grid(mean, prior.mean)
     else:
         occupancy = np.full(rays.grid.shape, np.nan)
@@ -189,6 +189,7 @@ def _posterior(
         touched=rays.touched,
         busy=busy.astype(np.int32),
         reflectivity=found.reflectivity,
+        expected=found.expected,
         surfaces=found.surfaces,
         occupancy=occupancy,
         observed=rays.to_grid((2 * told >= np.maximum(counted, 1)).astype(np.float64), 0.0) > 0,
@@ -212,6 +213,7 @@ def _fitted(parameters: Parameters) -> dict[str, Any]:
 def _result_of(posterior: FieldPosterior) -> FieldResult:
     return FieldResult(
         reflectivity=posterior.reflectivity,
+        expected=posterior.expected,
         surfaces=posterior.surfaces,
         log_likelihood=posterior.log_likelihood,
         log_prior=posterior.log_prior,

@@ -33,7 +33,8 @@ OCCUPIED, FREE = 0.3, 0.1
 class FieldRun(Run):
     """The posterior over reflectivities, and perhaps surfaces, that a call of `bayesmap.infer` found.
 
-    ``occupancy`` is the mean reflectivity, ``entropy`` that of whether a cell stops the next beam that meets it.
+    ``occupancy`` is the mean reflectivity, of what the draws expect: the mean of ``draws`` has the same limit and more
+    noise. ``entropy`` is that of whether a cell stops the next beam that meets it.
     """
 
     posterior: FieldPosterior  # type: ignore[assignment]

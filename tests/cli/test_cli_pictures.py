@@ -116,7 +116,9 @@ def test_layers_of_walls_and_of_surfaces_in_a_geotiff(binary_run, office_run, tm
         if len(names) == 4:
             known = ~np.isnan(layers[0])
             assert (layers[2] <= layers[3])[known].all()
-            assert ((layers[2] <= layers[0]) & (layers[0] <= layers[3]))[known].mean() > 0.9
+            # Means are of what the draws expect, ends of what was drawn: with few draws they may miss by a little.
+            outside = np.maximum(layers[2] - layers[0], layers[0] - layers[3])[known]
+            assert (outside < 0.05).mean() > 0.95
 
 
 def test_render_animation_and_default_names(office_run, tmp_path):

@@ -41,7 +41,7 @@ def infer(kind, data=None, **options):
 
 
 ARRAYS = (
-    "touched", "busy", "reflectivity", "surfaces", "occupancy", "observed", "log_likelihood", "log_prior",
+    "touched", "busy", "reflectivity", "expected", "surfaces", "occupancy", "observed", "log_likelihood", "log_prior",
     "warmup_log_joint", "states", "informed",
 )  # fmt: skip
 

@@ -56,10 +56,26 @@ def test_it_opens_as_plain_netcdf(kind, tmp_path):
         draws = file["posterior"]
         x, y = draws["cell_x"][:], draws["cell_y"][:]
         np.testing.assert_array_equal(draws["reflectivity"][:], run.draws[:, :, x, y])
+        np.testing.assert_array_equal(draws["expected"][:], run.posterior.expected.astype(np.float32))
         np.testing.assert_allclose(file["sample_stats"]["lp"][:], run.log_joint)
         np.testing.assert_array_equal(file["constant_data"]["occupancy"][:], run.occupancy)
         if kind == "surfaces":
             np.testing.assert_array_equal(draws["surface_l22"][:], run.posterior.surfaces[..., 4].astype(np.float32))
+
+
+@KINDS
+def test_a_file_without_expected_reflectivities_predicts_by_the_drawn_ones(kind, tmp_path):
+    """Files of format 2; written from such a file, they stay without."""
+    run = infer(kind)
+    old = bm.FieldRun(replace(run.posterior, expected=run.posterior.reflectivity))
+    for name in ("old.nc", "again.nc"):
+        old.save(tmp_path / name)
+        with netCDF4.Dataset(tmp_path / name) as file:
+            assert "expected" not in file["posterior"].variables
+        loaded = bm.load(tmp_path / name)
+        assert_equal(loaded, old)
+        assert loaded.log_score(SCANS) == old.log_score(SCANS) != run.log_score(SCANS)
+        old = loaded
 
 
 def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
@@ -75,9 +91,9 @@ def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
 @pytest.mark.parametrize(
     ("group", "name"),
     [
-        ("posterior", "reflectivity"), ("posterior", "surface_mean_x"), ("sample_stats", "log_likelihood"),
-        ("constant_data", "state"), ("constant_data", "informed"), ("constant_data", "last_counts"),
-        ("constant_data", "occupancy"), ("observed_data", "range_m"),
+        ("posterior", "reflectivity"), ("posterior", "expected"), ("posterior", "surface_mean_x"),
+        ("sample_stats", "log_likelihood"), ("constant_data", "state"), ("constant_data", "informed"),
+        ("constant_data", "last_counts"), ("constant_data", "occupancy"), ("observed_data", "range_m"),
     ],
 )  # fmt: skip
 def test_a_number_that_was_changed_is_noticed(group, name, tmp_path):

@@ -15,8 +15,13 @@ from bayesmap.inference import fit
 from bayesmap.inference.chain import Progress, Schedule, pause_after
 from bayesmap.inference.field_gibbs import FieldGibbs, FieldProblem
 from bayesmap.inference.fit import Parameters
+from bayesmap.model.cell_priors import CellPrior
 
 TELL_EVERY_S = 0.25
+
+HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
+"""The largest number below 1 in half precision, 0.9995. A mean that was rounded to 1 would say that no beam ever comes
+past the cell, and then one that did costs any number of nats; this one costs less than 0.0005 nats a beam."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +30,7 @@ class FieldResult:
 
     Attributes:
         reflectivity: of every touched cell in every kept draw, (chains, kept, T).
+        expected: mean of the reflectivity given the surfaces of the draw and where the beams then stopped, likewise.
         surfaces: of the busy cells, mean x, y less the cell's centre and l11, l21, l22, all in edges of a cell,
             (chains, kept, U, 5); U is 0 where the prior has no surfaces.
         log_likelihood, log_prior: of every kept draw, (chains, kept); the prior in unconstrained coordinates.
@@ -41,6 +47,7 @@ class FieldResult:
     """
 
     reflectivity: NDArray[np.float16]
+    expected: NDArray[np.float16]
     surfaces: NDArray[np.float16]
     log_likelihood: NDArray[np.float64]
     log_prior: NDArray[np.float64]
@@ -106,7 +113,7 @@ def run_field(
         log_likelihood, log_prior = sampler.sweep(number, parameters.sensor, parameters.prior)
         if warming and number >= fit.FIRST_SWEEP:
             record.parameters = _refitted(sampler, parameters, number, fit_sensor, fit_prior)
-        record.add(sampler, log_likelihood, log_prior, warming, keep)
+        record.add(sampler, parameters.prior, log_likelihood, log_prior, warming, keep)
         record.seconds += time.perf_counter() - began
         now = time.monotonic()
         if on_progress is not None and (now - told > TELL_EVERY_S or record.sweep == schedule.sweeps):
@@ -129,6 +136,34 @@ def _refitted(sampler: FieldGibbs, now: Parameters, sweep: int, fit_sensor: bool
     return Parameters(sensor, prior)
 
 
+def expected_reflectivity(
+    hits: NDArray[np.int32], met: NDArray[np.int32], prior: CellPrior, drawn: NDArray[np.float16]
+) -> NDArray[np.float32]:
+    """Mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
+
+    Given where all beams stopped, whom they met, and the surfaces, reflectivities are independent Betas, and the
+    density of one more beam is linear in each: under these means it is what it is on average under draws of them
+    (Rao and Blackwell). The counts are to be those of the sweep that began at the draw, with its surfaces.
+
+    A cell that rested in that sweep (`bayesmap.kernels.cell_draws`; no reading ends in it) has the counts of its last
+    draw. Its own mean stays right on average; how its reflectivity goes together with what has changed since, in a few
+    sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of such a cell is that it is
+    free, whichever value near zero it happens to have. In a map of four cells and six beams it was under one per cent
+    of a density.
+
+    Args:
+        hits: (T,).
+        met: (T,), negative for cells that have not counted yet.
+        prior: that the sweep was made with.
+        drawn: reflectivities for the cells that have not, (T,).
+    """
+    counted = hits.astype(np.float32)
+    total = counted + np.maximum(met, 0)
+    counted += np.float32(prior.a)
+    total += np.float32(prior.a + prior.b)
+    return np.minimum(np.where(met >= 0, counted / total, drawn), np.float32(HIGHEST))
+
+
 class _Record:
     """Draws and traces, growing as the chains go."""
 
@@ -138,6 +173,7 @@ class _Record:
         self.centres = problem.rays.centres_m()[self.busy]
         self.edge = problem.rays.grid.resolution
         self.reflectivity = np.zeros((chains, schedule.draws, cells), dtype=np.float16)
+        self.expected = np.zeros_like(self.reflectivity)
         self.surfaces = np.zeros((chains, schedule.draws, len(self.busy), 5), dtype=np.float16)
         self.log_likelihood = np.zeros((chains, schedule.draws))
         self.log_prior = np.zeros((chains, schedule.draws))
@@ -149,6 +185,7 @@ class _Record:
         if resume is not None:
             self.kept, self.warmed = resume.reflectivity.shape[1], resume.warmup_log_joint.shape[1]
             self.reflectivity[:, : self.kept] = resume.reflectivity
+            self.expected[:, : self.kept] = resume.expected
             self.surfaces[:, : self.kept] = resume.surfaces
             self.log_likelihood[:, : self.kept] = resume.log_likelihood
             self.log_prior[:, : self.kept] = resume.log_prior
@@ -169,12 +206,13 @@ class _Record:
     def add(
         self,
         sampler: FieldGibbs,
+        prior: CellPrior,
         log_likelihood: NDArray[np.float64],
         log_prior: NDArray[np.float64],
         warming: bool,
         kept: bool,
     ) -> None:
-        """Note a sweep: its densities are those of the cells before it, which is what was kept."""
+        """Note a sweep, under a prior: its densities and counts are of the cells before it, which is what was kept."""
         self.sweep += 1
         if warming:
             self.warmup_log_joint[:, self.warmed] = log_likelihood + log_prior
@@ -185,6 +223,9 @@ class _Record:
             counted = met >= 0
             self.informed[0] += counted & (hits + met > 0)
             self.informed[1] += counted
+            if kept:
+                drawn = self.reflectivity[chain, self.kept]
+                self.expected[chain, self.kept] = expected_reflectivity(hits, met, prior, drawn)
         if not kept:
             return
         self.log_likelihood[:, self.kept] = log_likelihood
@@ -194,6 +235,7 @@ class _Record:
     def result(self, sampler: FieldGibbs) -> FieldResult:
         return FieldResult(
             reflectivity=self.reflectivity[:, : self.kept],
+            expected=self.expected[:, : self.kept],
             surfaces=self.surfaces[:, : self.kept],
             log_likelihood=self.log_likelihood[:, : self.kept],
             log_prior=self.log_prior[:, : self.kept],

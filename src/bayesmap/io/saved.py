@@ -30,7 +30,7 @@ from bayesmap.world.grid import Grid
 from bayesmap.world.scans import Scans
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = 2  # 2 has fields too; walls are written as in 1
+FORMAT_VERSION = 3  # 2 has fields too, 3 their expected reflectivities; walls are written as in 1
 CHUNK_BYTES = 16 << 20  # of draws that are unpacked, and compressed, at a time
 
 

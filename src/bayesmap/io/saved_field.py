@@ -2,7 +2,8 @@
 
 Cells that no beam touches are not in it: the dimension ``cell`` counts the touched ones, whose indices are in
 ``cell_x`` and ``cell_y``; ``surface_cell`` counts those with surfaces. Draws are kept in half precision, and written as
-32-bit floats, whose last bits are zero and compress well.
+32-bit floats, whose last bits are zero and compress well. Files of format 2 have no ``expected`` reflectivities: the
+drawn ones take their place.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Any
 
 import netCDF4
 import numpy as np
+from numpy.typing import NDArray
 
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
@@ -90,8 +92,10 @@ def _write(posterior: FieldPosterior, file: Any, on_progress: Callable[[int, int
     )
     draws = file.createGroup("posterior")
     write_arrays(draws, ("cell",), cell_x=posterior.touched // grid.shape[1], cell_y=posterior.touched % grid.shape[1])
-    told = _counter(posterior.reflectivity.size + posterior.surfaces.size, on_progress)
-    write_half(draws, "reflectivity", ("chain", "draw", "cell"), posterior.reflectivity, told)
+    by_cell = _by_cell(posterior)
+    told = _counter(sum(values.size for values in by_cell.values()) + posterior.surfaces.size, on_progress)
+    for name, values in by_cell.items():
+        write_half(draws, name, ("chain", "draw", "cell"), values, told)
     write_arrays(draws, ("surface_cell",), surface_of=posterior.busy)
     for i, name in enumerate(SURFACE):
         write_half(draws, f"surface_{name}", ("chain", "draw", "surface_cell"), posterior.surfaces[..., i], told)
@@ -111,12 +115,18 @@ def _write(posterior: FieldPosterior, file: Any, on_progress: Callable[[int, int
     write_arrays(constant, ("count_part", "chain", "cell"), last_counts=posterior.last_counts)
 
 
+def _by_cell(posterior: FieldPosterior) -> dict[str, NDArray[np.float16]]:
+    """What there is of every touched cell; a posterior from a file without ``expected`` has nothing else instead."""
+    out = {"reflectivity": posterior.reflectivity}
+    return out if posterior.expected is posterior.reflectivity else {**out, "expected": posterior.expected}
+
+
 def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
     """The posterior of an open file."""
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
-    reflectivity = np.empty(draws["reflectivity"].shape, dtype=np.float16)
-    read_half(draws["reflectivity"], reflectivity)
+    reflectivity = _read_draws(draws["reflectivity"])
+    expected = _read_draws(draws["expected"]) if "expected" in draws.variables else reflectivity
     surfaces = np.empty((*draws["surface_l11"].shape, len(SURFACE)), dtype=np.float16)
     for i, name in enumerate(SURFACE):
         read_half(draws[f"surface_{name}"], surfaces[..., i])
@@ -131,6 +141,7 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
         touched=(draws["cell_x"][:] * grid.shape[1] + draws["cell_y"][:]).astype(np.int32),
         busy=draws["surface_of"][:],
         reflectivity=reflectivity,
+        expected=expected,
         surfaces=surfaces,
         occupancy=constant["occupancy"][:],
         observed=constant["observed"][:] != 0,
@@ -148,11 +159,17 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
     )
 
 
+def _read_draws(variable: Any) -> NDArray[np.float16]:
+    out = np.empty(variable.shape, dtype=np.float16)
+    read_half(variable, out)
+    return out
+
+
 def checksum(posterior: FieldPosterior, header: dict[str, Any]) -> str:
     """Of everything in the file."""
     scans = posterior.scans
     arrays = (
-        posterior.touched, posterior.busy, posterior.reflectivity, posterior.surfaces, posterior.log_likelihood,
+        posterior.touched, posterior.busy, *_by_cell(posterior).values(), posterior.surfaces, posterior.log_likelihood,
         posterior.log_prior, posterior.warmup_log_joint, posterior.states, posterior.last_counts, posterior.informed,
         posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s,
         scans.beam_poses,

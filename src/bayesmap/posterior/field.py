@@ -18,7 +18,7 @@ from bayesmap.world.scans import Scans
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 8192
 CELLS_AROUND = SIGMAS_AROUND = 10.0
-FRESH_CELLS = 1 << 16  # cells drawn from the prior, of which predictions take those that they need
+FRESH_CELLS = 1 << 16  # surfaces drawn from the prior, of which predictions take those that they need
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +36,12 @@ class FieldPosterior:
         touched: flat indices of the T touched cells, ascending, int32.
         busy: of the U cells with surfaces, their places in ``touched``, ascending.
         reflectivity: (chains, draws, T).
+        expected: mean of the reflectivity given the draw's surfaces and where the beams then stopped, likewise: what
+            predictions are made of.
         surfaces: mean x, y less the cell's centre, and the Cholesky factor l11, l21, l22 of the covariance, in edges of
             a cell, (chains, draws, U, 5).
-        occupancy: posterior mean of the reflectivity, (nx, ny); the prior's mean where no beam comes.
+        occupancy: posterior mean of the reflectivity, that of ``expected``, (nx, ny); the prior's mean where no beam
+            comes.
         observed: cells of which some beam says something in at least half of the draws, (nx, ny).
         log_likelihood, log_prior: of every draw, (chains, draws); the prior in unconstrained coordinates.
         warmup_log_joint: (chains, warm-up sweeps).
@@ -54,6 +57,7 @@ class FieldPosterior:
     touched: NDArray[np.int32]
     busy: NDArray[np.int32]
     reflectivity: NDArray[np.float16]
+    expected: NDArray[np.float16]
     surfaces: NDArray[np.float16]
     occupancy: Floats
     observed: NDArray[np.bool_]
@@ -120,13 +124,15 @@ class FieldPosterior:
             second[:, 1, 1] += l21**2 + l22**2
         second[:, 1, 0] = second[:, 0, 1]
         n = max(len(draws), 1)
-        return centre + mean / n, second / n, self.reflectivity[:, :, self.busy].mean(axis=(0, 1), dtype=np.float64)
+        return centre + mean / n, second / n, self.occupancy.ravel()[flat]
 
     def cells_for(self, touched: NDArray[np.int32], seed: int = 0) -> Iterator[NDArray[np.float32]]:
-        """Each draw's cell states for other rays, whose touched cells are these flat indices, (T', 6).
+        """Each draw's cell states to predict other rays by, whose touched cells are these flat indices, (T', 6).
 
-        What the draws do not hold comes from the prior: cells that no beam of the run touched, and the surfaces of
-        cells in which no reading ended. Lengths are metres from the grid's lower left corner.
+        Reflectivities are ``expected`` ones, and the prior's mean in cells that no beam of the run touched: the density
+        of a reading is linear in each, so its mean over draws is that of drawn ones, with less noise. Surfaces are
+        those of the draw; where no reading ended they come from the prior. Lengths are metres from the grid's lower
+        left corner.
         """
         held, place = (np.full(self.grid.n_cells, -1, dtype=np.int32) for _ in range(2))
         held[self.touched] = np.arange(len(self.touched))
@@ -135,16 +141,16 @@ class FieldPosterior:
         edge, ny = self.grid.resolution, self.grid.shape[1]
         centre = np.stack([touched // ny + 0.5, touched % ny + 0.5], axis=-1) * edge
         rng = np.random.default_rng(seed)
-        # Drawn once and passed on from cell to cell: each draw of the map takes them up from another place, and what a
-        # cell gets does not depend on which others are asked for.
+        # Surfaces are drawn once and passed on from cell to cell: each draw of the map takes them up from another
+        # place, and what a cell gets does not depend on which others are asked for.
         fresh = np.zeros((FRESH_CELLS, 6), dtype=np.float32)
-        fresh[:, 0] = rng.beta(self.prior.a, self.prior.b, len(fresh))
+        fresh[:, 0] = self.prior.mean
         if isinstance(self.prior, Surface):
             fresh[:, 1:] = self.prior.sample_surfaces(rng, len(fresh))
         for chain in range(self.reflectivity.shape[0]):
             for draw in range(self.n_draws):
                 states = fresh[(touched + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
-                states[known, 0] = self.reflectivity[chain, draw, held[touched[known]]]
+                states[known, 0] = self.expected[chain, draw, held[touched[known]]]
                 if isinstance(self.prior, Surface):
                     states[with_surface, 1:] = self.surfaces[chain, draw, place[touched[with_surface]]]
                     states[:, 1:] *= edge
