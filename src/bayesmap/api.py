@@ -257,6 +257,7 @@ def _weigh(
         if on_progress is not None:
             on_progress(Event("particles", done, total))
 
+    tell(0, particles)  # of a large map the first particles take a while
     return sample_importance(problem, particles, seed, on_progress=tell, should_stop=should_stop)
 
 

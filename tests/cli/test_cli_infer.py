@@ -178,3 +178,31 @@ def test_the_intel_building(tmp_path):
     assert (document["log"]["scans"], document["scans"]) == (910, 819)
     assert document["log"]["no_return_m"] == 81.83
     assert document["heldout"]["beams"] == 91 * 180
+
+
+@pytest.mark.parametrize(
+    ("method", "told"), [("gibbs", "2 chains of 13 sweeps"), ("importance", "16 independent maps")]
+)
+def test_without_a_terminal_every_method_says_what_it_has_done(office, tmp_path, short, method, told):
+    few = ("--cells", "binary", "--particles", "300", "--method", method)
+    result = call("infer", office, "-o", tmp_path / "run", *short, *few)
+    assert result.exit_code == 0, result.stderr
+    assert f"{method}: {told} over" in result.stderr
+    assert told.split(" of ")[0] in call("info", tmp_path / "run" / "run.nc").stdout
+
+
+def test_importance_sampling_is_announced_before_its_first_particles(office):
+    scans = bm.read_log(office)
+    events = []
+    bm.infer(
+        scans,
+        bm.Grid.covering(scans, 0.25),
+        prior=bm.Independent(0.2),
+        sensor=bm.Gaussian(0.1),
+        method="importance",
+        draws=2,
+        particles=300,
+        on_progress=lambda event: events.append((event.stage, event.done, event.total)),
+    )
+    assert events[0] == ("particles", 0, 300)
+    assert events[-1] == ("particles", 300, 300)

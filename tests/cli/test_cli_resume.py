@@ -220,6 +220,47 @@ def test_interrupted_before_its_first_sweep_nothing_is_kept_but_the_settings(
 
 
 @BOTH
+def test_interrupted_as_soon_as_it_is_resumed_a_run_is_what_it_was(office, tmp_path, short, monkeypatch, cells):
+    folder = tmp_path / "run"
+    with monkeypatch.context() as patch:
+        interrupt_at_checkpoint(patch)
+        assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 130
+    before = bm.load(folder / "run.nc")
+    go_on = f"go on with:\n  bayesmap infer {office} -o {folder} --resume\n"
+
+    def pressed(*given, **options):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:  # before there are chains that could be stopped in order
+        patch.setattr("bayesmap.api.infer", pressed)
+        result = call("infer", office, "-o", folder, "--resume")
+    assert result.exit_code == 130
+    assert f"the last checkpoint is kept; {go_on}" in result.stderr
+
+    with monkeypatch.context() as patch:  # and when there are
+        patch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
+        result = call("infer", office, "-o", folder, "--resume")
+    assert result.exit_code == 130
+    assert f"interrupted after 5 sweeps, saved in {folder / 'run.nc'}; {go_on}" in result.stderr
+    same(bm.load(folder / "run.nc"), before)
+
+
+def test_resumed_from_a_file_without_a_sweep_there_is_still_that_file(office, tmp_path, short, monkeypatch):
+    folder = tmp_path / "run"
+    monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
+    options = ("--cells", "binary", "--start", "prior", *short)
+    scans = bm.read_log(office)
+    grid = bm.Grid.covering(scans, 0.25)
+    empty = bm.infer(scans, grid, prior=bm.Independent(0.2), sensor=bm.Gaussian(0.1), chains=2, warmup=5, draws=8)
+    folder.mkdir()
+    empty.save(folder / "run.nc")
+    options = (*options, "--sensor", "gaussian:0.1", "--hit-depth", "0")
+    result = call("infer", office, "-o", folder, *options, "--resume")
+    assert result.exit_code == 130, result.stderr
+    assert f"interrupted before the first sweep; {folder / 'run.nc'} is as it was; go on with:" in result.stderr
+
+
+@BOTH
 def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monkeypatch, cells):
     kind = bm.Run if cells == "binary" else bm.FieldRun
     save = kind.save

@@ -45,7 +45,8 @@ def command(call: Call, output: str, force: bool) -> None:
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
 
     runs = _runs(call.talk, call.values())
-    outputs = [*_pictures(runs, folder), folder / "demo.json"]
+    with progress(call.talk, "drawing pictures and a film"):
+        outputs = [*_pictures(runs, folder), folder / "demo.json"]
     main = runs["gibbs"]
     document = {
         **run_document(main),

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bayesmap.cli.talk import counted
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
@@ -56,6 +57,13 @@ def run_document(run: Run) -> dict[str, Any]:
         "problems": summary.problems(),
         "peak_memory_mb": peak_memory_mb(),
     }
+
+
+def work_done(document: dict[str, Any]) -> str:
+    """Such as "4 chains of 100 sweeps"; methods without chains may keep independent maps."""
+    if document["method"] in ("gibbs", "block"):
+        return f"{counted(document['chains'], 'chain')} of {counted(document['sweeps'], 'sweep')}"
+    return counted(document["chains"] * document["draws"], "independent map")
 
 
 def finite(value: Any) -> float | None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bayesmap.cli.progress import progress, stage
-from bayesmap.cli.talk import Talk, as_json
+from bayesmap.cli.talk import Talk, as_json, counted
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Folder:
         """Save the run so far; a full disk is no reason to lose the hours to come."""
         try:
             run.save(self.run, on_progress)
-            self.talk.detail(f"checkpoint after {run.posterior.sweep:,} sweeps: {self.run}")
+            self.talk.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
         except OSError as error:
             self.talk.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
 

@@ -16,7 +16,7 @@ from bayesmap.cli.given import LOG, need_file
 from bayesmap.cli.progress import SETTING_UP, progress, stage
 from bayesmap.cli.reading import options_of
 from bayesmap.cli.settings import Settings, as_toml, read_file
-from bayesmap.cli.talk import Talk
+from bayesmap.cli.talk import Talk, counted
 
 if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
@@ -62,16 +62,22 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
     folder.check(force=force)
 
-    reading = _read(call.talk, log, values)
-    train, heldout = _split(reading.scans, values["holdout"])
-    saved = _saved(folder) if resume else None
     go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"])
     try:
-        run = _infer(folder, reading.scans, train, values, sensor, saved)
-    except KeyboardInterrupt:  # a second Ctrl-C: no time to save anything
-        if folder.begun and folder.run.exists():
+        _run(call, folder, log, values, sensor, go_on)
+    except KeyboardInterrupt:  # while setting up, or once more while the chains were being stopped
+        if (folder.begun or resume) and folder.run.exists():
             call.talk.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
         raise
+
+
+def _run(
+    call: Call, folder: Folder, log: str, values: dict[str, Any], sensor: SensorModel | str | None, go_on: str
+) -> None:
+    reading = _read(call.talk, log, values)
+    train, heldout = _split(reading.scans, values["holdout"])
+    saved = _saved(folder) if folder.resuming else None
+    run = _infer(folder, reading.scans, train, values, sensor, saved)
     if not run.finished:
         _leave(folder, run, reading, go_on)
 
@@ -106,7 +112,7 @@ def _saved(folder: Folder) -> Run | None:
         folder.talk.say(f"{folder.run}: no run to resume; starting from the beginning")
         return None
     run = load(folder.run)
-    folder.talk.say(f"resuming {folder.run} after {run.posterior.sweep:,} sweeps")
+    folder.talk.say(f"resuming {folder.run} after {counted(run.posterior.sweep, 'sweep')}")
     return run
 
 
@@ -187,7 +193,10 @@ def _leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoRetur
         with stage(folder.talk, "save") as tell:
             run.save(folder.run, tell)
         kept = [folder.run]
-        folder.talk.say(f"interrupted after {run.posterior.sweep:,} sweeps, which are saved; go on with:\n  {go_on}")
+        done = counted(run.posterior.sweep, "sweep")
+        folder.talk.say(f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}")
+    elif folder.resuming and folder.run.exists():
+        folder.talk.say(f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}")
     else:
         folder.talk.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
     folder.talk.result(_document(run, reading, None, kept), kept)
@@ -215,10 +224,12 @@ def _document(run: Run, reading: LogReading, score: dict[str, Any] | None, outpu
 
 
 def _report(talk: Talk, document: dict[str, Any]) -> None:
+    from bayesmap.cli.document import work_done
+
     seconds, joint = document["seconds"], document["log_joint"]
     talk.say(
-        f"{document['method']}: {document['chains']} chains of {document['sweeps']:,} sweeps over "
-        f"{document['incidences']:,} incidences in {seconds['total']:.1f} s"
+        f"{document['method']}: {work_done(document)} over {document['incidences']:,} incidences "
+        f"in {seconds['total']:.1f} s"
     )
     if joint["mean"] is not None:
         talk.say(f"log joint {joint['mean']:,.1f} on average, {joint['last']:,.1f} at the end")

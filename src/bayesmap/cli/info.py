@@ -10,7 +10,7 @@ import click
 
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.given import LOG, need_file
-from bayesmap.cli.talk import write_out
+from bayesmap.cli.talk import counted, write_out
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -101,13 +101,16 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
+    from bayesmap.cli.document import work_done
+
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
     state = "finished" if run["finished"] else "not finished"
     states = {"binary": "walls or free", "reflectivity": "reflectivities", "surface": "reflectivities and surfaces"}
     lines = [
         f"grid: {nx} x {ny} cells of {resolution:g} m, {states[run['cells']]}",
-        f"method: {run['method']}, {run['chains']} chains, {run['draws']:,} draws each, "
-        f"{run['sweeps']:,} sweeps, {state}",
+        f"method: {run['method']}, {work_done(run)}, {counted(run['draws'], 'draw')} each, {state}"
+        if run["sweeps"]
+        else f"method: {run['method']}, {work_done(run)}, {state}",
     ]
     if run["fitted"]:
         lines.append(f"fitted sensor: {_sensor_words(run['fitted']['sensor'])}")

@@ -57,6 +57,11 @@ class Talk:
         return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 
+def counted(number: int, thing: str) -> str:
+    """Such as "1 sweep" and "2,000 sweeps"."""
+    return f"{number:,} {thing}" + "s" * (number != 1)
+
+
 def as_json(document: dict[str, Any]) -> str:
     """One JSON document with its schema's version, ending in a newline; NaN and infinity are refused."""
     return json.dumps({"schema_version": SCHEMA_VERSION, **document}, indent=2, allow_nan=False) + "\n"
