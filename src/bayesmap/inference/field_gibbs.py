@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.inference.fit import BEAMS_LOOKED_AT, Stops
-from bayesmap.inference.plug_in import PlugIn, plug_in, starts, steps
+from bayesmap.inference.plug_in import PlugIn, pace, plug_in, starts, steps
 from bayesmap.inference.sampler import STREAM_START, STREAM_SWEEPS
 from bayesmap.model.cell_priors import CellPrior, Surface
 from bayesmap.sensor.mixture import BeamMixture
@@ -125,6 +125,7 @@ class FieldGibbs:
             problem.rays,
             states,
             steps(problem.guess, problem.rays.grid.resolution),
+            pace(problem.guess),
             plain=problem.plain,
             seed=seed,
             stream=STREAM_SWEEPS,

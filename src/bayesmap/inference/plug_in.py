@@ -14,6 +14,7 @@ from bayesmap.model.cell_priors import CellPrior, Surface
 from bayesmap.sensor.rays import BeamRays
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
+IDLE_ROUND, REMOTE_ROUND = 16, 32
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
 LOGIT_STEP = 1.0
 ALONG = 0.25
@@ -31,12 +32,14 @@ class PlugIn:
         hits, passes: readings that end there, and beams that pass, (T,).
         mean_m: mean of the end points, drawn towards the centre, (T, 2), metres from the grid's corner.
         factor_m: Cholesky factor of their covariance, drawn towards the prior's size: l11, l21, l22, (T, 3).
+        remote: cells in which no reading ends, nor in any of the eight around them, (T,).
     """
 
     hits: NDArray[np.int64]
     passes: NDArray[np.int32]
     mean_m: NDArray[np.float64]
     factor_m: NDArray[np.float64]
+    remote: NDArray[np.bool_]
 
     @property
     def busy(self) -> NDArray[np.bool_]:
@@ -74,7 +77,19 @@ def plug_in(rays: BeamRays, prior: CellPrior, device: str = "cpu") -> PlugIn:
         passes=passes_at_their_word(rays, end_cell, device),
         mean_m=mean,
         factor_m=np.stack([l11, l21, l22], axis=-1),
+        remote=_remote(rays, hits > 0),
     )
+
+
+def _remote(rays: BeamRays, busy: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    nx, ny = rays.grid.shape
+    ends = np.zeros((nx + 2, ny + 2), dtype=np.bool_)
+    ends[rays.touched[busy] // ny + 1, rays.touched[busy] % ny + 1] = True
+    around = np.zeros((nx, ny), dtype=np.bool_)
+    for i in range(3):
+        for j in range(3):
+            around |= ends[i : i + nx, j : j + ny]
+    return np.asarray(~around.reshape(-1)[rays.touched])
 
 
 def end_cells(rays: BeamRays) -> NDArray[np.int32]:
@@ -119,11 +134,19 @@ def starts(
     return states
 
 
+def pace(guess: PlugIn) -> NDArray[np.int32]:
+    """In how many sweeps each cell's turn comes round, (T,): 0 for busy cells, whose turn is always.
+
+    Of free cells away from all readings little is learnt in a sweep, and they are most of what beams cross.
+    """
+    return np.where(guess.busy, 0, np.where(guess.remote, REMOTE_ROUND, IDLE_ROUND)).astype(np.int32)
+
+
 def steps(guess: PlugIn, edge_m: float) -> NDArray[np.float32]:
     """Frame and size of each cell's steps, (T, 8), as `bayesmap.kernels.surface_steps` reads them.
 
     Along the wall steps are a part of the cell; across it they shrink with the readings. Cells in which no reading ends
-    have steps of size zero: they mostly rest, and their candidates come from the prior.
+    take no steps: their candidates come from the prior.
     """
     l11, l21, l22 = guess.factor_m.T
     var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2

@@ -27,7 +27,7 @@ from bayesmap.kernels.cell_draws import (
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, gate_at, meet, ray_from
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stop_law import Law, law_of, short_density
+from bayesmap.kernels.stop_law import Law, law_of
 from bayesmap.kernels.stops import LEAST, Field, Rays, hit_law
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
@@ -39,10 +39,6 @@ STEPS = wp.constant(6)
 """Metropolis steps of a surface in each sweep."""
 FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
 STREAM_MET = wp.constant(wp.uint64(4 << 32))
-
-UNREACHED = wp.constant(wp.uint8(0))
-PASSED = wp.constant(wp.uint8(1))
-STOPPED = wp.constant(wp.uint8(2))
 
 
 @wp.struct
@@ -90,28 +86,36 @@ def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.
 
 @wp.func
 def log_stops(
-    law: Law, rays: Rays, field: Field, busy: Busy, said: wp.array(dtype=wp.uint8), u: int, centre: wp.vec2, cell: Cell
+    law: Law,
+    rays: Rays,
+    faded: wp.array(dtype=wp.float32),
+    busy: Busy,
+    concerned: wp.array(dtype=wp.int32),
+    span: wp.vec4i,
+    centre: wp.vec2,
+    cell: Cell,
 ) -> wp.float64:
-    """The formula at the top, for one surface."""
+    """The formula at the top, for one surface: passing beams' incidences are concerned[span[0]:span[1]], those of
+    stopped beams concerned[span[2]:span[3]].
+    """
     one = wp.float32(1.0)
     total = wp.float64(0.0)
     product = one
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
     m = cell[REFLECTIVITY]
-    for e in range(busy.offsets[u], busy.offsets[u + 1]):
-        if said[e] == PASSED:
-            product = product * wp.max(one - m * gate_of(busy.passing[e], dx, dy, cell), LEAST)
-        elif said[e] == STOPPED:
-            b = busy.beam[e]
-            met = meet(cell, ray_from(rays.start_m[b], rays.direction[b]))
-            reading = rays.range_m[b]
-            p = hit_law(law, busy.entry[e], rays.near[b], reading, short_density(law, reading), met)
-            product = product * wp.max(m * met.chance * p, LEAST)
+    for i in range(span[0], span[1]):
+        product = product * wp.max(one - m * gate_of(busy.passing[concerned[i]], dx, dy, cell), LEAST)
         if product < FEWEST:
             total += wp.log(wp.float64(product))
             product = one
-        if product > one / FEWEST:
+    for i in range(span[2], span[3]):
+        e = concerned[i]
+        b = busy.beam[e]
+        met = meet(cell, ray_from(rays.start_m[b], rays.direction[b]))
+        p = hit_law(law, busy.entry[e], rays.near[b], rays.range_m[b], faded[b], met)
+        product = product * wp.max(m * met.chance * p, LEAST)
+        if product < FEWEST or product > one / FEWEST:
             total += wp.log(wp.float64(product))
             product = one
     return total + wp.log(wp.float64(product))
@@ -134,7 +138,7 @@ def update_busy(
     centre_m: wp.array(dtype=wp.vec2),
     step: wp.array(dtype=Cell),
     field: Field,
-    said: wp.array(dtype=wp.uint8),
+    concerned: wp.array(dtype=wp.int32),
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
@@ -151,22 +155,23 @@ def update_busy(
     m = cell[REFLECTIVITY]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
-    n_hits = int(0)
-    n_met = int(0)
-    for e in range(busy.offsets[u], busy.offsets[u + 1]):
+    span = wp.vec4i(busy.offsets[u], busy.offsets[u], busy.offsets[u + 1], busy.offsets[u + 1])
+    for e in range(span[0], span[3]):
         k = busy.entry[e]
         stop = field.stop[busy.beam[e]]
         if k < stop:
-            said[e] = PASSED
-            g = gate_of(busy.passing[e], dx, dy, cell)
-            x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
-            if x * (one - m * g) < g * (one - m):
-                n_met += 1
+            concerned[span[1]] = e
+            span[1] = span[1] + 1
         elif k == stop:
-            said[e] = STOPPED
-            n_hits += 1
-        else:
-            said[e] = UNREACHED
+            span[2] = span[2] - 1
+            concerned[span[2]] = e
+    n_hits = span[3] - span[2]
+    n_met = int(0)
+    for i in range(span[0], span[1]):
+        e = concerned[i]
+        g = gate_of(busy.passing[e], dx, dy, cell)
+        x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
+        n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
     hits[c] = n_hits
     met[c] = n_met
     a = prior.a + wp.float64(n_hits)
@@ -174,11 +179,13 @@ def update_busy(
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
 
     framed = into_frame(cell, step[c], centre)
-    present = log_stops(law, rays, field, busy, said, u, centre, cell) + log_cell_prior(prior, framed)
+    present = log_stops(law, rays, field.faded, busy, concerned, span, centre, cell) + log_cell_prior(prior, framed)
     for i in range(STEPS):
         here = at + wp.uint64(256 + 32 * i)
         candidate = stepped(framed, step[c], key, here + wp.uint64(1), i)
-        value = log_stops(law, rays, field, busy, said, u, centre, out_of_frame(candidate, step[c], centre))
+        value = log_stops(
+            law, rays, field.faded, busy, concerned, span, centre, out_of_frame(candidate, step[c], centre)
+        )
         value += log_cell_prior(prior, candidate)
         if wp.log(to_uniform(random_bits(key, here + AT_ACCEPT))) < value - present:
             framed = candidate

@@ -27,9 +27,9 @@ wp.set_module_options({"enable_backward": False})
 FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
 HIDDEN = wp.constant(wp.float32(0.0))
 FRESH = wp.constant(wp.float32(1.0))
-IDLE_ROUND = wp.constant(16)
-IDLE_TRIES = wp.constant(4)
-"""Of 16 sweeps, a cell in which no reading ends draws its reflectivity in two, tries a candidate in one, and rests."""
+AT_TURN = wp.constant(4)
+"""In a round of sweeps a cell in which no reading ends draws its reflectivity twice, tries a candidate once, at this
+turn, and rests."""
 
 # Counters of one cell in one sweep.
 PER_CELL = wp.constant(wp.uint64(1024))
@@ -110,8 +110,9 @@ def propose(
     first: int,
     plain: int,
     prior: CellPrior,
+    prior_moved: int,
     centre_m: wp.array(dtype=wp.vec2),
-    step: wp.array(dtype=Cell),
+    pace: wp.array(dtype=wp.int32),
     field: Field,
     keys: wp.array(dtype=wp.uint64),
     sweep: int,
@@ -119,7 +120,8 @@ def propose(
 ):
     """One thread a cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
 
-    A step of size zero in x marks a cell in which no reading ends, and which mostly rests.
+    ``pace`` is the length of a cell's round, 0 for cells in which readings end. ``log_prior`` is that of the cells as
+    they are, and is computed anew where the last sweep can have changed it.
     """
     c = first + wp.tid()
     for part in range(field.met.shape[0]):
@@ -128,21 +130,26 @@ def propose(
         field.gain[part, c] = wp.int64(0)
     cell = field.cells[c]
     cell[TRYING] = HIDDEN
-    field.glance[c] = AWAKE
-    log_prior[c] = log_reflectivity_prior(prior, cell[REFLECTIVITY])
-    if plain == 0:
-        log_prior[c] = log_prior[c] + wp.float32(log_surface_prior(prior, centre_m[c], cell))
+    turns = pace[c]
+    if prior_moved != 0 or turns == 0 or field.glance[c] == AWAKE:
+        density = log_reflectivity_prior(prior, cell[REFLECTIVITY])
+        if plain == 0:
+            density += wp.float32(log_surface_prior(prior, centre_m[c], cell))
+        log_prior[c] = density
     key = keys[1]
     at = wp.uint64(c) * PER_CELL
-    turn = (sweep + c) % IDLE_ROUND
-    if step[c][MEAN_X] > wp.float32(0.0):  # busy
+    glance = AWAKE
+    if turns == 0:
         if plain == 0:
-            field.glance[c] = cell[REFLECTIVITY]
-    elif plain == 0 and turn == IDLE_TRIES:
-        cell[TRYING] = FRESH
-        field.candidates[c] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
-    elif turn % 8 != 0:
-        field.glance[c] = cell[REFLECTIVITY]
+            glance = cell[REFLECTIVITY]
+    else:
+        turn = (sweep + c) % turns
+        if plain == 0 and turn == AT_TURN:
+            cell[TRYING] = FRESH
+            field.candidates[c] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
+        elif turn % (turns // 2) != 0:
+            glance = cell[REFLECTIVITY]
+    field.glance[c] = glance
     field.cells[c] = cell
 
 

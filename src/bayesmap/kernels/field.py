@@ -76,6 +76,7 @@ class FieldChains:
         rays: BeamRays,
         states: NDArray[np.float32],
         steps: NDArray[np.float32],
+        pace: NDArray[np.int32],
         *,
         plain: bool,
         seed: int,
@@ -84,10 +85,15 @@ class FieldChains:
         device: str,
         counts: NDArray[np.int32] | None = None,
     ) -> None:
-        """Put chains that stand at ``states``, (C, T, 6), on the device; ``counts`` (2, C, T) if they go on."""
+        """Put chains that stand at ``states``, (C, T, 6), on the device; ``counts`` (2, C, T) if they go on.
+
+        ``steps`` and ``pace`` are each cell's, as `bayesmap.inference.plug_in` has them.
+        """
         self.rays, self.device, self.plain = rays, device, int(plain)
         self._rays = put_rays(rays, plain, device)
         self._steps = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
+        self._pace = devices.to_device(pace, wp.int32, device)
+        self._last_prior: PriorNumbers | None = None
         self._centres = wp.array(rays.centres_m().astype(np.float32), dtype=wp.vec2, device=device)
         self._keys = [(seed, chain, stream) for chain in range(len(states))]
         self.threads = (threads or available_cores()) if device == "cpu" else 1
@@ -95,7 +101,7 @@ class FieldChains:
         edges = [rays.n_beams * i // parts for i in range(parts + 1)]
         self._parts = list(itertools.pairwise(edges))
         cells = rays.n_cells
-        self._busy = busy_index(rays, (steps[:, 1] > 0) & (not plain), device)
+        self._busy = busy_index(rays, (pace == 0) & (not plain), device)
 
         def empty(shape: Any, dtype: Any) -> Any:
             return wp.zeros(shape, dtype=dtype, device=device)
@@ -107,6 +113,7 @@ class FieldChains:
             field.candidates, field.glance = empty(cells, Cell), empty(cells, wp.float32)
             field.met, field.hits = empty((parts, cells), wp.int32), empty((parts, cells), wp.int32)
             field.gain = empty((parts, cells), wp.int64)
+            field.faded = empty(rays.n_beams, wp.float32)
             field.stop = empty(rays.n_beams, wp.int32)
             field.where = empty(rays.n_beams, wp.vec2)
             field.log_likelihood = empty(rays.n_beams, wp.float32)
@@ -118,7 +125,7 @@ class FieldChains:
             tuple(wp.array(of[chain], dtype=wp.int32, device=device) for of in counts) for chain in range(len(states))
         ]
         incidences = self._busy.entry.shape[0]
-        self._said = [empty(incidences, wp.uint8) for _ in states]
+        self._concerned = [empty(incidences, wp.int32) for _ in states]
         self._log_priors = [empty(cells, wp.float32) for _ in states]
 
     def sweep(
@@ -132,6 +139,7 @@ class FieldChains:
         packed = CellPrior()
         packed.a, packed.b, packed.tau_m = prior.a, prior.b, prior.tau_m
         packed.psi_m2, packed.nu, packed.kappa_m = prior.psi_m2, prior.nu, prior.kappa_m
+        moved, self._last_prior = int(prior != self._last_prior), prior
         limits = RangeLimits(self.rays.limits.min_m, self.rays.limits.max_m)
         law = sensor_parameters(sensor, limits)
         keys = [
@@ -144,7 +152,7 @@ class FieldChains:
         cells, chains = self.rays.n_cells, range(len(self._fields))
 
         def start(i: int) -> None:
-            inputs = [0, self.plain, packed, self._centres, self._steps, self._fields[i], keys[i], number]
+            inputs = [0, self.plain, packed, moved, self._centres, self._pace, self._fields[i], keys[i], number]
             inputs.append(self._log_priors[i])
             wp.launch(propose, dim=cells, inputs=inputs, device=self.device)
 
@@ -159,7 +167,7 @@ class FieldChains:
             wp.launch(settle, dim=cells, inputs=inputs, device=self.device)
             if not self.plain:
                 inputs = [0, law, packed, self._rays, self._busy, self._centres, self._steps, self._fields[i]]
-                inputs += [self._said[i], keys[i], *self._totals[i]]
+                inputs += [self._concerned[i], keys[i], *self._totals[i]]
                 wp.launch(update_busy, dim=self._busy.cell.shape[0], inputs=inputs, device=self.device)
 
         self._each(start, chains)

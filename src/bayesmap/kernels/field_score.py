@@ -10,7 +10,7 @@ from bayesmap.kernels.field import as_cells, put_rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.meeting import Cell, ray_from
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.stop_law import law_of, no_stop_law, short_density, stop_law
+from bayesmap.kernels.stop_law import fading, law_of, no_stop_law, stop_law
 from bayesmap.kernels.stops import Rays, chance_at, plain_or_meet
 from bayesmap.sensor.model import KernelParameters
 from bayesmap.sensor.rays import BeamRays
@@ -35,7 +35,7 @@ def add_density(
         total[b] = total[b] + wp.float64(1.0)
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
-    short = short_density(law, reading)
+    faded = fading(law, reading)
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         cell = cells[rays.cells[k]]
@@ -45,7 +45,7 @@ def add_density(
         cell = cells[rays.cells[k]]
         m = plain_or_meet(rays, k, cell, ray)
         a = cell[0] * m.chance
-        p += wp.float64(free * a * stop_law(law, reading, short, m.distance_m, m.variance))
+        p += wp.float64(free * a * stop_law(law, reading, faded, m.distance_m, m.variance))
         free = free * (one - a)
     p += wp.float64(free * no_stop_law(law, reading))
     total[b] = total[b] + p

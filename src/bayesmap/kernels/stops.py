@@ -19,7 +19,7 @@ import warp as wp
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet, ray_from
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stop_law import Law, law_of, no_stop_law, short_density, stop_law
+from bayesmap.kernels.stop_law import Law, fading, law_of, no_stop_law, stop_law
 
 wp.set_module_options({"enable_backward": False})
 
@@ -56,8 +56,9 @@ class Rays:
 @wp.struct
 class Field:
     """One chain: cells, a glance at each (its reflectivity if it rests, else AWAKE) and candidates; what the beams told
-    each cell in this sweep, a row for each part of the beams; and for each beam the entry at which it stopped (its end
-    if nowhere), the distance and variance of that stop, and the log-likelihood of its reading, summed over all stops.
+    each cell in this sweep, a row for each part of the beams; and for each beam `fading` of its reading, the entry at
+    which it stopped (its end if nowhere), the distance and variance of that stop, and the log-likelihood of its
+    reading, summed over all stops.
     """
 
     cells: wp.array(dtype=Cell)
@@ -66,6 +67,7 @@ class Field:
     met: wp.array2d(dtype=wp.int32)
     hits: wp.array2d(dtype=wp.int32)
     gain: wp.array2d(dtype=wp.int64)
+    faded: wp.array(dtype=wp.float32)
     stop: wp.array(dtype=wp.int32)
     where: wp.array(dtype=wp.vec2)
     log_likelihood: wp.array(dtype=wp.float32)
@@ -138,7 +140,8 @@ def draw_stops(
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
 
-    short = short_density(law, reading)
+    faded = fading(law, reading)
+    field.faded[b] = faded
     free = wp.float32(1.0)
     for k in range(begin, near):
         c = rays.cells[k]
@@ -160,7 +163,7 @@ def draw_stops(
             cell = field.cells[c]
             m = plain_or_meet(rays, k, cell, ray)
             a = cell[0] * m.chance
-            weight = wp.float64(free * a * stop_law(law, reading, short, m.distance_m, m.variance))
+            weight = wp.float64(free * a * stop_law(law, reading, faded, m.distance_m, m.variance))
             total += weight
             u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
             if u * total < weight:
@@ -201,14 +204,14 @@ def draw_stops(
         if cell[TRYING] != wp.float32(0.0):
             old = meet(cell, ray)
             new = meet(field.candidates[c], ray)
-            after = wp.max(new.chance * hit_law(law, choice, near, reading, short, new), LEAST)
-            before = wp.max(old.chance * hit_law(law, choice, near, reading, short, old), LEAST)
+            after = wp.max(new.chance * hit_law(law, choice, near, reading, faded, new), LEAST)
+            before = wp.max(old.chance * hit_law(law, choice, near, reading, faded, old), LEAST)
             wp.atomic_add(field.gain, part, c, in_units(wp.log(after / before)))
 
 
 @wp.func
-def hit_law(law: Law, k: int, near: int, reading: wp.float32, short: wp.float32, m: Meeting) -> wp.float32:
+def hit_law(law: Law, k: int, near: int, reading: wp.float32, faded: wp.float32, m: Meeting) -> wp.float32:
     """p(z | stop) at entry k: that of a random reading at entries that are not near."""
     if k < near:
         return law.floor
-    return stop_law(law, reading, short, m.distance_m, m.variance)
+    return stop_law(law, reading, faded, m.distance_m, m.variance)
