@@ -155,7 +155,14 @@ class Run:
             raise BadInput("run: stopped before its first draw, there is no posterior yet; resume it")
 
 
-def score(run: Run, heldout_scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0) -> Score:
+def score(
+    run: Run,
+    heldout_scans: Scans,
+    sensor: SensorModel | None = None,
+    *,
+    seed: int = 0,
+    on_progress: Callable[[float], None] = lambda share: None,
+) -> Score:
     """How well a run predicts scans that it has not seen, and how well calibrated it is.
 
     Args:
@@ -163,8 +170,9 @@ def score(run: Run, heldout_scans: Scans, sensor: SensorModel | None = None, *, 
         heldout_scans: scans that had no part in it.
         sensor: another law of the readings than the run's.
         seed: of the randomised transform of typed readings, and of the bootstrap.
+        on_progress: told which share is done, from 0 to 1.
 
     Raises:
         BadInput: no valid reading, no draws, or a sensor model without compiled form.
     """
-    return score_posterior(run.posterior, heldout_scans, sensor, seed=seed)
+    return score_posterior(run.posterior, heldout_scans, sensor, seed=seed, on_progress=on_progress)

@@ -57,6 +57,24 @@ def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
     assert "saving" not in quiet.stderr
 
 
+def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office, tmp_path):
+    few = ("--resolution", "0.25", "--chains", "1", "--warmup", "2", "--draws", "3", "--holdout", "4")
+    assert call("infer", office, *few, "-o", tmp_path).exit_code == 0
+    asked = ("score", tmp_path / "run.nc", office, "--holdout", "4", "--compare")
+    shown = on_a_terminal(*asked)
+    names = ("hit ratio", "log-odds, tuned", "log-odds", "log-odds, clamped")
+    for name in ("the surface posterior", *names):
+        assert f"scoring {name}" in shown
+    for name in names:
+        assert f"fitting {name}" in shown
+    assert "% ETA" in shown
+    predicted = on_a_terminal(
+        "render", tmp_path / "run.nc", "--what", "surprise", "--heldout", office, "--holdout", "4"
+    )
+    assert "predicting held-out beams" in predicted
+    assert "ETA" not in call(*asked).stderr
+
+
 def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
     from rich.progress import Progress
 

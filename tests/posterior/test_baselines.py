@@ -41,7 +41,11 @@ def test_a_climb_finds_the_top_within_the_box():
     def hill(v):
         return -(np.log(v["x"] / 3.0) ** 2) - (v["share"] - 0.4) ** 2
 
-    found, top = maximise(hill, hill, parameters, [{"x": 0.2, "share": 0.9}, {"x": 9.0, "share": 0.1}])
+    told = []
+    found, top = maximise(hill, hill, parameters, [{"x": 0.2, "share": 0.9}, {"x": 9.0, "share": 0.1}], told.append)
+    assert len(told) > 10
+    assert told == sorted(told)
+    assert told[-1] == pytest.approx(1.0)
     assert found["x"] == pytest.approx(3.0, rel=0.02)
     assert found["share"] == pytest.approx(0.4, abs=0.02)
     assert top == pytest.approx(0.0, abs=1e-4)

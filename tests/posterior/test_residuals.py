@@ -38,7 +38,9 @@ def run(*draws, grid=CORRIDOR):
 
 
 def test_a_wall_is_where_readings_are_measured_from():
-    found = residuals_of(predictor_of(run([6])), along(6.0, 5.5, 6.5))
+    told = []
+    found = residuals_of(predictor_of(run([6])), along(6.0, 5.5, 6.5), on_progress=told.append)
+    assert told == pytest.approx([1 / 3, 1.0])
     np.testing.assert_allclose(found.residual_m, [0.0, -0.5, 0.5], atol=2e-3)  # the wall's middle is 6 m away
     np.testing.assert_allclose(found.ends_world, [[6.5, 0.5], [6.0, 0.5], [7.0, 0.5]])
     np.testing.assert_array_equal(found.beams, [0, 1, 2])

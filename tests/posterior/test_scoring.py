@@ -25,7 +25,12 @@ def below(z):
 def test_three_beams_by_hand():
     z = np.array([1.05, 2.4, np.inf])
     scans = bm.Scans(np.tile([-1.0, 0.5, 0.0], (3, 1)), [0.0], z[:, None], max_range_m=4.0)
-    found = score_prediction(Predictor(GRID, fixed_maps(np.array([[0.3, 0.5]])), SENSOR, 0.0), scans)
+    told = []
+    found = score_prediction(
+        Predictor(GRID, fixed_maps(np.array([[0.3, 0.5]])), SENSOR, 0.0), scans, on_progress=told.append
+    )
+    assert told == sorted(told)
+    assert told[-1] == pytest.approx(1.0)
     p_none = 1.0 - below(4.0)
     density = [0.1 / 4 + 0.72 * (0.3 * stats.norm.pdf(r, 1.0, 0.1) + 0.35 * stats.norm.pdf(r, 2.0, 0.1)) for r in z[:2]]
     assert (found.beams, found.scans) == (3, 3)

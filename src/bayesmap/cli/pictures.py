@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -111,7 +112,9 @@ def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
     return log_odds_as_usual(hits.astype(float), passes.astype(float), {}), hits + passes > 0
 
 
-def misses(run: Run, scans: Scans, what: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def misses(
+    run: Run, scans: Scans, what: str, on_progress: Callable[[float], None]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """End points of beams, metres, (n, 2), and how badly each was predicted, (n,).
 
     That is reading minus predicted median in metres for "residuals", and minus the log score in nats for "surprise".
@@ -119,7 +122,7 @@ def misses(run: Run, scans: Scans, what: str) -> tuple[NDArray[np.float64], NDAr
     from bayesmap.posterior.predictor import predictor_of
     from bayesmap.posterior.residuals import residuals_of
 
-    found = residuals_of(predictor_of(run.posterior), scans)
+    found = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)
     return found.ends_world, found.residual_m if what == "residuals" else found.surprise_nats
 
 

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from bayesmap.api import Event
 
 Tell = Callable[["Event"], None]
+Show = Callable[[str, str, int, int, "float | None"], None]
+"""Takes what is done now, what is counted, how many of how many, and the log joint where there is one."""
 
 STAGES = {
     "compile": ("compiling kernels, once", "kernels"),
@@ -41,8 +43,21 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
         talk: whether a bar may be drawn.
         begin: what happens before the first event.
     """
+    with _bar(talk, begin) as show:
+        yield lambda event: show(*STAGES[event.stage], event.done, event.total, event.log_joint)
+
+
+@contextlib.contextmanager
+def share(talk: Talk, name: str) -> Iterator[Callable[[float], None]]:
+    """The same for work that tells which share of it is done, from 0 to 1."""
+    with _bar(talk, name) as show:
+        yield lambda done: show(name, "%", round(1000 * done), 1000, None)
+
+
+@contextlib.contextmanager
+def _bar(talk: Talk, begin: str) -> Iterator[Show]:
     if not talk.draws_bar:
-        yield lambda event: None
+        yield lambda name, unit, done, total, log_joint: None
         return
     # Loaded here alone: a tenth of a second that pipelines and batch jobs do not have to pay.
     from rich.console import Console
@@ -64,23 +79,19 @@ def progress(talk: Talk, begin: str) -> Iterator[Tell]:
         # checkpoint has come between.
         clocks: dict[tuple[str, int], TaskID] = {}
 
-        def tell(event: Event) -> None:
+        def show(name: str, unit: str, done: int, total: int, log_joint: float | None) -> None:
             nonlocal shown
-            name, unit = STAGES[event.stage]
-            clock = (unit, event.total)
+            clock = (unit, total)
             if clock not in clocks:
-                clocks[clock] = bar.add_task(name, total=event.total, completed=event.done, count="", log_joint="")
+                clocks[clock] = bar.add_task(name, total=total, completed=done, count="", log_joint="")
             if shown != clocks[clock]:
                 bar.update(shown, visible=False)
                 shown = clocks[clock]
-            amount = f"{event.done:,}/{event.total:,} {unit}"
-            count = f"{100 * event.done // max(event.total, 1)} %" if unit == "%" else amount
-            joint = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
-            bar.update(
-                shown, description=name, completed=event.done, count=f"{count} ETA", log_joint=joint, visible=True
-            )
+            count = f"{100 * done // max(total, 1)} %" if unit == "%" else f"{done:,}/{total:,} {unit}"
+            joint = "" if log_joint is None else f"log joint {log_joint:,.1f}"
+            bar.update(shown, description=name, completed=done, count=f"{count} ETA", log_joint=joint, visible=True)
 
-        yield tell
+        yield show
 
 
 @contextlib.contextmanager

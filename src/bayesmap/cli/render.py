@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.progress import share
 from bayesmap.cli.reading import heldout_scans
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -88,7 +89,8 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
         if heldout is None:
             raise BadInput(f"{what}: that of scans which the run did not see; name their log by --heldout")
         scans = heldout_scans(run, heldout, values, values["holdout"])
-        ends, numbers_shown = pictures.misses(run, scans, what)
+        with share(call.talk, "predicting held-out beams") as tell:
+            ends, numbers_shown = pictures.misses(run, scans, what, tell)
         scale = surprise_scale(numbers_shown) if what == "surprise" else None
         write_figure(residuals_figure(grid, mean, ends, numbers_shown, observed, scale=scale), target)
     elif what == "log-odds":

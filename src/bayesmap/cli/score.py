@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.progress import progress, share
 from bayesmap.cli.reading import heldout_scans
 from bayesmap.cli.talk import write_out
 from bayesmap.errors import BadInput
@@ -56,7 +57,8 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
         raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
     heldout = heldout_scans(run, log, values, every)
     call.talk.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
-    rows: list[tuple[str, Score]] = [(_name(run), score(run, heldout, seed=values["seed"]))]
+    with share(call.talk, f"scoring the {_name(run)}") as tell:
+        rows: list[tuple[str, Score]] = [(_name(run), score(run, heldout, seed=values["seed"], on_progress=tell))]
     fits: list[Fitted] = []
     if compare:
         for fit, found in _baselines(call, run, heldout, values["seed"]):
@@ -85,12 +87,15 @@ def _baselines(call: Call, run: Run, heldout: Scans, seed: int) -> list[tuple[Fi
     from bayesmap.posterior.scoring import score_prediction
 
     train, grid = run.posterior.scans, run.grid
-    folds = make_folds(train, grid)
+    with progress(call.talk, "tracing beams"):
+        folds = make_folds(train, grid)
     found = []
     for baseline in BASELINES:
         call.talk.say(f"fitting {baseline.name} to the run's own scans")
-        fit = fit_baseline(baseline, train, grid, folds)
-        found.append((fit, score_prediction(fit.predictor, heldout, seed=seed)))
+        with share(call.talk, f"fitting {baseline.name}") as tell:
+            fit = fit_baseline(baseline, train, grid, folds, tell)
+        with share(call.talk, f"scoring {baseline.name}") as tell:
+            found.append((fit, score_prediction(fit.predictor, heldout, seed=seed, on_progress=tell)))
     return found
 
 

@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.model.defaults import HIT_DEPTH, default_sensor
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.tuning import SENSOR, Parameter, Values, maximise, sensor_of
+from bayesmap.posterior.shares import Tell, nobody, parts
+from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
 from bayesmap.sensor.crossings import Crossings
 from bayesmap.sensor.model import RangeLimits
 from bayesmap.world.grid import Grid
@@ -197,7 +198,9 @@ def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, va
     return total / beams
 
 
-def fit_baseline(baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None) -> Fitted:
+def fit_baseline(
+    baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None, on_progress: Tell = nobody
+) -> Fitted:
     """Fit a baseline's sensor, hit depth and own parameters on the training scans alone.
 
     Args:
@@ -205,6 +208,7 @@ def fit_baseline(baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[F
         train: the scans that the map is made from.
         grid: its cells.
         folds: of `make_folds`, to share between baselines.
+        on_progress: told which share is done, as far as that can be known of a search.
     """
     from bayesmap.kernels.counts import count_hits
 
@@ -220,7 +224,8 @@ def fit_baseline(baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[F
     starts = [sensor | dict(own) for own in baseline.starts for sensor in (sensible, wary)]
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: -(-len(folds) // THIN)]
     best: tuple[float, Values, float | None] | None = None
-    for dof in NOISES:
+    climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISES) - 1)
+    for dof, tell in zip(NOISES, parts(on_progress, *climbs), strict=True):
         # Heavy tails start where normal noise ended: the rest is nearly the same.
         begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
         values, score = maximise(
@@ -228,6 +233,7 @@ def fit_baseline(baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[F
             partial(inner_score, rough, baseline, dof),
             (*SENSOR, *baseline.own),
             begin,
+            tell,
         )
         if best is None or score > best[0]:
             best = score, values, dof

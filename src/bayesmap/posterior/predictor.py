@@ -42,12 +42,14 @@ class Predictor:
         batches: gives the draws.
         sensor: the law of a reading given where its beam stops.
         hit_depth: where in a plain cell a beam stops, as a fraction of its chord.
+        draws: how many there are.
     """
 
     grid: Grid
     batches: Batches
     sensor: SensorModel
     hit_depth: float
+    draws: int = 1
 
 
 def fixed_maps(stop: NDArray[np.floating]) -> Batches:
@@ -72,7 +74,9 @@ def predictor_of(posterior: Posterior | FieldPosterior, sensor: SensorModel | No
             "bayesmap's; pass sensor="
         )
     batches = _of_field(posterior, sensor) if isinstance(posterior, FieldPosterior) else _of_walls(posterior)
-    return Predictor(posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]))
+    return Predictor(
+        posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]), posterior.log_likelihood.size
+    )
 
 
 def _of_walls(posterior: Posterior) -> Batches:

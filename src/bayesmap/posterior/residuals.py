@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor
+from bayesmap.posterior.shares import Tell, nobody, parts, watched
 from bayesmap.sensor.model import RangeLimits
 from bayesmap.world.scans import Reading, Scans
 
@@ -32,13 +33,14 @@ class Residuals:
     beams: NDArray[np.intp]
 
 
-def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu") -> Residuals:
+def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: Tell = nobody) -> Residuals:
     """Predict every beam and compare; too close and invalid readings have no place on a map and are left out.
 
     Args:
         predictor: what predicts.
         scans: held out.
         device: where to compute.
+        on_progress: told which share is done.
 
     Raises:
         BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
@@ -52,10 +54,13 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu") -> Res
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     crossings, touched = trace_crossings(scans, predictor.grid, device=device).numbered()
     where = crossings.distance_m(predictor.hit_depth)
-    law = mix_stops(crossings, where, predictor.batches(touched), device=device)
+    draws = predictor.draws
+    mixing, forecasting = parts(on_progress, 0.5, 1.0)
+    law = mix_stops(crossings, where, watched(predictor.batches(touched), draws, mixing), device=device)
     median_m = range_quantiles(law, np.array([0.5]), predictor.sensor, limits, device)[:, 0]
     ranges = scans.ranges_m.ravel()
-    found = forecast(crossings, where, predictor.batches(touched), ranges, predictor.sensor, limits, device=device)
+    batches = watched(predictor.batches(touched), draws, forecasting)
+    found = forecast(crossings, where, batches, ranges, predictor.sensor, limits, device=device)
     return compare(scans, median_m, found.log_density)
 
 

@@ -22,12 +22,17 @@ from bayesmap.posterior.calibration import (
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
+from bayesmap.posterior.shares import Tell, nobody, parts, watched
 from bayesmap.sensor.describe import describe
 from bayesmap.sensor.model import RangeLimits, SensorModel
 from bayesmap.world.scans import Reading, Scans
 
 LEVELS = (0.5, 0.8, 0.95)
 BINS = 20
+
+MIX, QUANTILES, EVENTS = 0.5, 12.0, 6.0
+"""How long parts of a score take, by the time in which a draw forecasts its readings: mixing a draw, and two parts for
+all draws together."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +126,9 @@ def _number(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu") -> Score:
+def score_prediction(
+    predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu", on_progress: Tell = nobody
+) -> Score:
     """Score a prediction on scans that had no part in it.
 
     Args:
@@ -129,6 +136,7 @@ def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, devic
         scans: held out.
         seed: of the randomised transform and of the bootstrap.
         device: where to compute.
+        on_progress: told which share is done.
 
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
@@ -144,11 +152,16 @@ def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, devic
     sensor, ranges = predictor.sensor, scans.ranges_m.ravel()
     crossings, touched = trace_crossings(scans, predictor.grid, device=device).numbered()
     where = crossings.distance_m(predictor.hit_depth)
-    found = forecast(crossings, where, predictor.batches(touched), ranges, sensor, limits, device=device)
-    law = mix_stops(crossings, where, predictor.batches(touched), device=device)
+    draws = predictor.draws
+    forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
+    batches = watched(predictor.batches(touched), draws, forecasting)
+    found = forecast(crossings, where, batches, ranges, sensor, limits, device=device)
+    law = mix_stops(crossings, where, watched(predictor.batches(touched), draws, mixing), device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
     quantiles = range_quantiles(law, np.array(ends), sensor, limits, device)[valid]
+    at_quantiles(1.0)
     chance, stopped = first_hit_events(law, ranges, sensor, limits, device)
+    at_events(1.0)
 
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
     blocks = Blocks.make(scan[valid], seed)
@@ -189,11 +202,16 @@ def score_prediction(predictor: Predictor, scans: Scans, *, seed: int = 0, devic
 
 
 def score_posterior(
-    posterior: Posterior | FieldPosterior, scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0
+    posterior: Posterior | FieldPosterior,
+    scans: Scans,
+    sensor: SensorModel | None = None,
+    *,
+    seed: int = 0,
+    on_progress: Tell = nobody,
 ) -> Score:
     """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
 
     Raises:
         BadInput: as `score_prediction` and `predictor_of`.
     """
-    return score_prediction(predictor_of(posterior, sensor), scans, seed=seed)
+    return score_prediction(predictor_of(posterior, sensor), scans, seed=seed, on_progress=on_progress)

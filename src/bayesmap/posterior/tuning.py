@@ -13,13 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
+from bayesmap.posterior.shares import Tell, nobody, parts
 from bayesmap.sensor.mixture import BeamMixture
 from bayesmap.sensor.noise import AdditiveNoise, Gaussian, StudentT
 
 Values = dict[str, float]
 
+LAST_CLIMB = 8.0
+"""How long the last climb takes, by the others: its score is not a cheap likeness."""
+
 STEP = 2e-3
 """Of the numeric gradient, in logarithms or logits: stops are kept in single precision, whose noise it must exceed."""
+
+GRADIENTS = 20
+"""That a climb takes, more or less: to say how far it is."""
 
 ROUGH, FINE = 1e-4, 1e-6
 """Relative gain in score at which a climb ends: from every start, and then from the best place found."""
@@ -75,6 +82,7 @@ def maximise(
     rough_score: Callable[[Values], float],
     parameters: Sequence[Parameter],
     starts: Sequence[Mapping[str, float]],
+    on_progress: Tell = nobody,
 ) -> tuple[Values, float]:
     """The values of the highest score found, and that score.
 
@@ -83,21 +91,34 @@ def maximise(
         rough_score: a cheap likeness of it, climbed from every start; the score itself is climbed from the best end.
         parameters: what may vary.
         starts: values of all of them.
+        on_progress: told which share is done, as far as that can be known of a search.
     """
     names = [p.name for p in parameters]
 
     def values_at(point: NDArray[np.float64]) -> Values:
         return {n: p.outer(x) for n, p, x in zip(names, parameters, point.tolist(), strict=True)}
 
-    def climb(what: Callable[[Values], float], start: Mapping[str, float], tolerance: float) -> tuple[Values, float]:
+    def climb(
+        what: Callable[[Values], float], start: Mapping[str, float], tolerance: float, tell: Tell
+    ) -> tuple[Values, float]:
+        usual, calls = GRADIENTS * (len(parameters) + 1), 0
+
+        def descend(point: NDArray[np.float64]) -> float:
+            nonlocal calls
+            calls += 1
+            tell(min(calls / usual, 1.0))
+            return -what(values_at(point))
+
         found = optimize.minimize(
-            lambda x: -what(values_at(x)),
+            descend,
             np.array([p.inner(start[p.name]) for p in parameters]),
             method="L-BFGS-B",
             bounds=[(p.inner(p.low), p.inner(p.high)) for p in parameters],
             options={"eps": STEP, "ftol": tolerance, "maxiter": 100, "maxfun": 3000},
         )
+        tell(1.0)
         return values_at(found.x), -float(found.fun)
 
-    rough, _ = max((climb(rough_score, start, ROUGH) for start in starts), key=lambda found: found[1])
-    return climb(score, rough, FINE)
+    *low, last = parts(on_progress, *(1.0 for _ in starts), LAST_CLIMB)
+    rough = [climb(rough_score, start, ROUGH, tell) for start, tell in zip(starts, low, strict=True)]
+    return climb(score, max(rough, key=lambda found: found[1])[0], FINE, last)
