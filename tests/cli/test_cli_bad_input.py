@@ -115,6 +115,21 @@ def test_every_default_keeps_its_rule():
     assert RULES.keys() <= {key.name for keys in SECTIONS.values() for key in keys}
 
 
+def test_a_scan_that_is_nowhere_near_the_others_is_named(office, tmp_path):
+    lines = office.read_text().splitlines()
+    wild = [i for i, line in enumerate(lines) if line.startswith("ROBOTLASER1")][5]
+    words = lines[wild].split()
+    for x in (-14, -11):  # the laser's and the robot's
+        words[x] = "1e6"
+    lines[wild] = " ".join(words)
+    message = refuse("infer", log(tmp_path, "\n".join(lines) + "\n"), "-o", tmp_path / "run")
+    assert re.search(
+        r"grid: covering the scans would take .* cells: scan 5 \(at .* s\) was taken at \(1e\+06, ", message
+    )
+    assert "correct its pose in the log or leave it out, or name the cells yourself (--grid)" in message
+    assert not (tmp_path / "run").exists()
+
+
 def test_missing_and_truncated_logs(office, tmp_path):
     assert "no such file" in refuse("infer", tmp_path / "none.log")
     cut = tmp_path / "cut.log.gz"

@@ -44,7 +44,7 @@ class Grid:
         nx, ny = (int(n) for n in self.shape)
         if nx * ny > MAX_CELLS:
             raise BadInput(
-                f"grid: {nx} x {ny} cells is over the limit of {MAX_CELLS:,}; "
+                f"grid: {_large(nx, ny)} is over the limit of {MAX_CELLS:,}; "
                 "use a coarser resolution, or check that ranges and poses are in metres"
             )
         if not (math.isfinite(self.resolution) and self.resolution > 0):
@@ -97,7 +97,8 @@ class Grid:
             margin_m: free border around poses and hits.
 
         Raises:
-            BadInput: no scan at all, or an extent whose grid is over `MAX_CELLS` cells.
+            BadInput: no scan at all, or an extent whose grid is over `MAX_CELLS` cells; if single scans lie so far out
+                that it must be their fault, the message names the worst of them.
         """
         if not (math.isfinite(resolution) and resolution > 0):
             raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
@@ -107,4 +108,17 @@ class Grid:
         low = np.floor((points.min(axis=0) - margin_m) / resolution)
         high = np.ceil((points.max(axis=0) + margin_m) / resolution)
         shape = (int(high[0] - low[0]), int(high[1] - low[1]))
+        if shape[0] * shape[1] > MAX_CELLS:
+            from bayesmap.world.outlying import accusation, outlying
+
+            wrong = outlying(scans)
+            if len(wrong):
+                others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
+                what = accusation(scans, int(wrong[0]))
+                raise BadInput(f"grid: covering the scans would take {_large(*shape)}: {what}{others}")
         return cls(shape=shape, resolution=resolution, origin=(low[0] * resolution, low[1] * resolution))
+
+
+def _large(nx: int, ny: int) -> str:
+    """A size that may have hundreds of digits."""
+    return f"{nx:.6g} x {ny:.6g} cells"
