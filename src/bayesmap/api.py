@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bayesmap.assembly import Assembly
 from bayesmap.errors import BadInput, check_count
-from bayesmap.field_inference import FIT, FieldJob, fit_sensor, infer_field
+from bayesmap.field_inference import FIT, FieldJob, default_draws, fit_sensor, infer_field
 from bayesmap.field_run import FieldRun
 from bayesmap.inference.block import BlockGibbs
 from bayesmap.inference.chain import Chains, Progress, Schedule, run_chains
@@ -94,8 +94,9 @@ def infer(
         order: of the cells or blocks in a sweep: "radial", "raster" or "random".
         chains: how many Markov chains; the other methods give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
-        draws: maps that each chain keeps; by default 1000, or 100 of `Beta` and `Surface`, whose draws are larger
-            and mix in tens of sweeps; but none for "propagate", whose answer is the marginals.
+        draws: maps that each chain keeps; by default 1000, or of `Beta` and `Surface`, whose draws are larger and mix
+            in tens of sweeps, 50 to 200, the more the fewer beams there are (`default_draws`); but none for
+            "propagate", whose answer is the marginals.
         thin: sweeps from one kept map to the next.
         seed: of all random numbers.
         start: "prior", "zeros", "ones", "propagate", or a map; by default "propagate" on maps of more than 10 000
@@ -119,15 +120,16 @@ def infer(
     """
     if method not in get_args(Method):
         raise BadInput(f"infer: method must be one of {', '.join(get_args(Method))}, got {method!r}")
-    field = isinstance(prior, CellPrior)
-    if draws is None:
-        draws = 0 if method == "propagate" else 100 if field else 1000
+    chains = check_count("infer", "chains", chains, 1)
+    if draws is None and isinstance(prior, CellPrior):
+        draws = default_draws(scans.n_beams, grid.n_cells, chains)
+    elif draws is None:
+        draws = 0 if method == "propagate" else 1000
     schedule = Schedule(
         check_count("infer", "warmup", warmup, 0),
         check_count("infer", "draws", draws, 0),
         check_count("infer", "thin", thin, 1),
     )
-    chains = check_count("infer", "chains", chains, 1)
     seed = check_count("infer", "seed", seed, 0)
     particles = check_count("infer", "particles", particles, 1)
     rounds = check_count("infer", "rounds", rounds, 1)

@@ -30,6 +30,11 @@ from bayesmap.world.scans import Scans
 
 FIT = "fit"
 FIT_SWEEPS = 30
+FEWEST_DRAWS, MOST_DRAWS = 50, 200
+BEAMS_OF_FEWEST = 100_000
+MOST_DRAW_BYTES = 1 << 30
+"""Of all chains' draws, if beams were to touch every cell of the grid."""
+BYTES_A_CELL = 4
 PLAIN_SPREAD = 0.3
 """Where in a plain cell a beam stops is not known to better than this part of its edge: noise that a fit starts
 from."""
@@ -49,6 +54,17 @@ class FieldJob:
     hit_depth: float
     threads: int | None
     device: str
+
+
+def default_draws(beams: int, cells: int, chains: int) -> int:
+    """Draws of each chain where none are asked for: as many as take the time of 50 with 100 000 beams, up to 200.
+
+    The fewer the beams, the less certain the map and the more draws its predictions need (docs/defaults.md); and the
+    sooner a sweep is over. Never fewer than 50, and no more of large grids than fit in 1 GiB.
+    """
+    affordable = BEAMS_OF_FEWEST * FEWEST_DRAWS // max(beams, 1)
+    fitting = MOST_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
+    return max(FEWEST_DRAWS, min(affordable, fitting, MOST_DRAWS))
 
 
 def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:

@@ -167,6 +167,15 @@ def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
     assert f"{log}: line 6 left out" in read.stderr
 
 
+@pytest.mark.parametrize(("cells", "draws"), [("surface", 200), ("reflectivity", 200), ("binary", 100)])
+def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, cells, draws):
+    few = ("--resolution", "0.25", "--chains", "1", "--warmup", "1", "--no-progress", "--json")
+    result = call("infer", office, "-o", tmp_path / "run", "--cells", cells, *few)
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["draws"] == draws
+    assert f"\ndraws = {draws} " in (tmp_path / "run" / "config.toml").read_text()
+
+
 def test_the_intel_building(tmp_path):
     log = intel_log("intel-corrected.log.gz")
     result = call(

@@ -155,6 +155,7 @@ def test_choices_are_those_of_the_library():
     from bayesmap.api import Method
     from bayesmap.cli import cells
     from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
+    from bayesmap.field_inference import FEWEST_DRAWS, MOST_DRAWS
     from bayesmap.inference.propagate import ROUNDS
     from bayesmap.inference.sampler import Order
     from bayesmap.inference.start import Start
@@ -174,6 +175,6 @@ def test_choices_are_those_of_the_library():
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
     # The help says what settings are where the user sets none.
     unset = {key.name: key.unset for key in INFER}
-    assert unset["draws"] == f"{cells.DRAWS['surface']}; {cells.DRAWS['binary']} with binary cells"
+    assert unset["draws"] == f"{FEWEST_DRAWS}, to {MOST_DRAWS} for few beams; binary {cells.BINARY_DRAWS}"
     assert unset["hit_depth"] == f"{cells.HIT_DEPTH['reflectivity']:g}; binary {HIT_DEPTH:g}"
     assert unset["prior"] == f"{P_WALL:g}"

@@ -5,6 +5,7 @@ import pytest
 from field_rooms import GRID, PRIORS, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
+from bayesmap.field_inference import default_draws
 from bayesmap.inference import field_chain
 from bayesmap.inference.chain import Schedule
 from bayesmap.inference.field_gibbs import build_field
@@ -99,6 +100,19 @@ def test_kept_log_likelihoods_are_those_of_the_kept_draws():
         states[:, 0] = run.posterior.reflectivity[0, draw]  # in half precision
         expected = log_likelihoods(paths_of(rays), states, TRUTH, True).sum()
         assert run.posterior.log_likelihood[0, draw] == pytest.approx(expected, abs=2e-3 * scans().n_beams)
+
+
+def test_the_fewer_the_beams_the_more_draws_by_default():
+    grid = 300 * 300
+    assert [default_draws(beams, grid, 4) for beams in (0, 1, 25_000, 50_000, 100_000, 10**9)] == [
+        200, 200, 200, 100, 50, 50,
+    ]  # fmt: skip
+    # On large grids no more than 1 GiB of draws, but always 50
+    assert default_draws(1, 1000 * 1000, 1) == 200
+    assert default_draws(1, 1000 * 1000, 4) == 67
+    assert default_draws(1, 10**8, 4) == 50
+    run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0)
+    assert run.n_draws == default_draws(scans().n_beams, GRID.n_cells, 1) == 200
 
 
 @KINDS

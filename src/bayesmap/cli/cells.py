@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from bayesmap.model.priors import Independent
     from bayesmap.sensor.model import SensorModel
 
-DRAWS = {"binary": 100, "reflectivity": 50, "surface": 50}
-"""Draws of a chain unless the user says otherwise: those of fields are larger, and mix in tens of sweeps."""
+BINARY_DRAWS = 100
+"""Draws of a chain over binary walls unless the user says otherwise."""
 
 HIT_DEPTH = {"binary": 0.25, "reflectivity": 0.5, "surface": 0.5}
 """Where in a cell a beam stops unless the user says otherwise; a surface says so itself."""
@@ -26,15 +26,23 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
     """
     cells = values["cells"]
     out = {**values}
-    out["draws"] = DRAWS[cells] if values["draws"] is None else values["draws"]
     out["hit_depth"] = HIT_DEPTH[cells] if values["hit_depth"] is None else values["hit_depth"]
-    if out["draws"] < 1:  # the library allows none, where marginals are all that is wanted
+    if out["draws"] is not None and out["draws"] < 1:  # the library allows none, where marginals are all that is wanted
         raise BadInput(f"draws: give 1 or more, got {out['draws']}; the picture and the map are made from them")
     if cells != "binary":
         for name, plain in (("prior", None), ("start", None), ("method", "gibbs"), ("order", "radial")):
             if values[name] != plain:
                 raise BadInput(f"{name}: {values[name]!r} is for binary walls; add --cells binary")
     return out
+
+
+def draws_for(values: dict[str, Any], beams: int, cells: int) -> int:
+    """The draws of a chain: as many as the user says, else by the kind of cells, and for fields by beams and cells."""
+    from bayesmap.field_inference import default_draws
+
+    if values["draws"] is not None:
+        return int(values["draws"])
+    return BINARY_DRAWS if values["cells"] == "binary" else default_draws(beams, cells, values["chains"])
 
 
 def prior_of(values: dict[str, Any]) -> Independent | CellPrior:

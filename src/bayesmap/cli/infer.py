@@ -158,6 +158,7 @@ def _infer(
     else:
         _, grid = read_map(values["grid"])
     folder.talk.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
+    values = {**values, "draws": cells.draws_for(values, train.n_beams, grid.n_cells)}
     toml = as_toml({"infer": values})
     with progress(folder.talk, "tracing beams") as tell:
 

@@ -87,7 +87,7 @@ INFER = (
     Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
     Key("chains", int, 4, "Markov chains."),
     Key("warmup", int, 50, "Sweeps of each chain that are not kept."),
-    Key("draws", int, None, "Maps that each chain keeps.", "50; 100 with binary cells"),
+    Key("draws", int, None, "Maps that each chain keeps.", "50, to 200 for few beams; binary 100"),
     Key("thin", int, 1, "Sweeps from one kept map to the next."),
     Key("particles", int, 100_000, "Of the method importance."),
     Key("rounds", int, 20, "Of belief propagation, at most."),
