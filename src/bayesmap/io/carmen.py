@@ -25,10 +25,7 @@ import math
 import os
 import re
 from collections import Counter
-from dataclasses import dataclass, field
-
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import replace
 
 from bayesmap.errors import BadInput
 from bayesmap.io.laser_lines import (
@@ -36,15 +33,13 @@ from bayesmap.io.laser_lines import (
     LASERS,
     STEP_DEG,
     BeamLayout,
-    LaserLine,
     Malformed,
     parse_floats,
     parse_laser,
 )
+from bayesmap.io.laser_scans import LaserScan, reading_of
 from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, SkippedLine
-from bayesmap.io.returns import NoReturn, decode
-from bayesmap.world.scans import Scans
 
 OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "RAWLASER1", "RAWLASER2", "LASER3", "LASER4", "MARKER")
 """Other messages by which a CARMEN log is recognised."""
@@ -77,7 +72,7 @@ def read_carmen(
             ``skip_bad_lines``); the message names the file, the line and the remedy.
     """
     name = os.fspath(path)
-    lasers = {kind: _Laser() for kind in LASERS}
+    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
     messages: Counter[str] = Counter()
     skipped: list[SkippedLine] = []
 
@@ -93,7 +88,8 @@ def read_carmen(
                 kind = _message_name(line)
                 messages[kind] += 1
                 if kind in lasers:
-                    lasers[kind].add(number, parse_laser(kind, line.split()))
+                    laser = parse_laser(kind, line.split())
+                    lasers[kind].append(LaserScan(number, laser, laser.numbers[:3]))
                 elif kind == "ODOM":
                     _check_odometry(line.split())
             except Malformed as problem:
@@ -104,53 +100,10 @@ def read_carmen(
         skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
     del messages[""]
 
-    kind = max(LASERS, key=lambda kind: len(lasers[kind].scans))
-    laser = lasers[kind]
-    if not laser.scans:
+    if not any(lasers.values()):
         raise BadInput(f"{name}: {_why_no_scans(number, messages, skipped)}")
-    layout = laser.commonest_layout()
-    for line_number, scan in zip(laser.lines, laser.scans, strict=True):
-        if scan.layout != layout:
-            bad(line_number, f"{kind} has {scan.layout}, but most scans of this log have {layout}")
-    skipped.sort(key=lambda skip: skip.line)
-
-    scans = [scan for scan in laser.scans if scan.layout == layout]
-    laser_poses = np.array([scan.numbers[:3] for scan in scans])
-    robot_poses = np.array([scan.numbers[3:6] for scan in scans])
-    stamps = np.array([scan.numbers[6] for scan in scans])
-    order = np.argsort(stamps, kind="stable")
-    stated_max_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
-    ranges, coded = decode(np.array([scan.readings_m for scan in scans]), no_return, stated_max_m)
-    limit_m = largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
-    result = Scans(laser_poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
-    return LogReading(
-        path=name,
-        format="carmen",
-        message=kind,
-        scans=result.limited(limit_m),
-        messages=dict(messages),
-        skipped=tuple(skipped),
-        no_return=coded,
-        max_range_origin="readings" if max_range_m is None else "given",
-        laser_offset=laser_offset(laser_poses, robot_poses),
-        reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
-        notes=tuple(_notes(kind, lasers, layout)),
-    )
-
-
-@dataclass
-class _Laser:
-    """The scans of one kind of message, as they come."""
-
-    lines: list[int] = field(default_factory=list)
-    scans: list[LaserLine] = field(default_factory=list)
-
-    def add(self, line: int, scan: LaserLine) -> None:
-        self.lines.append(line)
-        self.scans.append(scan)
-
-    def commonest_layout(self) -> BeamLayout:
-        return Counter(scan.layout for scan in self.scans).most_common(1)[0][0]
+    reading, layout = reading_of(name, "carmen", lasers, bad, skipped, messages, no_return, max_range_m)
+    return replace(reading, notes=(*reading.notes, *_notes(reading.message, layout)))
 
 
 def _message_name(line: bytes) -> str:
@@ -177,31 +130,8 @@ def _check_odometry(words: list[bytes]) -> None:
         raise Malformed("ODOM has a number that is not finite")
 
 
-def largest_range_m(name: str, ranges: NDArray[np.float64], coded: NoReturn) -> float:
-    """The largest hit, rounded up to a whole metre, but no more than the no-return code."""
-    hits = ranges[np.isfinite(ranges)]
-    code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
-    largest = min(math.ceil(hits.max()) if hits.size else math.inf, code)
-    if math.isinf(largest):
-        raise BadInput(f"{name}: no reading of {ranges.size} is a range; give the sensor's --max-range")
-    return float(largest)
-
-
-def laser_offset(laser_poses: NDArray[np.float64], robot_poses: NDArray[np.float64]) -> tuple[float, float, float]:
-    """Median pose of the laser in the robot's frame, from poses of both, shape (S, 3)."""
-    dx, dy, dyaw = (laser_poses - robot_poses).T
-    cos, sin = np.cos(robot_poses[:, 2]), np.sin(robot_poses[:, 2])
-    yaw = np.arctan2(np.sin(dyaw), np.cos(dyaw))
-    x, y, turn = (float(np.median(v)) for v in (cos * dx + sin * dy, cos * dy - sin * dx, yaw))
-    return x, y, turn
-
-
-def _notes(kind: str, lasers: dict[str, _Laser], layout: BeamLayout) -> list[str]:
-    notes = [
-        f"the log also holds {len(other.scans)} {name} scans, which were not used: {kind} has more or as many"
-        for name, other in lasers.items()
-        if other.scans and name != kind
-    ]
+def _notes(kind: str, layout: BeamLayout) -> list[str]:
+    notes = []
     if kind in IMPLICIT and layout.beams not in STEP_DEG:
         notes.append(f"the log does not say its beams' angles; taken as {layout} (180 degrees in all)")
     if kind in IMPLICIT and layout.beams in (400, 401):

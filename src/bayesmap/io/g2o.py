@@ -14,32 +14,22 @@ from __future__ import annotations
 import math
 import os
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.carmen import largest_range_m, laser_offset
-from bayesmap.io.laser_lines import LASERS, LaserLine, Malformed, parse_floats, parse_laser
+from bayesmap.io.laser_lines import LASERS, Malformed, parse_floats, parse_laser
+from bayesmap.io.laser_scans import LaserScan, reading_of
 from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, SkippedLine
-from bayesmap.io.returns import decode
-from bayesmap.world.scans import Scans
 
 VERTEX = b"VERTEX_SE2"
 KNOWN = (VERTEX, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
 
 FURTHEST_M = 1e7
-
-
-@dataclass(frozen=True, eq=False)
-class _Scan:
-    line: int
-    kind: str
-    laser: LaserLine
-    pose: NDArray[np.float64]
 
 
 def read_g2o(
@@ -51,7 +41,7 @@ def read_g2o(
 ) -> LogReading:
     """Read the scans of a g2o file, plain or gzipped. Arguments and errors are those of `bayesmap.io.carmen`."""
     name = os.fspath(path)
-    scans: list[_Scan] = []
+    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
     counts: Counter[str] = Counter()
     skipped: list[SkippedLine] = []
     vertex: NDArray[np.float64] | None = None
@@ -77,7 +67,7 @@ def read_g2o(
                     laser = parse_laser(kind, words)
                     if vertex is None:
                         raise Malformed(f"{kind} does not follow a VERTEX_SE2 that says where it was taken")
-                    scans.append(_Scan(number, kind, laser, _on(vertex, laser.numbers)))
+                    lasers[kind].append(LaserScan(number, laser, _on(vertex, laser.numbers)))
             except Malformed as problem:
                 bad(number, str(problem))
     except DamagedFile:
@@ -85,48 +75,14 @@ def read_g2o(
             raise
         skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
 
-    if not scans:
+    if not any(lasers.values()):
         held = ", ".join(f"{count} {kind}" for kind, count in counts.most_common(5)) or "nothing"
         raise BadInput(
             f"{name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds {held}"
             + (f"; {len(skipped)} lines were malformed, first line {skipped[0].line}" if skipped else "")
         )
-    kind = max(LASERS, key=lambda kind: sum(scan.kind == kind for scan in scans))
-    notes = [
-        f"the file also holds {n} {other} scans, which were not used: {kind} has more or as many"
-        for other in LASERS
-        if other != kind and (n := sum(scan.kind == other for scan in scans))
-    ]
-    scans = [scan for scan in scans if scan.kind == kind]
-    layout = Counter(scan.laser.layout for scan in scans).most_common(1)[0][0]
-    for scan in scans:
-        if scan.laser.layout != layout:
-            bad(scan.line, f"{kind} has {scan.laser.layout}, but most scans of this file have {layout}")
-    scans = [scan for scan in scans if scan.laser.layout == layout]
-    skipped.sort(key=lambda skip: skip.line)
-
-    numbers = np.array([scan.laser.numbers for scan in scans])
-    stamps = numbers[:, 6]
-    order = np.argsort(stamps, kind="stable")
-    stated = max((s.laser.max_range_m for s in scans if s.laser.max_range_m is not None), default=None)
-    ranges, coded = decode(np.array([scan.laser.readings_m for scan in scans]), no_return, stated)
-    limit_m = largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
-    poses = np.array([scan.pose for scan in scans])
-    result = Scans(poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
-    return LogReading(
-        path=name,
-        format="g2o",
-        message=kind,
-        scans=result.limited(limit_m),
-        messages=dict(counts),
-        skipped=tuple(skipped),
-        no_return=coded,
-        max_range_origin="readings" if max_range_m is None else "given",
-        laser_offset=laser_offset(numbers[:, :3], numbers[:, 3:6]),
-        reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
-        notes=tuple(notes),
-        pose_source="VERTEX_SE2",
-    )
+    reading, _ = reading_of(name, "g2o", lasers, bad, skipped, counts, no_return, max_range_m)
+    return replace(reading, pose_source="VERTEX_SE2")
 
 
 def _vertex(words: list[bytes]) -> NDArray[np.float64]:

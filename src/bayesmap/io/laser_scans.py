@@ -1,0 +1,113 @@
+"""From the laser lines of a log to its scans: one layout, in order of time, typed readings, a largest range.
+
+What CARMEN logs and g2o's files have in common once their lines are read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.laser_lines import LASERS, BeamLayout, LaserLine
+from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.returns import NoReturn, decode
+from bayesmap.world.scans import Scans
+
+
+@dataclass(frozen=True, eq=False)
+class LaserScan:
+    """A scan of a log.
+
+    Attributes:
+        line: where it is, counted from 1.
+        laser: what the line says.
+        pose_world: of the laser: x, y in metres, yaw in radians, shape (3,).
+    """
+
+    line: int
+    laser: LaserLine
+    pose_world: NDArray[np.float64]
+
+
+def reading_of(
+    name: str,
+    log_format: str,
+    lasers: Mapping[str, Sequence[LaserScan]],
+    bad: Callable[[int, str], None],
+    skipped: Sequence[SkippedLine],
+    messages: Mapping[str, int],
+    no_return: float | None,
+    max_range_m: float | None,
+) -> tuple[LogReading, BeamLayout]:
+    """The reading of a log by the kind of message that has most scans, and the commonest layout among those.
+
+    Args:
+        name: of the file.
+        log_format: its format.
+        lasers: scans by their kind of message, in the order of the file; at least one.
+        bad: told of the line of each scan with another layout.
+        skipped: the lines that it, or who read the file, has left out.
+        messages: how many lines of each kind there are.
+        no_return: the number that means no return; None to find it.
+        max_range_m: the sensor's largest range; None for the longest hit.
+
+    Raises:
+        BadInput: no reading is a range, and the largest range is not given.
+    """
+    kind = max(LASERS, key=lambda kind: len(lasers[kind]))
+    layout = Counter(scan.laser.layout for scan in lasers[kind]).most_common(1)[0][0]
+    for scan in lasers[kind]:
+        if scan.laser.layout != layout:
+            bad(scan.line, f"{kind} has {scan.laser.layout}, but most scans of this log have {layout}")
+    scans = [scan for scan in lasers[kind] if scan.laser.layout == layout]
+    others = {other: len(lasers[other]) for other in LASERS if other != kind and lasers[other]}
+
+    numbers = np.array([scan.laser.numbers for scan in scans])
+    poses, stamps = np.array([scan.pose_world for scan in scans]), numbers[:, 6]
+    order = np.argsort(stamps, kind="stable")
+    stated_max_m = max((s.laser.max_range_m for s in scans if s.laser.max_range_m is not None), default=None)
+    ranges, coded = decode(np.array([scan.laser.readings_m for scan in scans]), no_return, stated_max_m)
+    limit_m = _largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
+    result = Scans(poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
+    reading = LogReading(
+        path=name,
+        format=log_format,
+        message=kind,
+        scans=result.limited(limit_m),
+        messages=dict(messages),
+        skipped=tuple(sorted(skipped, key=lambda skip: skip.line)),
+        no_return=coded,
+        max_range_origin="readings" if max_range_m is None else "given",
+        laser_offset=_laser_offset(numbers[:, :3], numbers[:, 3:6]),
+        reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
+        notes=tuple(
+            f"the log also holds {count} {other} scans, which were not used: {kind} has more or as many"
+            for other, count in others.items()
+        ),
+    )
+    return reading, layout
+
+
+def _largest_range_m(name: str, ranges: NDArray[np.float64], coded: NoReturn) -> float:
+    """The largest hit, rounded up to a whole metre, but no more than the no-return code."""
+    hits = ranges[np.isfinite(ranges)]
+    code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
+    largest = min(math.ceil(hits.max()) if hits.size else math.inf, code)
+    if math.isinf(largest):
+        raise BadInput(f"{name}: no reading of {ranges.size} is a range; give the sensor's --max-range")
+    return float(largest)
+
+
+def _laser_offset(laser_poses: NDArray[np.float64], robot_poses: NDArray[np.float64]) -> tuple[float, float, float]:
+    """Median pose of the laser in the robot's frame, from poses of both, shape (S, 3)."""
+    dx, dy, dyaw = (laser_poses - robot_poses).T
+    cos, sin = np.cos(robot_poses[:, 2]), np.sin(robot_poses[:, 2])
+    yaw = np.arctan2(np.sin(dyaw), np.cos(dyaw))
+    x, y, turn = (float(np.median(v)) for v in (cos * dx + sin * dy, cos * dy - sin * dx, yaw))
+    return x, y, turn
