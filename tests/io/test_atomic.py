@@ -1,5 +1,7 @@
 import os
+import re
 import signal
+import sqlite3
 import subprocess
 import sys
 
@@ -8,6 +10,7 @@ import pytest
 import bayesmap
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
+from bayesmap.io.atomic_folder import write_whole_folder
 
 
 def test_what_the_block_wrote_becomes_the_file(tmp_path):
@@ -34,6 +37,37 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path):
         write_half()
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("failure", "reason"),
+    [
+        (OSError(28, "No space left on device"), "No space left on device"),
+        (RuntimeError("NetCDF: HDF error"), "writing failed; is the disk full? (NetCDF: HDF error)"),
+        (sqlite3.OperationalError("disk I/O error"), "writing failed; is the disk full? (disk I/O error)"),
+    ],
+)
+@pytest.mark.parametrize("write", [write_whole, lambda path: write_whole_folder(path, lambda old: True)])
+def test_a_full_disk_is_an_error_that_names_the_file_and_not_the_temporary_one(tmp_path, write, failure, reason):
+    def fail():
+        with write(tmp_path / "run"):
+            raise failure
+
+    with pytest.raises(OSError, match=re.escape(reason)) as raised:
+        fail()
+    assert raised.value.filename == str(tmp_path / "run")
+    assert raised.value.strerror == reason
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_about_another_file_keeps_its_name(tmp_path):
+    def read_something_else():
+        with write_whole(tmp_path / "run"):
+            (tmp_path / "other").read_text()
+
+    with pytest.raises(FileNotFoundError) as raised:
+        read_something_else()
+    assert raised.value.filename == str(tmp_path / "other")
 
 
 def test_the_temporary_file_may_be_replaced_by_the_block(tmp_path):

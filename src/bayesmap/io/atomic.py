@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import secrets
+import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -24,6 +26,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     Raises:
         BadInput: the folder does not exist, or cannot be written to.
+        OSError: writing failed, as on a full disk; it names ``path``.
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
@@ -33,14 +36,30 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     except OSError as error:
         raise BadInput(f"{path}: cannot be written ({error.strerror}); name a file in a folder that is there") from None
     try:
-        yield temporary
-        if target.exists():
-            temporary.chmod(target.stat().st_mode & 0o777)
-        _flush(temporary)
-        os.replace(temporary, target)
-        _flush(target.parent)
+        with naming(path, temporary):
+            yield temporary
+            if target.exists():
+                temporary.chmod(target.stat().st_mode & 0o777)
+            _flush(temporary)
+            os.replace(temporary, target)
+            _flush(target.parent)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
+    """A failure to write becomes an `OSError` that names ``path``, whichever library has met it under which name."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is not None and not str(error.filename).startswith(str(temporary)):
+            raise
+        raise OSError(error.errno or errno.EIO, error.strerror or str(error), os.fspath(path)) from error
+    except (RuntimeError, sqlite3.OperationalError) as error:
+        if isinstance(error, RuntimeError) and not str(error).startswith("NetCDF"):
+            raise
+        raise OSError(errno.EIO, f"writing failed; is the disk full? ({error})", os.fspath(path)) from error
 
 
 def _flush(path: Path) -> None:

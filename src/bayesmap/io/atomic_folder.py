@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bayesmap.errors import BadInput
+from bayesmap.io.atomic import naming
 
 
 @contextlib.contextmanager
@@ -25,6 +26,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
     Raises:
         BadInput: ``path`` is something that may not be replaced, or the folder around it is not there or is not
             writable.
+        OSError: writing failed, as on a full disk; it names ``path``.
     """
     target = Path(os.path.realpath(path))
     if os.path.lexists(target) and not (target.is_dir() and (not any(target.iterdir()) or may_replace(target))):
@@ -40,7 +42,8 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
             f"{path}: cannot be written ({error.strerror}); name a folder inside one that is there, and yours"
         ) from None
     try:
-        yield temporary
+        with naming(path, temporary):
+            yield temporary
         if target.exists():
             os.replace(target, old)
         try:

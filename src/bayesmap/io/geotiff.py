@@ -41,7 +41,7 @@ def write_geotiff(
             be written.
     """
     try:
-        import rasterio  # type: ignore[import-untyped, import-not-found, unused-ignore]
+        from rasterio.io import MemoryFile  # type: ignore[import-untyped, import-not-found, unused-ignore]
         from rasterio.transform import Affine  # type: ignore[import-untyped, import-not-found, unused-ignore]
     except ImportError:
         raise BadInput(f"{path}: GeoTIFF needs rasterio: pip install 'bayesmap[geotiff]'") from None
@@ -49,11 +49,9 @@ def write_geotiff(
     checked = as_layers(layers, grid, observed)
     x0, _, _, y1 = grid.extent_m
     target = Path(path)
-    with (
-        write_whole(target) as partial,
-        rasterio.open(
-            partial,
-            "w",
+    # In memory first: GDAL only prints what goes wrong on a full disk.
+    with write_whole(target) as partial, MemoryFile() as memory:
+        with memory.open(
             driver="GTiff",
             width=grid.shape[0],
             height=grid.shape[1],
@@ -63,9 +61,9 @@ def write_geotiff(
             transform=Affine(grid.resolution, 0.0, x0, 0.0, -grid.resolution, y1),
             compress="deflate",
             interleave="band",
-        ) as file,
-    ):
-        for band, (name, values) in enumerate(checked.items(), start=1):
-            file.write(values.T[::-1], band)
-            file.set_band_description(band, name)
+        ) as file:
+            for band, (name, values) in enumerate(checked.items(), start=1):
+                file.write(values.T[::-1], band)
+                file.set_band_description(band, name)
+        partial.write_bytes(memory.getbuffer())
     return target

@@ -27,7 +27,11 @@ def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: st
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write under another name in the same folder, then rename: readers see the old file or the new one."""
+    """Write under another name in the same folder, then rename: readers see the old file or the new one.
+
+    Raises:
+        OSError: writing failed, as on a full disk; it names ``path``.
+    """
     # Not tempfile: its files are private to the user, and would stay so under the final name.
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     try:
@@ -36,6 +40,7 @@ def write_whole(path: Path, content: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         os.replace(temporary, path)
-    except BaseException:
+    except OSError as error:  # which may name no file, or the temporary one
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from error
+    finally:
         temporary.unlink(missing_ok=True)
-        raise
