@@ -39,8 +39,11 @@ def meeting(state, start, u):
     cov, n = factor @ factor.T, np.array([-u[1], u[0]])
     v2, o = n @ cov @ n, n @ (mean - start)
     gate = 1 / (1 + (o / (2.2 * np.sqrt(v2))) ** 6)
-    distance = u @ (mean - start) - (u @ cov @ n) / v2 * o
-    return m * gate, max(distance, 0.0), np.sqrt(np.linalg.det(cov) / v2)
+    depth = u @ (mean - start)
+    wide = cov + (0.005 * max(depth, 0.0)) ** 2 * np.outer(n, n)  # the beam's direction is known only so well
+    w2 = n @ wide @ n
+    distance = depth - (u @ cov @ n) / w2 * o
+    return m * gate, max(distance, 0.0), np.sqrt(np.linalg.det(wide) / w2)
 
 
 def stops(crossings, states, b):

@@ -11,6 +11,7 @@ import numpy as np
 from scipy import special, stats
 
 GATE_WIDTH = 2.2
+DIRECTION_RAD = 0.005
 
 
 class Paths(NamedTuple):
@@ -46,7 +47,10 @@ def covariances(states):
 
 
 def meet(states, start, direction):
-    """Chance of meeting the surface; mean and variance of where, of a point of it given that it lies on the beam."""
+    """Chance of meeting the surface; mean and variance of where, of a point of it given that it lies on the beam.
+
+    On the beam, or off it by what the direction may be wrong by: the surface is widened across the beam.
+    """
     mean, sigma = states[..., 1:3] - start, covariances(states)
     normal = np.stack([-direction[..., 1], direction[..., 0]], -1)
     offset = (mean * normal).sum(-1)
@@ -54,8 +58,10 @@ def meet(states, start, direction):
     mixed = np.einsum("...i,...ij,...j", direction, sigma, normal)
     along = np.einsum("...i,...ij,...j", direction, sigma, direction)
     chance = 1 / (1 + (offset / (GATE_WIDTH * np.sqrt(across))) ** 6)
-    distance = (mean * direction).sum(-1) - mixed / across * offset
-    return chance, np.maximum(distance, 0.0), np.maximum(along - mixed**2 / across, 0.0)
+    depth = (mean * direction).sum(-1)
+    widened = across + (DIRECTION_RAD * np.maximum(depth, 0.0)) ** 2
+    distance = depth - mixed / widened * offset
+    return chance, np.maximum(distance, 0.0), np.maximum(along - mixed**2 / widened, 0.0)
 
 
 def stops(paths, states, plain):

@@ -45,13 +45,14 @@ def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s(z, d):
 
 
 def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says():
-    """Mean and variance of the normal density on the line, by quadrature."""
+    """Mean and variance of the normal density on the line, by quadrature, the surface widened across the beam."""
     start, angle = np.array([-0.3, 0.15]), 0.1
     u = np.array([np.cos(angle), np.sin(angle)])
     t = np.linspace(-10, 10, 200_001)
     for state in STATES:
         factor = np.array([[state[3], 0.0], [state[4], state[5]]])
-        weight = stats.multivariate_normal(state[1:3], factor @ factor.T).pdf(start + t[:, None] * u)
+        across = np.outer([-u[1], u[0]], [-u[1], u[0]]) * (0.005 * (state[1:3] - start) @ u) ** 2
+        weight = stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
         mean = np.average(t, weights=weight)
         _, distance, variance = meet(state, start, u)
         assert distance == pytest.approx(mean, abs=1e-6)
