@@ -26,7 +26,7 @@ def test_models(text, model):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("laser", "unknown kind 'laser'; known: default, gaussian"),
+        ("laser", "unknown kind 'laser'; known: default, fit (of infer), gaussian"),
         ("gaussian", "gaussian needs its sigma_m, as in gaussian:0.05"),
         ("gaussian:-0.2", "sigma_m must be a positive number of metres, got -0.2"),
         ("gaussian:nan", "sigma_m must be a positive number"),

@@ -28,7 +28,7 @@ def sensor_of(text: str) -> SensorModel | None:
 
     kind, _, rest = text.partition(":")
     if kind not in KINDS:
-        raise BadInput(f"sensor {text!r}: unknown kind {kind!r}; known: default, {', '.join(KINDS)}")
+        raise BadInput(f"sensor {text!r}: unknown kind {kind!r}; known: default, fit (of infer), {', '.join(KINDS)}")
     values = _parameters(text, rest)
     noise_kind = str(values.pop("noise", "gaussian")) if kind == "mixture" else kind
     if noise_kind not in _FIRST:
