@@ -200,6 +200,13 @@ def test_without_a_terminal_every_method_says_what_it_has_done(office, tmp_path,
     assert told.split(" of ")[0] in call("info", tmp_path / "run" / "run.nc").stdout
 
 
+def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--max-range", "0.001")
+    assert result.exit_code == 0, result.stderr
+    assert f"warning: {office}: no reading is a hit" in result.stderr
+    assert "no reading is a hit" not in call("infer", office, "-o", tmp_path / "other", *short).stderr
+
+
 def test_importance_sampling_is_announced_before_its_first_particles(office):
     scans = bm.read_log(office)
     events = []

@@ -127,6 +127,8 @@ def _read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
         f"{log}: {len(scans):,} scans, {scans.n_beams:,} beams, "
         f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {coded}"
     )
+    if counts["hit"] == 0:
+        talk.warn(f"{log}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
     for skip in reading.skipped[: 10 if not talk.verbose else None]:
         talk.say(f"{log}: {skip} left out: {skip.reason}")
     if len(reading.skipped) > 10 and not talk.verbose:

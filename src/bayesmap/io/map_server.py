@@ -205,7 +205,7 @@ def _read_flat_yaml(path: Path) -> dict[str, str]:
             continue
         key, colon, value = (part.strip() for part in line.partition(":"))
         if not colon:
-            raise BadInput(f"{path}: line {number}: expected 'key: value', got {raw.strip()!r}")
+            raise BadInput(f"{path}: line {number}: expected 'key: value', got {raw.strip()[:80]!r}")
         entries[key] = _unquoted(value)
     return entries
 
