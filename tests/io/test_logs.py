@@ -60,7 +60,11 @@ def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
     with pytest.raises(BadInput, match=r"a folder, but not a ROS 2 bag's.*; give a file$"):
         read_log(tmp_path)
     (tmp_path / "b.log.gz").touch()
-    with pytest.raises(BadInput, match=r"; give a file in it, such as b\.log\.gz$"):
+    with pytest.raises(BadInput, match=r"; give what is in it, such as .*/b\.log\.gz$"):
+        read_log(tmp_path)
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "metadata.yaml").touch()  # a bag's folder
+    with pytest.raises(BadInput, match=r"; give what is in it, such as .*/a$"):
         read_log(tmp_path)
 
 

@@ -134,10 +134,10 @@ def format_of(path: str | os.PathLike[str]) -> str:
         if where.is_dir():
             inside = sorted(entry.name for entry in where.iterdir())
             if not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd")) for n in inside):
-                logs = [n for n in inside if n.endswith(ENDINGS)]
+                logs = [n for n in inside if n.endswith(ENDINGS) or (where / n / "metadata.yaml").exists()]
                 raise BadInput(
                     f"{name}: a folder, but not a ROS 2 bag's: metadata.yaml, .db3 and .mcap are missing; "
-                    + (f"give a file in it, such as {logs[0]}" if logs else "give a file")
+                    + (f"give what is in it, such as {where / logs[0]}" if logs else "give a file")
                 )
             return "folder"
         with where.open("rb") as file:
