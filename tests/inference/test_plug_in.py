@@ -6,7 +6,7 @@ from oracle.field_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.inference.field_gibbs import build_field
-from bayesmap.inference.plug_in import end_cells, plug_in, steps
+from bayesmap.inference.plug_in import end_cells, pace, plug_in, steps
 from bayesmap.kernels.rays import trace_rays
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05))
@@ -72,6 +72,20 @@ def test_only_busy_cells_step(problem):
     moved = steps(problem.guess, problem.rays.grid.resolution)[:, :6] != 0
     assert moved[problem.guess.busy].all()
     assert not moved[~problem.guess.busy].any()
+
+
+def test_cells_rest_the_longer_the_further_readings_are(problem):
+    from bayesmap.kernels.stops import IN_A_ROW
+
+    rays, busy = problem.rays, problem.guess.busy
+    ny = rays.grid.shape[1]
+    where = np.stack([rays.touched // ny, rays.touched % ny], axis=-1)
+    nearest = np.abs(where[:, None] - where[busy]).max(axis=-1).min(axis=1)
+    turns = pace(problem.guess)
+    np.testing.assert_array_equal(turns == 0, nearest == 0)
+    np.testing.assert_array_equal(turns == 16, nearest == 1)
+    np.testing.assert_array_equal(turns == 32, nearest > 1)
+    assert set(np.unique(turns) % IN_A_ROW) == {0}  # one candidate for so many cells is enough
 
 
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():

@@ -19,7 +19,7 @@ import warp as wp
 
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stops import AWAKE, GAIN_UNITS, Field
+from bayesmap.kernels.stops import AWAKE, GAIN_UNITS, IN_A_ROW, Field
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
 
 wp.set_module_options({"enable_backward": False})
@@ -146,7 +146,7 @@ def propose(
         turn = (sweep + c) % turns
         if plain == 0 and turn == AT_TURN:
             cell[TRYING] = FRESH
-            field.candidates[c] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
+            field.candidates[c // IN_A_ROW] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
         elif turn % (turns // 2) != 0:
             glance = cell[REFLECTIVITY]
     field.glance[c] = glance
@@ -186,7 +186,7 @@ def settle(
         hits[c] = n_hits
         met[c] = n_met
     else:
-        candidate = field.candidates[c]
+        candidate = field.candidates[c // IN_A_ROW]
         log_ratio = wp.float64(gain) * FROM_UNITS + log_temper(prior, candidate) - log_temper(prior, cell)
         if wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
             cell = candidate

@@ -20,7 +20,7 @@ from bayesmap.kernels.likelihood import sensor_parameters
 from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.random import mix
-from bayesmap.kernels.stops import Field, Rays, draw_stops
+from bayesmap.kernels.stops import IN_A_ROW, Field, Rays, draw_stops
 from bayesmap.sensor.model import KernelParameters, RangeLimits
 from bayesmap.sensor.rays import BeamRays
 
@@ -110,7 +110,7 @@ class FieldChains:
         for state in states:
             field = Field()
             field.cells = as_cells(state, device)
-            field.candidates, field.glance = empty(cells, Cell), empty(cells, wp.float32)
+            field.candidates, field.glance = empty(-(-cells // IN_A_ROW), Cell), empty(cells, wp.float32)
             field.met, field.hits = empty((parts, cells), wp.int32), empty((parts, cells), wp.int32)
             field.gain = empty((parts, cells), wp.int64)
             field.faded = empty(rays.n_beams, wp.float32)

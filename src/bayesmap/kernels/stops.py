@@ -28,6 +28,8 @@ TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
 LEAST = wp.constant(wp.float32(1.0e-30))
 TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
 
+IN_A_ROW = wp.constant(16)
+"""Of so many cells in a row at most one tries a candidate in a sweep: rounds are multiples of it."""
 FAR = wp.constant(-1)  # a stop before the near entries
 AWAKE = wp.constant(wp.float32(-1.0))
 CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
@@ -55,10 +57,10 @@ class Rays:
 
 @wp.struct
 class Field:
-    """One chain: cells, a glance at each (its reflectivity if it rests, else AWAKE) and candidates; what the beams told
-    each cell in this sweep, a row for each part of the beams; and for each beam `fading` of its reading, the entry at
-    which it stopped (its end if nowhere), the distance and variance of that stop, and the log-likelihood of its
-    reading, summed over all stops.
+    """One chain: cells, a glance at each (its reflectivity if it rests, else AWAKE), and a candidate for each
+    `IN_A_ROW` of them; what the beams told each cell in this sweep, a row for each part of the beams; and for each beam
+    `fading` of its reading, the entry at which it stopped (its end if nowhere), the distance and variance of that stop,
+    and the log-likelihood of its reading, summed over all stops.
     """
 
     cells: wp.array(dtype=Cell)
@@ -97,7 +99,7 @@ def pass_by(field: Field, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray
     one = wp.float32(1.0)
     m = cell[0]
     if cell[TRYING] != wp.float32(0.0):
-        other = gate(field.candidates[c], ray)
+        other = gate(field.candidates[c // IN_A_ROW], ray)
         ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
         wp.atomic_add(field.gain, part, c, wp.int64(sign) * in_units(ratio))
         return
@@ -203,7 +205,7 @@ def draw_stops(
         wp.atomic_add(field.hits, part, c, 1)
         if cell[TRYING] != wp.float32(0.0):
             old = meet(cell, ray)
-            new = meet(field.candidates[c], ray)
+            new = meet(field.candidates[c // IN_A_ROW], ray)
             after = wp.max(new.chance * hit_law(law, choice, near, reading, faded, new), LEAST)
             before = wp.max(old.chance * hit_law(law, choice, near, reading, faded, old), LEAST)
             wp.atomic_add(field.gain, part, c, in_units(wp.log(after / before)))
