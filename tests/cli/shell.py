@@ -22,11 +22,20 @@ def call(*arguments: object) -> Result:
     return CliRunner().invoke(cli, [str(a) for a in arguments])
 
 
-def start(*arguments: object, **options: Any) -> subprocess.Popen[str]:
-    """Start a process of its own, as a terminal does: with Ctrl-C in force."""
+def after(statement: str, command: list[str]) -> list[str]:
+    """The command, in a process that first does something to itself that outlives exec.
+
+    Not by `preexec_fn`, which forks: in a test process that has loaded JAX that is a warning, hence an error.
+    """
+    return [sys.executable, "-c", f"import os, sys\n{statement}\nos.execv(sys.argv[1], sys.argv[1:])", *command]
+
+
+def start(*arguments: object, first: str | None = None, **options: Any) -> subprocess.Popen[str]:
+    """Start a process of its own, as a terminal does: with Ctrl-C in force; ``first`` is done as in `after`."""
+    command = [*COMMAND, *map(str, arguments)]
     environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
     return subprocess.Popen(
-        [*COMMAND, *map(str, arguments)],
+        command if first is None else after(first, command),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

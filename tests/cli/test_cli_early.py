@@ -1,12 +1,11 @@
 """Ctrl-C in the first moments, while modules are being loaded: exit code 130 and one line, wherever it comes."""
 
 import os
-import signal
 import subprocess
 import sys
 
 import pytest
-from shell import SOURCE
+from shell import SOURCE, after
 
 PRESS = """
 import os, signal, sys
@@ -27,18 +26,9 @@ def interrupted(module, *arguments, ignoring=False):
     """The exit code and both streams of a process that gets Ctrl-C when it loads a module."""
     command = [sys.executable, "-c", PRESS, module, *map(str, arguments)]
     environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
-
-    def ignore():
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    done = subprocess.run(
-        command,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        preexec_fn=ignore if ignoring else None,
-    )
+    if ignoring:
+        command = after("import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)", command)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout, done.stderr
 
 

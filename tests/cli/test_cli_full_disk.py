@@ -1,8 +1,5 @@
 """Where files can be no longer than a few kilobytes, as on a disk nearly full: one line, and nothing half-written."""
 
-import resource
-import subprocess
-
 import pytest
 from shell import start
 
@@ -11,11 +8,8 @@ LIMIT_BYTES = 4096
 
 def written_on_a_full_disk(*arguments):
     """What a command says whose files are cut short."""
-
-    def cut():
-        resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT_BYTES, LIMIT_BYTES))
-
-    process: subprocess.Popen[str] = start(*arguments, preexec_fn=cut)
+    cut = f"import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, ({LIMIT_BYTES}, {LIMIT_BYTES}))"
+    process = start(*arguments, first=cut)
     out, errors = process.communicate()
     assert process.returncode == 1, errors
     assert out == ""
