@@ -13,6 +13,9 @@ from oracle.field_worlds import copies, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, two_sided
 
 import bayesmap as bm
+from bayesmap.inference.plug_in import pace
+from bayesmap.kernels.cell_draws import AT_TURN
+from bayesmap.kernels.stops import IN_A_ROW
 
 GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
@@ -90,9 +93,11 @@ def test_the_density_and_place_of_the_stop_are_kept(kind):
     np.testing.assert_allclose(where[:, 1], variance[at], rtol=1e-3, atol=1e-7)
 
 
-def tried(field):
-    """Cells that tried a candidate: the one sweep was the first."""
-    return field.candidates.numpy()[:, 3] > 0
+def tried(worlds, field, sweep):
+    """Cells whose turn to try a candidate the one sweep was, and every cell's candidate, if it had one."""
+    turns, cells = pace(worlds.problem.guess), np.arange(worlds.problem.rays.n_cells)
+    some = (turns > 0) & ((sweep + cells) % np.maximum(turns, 1) == AT_TURN)
+    return some, field.candidates.numpy()[cells // IN_A_ROW, :6].astype(float)
 
 
 @pytest.mark.parametrize("kind", PRIORS)
@@ -145,8 +150,8 @@ def test_a_candidate_s_gain_is_the_ratio_of_what_all_beams_say():
     """Also where a far stop takes back what the cells behind it were told: every beam here may stop far."""
     for sweep in range(6):
         worlds, states, field, _ = swept("surfaces", count=300, sweep=sweep)
-        candidates = field.candidates.numpy()[:, :6].astype(float)
-        some, gain = tried(field), field.gain.numpy().sum(axis=0) / 2**24
+        some, candidates = tried(worlds, field, sweep)
+        gain = field.gain.numpy().sum(axis=0) / 2**24
         assert some.any()
         assert (gain[~some] == 0).all()
         candidates[~some] = states[~some]

@@ -23,7 +23,7 @@ import bayesmap as bm
 from bayesmap.kernels import field as chains
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import Cell
-from bayesmap.kernels.stops import GAIN_UNITS, Field, Rays
+from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, Field, Rays
 
 EDGE, CELLS = 0.5, 10_000
 UNBOUNDED = bm.Surface(1.0, 1.0, wander=0.4, spread=0.3, dof=3.5, extent=1e6)
@@ -48,8 +48,8 @@ def tell(rays: Rays, field: Field, part: int, b: int, jacobian: float):
     c = rays.cells[rays.offsets[b]]
     if field.cells[c][6] != 0.0:
         centre = wp.vec2(rays.start_m[b][0] + 0.5, rays.start_m[b][1])  # the beam starts half a metre before it
-        ratio = worth(field.candidates[c], centre) - worth(field.cells[c], centre)
-        ratio += jacobian * wp.log(field.candidates[c][3] / field.cells[c][3])
+        ratio = worth(field.candidates[c // IN_A_ROW], centre) - worth(field.cells[c], centre)
+        ratio += jacobian * wp.log(field.candidates[c // IN_A_ROW][3] / field.cells[c][3])
         field.gain[part, c] = wp.int64(ratio * float(GAIN_UNITS))
 
 
