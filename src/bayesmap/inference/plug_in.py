@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from bayesmap.model.cell_priors import CellPrior, Surface
 from bayesmap.sensor.rays import BeamRays
@@ -82,13 +83,9 @@ def plug_in(rays: BeamRays, prior: CellPrior, device: str = "cpu") -> PlugIn:
 
 
 def _remote(rays: BeamRays, busy: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    nx, ny = rays.grid.shape
-    ends = np.zeros((nx + 2, ny + 2), dtype=np.bool_)
-    ends[rays.touched[busy] // ny + 1, rays.touched[busy] % ny + 1] = True
-    around = np.zeros((nx, ny), dtype=np.bool_)
-    for i in range(3):
-        for j in range(3):
-            around |= ends[i : i + nx, j : j + ny]
+    ends = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+    ends[rays.touched[busy]] = True
+    around = ndimage.binary_dilation(ends.reshape(rays.grid.shape), np.ones((3, 3)))
     return np.asarray(~around.reshape(-1)[rays.touched])
 
 

@@ -47,7 +47,7 @@ def add_density(
         a = cell[0] * m.chance
         p += wp.float64(free * a * stop_law(law, reading, faded, m.distance_m, m.variance))
         free = free * (one - a)
-    p += wp.float64(free * no_stop_law(law, reading))
+    p += wp.float64(free * no_stop_law(law, reading, faded))
     total[b] = total[b] + p
 
 

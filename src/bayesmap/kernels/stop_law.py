@@ -130,10 +130,10 @@ def stop_law(
 
 
 @wp.func
-def no_stop_law(law: Law, reading_m: wp.float32) -> wp.float32:
-    """p(reading | the beam meets nothing)."""
+def no_stop_law(law: Law, reading_m: wp.float32, faded: wp.float32) -> wp.float32:
+    """p(reading | the beam meets nothing); ``faded`` is `fading` of the reading."""
     if wp.isfinite(reading_m):
-        return law.floor + law.passing * fading(law, reading_m)
+        return law.floor + law.passing * faded
     if reading_m > wp.float32(0.0):
         return wp.max(law.p_known * unblocked(law, law.max_m), IMPOSSIBLE)
     return wp.max(law.p_known * (wp.float32(1.0) - unblocked(law, law.min_m)), IMPOSSIBLE)

@@ -138,7 +138,7 @@ def draw_stops(
         field.stop[b] = end
         field.log_likelihood[b] = wp.float32(0.0)
         if not wp.isnan(reading):
-            field.log_likelihood[b] = wp.log(no_stop_law(law, reading))
+            field.log_likelihood[b] = wp.log(no_stop_law(law, reading, fading(law, reading)))
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
 
@@ -171,7 +171,7 @@ def draw_stops(
             if u * total < weight:
                 choice = k
             free = free * (one - a)
-    weight = wp.float64(free * no_stop_law(law, reading))
+    weight = wp.float64(free * no_stop_law(law, reading, faded))
     total += weight
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:
         choice = end
