@@ -66,6 +66,13 @@ def interrupt_at_checkpoint(monkeypatch):
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
 
+def infer_until_checkpoint(monkeypatch, *arguments):
+    """Infer, and press Ctrl-C there."""
+    with monkeypatch.context() as patch:
+        interrupt_at_checkpoint(patch)
+        assert call("infer", *arguments).exit_code == 130
+
+
 def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, uninterrupted):
     (cells, whole), folder = uninterrupted, tmp_path / "run"
     process = start("infer", office, "-o", folder, *long(cells), "--json")
@@ -128,9 +135,7 @@ def test_a_run_stopped_again_and_again_is_the_same(office, tmp_path, uninterrupt
 @BOTH
 def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, tmp_path, short, monkeypatch, cells):
     folder = tmp_path / "run"
-    with monkeypatch.context() as patch:
-        interrupt_at_checkpoint(patch)
-        assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 130
+    infer_until_checkpoint(monkeypatch, office, "-o", folder, *short, "--cells", cells)
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
     other = tmp_path / "other.log"
     other.write_text("\n".join(office.read_text().splitlines()[:-1]))
@@ -222,9 +227,7 @@ def test_interrupted_before_its_first_sweep_nothing_is_kept_but_the_settings(
 @BOTH
 def test_interrupted_as_soon_as_it_is_resumed_a_run_is_what_it_was(office, tmp_path, short, monkeypatch, cells):
     folder = tmp_path / "run"
-    with monkeypatch.context() as patch:
-        interrupt_at_checkpoint(patch)
-        assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 130
+    infer_until_checkpoint(monkeypatch, office, "-o", folder, *short, "--cells", cells)
     before = bm.load(folder / "run.nc")
     go_on = f"go on with:\n  bayesmap infer {office} -o {folder} --resume\n"
 
