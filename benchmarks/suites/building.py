@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.propagate import propagate
-from bayesmap.inference.start import start_maps
+from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.trace import trace
-from bayesmap.model.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.propagate import propagate
+from bayesmap.samplers.start import start_maps
 from benchmarks.figure import Figure, timed
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
@@ -26,7 +26,7 @@ WHOLE_RUN = r"""
 import re, sys, time
 from pathlib import Path
 import bayesmap as bm
-from bayesmap.model.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.posterior.diagnostics import rhat
 began = time.perf_counter()
 scans, _ = bm.read_log(sys.argv[1]).limited({max_range}).holdout(10)

@@ -6,11 +6,11 @@ import numpy as np
 
 import bayesmap as bm
 from bayesmap.field_inference import first_sensor
-from bayesmap.inference.field_gibbs import FieldGibbs, build_field
-from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.problem import Problem
 from bayesmap.kernels.trace import trace
-from bayesmap.world.tutorial import TUTORIAL_GRID
+from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.problem import Problem
+from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time
 

@@ -14,15 +14,15 @@ import numpy as np
 
 import bayesmap as bm
 from bayesmap.field_inference import first_sensor
-from bayesmap.inference.chain import Schedule
-from bayesmap.inference.field_chain import run_field
-from bayesmap.inference.field_gibbs import FieldGibbs, build_field
 from bayesmap.loading import load
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.scoring import score_posterior, score_prediction
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.run.chain import Schedule
+from bayesmap.run.field_chain import run_field
+from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure, ratio, timed
 from benchmarks.peer_runner import Unavailable, run_peer
 

@@ -5,14 +5,14 @@ from collections.abc import Iterator
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.inference.block import BlockGibbs
-from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.importance import sample_importance
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.sampler import WallSampler
 from bayesmap.kernels.parallel import available_cores
 from bayesmap.kernels.trace import trace
-from bayesmap.world.tutorial import TUTORIAL_GRID
+from bayesmap.samplers.block import BlockGibbs
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.importance import sample_importance
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.sampler import WallSampler
+from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, rate, ratio, timed
 from benchmarks.peer_runner import Unavailable, run_peer, tutorial_data
 

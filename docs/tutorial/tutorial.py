@@ -37,8 +37,8 @@ from matplotlib.figure import Figure
 
 import bayesmap as bm
 from bayesmap import gen, viz
+from bayesmap.cells.defaults import default_sensor
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.model.defaults import default_sensor
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.viz.palette import CHAINS
 

@@ -16,50 +16,50 @@ if TYPE_CHECKING:
 
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
+    from bayesmap.cells.cell_priors import Beta as Beta
+    from bayesmap.cells.cell_priors import Surface as Surface
+    from bayesmap.cells.priors import Independent as Independent
     from bayesmap.errors import BadInput as BadInput
-    from bayesmap.field_run import FieldRun as FieldRun
+    from bayesmap.field_result import FieldRun as FieldRun
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.loading import load as load
-    from bayesmap.model.cell_priors import Beta as Beta
-    from bayesmap.model.cell_priors import Surface as Surface
-    from bayesmap.model.forward import ranges as ranges
-    from bayesmap.model.forward import simulate as simulate
-    from bayesmap.model.mapping import mapping_model as mapping_model
-    from bayesmap.model.priors import Independent as Independent
-    from bayesmap.run import Run as Run
-    from bayesmap.run import score as score
-    from bayesmap.sensor.mixture import BeamMixture as BeamMixture
-    from bayesmap.sensor.model import SensorModel as SensorModel
-    from bayesmap.sensor.noise import Gaussian as Gaussian
-    from bayesmap.sensor.noise import StudentT as StudentT
-    from bayesmap.world import worlds as worlds
-    from bayesmap.world.grid import Grid as Grid
-    from bayesmap.world.scans import Reading as Reading
-    from bayesmap.world.scans import Scans as Scans
+    from bayesmap.programs.mapping import mapping_model as mapping_model
+    from bayesmap.result import Run as Run
+    from bayesmap.result import score as score
+    from bayesmap.sensors.mixture import BeamMixture as BeamMixture
+    from bayesmap.sensors.model import SensorModel as SensorModel
+    from bayesmap.sensors.noise import Gaussian as Gaussian
+    from bayesmap.sensors.noise import StudentT as StudentT
+    from bayesmap.sim import worlds as worlds
+    from bayesmap.sim.forward import ranges as ranges
+    from bayesmap.sim.forward import simulate as simulate
+    from bayesmap.space.grid import Grid as Grid
+    from bayesmap.space.scans import Reading as Reading
+    from bayesmap.space.scans import Scans as Scans
 
 _HOME = {
     "BadInput": "bayesmap.errors",
-    "Beta": "bayesmap.model.cell_priors",
-    "BeamMixture": "bayesmap.sensor.mixture",
-    "FieldRun": "bayesmap.field_run",
-    "Gaussian": "bayesmap.sensor.noise",
-    "Grid": "bayesmap.world.grid",
-    "Independent": "bayesmap.model.priors",
+    "Beta": "bayesmap.cells.cell_priors",
+    "BeamMixture": "bayesmap.sensors.mixture",
+    "FieldRun": "bayesmap.field_result",
+    "Gaussian": "bayesmap.sensors.noise",
+    "Grid": "bayesmap.space.grid",
+    "Independent": "bayesmap.cells.priors",
     "MapWidget": "bayesmap.app.widget",
-    "Reading": "bayesmap.world.scans",
-    "Run": "bayesmap.run",
-    "Scans": "bayesmap.world.scans",
-    "SensorModel": "bayesmap.sensor.model",
-    "StudentT": "bayesmap.sensor.noise",
-    "Surface": "bayesmap.model.cell_priors",
+    "Reading": "bayesmap.space.scans",
+    "Run": "bayesmap.result",
+    "Scans": "bayesmap.space.scans",
+    "SensorModel": "bayesmap.sensors.model",
+    "StudentT": "bayesmap.sensors.noise",
+    "Surface": "bayesmap.cells.cell_priors",
     "infer": "bayesmap.api",
     "load": "bayesmap.loading",
-    "mapping_model": "bayesmap.model.mapping",
-    "ranges": "bayesmap.model.forward",
+    "mapping_model": "bayesmap.programs.mapping",
+    "ranges": "bayesmap.sim.forward",
     "read_log": "bayesmap.io.logs",
-    "score": "bayesmap.run",
-    "simulate": "bayesmap.model.forward",
-    "worlds": "bayesmap.world.worlds",
+    "score": "bayesmap.result",
+    "simulate": "bayesmap.sim.forward",
+    "worlds": "bayesmap.sim.worlds",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 -- the strings are in _HOME

@@ -13,28 +13,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.assembly import Assembly
+from bayesmap.cells.cell_priors import CellPrior
+from bayesmap.cells.priors import Independent
 from bayesmap.errors import BadInput, check_count
 from bayesmap.field_inference import FIT, FieldJob, default_draws, fit_sensor, infer_field
-from bayesmap.field_run import FieldRun
-from bayesmap.inference.block import BlockGibbs
-from bayesmap.inference.chain import Chains, Progress, Schedule, run_chains
-from bayesmap.inference.exact import enumerate_maps
-from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.importance import Particles, sample_importance
-from bayesmap.inference.interrupt import stop_on_interrupt
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.propagate import ROUNDS, Marginals, propagate
-from bayesmap.inference.resuming import check_same
-from bayesmap.inference.sampler import Order
-from bayesmap.inference.start import Start, default_start, start_maps
-from bayesmap.model.cell_priors import CellPrior
-from bayesmap.model.priors import Independent
+from bayesmap.field_result import FieldRun
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.run import Run
-from bayesmap.sensor.describe import describe
-from bayesmap.sensor.model import SensorModel
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.result import Run
+from bayesmap.run.chain import Chains, Progress, Schedule, run_chains
+from bayesmap.run.interrupt import stop_on_interrupt
+from bayesmap.run.resuming import check_same
+from bayesmap.samplers.block import BlockGibbs
+from bayesmap.samplers.exact import enumerate_maps
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.importance import Particles, sample_importance
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.propagate import ROUNDS, Marginals, propagate
+from bayesmap.samplers.sampler import Order
+from bayesmap.samplers.start import Start, default_start, start_maps
+from bayesmap.sensors.describe import describe
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 Method = Literal["exact", "importance", "gibbs", "block", "propagate"]
 Stage = Literal[

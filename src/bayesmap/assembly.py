@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.inference.chain import Chains
-from bayesmap.inference.exact import Enumeration
-from bayesmap.inference.importance import Particles
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.propagate import Marginals
-from bayesmap.inference.sampler import STREAM_START
 from bayesmap.posterior.packing import pack, unpack
 from bayesmap.posterior.posterior import Posterior, mean_of_draws
-from bayesmap.run import Run
-from bayesmap.sensor.model import SensorModel
-from bayesmap.world.scans import Scans
+from bayesmap.result import Run
+from bayesmap.run.chain import Chains
+from bayesmap.samplers.exact import Enumeration
+from bayesmap.samplers.importance import Particles
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.propagate import Marginals
+from bayesmap.samplers.sampler import STREAM_START
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.scans import Scans
 
 MAPS_TO_SEE = 32
 """How many draws decide which cells count as observed."""

@@ -13,20 +13,20 @@ from typing import Any, Literal
 
 import numpy as np
 
-from bayesmap.field_run import FieldRun
-from bayesmap.inference.chain import Progress, Schedule
-from bayesmap.inference.field_chain import FieldResult, run_field
-from bayesmap.inference.field_gibbs import FieldProblem, build_field
-from bayesmap.inference.fit import Parameters
-from bayesmap.inference.resuming import check_same
-from bayesmap.model.cell_priors import Beta, CellPrior, Surface
+from bayesmap.cells.cell_priors import Beta, CellPrior, Surface
+from bayesmap.field_result import FieldRun
 from bayesmap.posterior.field import FieldPosterior
-from bayesmap.sensor.describe import describe
-from bayesmap.sensor.mixture import BeamMixture
-from bayesmap.sensor.model import SensorModel
-from bayesmap.sensor.noise import Gaussian
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.run.chain import Progress, Schedule
+from bayesmap.run.field_chain import FieldResult, run_field
+from bayesmap.run.resuming import check_same
+from bayesmap.samplers.field_gibbs import FieldProblem, build_field
+from bayesmap.samplers.fit import Parameters
+from bayesmap.sensors.describe import describe
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 FIT = "fit"
 FIT_SWEEPS = 30

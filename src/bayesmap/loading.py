@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 
-from bayesmap.field_run import FieldRun
+from bayesmap.field_result import FieldRun
 from bayesmap.posterior.field import FieldPosterior
-from bayesmap.run import Run
+from bayesmap.result import Run
 
 
 def load(path: str | os.PathLike[str]) -> Run:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from bayesmap.app.document import BOUNDS, Document, Refused, Sensor, WallMap, parse_document
 from bayesmap.app.scanning import simulate_document, standard_noise
 from bayesmap.app.worlds import new_document, tutorial_document
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 
 @st.composite

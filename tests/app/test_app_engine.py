@@ -14,11 +14,11 @@ from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import simulate_document, simulated_scene
 from bayesmap.app.tasks import Cancel, Inspect, Look
 from bayesmap.app.worlds import new_document, tutorial_document
-from bayesmap.inference.exact import enumerate_maps
-from bayesmap.inference.importance import sample_importance
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.propagate import propagate
-from bayesmap.world.grid import Grid
+from bayesmap.samplers.exact import enumerate_maps
+from bayesmap.samplers.importance import sample_importance
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.propagate import propagate
+from bayesmap.space.grid import Grid
 
 TINY = Document(
     Grid((3, 3), 1.0, (-0.5, -0.5)),
@@ -222,7 +222,7 @@ def test_inspecting_a_cell_counts_its_beams():
 
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     from bayesmap.app.stream import DRAW_BYTES, Stream
-    from bayesmap.inference.gibbs import Gibbs
+    from bayesmap.samplers.gibbs import Gibbs
 
     document = new_document("blank", (500, 500), tutorial_document())
     problem = simulated_scene(document).problem

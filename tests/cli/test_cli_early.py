@@ -39,7 +39,7 @@ def test_while_the_command_line_is_loaded(module):
     assert interrupted(module, "--help") == (130, "", "bayesmap: error: interrupted\n")
 
 
-@pytest.mark.parametrize("module", ["bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.world.scans"])
+@pytest.mark.parametrize("module", ["bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.space.scans"])
 def test_while_a_command_is_loaded(office, tmp_path, module):
     told = interrupted(module, "infer", office, "-o", tmp_path / "run")
     assert told == (130, "", "bayesmap: error: interrupted\n")

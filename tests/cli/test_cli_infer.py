@@ -8,10 +8,10 @@ from data import intel_log
 from shell import call
 
 import bayesmap as bm
+from bayesmap.cells.cell_priors import prior_from
 from bayesmap.field_inference import first_sensor
 from bayesmap.io.map_server import read_map
-from bayesmap.model.cell_priors import prior_from
-from bayesmap.sensor.describe import describe
+from bayesmap.sensors.describe import describe
 
 KEYS = {
     "schema_version", "version", "grid", "scans", "beams", "incidences", "method", "order", "prior", "sensor", "chains",

@@ -157,15 +157,15 @@ def test_choices_are_those_of_the_library():
     from typing import get_args
 
     from bayesmap.api import Method
+    from bayesmap.cells.cell_priors import Beta, Surface
+    from bayesmap.cells.defaults import HIT_DEPTH, P_WALL
+    from bayesmap.cells.priors import Independent
     from bayesmap.cli import cells
     from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
     from bayesmap.field_inference import FEWEST_DRAWS, MOST_DRAWS
-    from bayesmap.inference.propagate import ROUNDS
-    from bayesmap.inference.sampler import Order
-    from bayesmap.inference.start import Start
-    from bayesmap.model.cell_priors import Beta, Surface
-    from bayesmap.model.defaults import HIT_DEPTH, P_WALL
-    from bayesmap.model.priors import Independent
+    from bayesmap.samplers.propagate import ROUNDS
+    from bayesmap.samplers.sampler import Order
+    from bayesmap.samplers.start import Start
 
     assert set(METHODS) == set(get_args(Method))
     assert set(ORDERS) == set(get_args(Order))

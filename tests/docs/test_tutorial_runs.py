@@ -13,7 +13,7 @@ import pytest
 from scipy.stats import laplace
 
 import bayesmap as bm
-from bayesmap.sensor.model import SensorModel
+from bayesmap.sensors.model import SensorModel
 
 ROOT = Path(__file__).parents[2]
 TUTORIAL = ROOT / "docs" / "tutorial"

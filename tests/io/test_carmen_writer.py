@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from bayesmap.errors import BadInput
 from bayesmap.io.carmen_writer import write_carmen
 from bayesmap.io.logs import describe_log
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 
 def some_scans(beams: int, first_deg: float, step_deg: float, no_returns: int = 0, scans: int = 5) -> Scans:

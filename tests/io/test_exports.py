@@ -125,7 +125,7 @@ def test_a_folder_without_permission_is_named(tmp_path, name):
 def test_a_grid_of_one_cell(tmp_path):
     from bayesmap.io.grid_map import write_grid_map
     from bayesmap.io.occupancy_grid import write_occupancy_grid
-    from bayesmap.world.grid import Grid
+    from bayesmap.space.grid import Grid
 
     for path in (tmp_path / "one.bag", tmp_path / "one.mcap"):
         (found,) = READERS[path.suffix](write_occupancy_grid(path, [[0.25]], Grid((1, 1))))

@@ -9,7 +9,7 @@ from PIL import Image
 from bayesmap.errors import BadInput
 from bayesmap.io.map_server import read_map, write_map
 from bayesmap.io.percent import MODES
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 shapes = hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=8)
 probabilities = hnp.arrays(np.float64, shapes, elements=st.floats(0, 1))

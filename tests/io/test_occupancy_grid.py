@@ -6,7 +6,7 @@ from recorded import READERS
 from bayesmap.errors import BadInput
 from bayesmap.io.occupancy_grid import write_occupancy_grid
 from bayesmap.io.percent import in_percent
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 
 @pytest.mark.parametrize("ending", READERS)

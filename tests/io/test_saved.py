@@ -9,7 +9,7 @@ import pytest
 from oracle.worlds import make_case
 
 import bayesmap as bm
-from bayesmap.inference import chain as runner
+from bayesmap.run import chain as runner
 
 ARRAYS = (
     "occupancy", "observed", "packed", "log_likelihood", "log_prior", "warmup_log_joint", "walls", "log_weights",

@@ -3,10 +3,10 @@
 import numpy as np
 import warp as wp
 
-from bayesmap.inference.sampler import STREAM_SWEEPS
 from bayesmap.kernels import device
 from bayesmap.kernels.random import mix, random_bits
 from bayesmap.kernels.shuffle import cipher_bits, shuffled
+from bayesmap.samplers.sampler import STREAM_SWEEPS
 
 
 @wp.kernel

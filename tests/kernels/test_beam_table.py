@@ -8,8 +8,8 @@ from oracle.worlds import make_case, scorer
 import bayesmap as bm
 from bayesmap.kernels import trace as tracing
 from bayesmap.kernels.trace import trace
-from bayesmap.sensor.mixture import FLAT_NATS
-from bayesmap.sensor.model import RangeLimits
+from bayesmap.sensors.mixture import FLAT_NATS
+from bayesmap.sensors.model import RangeLimits
 
 SENSORS = {
     "gaussian": bm.Gaussian(0.3),

@@ -8,9 +8,9 @@ from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods,
 from oracle.field_worlds import Worlds, centres_of, draw_worlds
 
 import bayesmap as bm
-from bayesmap.inference.field_gibbs import build_field
 from bayesmap.kernels.field_score import FieldScore
 from bayesmap.kernels.rays import trace_rays
+from bayesmap.samplers.field_gibbs import build_field
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 SHARP = bm.BeamMixture(bm.Gaussian(0.004, 0.001), p_random=0.01, p_no_return=0.0, p_short=0.02)

@@ -9,7 +9,7 @@ import bayesmap as bm
 from bayesmap.kernels.crossings import trace_crossings
 from bayesmap.kernels.predict import forecast, log_densities
 from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
-from bayesmap.sensor.model import RangeLimits
+from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))
 LIMITS = RangeLimits(0.2, 5.0)

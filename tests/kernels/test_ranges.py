@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracle.formula import distances
 
+from bayesmap.beams.range_reference import ranges_by_edges
 from bayesmap.kernels.ranges import cast
-from bayesmap.sensor.geometry import ranges_by_edges
 
 LONGEST = 60.0
 CELLS = 1e-9  # rounding over a few dozen cells is a thousand times smaller

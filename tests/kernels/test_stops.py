@@ -13,9 +13,9 @@ from oracle.field_worlds import copies, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, two_sided
 
 import bayesmap as bm
-from bayesmap.inference.plug_in import pace
 from bayesmap.kernels.cell_draws import AT_TURN
 from bayesmap.kernels.stops import IN_A_ROW
+from bayesmap.samplers.plug_in import pace
 
 GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)

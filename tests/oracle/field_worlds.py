@@ -10,7 +10,7 @@ import numpy as np
 from oracle.field_law import draw_readings, draw_states, paths_of
 
 import bayesmap as bm
-from bayesmap.inference.field_gibbs import FieldGibbs, FieldProblem, build_field
+from bayesmap.samplers.field_gibbs import FieldGibbs, FieldProblem, build_field
 
 
 def corners(shape, worlds, gap):

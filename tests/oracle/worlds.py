@@ -8,8 +8,8 @@ from oracle.enumeration import Exact, enumerate_posterior
 from oracle.formula import beams, distances
 
 import bayesmap as bm
-from bayesmap.inference.problem import Problem
 from bayesmap.kernels.trace import trace
+from bayesmap.samplers.problem import Problem
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +88,6 @@ def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_pe
 
 def bm_limits(low, high):
     """`RangeLimits`, which is not a public name."""
-    from bayesmap.sensor.model import RangeLimits
+    from bayesmap.sensors.model import RangeLimits
 
     return RangeLimits(low, high)

@@ -12,7 +12,7 @@ from bayesmap.kernels.predict import log_densities
 from bayesmap.posterior.baselines import BASELINES, FOLDS, fit_baseline, hit_ratio, inner_score, log_odds, make_folds
 from bayesmap.posterior.scoring import score_prediction
 from bayesmap.posterior.tuning import SENSOR, Parameter, maximise, sensor_of
-from bayesmap.sensor.model import RangeLimits
+from bayesmap.sensors.model import RangeLimits
 
 BY_NAME = {b.name: b for b in BASELINES}
 HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])

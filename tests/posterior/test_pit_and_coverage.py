@@ -22,7 +22,7 @@ from bayesmap.posterior.calibration import (
 )
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.scoring import score_prediction
-from bayesmap.sensor.model import RangeLimits
+from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((20, 16), 0.25)
 LIMITS = RangeLimits(0.2, 4.0)

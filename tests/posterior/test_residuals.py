@@ -7,10 +7,10 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.residuals import compare, residuals_of
 from bayesmap.posterior.score import beam_log_scores
-from bayesmap.sensor.mixture import BeamMixture
-from bayesmap.sensor.noise import Gaussian
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 CORRIDOR = Grid((10, 1))
 SENSOR = BeamMixture(Gaussian(0.05), p_random=0.01, p_no_return=0.01, p_short=0.0)

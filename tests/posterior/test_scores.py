@@ -13,7 +13,7 @@ import bayesmap as bm
 from bayesmap.posterior.packing import pack
 from bayesmap.posterior.posterior import entropy_bits, mean_of_draws
 from bayesmap.posterior.score import beam_log_scores
-from bayesmap.sensor.model import RangeLimits
+from bayesmap.sensors.model import RangeLimits
 
 
 @pytest.fixture(scope="module")

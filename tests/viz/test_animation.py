@@ -7,9 +7,9 @@ from PIL import Image
 from viz_case import CORNER, GRID, HIDDEN, observed, occupancy
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.viz import palette, render_frames, write_animation
 from bayesmap.viz.animation import CAPTION_PX, MARGIN_PX
-from bayesmap.world.grid import Grid
 
 FREE, WALL = palette.probability_colors(2)
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from bayesmap.space.grid import Grid
 from bayesmap.viz.edges import boundary_segments, boxes
-from bayesmap.world.grid import Grid
 
 
 def test_one_cell_has_four_edges_in_metres():

@@ -6,9 +6,9 @@ from matplotlib.patches import PathPatch
 from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.viz import draw_deviation, draw_entropy, draw_probability, draw_sample, draw_width, palette
 from bayesmap.viz.maps import entropy_bits
-from bayesmap.world.grid import Grid
 
 FREE, WALL = palette.probability_colors(2)
 

@@ -4,8 +4,8 @@ from matplotlib.figure import Figure
 from viz_case import CORNER, GRID, cell, occupancy, panel, pixels, scans
 
 from bayesmap.errors import BadInput
+from bayesmap.space.scans import Scans
 from bayesmap.viz import draw_probability, draw_rays, draw_sensor, draw_truth_outline, palette
-from bayesmap.world.scans import Scans
 
 
 def test_outline_surrounds_the_true_wall():

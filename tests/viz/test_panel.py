@@ -3,8 +3,8 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.viz import palette, panel_figure
-from bayesmap.world.grid import Grid
 
 GRID = Grid(shape=(8, 6))
 

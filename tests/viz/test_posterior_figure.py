@@ -12,9 +12,9 @@ from PIL import Image
 from viz_case import CORNER, GRID, observed, occupancy, scans
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.viz import palette, posterior_figure, write_figure
 from bayesmap.viz.layout import lay_out
-from bayesmap.world.grid import Grid
 
 FREE, WALL = palette.probability_colors(2)
 
@@ -229,7 +229,7 @@ def test_figures_in_threads_leave_the_settings_alone(tmp_path):
 
 def test_pyplot_and_its_global_figures_are_never_loaded(tmp_path):
     program = (
-        "import sys, numpy as np; from bayesmap import viz; from bayesmap.world.grid import Grid;"
+        "import sys, numpy as np; from bayesmap import viz; from bayesmap.space.grid import Grid;"
         "viz.write_figure(viz.posterior_figure(Grid((3, 3)), np.eye(3)), sys.argv[1]);"
         "viz.write_figure(viz.trace_figure(np.eye(3)), sys.argv[1]);"
         "assert 'matplotlib.pyplot' not in sys.modules"

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 GRID = Grid(shape=(6, 4), resolution=0.5, origin=(-1.0, 2.0))
 CORNER = (5, 3)

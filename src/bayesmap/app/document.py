@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 VERSION = 1
 METHODS = ("gibbs", "block", "propagate", "importance")

@@ -25,11 +25,11 @@ from bayesmap.app.stream import CHAINS, Stream
 from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
 from bayesmap.app.weighing import Weighing
 from bayesmap.errors import BadInput
-from bayesmap.inference.block import BlockGibbs
-from bayesmap.inference.gibbs import Gibbs
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.sampler import WallSampler
-from bayesmap.inference.start import start_maps
+from bayesmap.samplers.block import BlockGibbs
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.sampler import WallSampler
+from bayesmap.samplers.start import start_maps
 
 PREVIEW_SECONDS = 0.020
 FEWEST_ROUNDS = 3

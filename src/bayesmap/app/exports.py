@@ -17,8 +17,8 @@ from bayesmap.app.result import Result
 from bayesmap.app.stream import CHAINS
 from bayesmap.assembly import Assembly
 from bayesmap.errors import BadInput
-from bayesmap.run import Run
-from bayesmap.sensor.describe import describe
+from bayesmap.result import Run
+from bayesmap.sensors.describe import describe
 
 SAVED_DRAWS = 500
 """Maps of each chain that are drawn for a run of a method without chains."""

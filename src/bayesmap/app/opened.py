@@ -12,14 +12,14 @@ import numpy as np
 from bayesmap.app.document import LARGEST_SIDE_OF_FILE, METHODS, Document, Source, WallMap
 from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
+from bayesmap.cells.priors import Independent
 from bayesmap.errors import BadInput
-from bayesmap.inference.problem import Problem
 from bayesmap.loading import load
-from bayesmap.model.priors import Independent
-from bayesmap.run import Run
-from bayesmap.sensor.noise import Gaussian
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.result import Run
+from bayesmap.samplers.problem import Problem
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 LOG_RESOLUTION_M = 0.1
 LOG_SWEEPS = 200
@@ -53,8 +53,8 @@ class OpenedLog:
 
     @cached_property
     def _scene(self) -> Scene:
+        from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
         from bayesmap.kernels.trace import trace
-        from bayesmap.model.defaults import HIT_DEPTH, default_sensor
 
         grid = self.document.grid
         sensor = default_sensor(grid.resolution)
@@ -138,7 +138,7 @@ def opened_log(scans: Scans, name: str) -> OpenedLog:
     Raises:
         BadInput: a log without scans.
     """
-    from bayesmap.model.defaults import P_WALL
+    from bayesmap.cells.defaults import P_WALL
 
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > LARGEST_SIDE_OF_LOG:

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.app.scanning import Touched, touched
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.propagate import DAMPING, ROUNDS, Marginals
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.reach import reach_frequency
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
 
 TOLERANCE = 1e-3
 THREADS_FROM_INCIDENCES = 200_000
@@ -18,7 +18,7 @@ THREADS_FROM_INCIDENCES = 200_000
 
 
 class Preview:
-    """Rounds of belief propagation as in `bayesmap.inference.propagate`, one at a time.
+    """Rounds of belief propagation as in `bayesmap.samplers.propagate`, one at a time.
 
     Cells that no beam touches keep the prior exactly, so the rounds need not visit them: at 500 x 500 with one sensor
     that is most of the map.
@@ -63,5 +63,5 @@ class Preview:
         return seen.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> Marginals:
-        """What the rounds found, for `bayesmap.inference.start.start_maps` and for a saved run."""
+        """What the rounds found, for `bayesmap.samplers.start.start_maps` and for a saved run."""
         return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)

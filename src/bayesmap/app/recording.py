@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bayesmap.app.result import LEVELS, Result
 
 if TYPE_CHECKING:
-    from bayesmap.run import Run
+    from bayesmap.result import Run
 
 MOST_DRAWS = 1000
 """Of all chains together: a file of more is thinned, evenly."""

@@ -14,11 +14,11 @@ from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
 from bayesmap.app.tasks import Look
-from bayesmap.inference.importance import Particles
 from bayesmap.posterior.diagnostics import bulk_ess
 from bayesmap.posterior.diagnostics import rhat as split_rhat
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.run import Run
+from bayesmap.result import Run
+from bayesmap.samplers.importance import Particles
 
 LEVELS = 255
 

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import SMALLEST_NOISE_M, Document
-from bayesmap.inference.problem import Problem
-from bayesmap.model.forward import ranges
-from bayesmap.model.priors import Independent
-from bayesmap.sensor.model import SensorModel
-from bayesmap.sensor.noise import Gaussian
-from bayesmap.sensor.table import BeamTable
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.beams.table import BeamTable
+from bayesmap.cells.priors import Independent
+from bayesmap.samplers.problem import Problem
+from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.sim.forward import ranges
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 STREAM_NOISE = 11
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.inference.chain import BUFFER_BYTES, SECONDS_PER_INCIDENCE, Chains
-from bayesmap.inference.sampler import WallSampler
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.posterior.packing import unpack
+from bayesmap.run.chain import BUFFER_BYTES, SECONDS_PER_INCIDENCE, Chains
+from bayesmap.samplers.sampler import WallSampler
 
 CHAINS = 2
 STEP_SECONDS = 0.015

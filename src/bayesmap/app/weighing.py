@@ -1,4 +1,4 @@
-"""Importance sampling in short pieces: the particles of `bayesmap.inference.importance`, some at a time."""
+"""Importance sampling in short pieces: the particles of `bayesmap.samplers.importance`, some at a time."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.inference.importance import Particles
-from bayesmap.inference.problem import Problem
-from bayesmap.inference.sampler import STREAM_PARTICLES
 from bayesmap.kernels.importance import weigh
 from bayesmap.kernels.random import mix
+from bayesmap.samplers.importance import Particles
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.sampler import STREAM_PARTICLES
 
 PIECE_SECONDS = 0.015
 FIRST_PIECE = 64

@@ -18,7 +18,7 @@ from bayesmap.app.supervisor import Supervisor
 from bayesmap.app.tasks import Report
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.errors import BadInput
-from bayesmap.run import Run
+from bayesmap.result import Run
 
 try:
     import anywidget

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document, Refused, Sensor, WallMap
-from bayesmap.world.grid import Grid
-from bayesmap.world.tutorial import TUTORIAL_GRID, tutorial
+from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
+from bayesmap.space.grid import Grid
 
 WORLDS = ("blank", "tutorial", "building")
 BUILDING_NOISE_M = 0.05
@@ -66,7 +66,7 @@ def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.boo
 
 
 def _floor(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
-    from bayesmap.world.building import MARGIN_M, SMALLEST_M, building
+    from bayesmap.sim.building import MARGIN_M, SMALLEST_M, building
 
     for resolution in (0.1, 0.25):
         margin = round(MARGIN_M / resolution)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from bayesmap.model.cell_priors import CellPrior
-    from bayesmap.model.priors import Independent
-    from bayesmap.sensor.model import SensorModel
+    from bayesmap.cells.cell_priors import CellPrior
+    from bayesmap.cells.priors import Independent
+    from bayesmap.sensors.model import SensorModel
 
 BINARY_DRAWS = 100
 """Draws of a chain over binary walls unless the user says otherwise."""
@@ -47,9 +47,9 @@ def draws_for(values: dict[str, Any], beams: int, cells: int) -> int:
 
 def prior_of(values: dict[str, Any]) -> Independent | CellPrior:
     """The prior of these cells."""
-    from bayesmap.model.cell_priors import Beta, Surface
-    from bayesmap.model.defaults import P_WALL
-    from bayesmap.model.priors import Independent
+    from bayesmap.cells.cell_priors import Beta, Surface
+    from bayesmap.cells.defaults import P_WALL
+    from bayesmap.cells.priors import Independent
 
     if values["cells"] == "binary":
         return Independent(P_WALL if values["prior"] is None else values["prior"])
@@ -58,7 +58,7 @@ def prior_of(values: dict[str, Any]) -> Independent | CellPrior:
 
 def sensor_for(values: dict[str, Any], chosen: SensorModel | str | None, resolution_m: float) -> SensorModel | str:
     """The sensor that was chosen; by default one that is fitted, but for binary walls a good laser's."""
-    from bayesmap.model.defaults import default_sensor
+    from bayesmap.cells.defaults import default_sensor
 
     if chosen is not None:
         return chosen

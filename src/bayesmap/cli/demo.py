@@ -14,7 +14,7 @@ from bayesmap.cli.talk import Talk, as_json
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from bayesmap.run import Run
+    from bayesmap.result import Run
 
 BEAMS, SIGMA_M, MAX_RANGE_M = 100, 0.2, 42.0
 """The tutorial's sensor; the range is longer than the map's diagonal."""
@@ -68,10 +68,10 @@ def _runs(talk: Talk, values: dict[str, Any]) -> dict[str, Run]:
     import numpy as np
 
     from bayesmap.api import infer
-    from bayesmap.model.forward import simulate
-    from bayesmap.model.priors import Independent
-    from bayesmap.sensor.noise import Gaussian
-    from bayesmap.world.tutorial import TUTORIAL_GRID, tutorial
+    from bayesmap.cells.priors import Independent
+    from bayesmap.sensors.noise import Gaussian
+    from bayesmap.sim.forward import simulate
+    from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
 
     walls, pose = tutorial()
     sensor, seed = Gaussian(SIGMA_M), values["seed"]
@@ -106,10 +106,10 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
     """Everything that is looked at, the run itself, and its map."""
     import numpy as np
 
+    from bayesmap.sim.tutorial import tutorial
     from bayesmap.viz.animation import write_animation
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.weights import weights_figure
-    from bayesmap.world.tutorial import tutorial
 
     walls, pose = tutorial()
     paths = []

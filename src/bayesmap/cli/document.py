@@ -13,7 +13,7 @@ from bayesmap.cli.talk import counted
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
-    from bayesmap.run import Run
+    from bayesmap.result import Run
 
 
 def run_document(run: Run) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from bayesmap.cli.talk import Talk, as_json, counted
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from bayesmap.run import Run
+    from bayesmap.result import Run
 
 DERIVED = ("posterior.png", "map.yaml", "map.pgm", "summary.json")
 """Made from the run: outdated as soon as another run takes its place."""

@@ -20,9 +20,9 @@ from bayesmap.cli.talk import Talk, counted
 
 if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
-    from bayesmap.run import Run
-    from bayesmap.sensor.model import SensorModel
-    from bayesmap.world.scans import Scans
+    from bayesmap.result import Run
+    from bayesmap.sensors.model import SensorModel
+    from bayesmap.space.scans import Scans
 
 PASSED_ON = (
     "method", "order", "chains", "warmup", "draws", "thin", "seed", "start", "particles", "rounds", "hit_depth",
@@ -152,7 +152,7 @@ def _infer(
 ) -> Run:
     from bayesmap.api import Event, infer
     from bayesmap.io.map_server import read_map
-    from bayesmap.world.grid import Grid
+    from bayesmap.space.grid import Grid
 
     if values["grid"] is None:
         # It holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.field_run import FieldRun
+from bayesmap.field_result import FieldRun
 
 if TYPE_CHECKING:
-    from bayesmap.run import Run
-    from bayesmap.world.grid import Grid
-    from bayesmap.world.scans import Scans
+    from bayesmap.result import Run
+    from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
 
 Walls = NDArray[np.bool_]
 Draw = NDArray[Any]

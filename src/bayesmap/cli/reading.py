@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from bayesmap.cli.given import need_file
 
 if TYPE_CHECKING:
-    from bayesmap.run import Run
-    from bayesmap.world.scans import Scans
+    from bayesmap.result import Run
+    from bayesmap.space.scans import Scans
 
 
 def options_of(values: dict[str, Any]) -> dict[str, Any]:

@@ -18,8 +18,8 @@ from bayesmap.version import __version__
 if TYPE_CHECKING:
     from bayesmap.posterior.baselines import Fitted
     from bayesmap.posterior.scoring import Score
-    from bayesmap.run import Run
-    from bayesmap.world.scans import Scans
+    from bayesmap.result import Run
+    from bayesmap.space.scans import Scans
 
 HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Brier", "log loss")
 
@@ -44,7 +44,7 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
     transform from uniform; and Brier score and log loss of first hits. docs/scoring.md has the formulas.
     """
     from bayesmap.loading import load
-    from bayesmap.run import score
+    from bayesmap.result import score
 
     values = call.values()
     if picture is not None:

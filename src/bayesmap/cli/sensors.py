@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from bayesmap.sensor.model import SensorModel
+    from bayesmap.sensors.model import SensorModel
 
 HELP = """MODEL is default, or a kind with parameters: gaussian:0.2 (sigma in metres), gaussian:0.02,sigma_per_m=0.005,
 student-t:0.05,dof=4 or mixture:0.05,p_random=0.05,p_no_return=0.02,p_short=0.1,rate_short_per_m=0.5 (the beam model,
@@ -24,7 +24,7 @@ def sensor_of(text: str) -> SensorModel | None:
     """
     if text == "default":
         return None
-    from bayesmap.sensor.describe import KINDS, from_description
+    from bayesmap.sensors.describe import KINDS, from_description
 
     kind, _, rest = text.partition(":")
     if kind not in KINDS:

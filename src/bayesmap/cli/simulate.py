@@ -55,7 +55,7 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
 
     from bayesmap.io.carmen_writer import write_carmen
     from bayesmap.io.map_server import write_map
-    from bayesmap.model.forward import simulate
+    from bayesmap.sim.forward import simulate
 
     scans = simulate(
         world.walls,
@@ -71,7 +71,7 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
     message = write_carmen(log, scans)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
 
-    from bayesmap.sensor.describe import describe
+    from bayesmap.sensors.describe import describe
 
     document = {
         "version": __version__,

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from bayesmap.sensor.model import SensorModel
-    from bayesmap.world.grid import Grid
+    from bayesmap.sensors.model import SensorModel
+    from bayesmap.space.grid import Grid
 
 RARE = 1e-5
 """How often a simulated laser reads nonsense: seldom, since one such reading far outside makes a map larger."""
@@ -46,9 +46,9 @@ class World:
 
     def sensor(self) -> SensorModel:
         """The sensor where none is named: the tutorial's noise with typed no-returns, or a good laser's."""
-        from bayesmap.model.defaults import LASER_SIGMA_M, LASER_SIGMA_PER_M
-        from bayesmap.sensor.mixture import BeamMixture
-        from bayesmap.sensor.noise import Gaussian
+        from bayesmap.cells.defaults import LASER_SIGMA_M, LASER_SIGMA_PER_M
+        from bayesmap.sensors.mixture import BeamMixture
+        from bayesmap.sensors.noise import Gaussian
 
         if self.is_tutorial:
             return BeamMixture(Gaussian(0.2), p_random=RARE, p_no_return=0.0, p_short=0.0)
@@ -84,8 +84,8 @@ def world_of(values: dict[str, Any], poses: Sequence[str]) -> World:
 
 
 def _tutorial(resolution: float | None, given: list[tuple[float, float, float]]) -> World:
-    from bayesmap.world.grid import Grid
-    from bayesmap.world.tutorial import TUTORIAL_GRID, tutorial
+    from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
+    from bayesmap.space.grid import Grid
 
     walls, pose = tutorial()
     poses = _stack(given) if given else pose[None]
@@ -97,8 +97,8 @@ def _tutorial(resolution: float | None, given: list[tuple[float, float, float]])
 
 
 def _building(values: dict[str, Any], given: list[tuple[float, float, float]]) -> World:
-    from bayesmap.world.building import building
-    from bayesmap.world.patrol import patrol
+    from bayesmap.sim.building import building
+    from bayesmap.sim.patrol import patrol
 
     made = building(values["seed"], _size(values["size"]), values["resolution"] or 0.1)
     poses = _stack(given) if given else patrol(made, values["scans"], values["seed"])
@@ -106,9 +106,9 @@ def _building(values: dict[str, Any], given: list[tuple[float, float, float]]) -
 
 
 def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
-    from bayesmap.world.drawing import from_text
-    from bayesmap.world.grid import Grid
-    from bayesmap.world.image import from_image
+    from bayesmap.sim.drawing import from_text
+    from bayesmap.sim.image import from_image
+    from bayesmap.space.grid import Grid
 
     if path.suffix.lower() in MAPS:
         from bayesmap.io.map_server import read_map

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.returns import decode
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 HOST = "bayesmap"
 NO_RETURN_CODE_M = 81.83

@@ -13,7 +13,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 
 @dataclass(frozen=True, eq=False)

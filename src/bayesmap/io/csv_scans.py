@@ -33,7 +33,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.rep117 import judge
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 DELIMITERS = (b",", b";", b"\t")
 POSE = ("x", "y", "yaw")

@@ -25,8 +25,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.recording_writer import ENDINGS, FOLDER
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.io.laser_messages import Malformed
-from bayesmap.world.rigid import IDENTITY, Motion, Track
+from bayesmap.space.rigid import IDENTITY, Motion, Track
 
 FURTHEST_M = 1e7
 FIXED_FRAMES = ("map", "odom", "world")

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.layers import as_layers
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 
 def write_geotiff(

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.io.layers import as_layers
 from bayesmap.io.recording_writer import header_of, pose_of, write_recording
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore

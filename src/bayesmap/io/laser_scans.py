@@ -17,7 +17,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.laser_lines import LASERS, BeamLayout, LaserLine
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.returns import NoReturn, decode
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 
 def as_occupancy(occupancy: ArrayLike, grid: Grid) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bayesmap.io.returns import NoReturn
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.npz_scans import MAGIC as NPZ_MAGIC
 from bayesmap.io.npz_scans import read_npz
-from bayesmap.world.scans import Scans
-from bayesmap.world.travel import jumps, steps_m, thinned
+from bayesmap.space.scans import Scans
+from bayesmap.space.travel import jumps, steps_m, thinned
 
 FORMATS = (
     "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",

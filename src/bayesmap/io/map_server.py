@@ -32,8 +32,8 @@ from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.layers import as_observed, as_occupancy
 from bayesmap.io.percent import in_percent, thresholds_of
-from bayesmap.world.grid import Grid
-from bayesmap.world.image import brightness, check_thresholds
+from bayesmap.sim.image import brightness, check_thresholds
+from bayesmap.space.grid import Grid
 
 OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
 RAW_UNKNOWN_GREY = 255

@@ -18,7 +18,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.rep117 import largest_hit_m
 from bayesmap.io.returns import NoReturn, decode
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 MAGIC = b"PK\x03\x04"
 NEEDED = ("poses", "angles_rad", "ranges_m")

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from bayesmap.io.percent import in_percent
 from bayesmap.io.recording_writer import header_of, pose_of, time_of, write_recording
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.layers import as_observed, as_occupancy
-from bayesmap.world.grid import Grid
-from bayesmap.world.image import check_thresholds
+from bayesmap.sim.image import check_thresholds
+from bayesmap.space.grid import Grid
 
 MODES = ("trinary", "scale", "raw")
 THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}

@@ -23,8 +23,8 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.layers import as_layers
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 EPOCH_FROM_S = 1e8
 """Later stamps are dates, earlier ones count from some start."""

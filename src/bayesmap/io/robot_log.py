@@ -33,7 +33,7 @@ from bayesmap.io.recording import Recording, Topic
 from bayesmap.io.rep117 import judge
 from bayesmap.io.robot_messages import TYPES, Bad, read_messages, scan_topic_of, scans_and_poses
 from bayesmap.io.scan_poses import in_order_of_time, left_out, poses_at_first_rays, poses_of_rays, ray_times
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 
 def read_recording(

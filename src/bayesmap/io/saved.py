@@ -24,10 +24,10 @@ from bayesmap.io.checksum import checksum_of
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.packing import pack, unpack
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.sensor.describe import from_description
+from bayesmap.sensors.describe import from_description
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
 
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 3  # 2 has fields too, 3 their expected reflectivities; walls are written as in 1

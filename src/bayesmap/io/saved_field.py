@@ -19,16 +19,16 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.cell_priors import prior_from
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
 from bayesmap.io.half_draws import read_half, write_half
 from bayesmap.io.saved import FORMAT, FORMAT_VERSION, scans_from, write_arrays, write_scans
-from bayesmap.model.cell_priors import prior_from
 from bayesmap.posterior.field import FieldPosterior
-from bayesmap.sensor.describe import describe, from_description
-from bayesmap.sensor.mixture import BeamMixture
+from bayesmap.sensors.describe import describe, from_description
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.space.grid import Grid
 from bayesmap.version import __version__
-from bayesmap.world.grid import Grid
 
 SURFACE = ("mean_x", "mean_y", "l11", "l21", "l22")
 """What a surface is made of, as the file calls it."""

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
-from bayesmap.world.scans import as_poses
+from bayesmap.space.scans import as_poses
 
 
 def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:

@@ -4,10 +4,10 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.propagate import beam_messages, cell_beliefs, relative_likelihood
-from bayesmap.sensor.table import BeamTable
 
 CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
 GPU_PARTS = 256

@@ -12,6 +12,7 @@ order in which it meets them, before the first wall outside the block, and l_out
 import numpy as np
 import warp as wp
 
+from bayesmap.beams.table import MAX_INCIDENCES, BeamTable
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import available_cores, launch
@@ -31,7 +32,6 @@ from bayesmap.kernels.state import (
     put_wall,
     remove_wall,
 )
-from bayesmap.sensor.table import MAX_INCIDENCES, BeamTable
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 

@@ -15,6 +15,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import BeamRays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import (
     AT_ACCEPT,
@@ -31,7 +32,6 @@ from bayesmap.kernels.stop_law import Law, law_of
 from bayesmap.kernels.stops import LEAST, Field, Rays, hit_law
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
-from bayesmap.sensor.rays import BeamRays
 
 wp.set_module_options({"enable_backward": False})
 

@@ -8,8 +8,8 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import available_cores, launch
 from bayesmap.kernels.trace import walk_columns
 from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 

@@ -4,14 +4,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.crossings import Crossings
+from bayesmap.beams.table import MAX_INCIDENCES
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.trace import count_cells, fill_cells, walk_columns
-from bayesmap.sensor.crossings import Crossings
-from bayesmap.sensor.table import MAX_INCIDENCES
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 
 def trace_crossings(

@@ -13,6 +13,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import BeamRays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.busy import busy_index, update_busy
 from bayesmap.kernels.cell_draws import CellPrior, propose, settle
@@ -21,8 +22,7 @@ from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.stops import IN_A_ROW, Field, Rays, draw_stops
-from bayesmap.sensor.model import KernelParameters, RangeLimits
-from bayesmap.sensor.rays import BeamRays
+from bayesmap.sensors.model import KernelParameters, RangeLimits
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
 
@@ -87,7 +87,7 @@ class FieldChains:
     ) -> None:
         """Put chains that stand at ``states``, (C, T, 6), on the device; ``counts`` (2, C, T) if they go on.
 
-        ``steps`` and ``pace`` are each cell's, as `bayesmap.inference.plug_in` has them.
+        ``steps`` and ``pace`` are each cell's, as `bayesmap.samplers.plug_in` has them.
         """
         self.rays, self.device, self.plain = rays, device, int(plain)
         self._rays = put_rays(rays, plain, device)

@@ -6,14 +6,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import BeamRays
 from bayesmap.kernels.field import as_cells, put_rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.meeting import Cell, ray_from
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.stop_law import fading, law_of, no_stop_law, stop_law
 from bayesmap.kernels.stops import Rays, chance_at, plain_or_meet
-from bayesmap.sensor.model import KernelParameters
-from bayesmap.sensor.rays import BeamRays
+from bayesmap.sensors.model import KernelParameters
 
 wp.set_module_options({"enable_backward": False})
 

@@ -3,9 +3,9 @@
 import numpy as np
 import warp as wp
 
+from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import available_cores, launch
-from bayesmap.sensor.table import BeamTable, CellIndex
 
 wp.set_module_options({"enable_backward": False})
 

@@ -1,10 +1,10 @@
-"""The compiled likelihood of finite readings: the same formulas as `bayesmap.sensor`, entry by entry."""
+"""The compiled likelihood of finite readings: the same formulas as `bayesmap.sensors`, entry by entry."""
 
 import math
 
 import warp as wp
 
-from bayesmap.sensor.model import KernelParameters, RangeLimits
+from bayesmap.sensors.model import KernelParameters, RangeLimits
 
 wp.set_module_options({"enable_backward": False})
 

@@ -10,9 +10,9 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.crossings import Crossings
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.meeting import Cell, meet, ray_from
-from bayesmap.sensor.crossings import Crossings
 
 wp.set_module_options({"enable_backward": False})
 

@@ -4,9 +4,9 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import BeamRays
 from bayesmap.kernels.field import put_rays
 from bayesmap.kernels.stops import Rays
-from bayesmap.sensor.rays import BeamRays
 
 wp.set_module_options({"enable_backward": False})
 

@@ -16,14 +16,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.crossings import Crossings
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
 from bayesmap.kernels.reading_law import additive_log_density, clipped, cumulative, mixture_density, short_density
-from bayesmap.sensor.crossings import Crossings
-from bayesmap.sensor.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import RangeLimits, SensorModel
 
 wp.set_module_options({"enable_backward": False})
 

@@ -7,15 +7,15 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import BeamRays
+from bayesmap.beams.table import MAX_INCIDENCES
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.trace import count_cells, fill_cells, walk_columns
-from bayesmap.sensor.model import RangeLimits
-from bayesmap.sensor.rays import BeamRays
-from bayesmap.sensor.table import MAX_INCIDENCES
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 

@@ -4,9 +4,9 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
-from bayesmap.sensor.table import BeamTable
 
 wp.set_module_options({"enable_backward": False})
 

@@ -1,6 +1,6 @@
 """The compiled law of a reading, density and cumulative, where the beam stops at a distance with a spread.
 
-The formulas are those of `bayesmap.sensor.noise` and `bayesmap.sensor.mixture`, with the noise's scale at distance d
+The formulas are those of `bayesmap.sensors.noise` and `bayesmap.sensors.mixture`, with the noise's scale at distance d
 widened to ``sqrt(scale(d)^2 + spread^2)``. Unlike `bayesmap.kernels.likelihood` they take readings of every kind.
 """
 

@@ -13,8 +13,8 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
-from bayesmap.sensor.table import BeamTable, CellIndex
 
 wp.set_module_options({"enable_backward": False})
 

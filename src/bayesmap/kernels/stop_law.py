@@ -1,6 +1,6 @@
 """The law of a reading, given that the beam stopped at about a certain distance.
 
-The same formulas as `bayesmap.sensor.mixture` with Gaussian noise, whose variance here is the sensor's and the
+The same formulas as `bayesmap.sensors.mixture` with Gaussian noise, whose variance here is the sensor's and the
 surface's together. In single precision: these densities only weigh a beam's few candidates.
 """
 
@@ -16,7 +16,7 @@ FAR = wp.constant(wp.float32(80.0))  # squared standard distance past which norm
 SERIES = wp.constant(wp.float32(0.1))  # the fifth term of exp(-x) is under single precision
 HALF, THIRD, QUARTER = (wp.constant(wp.float32(1.0 / n)) for n in (2, 3, 4))
 IMPOSSIBLE = wp.constant(wp.float32(9.3576e-14))
-"""exp(LOG_IMPOSSIBLE) of `bayesmap.sensor.mixture`: least probability of a typed reading. No beam is impossible."""
+"""exp(LOG_IMPOSSIBLE) of `bayesmap.sensors.mixture`: least probability of a typed reading. No beam is impossible."""
 
 
 @wp.struct

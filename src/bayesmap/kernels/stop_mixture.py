@@ -13,6 +13,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.crossings import Crossings
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.likelihood import SensorParameters
@@ -20,8 +21,7 @@ from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
 from bayesmap.kernels.predict import compiled
 from bayesmap.kernels.reading_law import cumulative
-from bayesmap.sensor.crossings import Crossings
-from bayesmap.sensor.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import RangeLimits, SensorModel
 
 wp.set_module_options({"enable_backward": False})
 

@@ -2,7 +2,7 @@
 
 Where along a wall a surface lies, and how far it extends, beams hardly say, as long as it fills its cell; where across,
 and how thick it is, they say to millimetres. Steps that know nothing of this are too short in one direction for the
-other's sake. So each cell has a frame, fixed beforehand by its readings at their word (`bayesmap.inference.plug_in`),
+other's sake. So each cell has a frame, fixed beforehand by its readings at their word (`bayesmap.samplers.plug_in`),
 whose first axis points along the wall. A cell in its frame is a `Cell` with the mean along and across, from the cell's
 centre, and the Cholesky factor of the covariance in these axes.
 

@@ -6,15 +6,15 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.table import MAX_INCIDENCES, BeamTable
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.likelihood import fill_likelihood, sensor_parameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
-from bayesmap.sensor.model import RangeLimits, SensorModel
-from bayesmap.sensor.table import MAX_INCIDENCES, BeamTable
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 

@@ -18,15 +18,15 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.beams.crossings import Crossings
+from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
-from bayesmap.model.defaults import HIT_DEPTH, default_sensor
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.shares import Tell, nobody, parts
 from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
-from bayesmap.sensor.crossings import Crossings
-from bayesmap.sensor.model import RangeLimits
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Reading, Scans
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Reading, Scans
 
 Floats = NDArray[np.float64]
 

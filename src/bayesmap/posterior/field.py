@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from bayesmap.model.cell_priors import CellPrior, Surface
-from bayesmap.sensor.mixture import BeamMixture
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.cells.cell_priors import CellPrior, Surface
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 8192

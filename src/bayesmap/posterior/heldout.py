@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.world.scans import Scans
+from bayesmap.space.scans import Scans
 
 MOST_EVERY = 100
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.posterior.packing import count_walls
-from bayesmap.sensor.model import SensorModel
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,9 +13,9 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.packing import unpack
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.sensor.mixture import BeamMixture
-from bayesmap.sensor.model import SensorModel
-from bayesmap.world.grid import Grid
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.grid import Grid
 
 Maps = NDArray[np.float32]
 

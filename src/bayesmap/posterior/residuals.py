@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor
 from bayesmap.posterior.shares import Tell, nobody, parts, watched
-from bayesmap.sensor.model import RangeLimits
-from bayesmap.world.scans import Reading, Scans
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.scans import Reading, Scans
 
 Floats = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.sensor.model import SensorModel
-from bayesmap.world.scans import Reading, Scans
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.scans import Reading, Scans
 
 
 def beam_log_scores(

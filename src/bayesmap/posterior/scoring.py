@@ -23,9 +23,9 @@ from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
 from bayesmap.posterior.shares import Tell, nobody, parts, watched
-from bayesmap.sensor.describe import describe
-from bayesmap.sensor.model import RangeLimits, SensorModel
-from bayesmap.world.scans import Reading, Scans
+from bayesmap.sensors.describe import describe
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.scans import Reading, Scans
 
 LEVELS = (0.5, 0.8, 0.95)
 BINS = 20

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from bayesmap.posterior.shares import Tell, nobody, parts
-from bayesmap.sensor.mixture import BeamMixture
-from bayesmap.sensor.noise import AdditiveNoise, Gaussian, StudentT
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.noise import AdditiveNoise, Gaussian, StudentT
 
 Values = dict[str, float]
 

@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
 from bayesmap.viz.cells import ROUNDING, as_mask, as_observed
 from bayesmap.viz.writing import need_ending, write_whole
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import as_poses
 
 LEVELS = 128
 """Steps of probability in a frame: finer ones cannot be told apart, and fewer colours pack better."""

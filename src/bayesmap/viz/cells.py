@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 ROUNDING = 1e-5
 """A mean taken in single precision may leave its bounds by so much: no mistake of the caller's."""

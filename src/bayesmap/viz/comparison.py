@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
 from bayesmap.viz.cells import as_observed
 from bayesmap.viz.figure import FONT_PT, color_bar, letter, unobserved_legend
 from bayesmap.viz.layout import lay_out
-from bayesmap.world.grid import Grid
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 
 def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:

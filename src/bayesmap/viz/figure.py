@@ -17,13 +17,13 @@ from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 from numpy.typing import ArrayLike
 
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
 from bayesmap.viz.cells import as_observed
 from bayesmap.viz.layout import Layout, lay_out, tick_locator
 from bayesmap.viz.surfaces import draw_surfaces
 from bayesmap.viz.writing import need_ending, write_whole
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Scans
 
 FONT_PT = 9.0
 COARSE_CELLS = 100

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
-from bayesmap.world.grid import Grid
+from bayesmap.space.grid import Grid
 
 PANEL_IN = 3.4
 """Longest side of a panel in inches."""

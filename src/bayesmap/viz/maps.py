@@ -16,11 +16,11 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.viz import palette
 from bayesmap.viz.cells import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.viz.edges import boxes
 from bayesmap.viz.layout import tick_locator
-from bayesmap.world.grid import Grid
 
 
 def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:

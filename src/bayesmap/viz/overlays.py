@@ -12,11 +12,11 @@ from matplotlib.transforms import Affine2D
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Reading, Scans, as_poses
 from bayesmap.viz import palette
 from bayesmap.viz.cells import as_mask
 from bayesmap.viz.edges import boundary_segments
-from bayesmap.world.grid import Grid
-from bayesmap.world.scans import Reading, Scans, as_poses
 
 MAX_ARROWS = 12
 """Up to so many poses each get an arrow; more are a trajectory, with one arrow where it ends."""

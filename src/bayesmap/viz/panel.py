@@ -9,9 +9,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from bayesmap.space.grid import Grid
 from bayesmap.viz import maps
 from bayesmap.viz.overlays import draw_truth_outline
-from bayesmap.world.grid import Grid
 
 HEIGHT_IN, BAR_IN = 5.6, 1.3
 NO_BAR_IN = 0.9

@@ -1,0 +1,1 @@
+"""What beams cross: the cells of a grid along each of them."""

@@ -1,0 +1,123 @@
+"""The beam table: all that inference on binary walls needs to know about scans and sensor.
+
+For every beam it lists the cells that the beam touches, in order, and a log-likelihood for "the first wall is
+there", and one for "there is no wall among them": past the sensor's range, past the grid, or past the point where
+the sensor model no longer cares. With ``first_hit(map, beam)`` the position of the first wall,
+
+    log p(z | map) = sum over beams of  loglik[beam, first_hit(map, beam)]
+
+Every sensor model, however rich, only fills in the table; every sampler only reads it. Memory: 8 bytes for each
+beam-cell incidence here, and 20 more in the index by cells that the Gibbs samplers walk (`CellIndex`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+
+MAX_INCIDENCES = 2**31 - 1
+"""Indices into the table have 32 bits."""
+
+
+@dataclass(frozen=True, eq=False)
+class BeamTable:
+    """What each beam crosses, and how likely its reading is for every possible first hit.
+
+    Attributes:
+        grid: the grid whose cells are meant.
+        offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
+        cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
+        loglik: log-likelihood of the reading if that cell is the first wall, shape (K,), float32.
+        beyond: log-likelihood of the reading if no listed cell is a wall, shape (B,), float32.
+    """
+
+    grid: Grid
+    offsets: NDArray[np.int32]
+    cells: NDArray[np.int32]
+    loglik: NDArray[np.float32]
+    beyond: NDArray[np.float32]
+
+    @property
+    def n_beams(self) -> int:
+        """Number of beams."""
+        return len(self.beyond)
+
+    @property
+    def n_incidences(self) -> int:
+        """Number of beam-cell incidences: the work of one sweep."""
+        return len(self.cells)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the table itself, in bytes."""
+        return sum(a.nbytes for a in (self.offsets, self.cells, self.loglik, self.beyond))
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that at least one beam touches, shape (nx, ny)."""
+        seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        seen[self.cells] = True
+        return seen.reshape(self.grid.shape)
+
+    def first_hits(self, walls: NDArray[np.bool_]) -> NDArray[np.int32]:
+        """Position of the first wall along each beam, or the beam's length where there is none. Shape (B,).
+
+        This is the plain reference for what the samplers keep up to date.
+        """
+        self.check_walls(walls)
+        lengths = np.diff(self.offsets)
+        is_wall = np.asarray(walls, dtype=np.bool_).ravel()[self.cells]
+        beam = np.repeat(np.arange(self.n_beams), lengths)
+        position = np.arange(self.n_incidences) - self.offsets[:-1][beam]
+        first = lengths.astype(np.int32)
+        np.minimum.at(first, beam[is_wall], position[is_wall].astype(np.int32))
+        return first
+
+    def beam_log_likelihoods(self, walls: NDArray[np.bool_]) -> NDArray[np.float32]:
+        """Log-likelihood of each beam's reading given a map, shape (B,)."""
+        first = self.first_hits(walls)
+        hit = first < np.diff(self.offsets)
+        terms = self.beyond.copy()
+        terms[hit] = self.loglik[(self.offsets[:-1] + first)[hit]]
+        return terms
+
+    def log_likelihood(self, walls: NDArray[np.bool_]) -> float:
+        """Log p(all readings | map), in nats."""
+        return float(self.beam_log_likelihoods(walls).sum(dtype=np.float64))
+
+    def check_walls(self, walls: NDArray[np.bool_]) -> None:
+        """Refuse a map of another shape.
+
+        Raises:
+            BadInput: the shape is not the grid's.
+        """
+        if np.shape(walls) != self.grid.shape:
+            raise BadInput(f"map: walls have shape {np.shape(walls)}, but the grid is {self.grid.shape}")
+
+
+@dataclass(frozen=True, eq=False)
+class CellIndex:
+    """The table turned round: for every cell, the entries in which it stands.
+
+    Attributes:
+        offsets: the incidences of cell c are ``offsets[c]:offsets[c + 1]``; shape (N + 1,), int32.
+        entry: index into the beam table, shape (K,), int32.
+        beam: the beam of that entry, shape (K,), int32.
+        loglik: the entry's log-likelihood, shape (K,), float32.
+        gain_bound: the most that this incidence and those after it in the cell could together add to the
+            log-odds of a wall, whatever the rest of the map, shape (K,), float32. Incidences that could gain
+            come first, so that a sampler can stop as soon as the outcome is certain.
+        lead: how much likelier a first hit here is than the likeliest outcome behind it, shape (K,), float32: the
+            least that a wall which the beam hits is worth to it.
+    """
+
+    offsets: NDArray[np.int32]
+    entry: NDArray[np.int32]
+    beam: NDArray[np.int32]
+    loglik: NDArray[np.float32]
+    gain_bound: NDArray[np.float32]
+    lead: NDArray[np.float32]

@@ -1,0 +1,1 @@
+"""Kinds of cells and their priors."""

@@ -1,1 +1,0 @@
-"""Inference: one file a method, and one runner for all chains."""

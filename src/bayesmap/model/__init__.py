@@ -1,1 +1,0 @@
-"""Priors over maps, and the forward model from a map to scans."""

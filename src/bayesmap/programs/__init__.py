@@ -1,0 +1,1 @@
+"""The mapping model as a generative function on JAX."""

@@ -1,0 +1,134 @@
+"""The mapping model as a generative function: walls from the prior, readings from the sensor.
+
+    model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
+    trace, weight = model.importance(key, C["readings"].set(ranges_m), ())
+
+It describes the same joint law of walls and readings as `bayesmap.infer`, for programs of one's own.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.cells.priors import Independent
+from bayesmap.gen.densities import flip
+from bayesmap.gen.pytree import Pytree, dataclass, static
+from bayesmap.gen.static import StaticGenerativeFunction, gen
+from bayesmap.programs.beam_geometry import beam_geometry
+from bayesmap.programs.beam_sensor import BeamSensor
+from bayesmap.programs.reading_law import reading_law
+from bayesmap.programs.set_cells import SetCells as SetCells
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import as_angles, as_poses, check_limits
+
+
+def mapping_model(
+    grid: Grid,
+    poses: ArrayLike,
+    angles_rad: ArrayLike,
+    prior: Independent,
+    sensor: SensorModel,
+    *,
+    max_range_m: float,
+    min_range_m: float = 0.0,
+    hit_depth: float = 0.0,
+) -> StaticGenerativeFunction:
+    """A generative function without arguments: the joint law of a map and the readings taken in it.
+
+    Its choices are
+
+    - "walls", shape (nx, ny), bool;
+    - "readings", metres, float, shape (A,) for a single pose of shape (3,), else (S, A): the ranges of `Scans`,
+      typed readings included (`inf` no return, `-inf` too close, NaN invalid);
+
+    and it returns both. An edit of one wall costs time in proportion to the beams through that cell. Make a model
+    once, and use it many times: the beams are traced here.
+
+    Args:
+        grid: where the cells are.
+        poses: (x, y, yaw) in the world frame, metres and radians, shape (3,) or (S, 3).
+        angles_rad: beam angles in the sensor frame, shape (A,).
+        prior: of the walls.
+        sensor: the law of the readings: Gaussian, StudentT or BeamMixture.
+        max_range_m: the sensor's largest range.
+        min_range_m: the sensor's smallest range.
+        hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
+
+    Raises:
+        BadInput: shapes that do not fit, numbers that are not finite, or a sensor without likelihood on JAX.
+    """
+    beams = sensor_model(
+        grid, poses, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
+    )
+    return _map_and_readings.partial_apply(_Walls(_Fixed(prior.probabilities(grid))), beams)
+
+
+def sensor_model(
+    grid: Grid,
+    poses: ArrayLike,
+    angles_rad: ArrayLike,
+    sensor: SensorModel,
+    *,
+    max_range_m: float,
+    min_range_m: float = 0.0,
+    hit_depth: float = 0.0,
+) -> BeamSensor:
+    """The sensor alone: a generative function of the walls, shape (nx, ny), with the readings as its only choice.
+
+    For models with a prior of one's own:
+
+        @gen
+        def model():
+            walls = my_prior() @ "walls"
+            return sensor(walls) @ "readings"
+
+    Arguments and errors as for `mapping_model`.
+    """
+    many, angles = as_poses(poses), as_angles(angles_rad)
+    check_limits(min_range_m, max_range_m)
+    limits = RangeLimits(float(min_range_m), float(max_range_m))
+    shape = (len(angles),) if np.ndim(poses) == 1 else (len(many), len(angles))
+    return BeamSensor(beam_geometry(grid, many, angles, limits, hit_depth), reading_law(sensor, limits), shape)
+
+
+class _Fixed:
+    """An array compared by content, so that it may be a static part of JAX's trees."""
+
+    def __init__(self, array: NDArray[np.float64]) -> None:
+        self.array = np.ascontiguousarray(array)
+        self.content = (self.array.shape, self.array.tobytes())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Fixed) and self.content == other.content
+
+    def __hash__(self) -> int:
+        return hash(self.content)
+
+    def __repr__(self) -> str:
+        return f"array{self.array.shape}"
+
+
+@dataclass
+class _Walls(Pytree):
+    """The prior of the walls."""
+
+    p_wall: _Fixed = static()
+
+    def draw(self) -> Any:
+        """The call that draws them. One probability is kept as one number: edits then touch no array of them."""
+        p = self.p_wall.array
+        if (p == p[0, 0]).all():
+            return flip.repeat(n=p.shape[1]).repeat(n=p.shape[0])(float(p[0, 0]))
+        return flip.vmap(in_axes=(0,)).vmap(in_axes=(0,))(jnp.asarray(p, jnp.result_type(float)))
+
+
+@gen
+def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
+    walls = prior.draw() @ "walls"
+    readings = sensor(walls) @ "readings"
+    return walls, readings

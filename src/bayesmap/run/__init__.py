@@ -1,0 +1,1 @@
+"""The runner of all chains: schedule, progress, interruption, resuming."""

@@ -1,0 +1,89 @@
+"""Exact enumeration of all maps: the oracle against which every sampler is tested, and a method for tiny maps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bayesmap.errors import BadInput
+from bayesmap.samplers.problem import Problem
+
+MAX_UNKNOWN = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Enumeration:
+    """The whole posterior.
+
+    Attributes:
+        unknown: flat indices of the cells that were enumerated, (n,): touched by a beam and not fixed by the prior.
+        log_posterior: normalised log-probability of each of the 2^n states; bit i of the state's number is the
+            wall in ``unknown[i]``.
+        log_evidence: log p(readings).
+        problem: what was enumerated.
+    """
+
+    unknown: NDArray[np.intp]
+    log_posterior: NDArray[np.float64]
+    log_evidence: float
+    problem: Problem
+
+    def states(self) -> NDArray[np.bool_]:
+        """The enumerated cells in each state, shape (2^n, n)."""
+        state = np.arange(len(self.log_posterior))[:, None]
+        return np.asarray(state >> np.arange(len(self.unknown)) & 1 == 1)
+
+    def marginals(self) -> NDArray[np.float64]:
+        """Posterior wall probability of every cell, shape (nx, ny); the prior's where no beam says anything."""
+        p = self.problem.p_wall.copy()
+        p[self.unknown] = np.exp(self.log_posterior) @ self.states()
+        return p.reshape(self.problem.table.grid.shape)
+
+    def pairs(self) -> NDArray[np.float64]:
+        """Posterior probability that both of two enumerated cells are walls, shape (n, n)."""
+        states = self.states().astype(np.float64)
+        return np.asarray((states * np.exp(self.log_posterior)[:, None]).T @ states)
+
+    def sample(self, rng: np.random.Generator, count: int) -> NDArray[np.bool_]:
+        """Independent draws of the map, shape (count, nx, ny)."""
+        shape = self.problem.table.grid.shape
+        walls = rng.random((count, shape[0] * shape[1])) < self.problem.p_wall
+        state = rng.choice(len(self.log_posterior), size=count, p=np.exp(self.log_posterior))
+        walls[:, self.unknown] = self.states()[state]
+        return walls.reshape(count, *shape)
+
+
+def enumerate_maps(problem: Problem) -> Enumeration:
+    """Compute p(map | readings) for every map, in plain NumPy.
+
+    Raises:
+        BadInput: more than `MAX_UNKNOWN` unknown cells.
+    """
+    table, p = problem.table, problem.p_wall
+    free_to_vary = (p > 0) & (p < 1)
+    unknown = np.nonzero(table.observed().ravel() & free_to_vary)[0]
+    if len(unknown) > MAX_UNKNOWN:
+        raise BadInput(
+            f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "
+            "use method 'gibbs' or 'block', or fix cells with a prior of 0 or 1"
+        )
+    bit_of = np.full(table.grid.n_cells, -1)
+    bit_of[unknown] = np.arange(len(unknown))
+    state = np.arange(1 << len(unknown))
+    log_p = np.zeros(len(state))
+    for i, cell in enumerate(unknown):
+        log_p += np.where(state >> i & 1, np.log(p[cell]), np.log1p(-p[cell]))
+    for b in range(table.n_beams):
+        still_free = np.ones(len(state), dtype=np.bool_)
+        term = np.full(len(state), np.float64(table.beyond[b]))
+        for k in range(table.offsets[b], table.offsets[b + 1]):
+            cell = table.cells[k]
+            wall = (state >> bit_of[cell] & 1 == 1) if bit_of[cell] >= 0 else np.full(len(state), p[cell] == 1.0)
+            term[still_free & wall] = table.loglik[k]
+            still_free &= ~wall
+        log_p += term
+    log_evidence = float(special.logsumexp(log_p))
+    return Enumeration(unknown, log_p - log_evidence, log_evidence, problem)

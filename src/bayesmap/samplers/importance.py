@@ -1,0 +1,111 @@
+"""Self-normalised importance sampling from the prior: kept because it shows why better methods are needed.
+
+A particle is a map drawn from the prior, its weight the likelihood of the readings. Maps are drawn by counter, so a
+particle is just its number: a million of them take 8 MB for their log weights, and any map can be drawn again.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bayesmap.errors import check_count
+from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.sampler import STREAM_PARTICLES
+
+BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
+NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
+
+
+@dataclass(frozen=True, eq=False)
+class Particles:
+    """Weighted maps.
+
+    Attributes:
+        log_weights: normalised log weights, (particles,).
+        log_evidence: log of the mean weight: an estimate of log p(readings).
+        problem, key: from which any particle's map can be drawn again.
+        seconds: time spent weighing.
+        finished: false if stopped early.
+    """
+
+    log_weights: NDArray[np.float64]
+    log_evidence: float
+    problem: Problem
+    key: int
+    seconds: float
+    finished: bool
+
+    @property
+    def effective_sample_size(self) -> float:
+        """1 / sum of squared weights: 1 when a single particle carries everything."""
+        return float(np.exp(-special.logsumexp(2 * self.log_weights)))
+
+    def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """The maps of the given particles, (n, nx, ny)."""
+        from bayesmap.kernels.importance import draw
+
+        walls = draw(self.problem.device_prior, self.key, particles, self.problem.device)
+        return np.asarray(walls.reshape(len(particles), *self.problem.table.grid.shape) != 0)
+
+    def occupancy(self) -> NDArray[np.float64]:
+        """Weighted mean of the maps, (nx, ny), in batches; cells that no beam touches have the prior's mean."""
+        matter = np.nonzero(self.log_weights > self.log_weights.max() - NEGLIGIBLE_NATS)[0]
+        mean = np.zeros(self.problem.table.grid.shape)
+        batch = max(1, BATCH_CELLS // mean.size)
+        for i in range(0, len(matter), batch):
+            some = matter[i : i + batch]
+            mean += np.tensordot(np.exp(self.log_weights[some]), self.maps(some), axes=1)
+        mean /= np.exp(self.log_weights[matter]).sum()
+        return np.where(self.problem.table.observed(), mean, self.problem.p_wall.reshape(mean.shape))
+
+    def resample(self, rng: np.random.Generator, count: int) -> NDArray[np.intp]:
+        """Numbers of ``count`` particles drawn with replacement, each with its weight's probability."""
+        cumulative = np.cumsum(np.exp(self.log_weights))
+        return np.searchsorted(cumulative / cumulative[-1], rng.random(count), side="right")
+
+
+def sample_importance(
+    problem: Problem,
+    particles: int,
+    seed: int,
+    *,
+    on_progress: Callable[[int, int], None] | None = None,
+    should_stop: Callable[[], bool] = lambda: False,
+) -> Particles:
+    """Draw maps from the prior and weigh them by the likelihood.
+
+    Raises:
+        BadInput: no particles.
+    """
+    from bayesmap.kernels.importance import weigh
+    from bayesmap.kernels.random import mix
+
+    particles = check_count("importance", "particles", particles, 1)
+    key = mix(seed, 0, STREAM_PARTICLES)
+    batches: list[NDArray[np.float64]] = []
+    began = time.perf_counter()
+    size, done = 256, 0
+    while done < particles and not (batches and should_stop()):
+        now = min(size, particles - done)
+        batches.append(weigh(problem.device_table, problem.device_prior, key, done, now, problem.device))
+        done += now
+        elapsed = time.perf_counter() - began
+        size = int(np.clip(0.25 * done / max(elapsed, 1e-9), 256, 1 << 20))
+        if on_progress is not None:
+            on_progress(done, particles)
+    log_weights = np.concatenate(batches)
+    log_total = float(special.logsumexp(log_weights))
+    return Particles(
+        log_weights=log_weights - log_total,
+        log_evidence=log_total - float(np.log(done)),
+        problem=problem,
+        key=key,
+        seconds=time.perf_counter() - began,
+        finished=done == particles,
+    )

@@ -1,0 +1,85 @@
+"""What every method is given: the beam table of some scans, and the prior."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.beams.table import BeamTable, CellIndex
+from bayesmap.cells.priors import Independent
+
+LOG_ODDS_OF_FIXED = 1e15
+"""Stands for infinite log-odds where the prior fixes a cell: more than any scan could outweigh."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Binary walls under a prior, seen through a beam table.
+
+    Attributes:
+        table: cells and likelihoods of every beam.
+        prior: of the walls.
+        poses: where the sensor stood, (S, 3) in the world frame: for orders that go outwards from it.
+        device: where kernels run.
+    """
+
+    table: BeamTable
+    prior: Independent
+    poses: NDArray[np.float64]
+    device: str = "cpu"
+
+    @cached_property
+    def index(self) -> CellIndex:
+        """The table by cells; built on first use."""
+        from bayesmap.kernels.index import index_by_cell
+
+        return index_by_cell(self.table)
+
+    @cached_property
+    def device_table(self) -> Any:
+        """Table and index where the kernels read them."""
+        from bayesmap.kernels.state import put_table
+
+        return put_table(self.table, self.index, self.device)
+
+    @cached_property
+    def p_wall(self) -> NDArray[np.float64]:
+        """Prior wall probability of every cell, flat, shape (N,)."""
+        return np.ascontiguousarray(self.prior.probabilities(self.table.grid)).ravel()
+
+    @cached_property
+    def logit(self) -> NDArray[np.float64]:
+        """Prior log-odds of every cell, flat, shape (N,); large but finite where the prior fixes a cell."""
+        p = self.p_wall
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.clip(np.log(p) - np.log1p(-p), -LOG_ODDS_OF_FIXED, LOG_ODDS_OF_FIXED))
+
+    @cached_property
+    def device_prior(self) -> Any:
+        """The prior where the kernels read it."""
+        from bayesmap.kernels.state import put_prior
+
+        return put_prior(self.p_wall, self.logit, self.device)
+
+    @cached_property
+    def log_all_free(self) -> float:
+        """Log prior of the map in which only cells that are fixed as walls are walls."""
+        return float(np.log1p(-self.p_wall[self.p_wall < 1.0]).sum())
+
+    def log_joint(self, walls: NDArray[np.bool_]) -> float:
+        """Log p(walls, readings): the plain reference for what the samplers report."""
+        return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
+
+    def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """The walls, with cells that the prior fixes set as it says.
+
+        Raises:
+            BadInput: walls of another shape than the grid's.
+        """
+        self.table.check_walls(walls)
+        p = self.p_wall.reshape(self.table.grid.shape)
+        return np.where(p == 0, False, np.where(p == 1, True, np.asarray(walls) != 0))

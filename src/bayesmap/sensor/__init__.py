@@ -1,1 +1,0 @@
-"""Sensor models, and the beam table that they fill."""

@@ -1,0 +1,1 @@
+"""Sensor models: the law of a reading given where its beam stops."""

@@ -1,0 +1,180 @@
+r"""The beam model: additive noise, made robust against everything that is not the first wall.
+
+After Thrun, Burgard and Fox, *Probabilistic Robotics* (2005), section 6.3, with hit, short, random and no-return
+components. The book renormalises its short component by the wall's distance; here the same physics is told as a
+story that can be simulated, and whose density is *exactly* flat once the wall lies well past the reading, which
+is what lets the beam table end early. For a first hit at distance d (infinite: nothing is hit):
+
+    with probability p_random         the reading is uniform over [min_range, max_range];
+    else, with probability p_short    a passing object stands at e ~ Exponential(rate_short): if e < d, it is read;
+    else, if d > max_range, or with probability p_no_return   (glass, dark or slanted walls) nothing returns;
+    else                              the reading is d + noise(d); above max_range it is no return, below
+                                      min_range too close.
+
+With q(d) = 1 - p_short (1 - exp(-rate_short d)), the chance that no passing object blocks the beam:
+
+    p(z | d)         = p_random / (max - min)
+                     + (1 - p_random) [p_short rate_short exp(-rate_short z) 1(z < d)
+                                       + q(d) (1 - p_no_return) noise(z - d)]
+    P(no return | d) = (1 - p_random) q(d) [p_no_return + (1 - p_no_return) P(d + noise > max)]
+    P(too close | d) = (1 - p_random) [1 - q(min(d, min)) + q(d) (1 - p_no_return) P(d + noise < min)]
+
+and the three add up to one for every d. Added up from below, with wall = min(d, max) and the noise's cumulative N,
+
+    P(reading <= z | d) = p_random (z - min) / (max - min)
+                          + (1 - p_random) [p_short (1 - exp(-rate_short min(z, wall)))
+                                            + q(d) (1 - p_no_return) 1(d <= max) N(z - d)]
+
+for min <= z <= max: at z = min it is P(too close), and what it lacks at z = max is P(no return).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from bayesmap.errors import BadInput
+from bayesmap.sensors.model import Floats, KernelParameters, RangeLimits, SensorModel
+from bayesmap.sensors.noise import AdditiveNoise, Gaussian
+
+FLAT_NATS = 1e-4
+"""How much the noise may still add to the log-likelihood where the beam table is cut."""
+
+
+@dataclass(frozen=True)
+class BeamMixture(SensorModel):
+    """Noise around the first hit, mixed with random, short and missing readings.
+
+    Attributes:
+        noise: how a reading scatters around the wall that it hits.
+        p_random: probability of a reading that has nothing to do with the map.
+        p_no_return: probability that a beam which meets a wall does not come back.
+        p_short: probability that a passing object is on the beam's way.
+        rate_short_per_m: how near such objects stand: the rate of their exponential distance.
+
+    Raises:
+        BadInput: a probability outside its interval (``p_random`` must be positive: it keeps every reading
+            possible), or a rate that is not positive.
+    """
+
+    noise: AdditiveNoise = field(default_factory=lambda: Gaussian(0.05))
+    p_random: float = 0.05
+    p_no_return: float = 0.02
+    p_short: float = 0.10
+    rate_short_per_m: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not 0 < self.p_random < 1:
+            raise BadInput(f"BeamMixture: p_random must lie inside (0, 1), got {self.p_random!r}")
+        for name in ("p_no_return", "p_short"):
+            if not 0 <= getattr(self, name) < 1:
+                raise BadInput(f"BeamMixture: {name} must lie in [0, 1), got {getattr(self, name)!r}")
+        if not (math.isfinite(self.rate_short_per_m) and self.rate_short_per_m > 0):
+            raise BadInput(f"BeamMixture: rate_short_per_m must be positive, got {self.rate_short_per_m!r}")
+
+    def unblocked(self, distance_m: Floats) -> Floats:
+        """q(d): the chance that no passing object stands before the distance."""
+        return np.asarray(1.0 - self.p_short * -np.expm1(-self.rate_short_per_m * distance_m))
+
+    def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
+        """The logarithm of the three formulas above, by the kind of the reading."""
+        z, d = np.broadcast_arrays(range_m, distance_m)
+        p = np.ones(z.shape)  # an invalid reading says nothing
+        finite, none, close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
+        p[finite] = self._hit(z[finite], d[finite], limits)
+        p[none] = self._no_return(d[none], limits)
+        p[close] = self._too_close(d[close], limits)
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.maximum(np.log(p), LOG_IMPOSSIBLE))
+
+    def _returned(self, d: Floats, limits: RangeLimits) -> Floats:
+        """The chance that the wall at d is what comes back: q(d) (1 - p_no_return), and 0 out of range."""
+        return np.where(d <= limits.max_m, self.unblocked(d) * (1.0 - self.p_no_return), 0.0)
+
+    def _hit(self, z: Floats, d: Floats, limits: RangeLimits) -> Floats:
+        wall_m = np.minimum(d, limits.max_m)
+        scale = self.noise.scale_at(wall_m)
+        noise = np.exp(self.noise.log_density((z - wall_m) / scale)) / scale
+        rate = self.rate_short_per_m
+        short = np.where(z < wall_m, self.p_short * rate * np.exp(-rate * np.maximum(z, 0.0)), 0.0)
+        uniform = self.p_random / (limits.max_m - limits.min_m)
+        return np.asarray(uniform + (1 - self.p_random) * (short + self._returned(d, limits) * noise))
+
+    def _no_return(self, d: Floats, limits: RangeLimits) -> Floats:
+        wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        above = self.noise.tail((limits.max_m - wall_m) / self.noise.scale_at(wall_m))
+        return np.asarray((1 - self.p_random) * (self.unblocked(wall_m) - returned * (1.0 - above)))
+
+    def _too_close(self, d: Floats, limits: RangeLimits) -> Floats:
+        wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        blocked = 1.0 - self.unblocked(np.minimum(wall_m, limits.min_m))
+        below = 1.0 - self.noise.tail((limits.min_m - wall_m) / self.noise.scale_at(wall_m))
+        return np.asarray((1 - self.p_random) * (blocked + returned * below))
+
+    def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
+        """P(reading <= range | distance) by the last formula above; NaN for an invalid reading."""
+        z, d = np.broadcast_arrays(range_m, distance_m)
+        reading, wall_m = np.clip(z, limits.min_m, limits.max_m), np.minimum(d, limits.max_m)
+        uniform = (reading - limits.min_m) / (limits.max_m - limits.min_m)
+        short = self.p_short * -np.expm1(-self.rate_short_per_m * np.minimum(reading, wall_m))
+        standard = (reading - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m)
+        below = self._returned(d, limits) * self.noise.tail(-standard)  # the noise is symmetric
+        p = self.p_random * uniform + (1 - self.p_random) * (short + below)
+        return np.asarray(np.where(np.isposinf(z), 1.0, p))
+
+    def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
+        """A finite reading is flat where the wall's noise has sunk under `FLAT_NATS` of the random floor."""
+        z = np.asarray(range_m, dtype=np.float64)
+        floor = self.p_random / (limits.max_m - limits.min_m) * FLAT_NATS
+
+        def negligible(distance_m: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+            scale = self.noise.scale_at(distance_m)
+            return np.asarray(np.exp(self.noise.log_density((z - distance_m) / scale)) / scale <= floor)
+
+        finite = np.isfinite(z)
+        z = np.where(finite, np.maximum(z, 0.0), 0.0)
+        low, high = z, np.full(z.shape, limits.max_m)
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (low + high)
+            enough = negligible(middle)
+            low, high = np.where(enough, low, middle), np.where(enough, middle, high)
+        reach = np.where(negligible(high), high, np.inf)
+        return np.where(finite, reach, np.where(np.isnan(range_m), 0.0, np.inf))
+
+    def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
+        """Tell the story above once for every distance."""
+        d = np.asarray(distance_m, dtype=np.float64)
+        wall_m = np.minimum(d, limits.max_m)
+        reading = wall_m + self.noise.scale_at(wall_m) * self.noise.draw(rng, d.shape)
+        lost = (rng.random(d.shape) < self.p_no_return) | (d > limits.max_m)
+        reading = np.where(lost, np.inf, reading)
+        object_m = rng.exponential(1.0 / self.rate_short_per_m, d.shape)
+        passing = rng.random(d.shape) < self.p_short
+        reading = np.where(passing & (object_m < wall_m), object_m, reading)
+        reading = np.where(reading > limits.max_m, np.inf, reading)
+        reading = np.where(reading < limits.min_m, -np.inf, reading)
+        uniform = rng.uniform(limits.min_m, limits.max_m, d.shape)
+        return np.where(rng.random(d.shape) < self.p_random, uniform, reading)
+
+    def kernel_parameters(self) -> KernelParameters | None:
+        """The noise's own parameters, inside the mixture."""
+        noise = self.noise.kernel_parameters()
+        if noise is None:
+            return None
+        return replace(
+            noise,
+            robust=True,
+            p_random=self.p_random,
+            p_no_return=self.p_no_return,
+            p_short=self.p_short,
+            rate_short_per_m=self.rate_short_per_m,
+        )
+
+
+BISECTIONS = 16
+"""To find where a reading is flat within 1/65536 of the sensor's range; what is left over lies on the safe side."""
+
+LOG_IMPOSSIBLE = -30.0
+"""Least log-likelihood of a typed reading, so that one odd beam never makes a whole map impossible."""

@@ -1,0 +1,86 @@
+"""What every sensor model is: a law of the reading, given the distance of the beam's first hit."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RangeLimits:
+    """The span that the sensor can measure, in metres."""
+
+    min_m: float
+    max_m: float
+
+
+class SensorModel(ABC):
+    """p(reading | distance of the first hit), for one beam on its own.
+
+    Distances are in metres; a distance of ``inf`` means that the beam meets nothing. Readings are coded as in
+    `bayesmap.space.scans.Scans`: a finite range is a hit, ``inf`` no return, ``-inf`` too close, NaN invalid.
+    To write a new sensor model, implement the three methods below: the beam table, and with it every sampler,
+    then works with it. `kernel_parameters` is optional speed: without it the table is filled by NumPy.
+    """
+
+    @abstractmethod
+    def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
+        """log p(range | distance) in nats, broadcast over both: a log density for a hit, a log probability
+        for no return and too close, and 0 for an invalid reading, which says nothing.
+        """
+
+    @abstractmethod
+    def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
+        """The distance past which `log_likelihood` no longer depends on the distance, for each reading.
+
+        The rest of such a beam is one entry of the table, "beyond", worth
+        ``log_likelihood(range, inf)``. Return ``inf`` where there is no such distance.
+        """
+
+    @abstractmethod
+    def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
+        """Draw a reading for every distance; the law is the one that `log_likelihood` scores."""
+
+    def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
+        """P(reading <= range | distance), broadcast over both; too close counts as -inf, no return as +inf.
+
+        ``spread_m`` is a further standard deviation of where the beam stops. A model of your own needs this only for
+        `bayesmap.score`, whose calibration asks how often readings fall below a range.
+
+        Raises:
+            BadInput: the model does not say.
+        """
+        raise BadInput(f"{type(self).__name__}: no cumulative distribution; add a method cumulative() to the model")
+
+    def kernel_parameters(self) -> KernelParameters | None:
+        """The numbers with which the compiled likelihood computes this model, or None if it cannot."""
+        return None
+
+
+@dataclass(frozen=True)
+class KernelParameters:
+    """Parameters of the compiled likelihood: additive noise inside an optional robust mixture.
+
+    Attributes:
+        sigma_m: noise scale at distance 0.
+        sigma_per_m: growth of the scale per metre of distance.
+        dof: degrees of freedom of Student-t noise; 0 for Gaussian noise.
+        robust: whether the mixture applies; if not, the reading is distance plus noise and nothing else.
+        p_random, p_no_return, p_short, rate_short_per_m: as in `bayesmap.sensors.mixture.BeamMixture`.
+    """
+
+    sigma_m: float
+    sigma_per_m: float = 0.0
+    dof: float = 0.0
+    robust: bool = False
+    p_random: float = 0.0
+    p_no_return: float = 0.0
+    p_short: float = 0.0
+    rate_short_per_m: float = 1.0

@@ -1,0 +1,1 @@
+"""Simulation: buildings, drawings and pictures as worlds, patrols, the forward model."""

@@ -1,0 +1,131 @@
+"""The forward model: from a map and poses to ranges, without and with noise."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput, check_count
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans, as_angles, as_poses, check_limits
+
+
+def ranges(
+    walls: NDArray[np.bool_],
+    grid: Grid,
+    poses: ArrayLike,
+    angles_rad: ArrayLike,
+    max_range_m: float,
+    *,
+    device: str = "cpu",
+) -> NDArray[np.float64]:
+    """Noise-free ranges: the distance from each pose to the first wall along each beam, capped.
+
+    Cells are closed squares: a beam that touches a corner hits all cells that meet there. From inside a wall the
+    range is that of the exit edge. This equals the minimum over the four edges of every wall cell.
+
+    Args:
+        walls: shape (nx, ny), true (or non-zero) where there is a wall.
+        grid: where the cells are.
+        poses: (x, y, yaw) in the world frame, shape (3,) or (S, 3).
+        angles_rad: beam angles in the sensor frame, shape (A,).
+        max_range_m: the cap.
+        device: where to cast the rays.
+
+    Returns:
+        Metres, shape (A,) for a single pose of shape (3,), else (S, A).
+
+    Raises:
+        BadInput: shapes that do not fit, numbers that are not finite, a cap that is not positive.
+    """
+    many = as_poses(poses)
+    distances = _distances(walls, grid, many, as_angles(angles_rad), max_range_m, device)
+    return distances[0] if np.ndim(poses) == 1 else distances
+
+
+def simulate(
+    walls: NDArray[np.bool_],
+    grid: Grid,
+    poses: ArrayLike,
+    angles_rad: ArrayLike,
+    *,
+    sensor: SensorModel,
+    max_range_m: float,
+    min_range_m: float = 0.0,
+    seed: int = 0,
+    opacity: NDArray[np.float64] | None = None,
+    device: str = "cpu",
+) -> Scans:
+    """Draw scans from a sensor model in a known world.
+
+    Args:
+        walls: shape (nx, ny).
+        grid: where the cells are.
+        poses: (x, y, yaw) in the world frame, shape (3,) or (S, 3).
+        angles_rad: beam angles in the sensor frame, shape (A,).
+        sensor: the law of the readings.
+        max_range_m: the sensor's largest range.
+        min_range_m: the sensor's smallest range.
+        seed: of the noise.
+        opacity: chance, per cell, that a wall stops a scan's beams (1 where None): glass lets some through.
+        device: where to cast the rays.
+
+    Raises:
+        BadInput: as `ranges`, and for a pose inside a wall.
+    """
+    many, angles = as_poses(poses), as_angles(angles_rad)
+    check_limits(min_range_m, max_range_m)
+    seed = check_count("simulate", "seed", seed, 0)
+    solid = np.asarray(walls) != 0
+    _check_walls(solid, grid)
+    for scan, (x, y, _) in enumerate(many):
+        cell = grid.cell_at(x, y)
+        if cell is not None and solid[cell]:
+            raise BadInput(
+                f"simulate: pose {scan} at ({x:g}, {y:g}) m stands in the occupied cell {cell}; "
+                "move the robot, or clear that cell"
+            )
+    if opacity is not None:
+        opacity = np.asarray(opacity, dtype=np.float64)
+        if opacity.shape != grid.shape or not ((opacity >= 0) & (opacity <= 1)).all():
+            raise BadInput(
+                f"simulate: opacity must be {grid.shape} numbers in [0, 1], one a cell; got shape {opacity.shape}"
+            )
+    rng = np.random.default_rng(seed)
+    if opacity is None:
+        distances = _distances(solid, grid, many, angles, np.inf, device)
+    else:
+        distances = np.concatenate(
+            [
+                _distances(solid & (rng.random(grid.shape) < opacity), grid, pose[None], angles, np.inf, device)
+                for pose in many
+            ]
+        )
+    readings = sensor.sample(rng, distances, RangeLimits(min_range_m, max_range_m))
+    return Scans(many, angles, readings, max_range_m=max_range_m, min_range_m=min_range_m)
+
+
+def _distances(
+    walls: NDArray[np.bool_],
+    grid: Grid,
+    poses: NDArray[np.float64],
+    angles_rad: NDArray[np.float64],
+    max_range_m: float,
+    device: str,
+) -> NDArray[np.float64]:
+    from bayesmap.kernels.ranges import cast  # loads Warp
+
+    _check_walls(walls, grid)
+    if not max_range_m > 0:
+        raise BadInput(f"ranges: max_range_m must be a positive number of metres, got {max_range_m!r}")
+    starts = np.repeat(grid.to_cells(poses[:, :2]), len(angles_rad), axis=0)
+    directions = (poses[:, 2:3] + angles_rad[None, :]).ravel()
+    distances, _ = cast(walls, starts, directions, max_range_m / grid.resolution, device)
+    metres = np.minimum(distances * grid.resolution, max_range_m)
+    return metres.reshape(len(poses), len(angles_rad))
+
+
+def _check_walls(walls: NDArray[np.bool_], grid: Grid) -> None:
+    if np.shape(walls) != grid.shape:
+        raise BadInput(f"map: walls have shape {np.shape(walls)}, but the grid is {grid.shape}")

@@ -1,0 +1,255 @@
+"""What stands in rooms, as a laser at shin height sees it: legs, cabinets, boxes, partitions.
+
+Every piece is tried where it belongs (against a wall, in the middle, in front of a desk) and kept only if it
+leaves the door free and the rest of the room within reach of a robot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.sim.clearance import passage_m, wall_distance_m
+
+SOLID = 1.0
+LEG = 0.5
+"""A leg is thinner than a cell: about half of the beams that enter its cell pass."""
+
+MAX_CUT_OFF_M2 = 0.4
+"""Floor that a piece may put out of a robot's reach, besides the floor that it stands on."""
+
+Rectangle = tuple[float, float, float, float, float]
+"""Metres in the room's frame: x, y, width, depth; and the opacity."""
+
+
+@dataclass
+class RoomFloor:
+    """A room being furnished. Its frame: x along the corridor wall, y away from the corridor, in metres.
+
+    Attributes:
+        opacity: the room's cells and the walls around them, in the room's frame, shape (nx + 2, ny + 2);
+            changed in place.
+        keep: cells in front of doors, and door openings, where nothing may stand.
+        resolution: edge of a cell in metres.
+        rng: the source of randomness.
+    """
+
+    opacity: NDArray[np.float64]
+    keep: NDArray[np.bool_]
+    resolution: float
+    rng: np.random.Generator
+
+    @property
+    def size_m(self) -> tuple[float, float]:
+        """Width and depth of the room in metres."""
+        nx, ny = self.opacity.shape
+        return (nx - 2) * self.resolution, (ny - 2) * self.resolution
+
+    def place(self, *rectangles: Rectangle) -> bool:
+        """Put a piece, given as its parts, if there is room for all of it; say whether it was put."""
+        trial = self.opacity.copy()
+        nx, ny = trial.shape
+        for x, y, width, depth, opacity in rectangles:
+            a, b = (1 + round(v / self.resolution) for v in (x, x + width))
+            c, d = (1 + round(v / self.resolution) for v in (y, y + depth))
+            b, d = max(b, a + 1), max(d, c + 1)
+            if min(a, c) < 1 or b > nx - 1 or d > ny - 1:
+                return False
+            if self.keep[a:b, c:d].any() or trial[a:b, c:d].any():
+                return False
+            trial[a:b, c:d] = opacity
+        if self._reachable(trial) + MAX_CUT_OFF_M2 < self._passable(trial):
+            return False
+        self.opacity[...] = trial
+        return True
+
+    def _passable(self, opacity: NDArray[np.float64]) -> float:
+        return float(self._room_to_pass(opacity).sum()) * self.resolution**2
+
+    def _reachable(self, opacity: NDArray[np.float64]) -> float:
+        """Square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
+        from scipy import ndimage
+
+        labels, _ = ndimage.label(self._room_to_pass(opacity))
+        doors = np.unique(labels[self.keep])
+        doors = doors[doors > 0]
+        if len(doors) != 1:
+            return -np.inf
+        return float((labels == doors[0]).sum()) * self.resolution**2
+
+    def _room_to_pass(self, opacity: NDArray[np.float64]) -> NDArray[np.bool_]:
+        return wall_distance_m(opacity > 0, self.resolution) >= passage_m(self.resolution)
+
+
+def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
+    """Furnish a room for what it is for.
+
+    Args:
+        room: the room; changed in place.
+        kind: as in `bayesmap.sim.floor_plan.Space`.
+        clutter: how full, 0 (empty) to 1 (usual) and more.
+    """
+    if clutter <= 0:
+        return
+    FURNISHERS[kind](room, clutter)
+    for _ in range(room.rng.poisson(clutter * room.size_m[0] * room.size_m[1] / 25)):
+        _box(room)
+
+
+def _office(room: RoomFloor, clutter: float) -> None:
+    _, depth = room.size_m
+    for side in room.rng.permutation(2)[: 1 + (room.rng.random() < 0.6 * clutter)]:
+        y = depth - room.rng.uniform(1.9, 2.4)
+        _desk_at_wall(room, left=bool(side), y=y)
+    _cabinets(room, room.rng.poisson(1.3 * clutter))
+
+
+def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
+    """A desk along a side wall: drawers under one end, two legs at the other, a chair before it."""
+    width, _ = room.size_m
+    x_wall = 0.0 if left else width - 0.6
+    x_edge = 0.6 if left else width - 0.7
+    drawers: Rectangle = (x_wall, y, 0.6, 0.4, SOLID)
+    if room.place(drawers, (x_edge, y + 1.5, 0.08, 0.08, LEG)):
+        _chair(room, 0.95 if left else width - 1.1, y + 0.85)
+
+
+def _chair(room: RoomFloor, x: float, y: float) -> None:
+    """A swivel chair: the column and five short feet fill about a square of 0.2 m."""
+    room.place((x + room.rng.uniform(-0.2, 0.2), y + room.rng.uniform(-0.2, 0.2), 0.2, 0.2, LEG))
+
+
+def _four_legs(x: float, y: float, width: float, depth: float) -> list[Rectangle]:
+    size = 0.08
+    return [(x + dx * (width - size), y + dy * (depth - size), size, size, LEG) for dx in (0, 1) for dy in (0, 1)]
+
+
+def _table(room: RoomFloor, clutter: float) -> None:
+    """A table in the middle, with four legs, and chairs along its sides."""
+    width, depth = room.size_m
+    along_x = width > depth
+    length, across = min(max(width, depth) - 2.6, 3.6), 1.2
+    if length < 1.0 or min(width, depth) < 3.2:
+        return
+    w, d = (length, across) if along_x else (across, length)
+    x, y = (width - w) / 2, (depth - d) / 2
+    if not room.place(*_four_legs(x, y, w, d)):
+        return
+    for k in range(int(length / 0.8)):
+        for side in (-1, 1):
+            if room.rng.random() < 0.85 * min(clutter, 1):
+                run = (k + 0.5) * length / int(length / 0.8) - 0.1
+                off = across / 2 + side * (across / 2 + 0.25) - 0.1
+                _chair(room, x + (run if along_x else off), y + (off if along_x else run))
+
+
+def _meeting(room: RoomFloor, clutter: float) -> None:
+    _table(room, clutter)
+    _cabinets(room, int(room.rng.random() < 0.5 * clutter))
+
+
+def _open_plan(room: RoomFloor, clutter: float) -> None:
+    """Islands of four desks: a screen down the middle, drawers at the outer ends, a chair at each desk."""
+    width, depth = room.size_m
+    islands = max(1, int((width - 0.8) / 3.6))
+    for k in range(islands):
+        x = (k + 0.5) * width / islands
+        y = depth / 2 - 1.6 + 0.3
+        room.place((x - 0.05, y, 0.08, 3.2, SOLID))
+        for side in (-1, 1):
+            for end in (0.0, 1.7):
+                if room.rng.random() < 0.9 * min(clutter, 1):
+                    room.place((x + (0.15 if side > 0 else -0.75), y + end * 1.65, 0.5, 0.4, SOLID))
+                    _chair(room, x + side * 1.0 - 0.1, y + end + 0.6)
+    _cabinets(room, room.rng.poisson(2 * clutter))
+
+
+def _store(room: RoomFloor, clutter: float) -> None:
+    """Shelves along both side walls, boxes on the floor."""
+    width, depth = room.size_m
+    for x in (0.0, width - 0.4):
+        room.place((x, 1.3, 0.4, depth - 1.3, SOLID))
+    for _ in range(room.rng.poisson(4 * clutter)):
+        _box(room)
+
+
+def _server(room: RoomFloor, clutter: float) -> None:
+    width, depth = room.size_m
+    racks = int((depth - 2.6) / 0.6)
+    for x in np.arange(0.9, width - 1.8, 2.0):
+        room.place((float(x), 1.6, 1.0, 0.6 * racks, SOLID))
+
+
+def _kitchen(room: RoomFloor, clutter: float) -> None:
+    width, depth = room.size_m
+    room.place((0.0, depth - 0.6, width, 0.6, SOLID))
+    room.place((0.0, 1.4, 0.6, 0.7, SOLID))
+    _table(room, clutter)
+
+
+def _washroom(room: RoomFloor, clutter: float) -> None:
+    """Stalls along the back wall, their doors open, and a row of basins."""
+    width, depth = room.size_m
+    stalls = max(1, int(width / 1.0))
+    for k in range(stalls):
+        x = k * width / stalls
+        if k:
+            room.place((x, depth - 1.4, 0.05, 1.4, SOLID))
+        room.place((x + width / stalls / 2 - 0.2, depth - 0.6, 0.4, 0.6, SOLID))
+    room.place((0.0, 1.4, 0.5, max(0.6, depth - 3.4), SOLID))
+
+
+def _lobby(room: RoomFloor, clutter: float) -> None:
+    """A reception desk, armchairs, a plant."""
+    width, depth = room.size_m
+    room.place((width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6, SOLID))
+    for _ in range(3):
+        _against_wall(room, 0.8, 0.8)
+    _against_wall(room, 0.4, 0.4)
+
+
+def _corridor(room: RoomFloor, clutter: float) -> None:
+    """A copier, a cabinet or a plant here and there, flat against a wall."""
+    for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
+        length = room.rng.choice([0.3, 0.6, 0.8, 1.2])
+        _against_wall(room, float(length), 0.4)
+
+
+def _cabinets(room: RoomFloor, count: int) -> None:
+    for _ in range(count):
+        _against_wall(room, float(room.rng.choice([0.8, 1.0, 1.6])), 0.45)
+
+
+def _against_wall(room: RoomFloor, length: float, depth_of_piece: float, tries: int = 6) -> None:
+    """A solid piece with its back to a wall, at a random place."""
+    width, depth = room.size_m
+    for _ in range(tries):
+        side = room.rng.integers(4)
+        w, d = (length, depth_of_piece) if side < 2 else (depth_of_piece, length)
+        if w > width or d > depth:
+            continue
+        x = room.rng.uniform(0, width - w) if side < 2 else (0.0, width - w)[side - 2]
+        y = room.rng.uniform(0, depth - d) if side >= 2 else (0.0, depth - d)[side]
+        if room.place((float(x), float(y), w, d, SOLID)):
+            return
+
+
+def _box(room: RoomFloor) -> None:
+    size = room.rng.uniform(0.25, 0.6, 2)
+    _against_wall(room, float(size[0]), float(size[1]), tries=2)
+
+
+FURNISHERS: dict[str, Callable[[RoomFloor, float], None]] = {
+    "corridor": _corridor,
+    "office": _office,
+    "meeting": _meeting,
+    "open plan": _open_plan,
+    "store": _store,
+    "server": _server,
+    "kitchen": _kitchen,
+    "washroom": _washroom,
+    "lobby": _lobby,
+}

@@ -1,0 +1,1 @@
+"""Plain data about space: grids, scans, rigid motions, trajectories."""

@@ -1,0 +1,198 @@
+"""Edits of cells: the weight is the difference of the joint's, whatever was edited before."""
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import numpy as np
+import pytest
+from oracle.worlds import make_case
+
+import bayesmap as bm
+import bayesmap.gen as gen
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.gen import Diff, IndexChange, NoChange, Update
+from bayesmap.programs.beam_geometry import BeamGeometry
+from bayesmap.programs.beam_sensor import BeamSensor
+from bayesmap.programs.mapping import SetCells, sensor_model
+
+KEY = jr.key(0)
+edit = jax.jit(lambda trace, request: trace.edit(KEY, request))
+BLOCK_I, BLOCK_J = np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1])
+
+
+def room(shape, n_poses, sensor, seed=0, beams=40):
+    """A model, readings, and walls to start from: poses anywhere in a room that is longer than LOOK cells."""
+    rng = np.random.default_rng(seed)
+    grid = bm.Grid(shape, 0.5, (-2.0, 1.0))
+    size = np.array(shape) * 0.5
+    poses = np.column_stack([rng.uniform(0, 1, (n_poses, 2)) * size + grid.origin, rng.uniform(-3, 3, n_poses)])
+    poses[0] = [-2.0 + 0.5 * (shape[0] // 2), 1.0 + 0.5 * (shape[1] // 2), 0.0]  # on a corner
+    angles = np.linspace(0, 2 * np.pi, beams, endpoint=False)
+    model = bm.mapping_model(
+        grid, poses, angles, bm.Independent(rng.uniform(0.05, 0.6, shape)), sensor, max_range_m=9.0
+    )
+    readings = rng.uniform(0.0, 9.0, (n_poses, beams))
+    readings[rng.random(readings.shape) < 0.05] = np.nan
+    return model, jnp.asarray(readings), jnp.asarray(rng.random(shape) < 0.05)
+
+
+def start(model, readings, walls):
+    return model.importance(KEY, C["walls"].set(walls) | C["readings"].set(readings), ())[0]
+
+
+def single(i, j, value):
+    return gen.StaticRequest({"walls": gen.IndexRequest(i, gen.IndexRequest(j, Update(C.v(value))))})
+
+
+def block(i, j, values):
+    return gen.StaticRequest({"walls": SetCells(i + BLOCK_I, j + BLOCK_J, values)})
+
+
+CASES = {
+    "cells, gaussian": ((7, 9), 3, bm.Gaussian(0.5)),
+    "cells, long beams": ((40, 3), 2, bm.StudentT(0.3, dof=4.0)),
+    "blocks, mixture": ((9, 9), 1, bm.BeamMixture(bm.Gaussian(0.2))),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_long_chains_of_edits(name):
+    """400 random edits, walls as often as not, cells off every beam and repeats included.
+
+    After each, the weight, the first hits and the score are those of a run from scratch.
+    """
+    (nx, ny), n_poses, sensor = CASES[name]
+    model, readings, walls = room((nx, ny), n_poses, sensor)
+    blocks = name.startswith("blocks")
+
+    def step(carry, key):
+        trace, before = carry
+        keys = jr.split(key, 4)
+        i, j = jr.randint(keys[0], (), 0, nx - blocks), jr.randint(keys[1], (), 0, ny - blocks)
+        values = jr.uniform(keys[2], (4,)) < jr.uniform(keys[3])
+        new, weight, _, _ = trace.edit(key, block(i, j, values) if blocks else single(i, j, values[0]))
+        after = model.assess(new.get_choices(), ())[0]
+        inner = new.get_subtrace("readings")
+        right = (inner.first_hit == inner.gen_fn.first_hits(new.get_choices()["walls"])).all()
+        return (new, after), (weight, after - before, new.get_score(), after, right)
+
+    @jax.jit
+    def chain(trace):
+        return jax.lax.scan(step, (trace, model.assess(trace.get_choices(), ())[0]), jr.split(KEY, 400))
+
+    (last, _), (weight, difference, score, assessed, right) = chain(start(model, readings, walls))
+    assert right.all()
+    scale = np.abs(assessed).max()
+    np.testing.assert_allclose(weight, difference, rtol=1e-5, atol=1e-6 * scale + 1e-3)
+    np.testing.assert_allclose(score, assessed, rtol=3e-6, atol=1e-3)
+    assert len(np.unique(np.asarray(assessed))) > 100  # power: the edits did matter
+    np.testing.assert_array_equal(last.get_choices()["readings"], readings)
+
+
+@pytest.fixture(scope="module")
+def small():
+    model, readings, walls = room((7, 9), 2, bm.Gaussian(0.5))
+    return model, start(model, readings, walls)
+
+
+def test_edits_do_not_look_at_the_whole_map(small, monkeypatch):
+    """The rest of the model is not run again: neither all first hits nor the law of all readings."""
+    _, trace = small
+    monkeypatch.setattr(BeamSensor, "first_hits", lambda *_: pytest.fail("all beams were looked at"))
+    for request in (single(3, 4, True), Update(C["walls", 3, 4].set(True)), block(2, 5, np.ones(4, bool))):
+        _, _, retdiff, _ = jax.jit(lambda t, r=request: t.edit(KEY, r))(trace)
+        tangents = Diff.tangents(retdiff)
+        assert isinstance(tangents[0], IndexChange)
+        assert tangents[1] == NoChange
+    with pytest.raises(pytest.fail.Exception, match="all beams"):
+        trace.update(KEY, C["walls"].set(np.ones((7, 9), bool)))
+
+
+def test_the_work_on_one_cell_does_not_grow_with_the_map():
+    """No value that it computes is of the map's size: the walls are read in place, not compared or copied."""
+    sensor = sensor_model(bm.Grid((50, 51)), [25, 25, 0.0], np.arange(9.0), bm.Gaussian(0.1), max_range_m=60.0)
+
+    def computed(jaxpr):
+        for eqn in jaxpr.eqns:
+            inner = [getattr(p, "jaxpr", p) for p in jax.tree.leaves(list(eqn.params.values())) if hasattr(p, "eqns")]
+            if inner:
+                for sub in inner:
+                    yield from computed(sub)
+            else:
+                yield from (v.aval.size for v in eqn.outvars)
+
+    first_hit = jnp.zeros(9, sensor.geometry.position_dtype)
+    walls = jnp.zeros((50, 51), bool)
+    program = jax.make_jaxpr(lambda w, h: sensor._change_cell(w, 7, h, jnp.ones(9)))(walls, first_hit)
+    sizes = list(computed(program.jaxpr))
+    assert len(sizes) > 30
+    assert max(sizes) < 50 * 51
+
+
+def test_backward_requests_undo_edits(small):
+    _, trace = small
+    for request in (single(3, 4, True), block(2, 5, np.array([True, False, True, True]))):
+        new, weight, _, back = edit(trace, request)
+        assert jax.tree.structure(new) == jax.tree.structure(trace)
+        assert [x.dtype for x in jax.tree.leaves(new)] == [x.dtype for x in jax.tree.leaves(trace)]
+        old, undone, _, _ = edit(new, back)
+        np.testing.assert_array_equal(old.get_choices()["walls"], trace.get_choices()["walls"])
+        np.testing.assert_allclose(undone, -weight, rtol=1e-5, atol=1e-4)
+
+
+def test_an_edit_that_changes_nothing_has_weight_zero(small):
+    _, trace = small
+    walls = trace.get_choices()["walls"]
+    same, weight, _, _ = edit(trace, single(3, 4, walls[3, 4]))
+    assert weight == 0.0
+    np.testing.assert_array_equal(same.get_subtrace("readings").first_hit, trace.get_subtrace("readings").first_hit)
+
+
+def test_negative_indices_count_from_the_end(small):
+    _, trace = small
+    one, two = (edit(trace, single(i, j, True)) for i, j in ((6, 8), (-1, -1)))
+    np.testing.assert_array_equal(one[0].get_choices()["walls"], two[0].get_choices()["walls"])
+    assert one[1] == two[1]
+
+
+def test_other_edits_are_right_too(small):
+    """All walls at once, readings (all, one, one and a wall), regenerated parts."""
+    model, trace = small
+    assess = jax.jit(lambda choices: model.assess(choices, ())[0])
+    readings = jnp.nan_to_num(trace.get_choices()["readings"], nan=1.0)
+    requests = {
+        "all walls": Update(C["walls"].set(jnp.ones((7, 9), bool))),
+        "all readings": Update(C["readings"].set(readings + 0.3)),
+        "one reading": Update(C["readings", 1, 3].set(2.5)),
+        "one of each": Update(C["walls", 3, 4].set(True) | C["readings", 1, 3].set(2.5)),
+        "by request": gen.StaticRequest({"readings": gen.IndexRequest(1, Update(C.v(readings[1])))}),
+        "nothing": gen.EmptyRequest(),
+    }
+    for name, request in requests.items():
+        new, weight, _, back = edit(trace, request)
+        difference = assess(new.get_choices()) - assess(trace.get_choices())
+        np.testing.assert_allclose(weight, difference, rtol=1e-4, atol=1e-3, err_msg=name)
+        old, _, _, _ = edit(new, back)
+        for address in ("walls", "readings"):
+            np.testing.assert_array_equal(old.get_choices()[address], trace.get_choices()[address], err_msg=name)
+    drawn, weight, _, _ = edit(trace, gen.Regenerate(gen.Selection.at["readings"]))
+    assert weight == 0.0
+    assert not np.array_equal(drawn.get_choices()["readings"], trace.get_choices()["readings"])
+    moved, weight, _, _ = edit(trace, gen.Regenerate(gen.Selection.at["walls"]))
+    kept = gen.Selection.at["readings"]
+    np.testing.assert_allclose(weight, moved.project(KEY, kept) - trace.project(KEY, kept), rtol=1e-4, atol=1e-3)
+
+
+def test_no_beam_lists_a_cell_twice():
+    """What the edits rely on: beams of a cell are different beams. Poses on corners, lines and inside cells."""
+    for seed in range(6):
+        case = make_case(seed, shape=(4, 4), lattice=seed % 2 == 0, beams_per_pose=16)
+        scans = case.scans
+        sensor = sensor_model(case.grid, scans.poses, scans.angles_rad, case.sensor, max_range_m=3.0)
+        geometry: BeamGeometry = sensor.geometry
+        for row in geometry.cells:
+            cells = row[row < geometry.n_cells]
+            assert len(np.unique(cells)) == len(cells)
+        for c in range(geometry.n_cells):
+            entries = slice(geometry.offsets[c], geometry.offsets[c + 1])
+            assert (geometry.cells[geometry.beam[entries], geometry.position[entries]] == c).all()

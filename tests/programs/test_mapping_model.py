@@ -1,0 +1,205 @@
+"""The mapping model as a generative function: its densities are those of `infer`, and it composes."""
+
+import pickle
+from dataclasses import replace
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import numpy as np
+import pytest
+from conformance.gen_tutorial_model import CENTER, PARAMS, full_model
+from oracle.worlds import make_case
+
+import bayesmap as bm
+import bayesmap.gen as gen
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.kernels.trace import trace
+from bayesmap.programs.mapping import sensor_model
+from bayesmap.samplers.problem import Problem
+from bayesmap.sensors.model import RangeLimits
+
+KEY = jr.key(0)
+ANGLES = np.arange(100) / 100 * 2 * np.pi
+SENSORS = {
+    "gaussian": bm.Gaussian(0.5),
+    "growing": bm.Gaussian(0.1, sigma_per_m=0.05),
+    "student": bm.StudentT(0.2, dof=3.0, scale_per_m=0.02),
+    "mixture": bm.BeamMixture(bm.Gaussian(0.1)),
+    "student mixture": bm.BeamMixture(bm.StudentT(0.1, dof=2.5), p_random=0.1, p_no_return=0.2, p_short=0.3),
+}
+TABLE_CUT = 1e-4  # nats a beam: where the mixture's beam table ends early (FLAT_NATS)
+
+
+def of_case(case):
+    scans = case.scans
+    return bm.mapping_model(
+        case.grid, scans.poses, scans.angles_rad, case.prior, case.sensor, max_range_m=scans.max_range_m,
+        min_range_m=scans.min_range_m,
+    )  # fmt: skip
+
+
+def both(walls, readings):
+    return C["walls"].set(walls) | C["readings"].set(readings)
+
+
+@pytest.fixture(scope="module")
+def tutorial():
+    grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
+    return bm.mapping_model(grid, [10.0, 10.0, 0.0], ANGLES, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+@pytest.mark.parametrize("lattice", [False, True])
+def test_assess_is_infer_s_log_joint(name, lattice):
+    """No constants are left out on either side; float32 sums against float64 ones. Typed readings included."""
+    case = replace(make_case(11, shape=(4, 3), n_poses=3, lattice=lattice, beams_per_pose=16), sensor=SENSORS[name])
+    readings = case.scans.ranges_m.copy()
+    readings[0, :3], readings[1, :2] = np.inf, -np.inf
+    scans = bm.Scans(case.scans.poses, case.scans.angles_rad, readings, max_range_m=3.0, min_range_m=0.1)
+    model, rng = of_case(case), np.random.default_rng(1)
+    problem = Problem(trace(scans, case.grid, case.sensor), case.prior, scans.poses)
+    maps = rng.random((50, *case.grid.shape)) < rng.random((50, 1, 1))
+    assess = jax.jit(jax.vmap(lambda w: model.assess(both(w, jnp.asarray(readings)), ())[0]))
+    expected = [problem.log_joint(w) for w in maps]
+    np.testing.assert_allclose(assess(maps), expected, rtol=3e-6, atol=TABLE_CUT * readings.size + 1e-4)
+
+
+def test_assess_with_a_probability_for_each_cell():
+    case = make_case(3, shape=(4, 4), prior="cells")
+    problem, model = case.problem(), of_case(case)
+    walls = np.asarray(case.walls)
+    readings = jnp.asarray(case.scans.ranges_m)
+    score, _ = model.assess(both(walls, readings), ())
+    np.testing.assert_allclose(score, problem.log_joint(walls), rtol=1e-5)
+    impossible = np.where(np.asarray(case.prior.p_wall) == 0, True, walls)
+    assert model.assess(both(impossible, readings), ())[0] == -np.inf
+
+
+def test_assess_is_that_of_the_tutorial_s_own_program(tutorial):
+    rng = np.random.default_rng(0)
+    walls, pose = bm.worlds.tutorial()
+    readings = bm.simulate(walls, bm.Grid((21, 21), 1.0, (-0.5, -0.5)), pose, ANGLES, sensor=bm.Gaussian(0.2),
+                           max_range_m=42.0).ranges_m[0]  # fmt: skip
+    plain = jax.jit(lambda w: full_model.assess(both(w, jnp.asarray(readings)), (CENTER, PARAMS))[0])
+    for w in (walls, np.zeros_like(walls), rng.random(walls.shape) < 0.1):
+        # Beams at multiples of 45 degrees graze corners, where the tutorial's float32 hits or misses; they are the
+        # same in float64 (tests/kernels/test_ranges.py).
+        score, _ = tutorial.assess(both(w, readings), ())
+        np.testing.assert_allclose(score, plain(w), rtol=2e-5)
+
+
+def test_equal_probabilities_draw_the_tutorial_s_maps(tutorial):
+    trace = tutorial.simulate(KEY, ())
+    prior = gen.flip.repeat(n=21).repeat(n=21).simulate(jr.fold_in(KEY, 1), (0.5,))
+    np.testing.assert_array_equal(trace.get_choices()["walls"], prior.get_retval())
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_simulated_readings_follow_the_sensor(name):
+    """Against the sensor's own sampler: the share of each kind, and quartiles, to five standard errors."""
+    grid, walls = bm.Grid((6, 6), 0.5), np.zeros((6, 6), bool)
+    walls[4] = True
+    sensor = sensor_model(grid, [1.0, 1.6, 0.0], [0.0, 0.5, 2.0], SENSORS[name], max_range_m=2.5, min_range_m=0.2)
+    n = 20_000
+    ours = np.asarray(jax.jit(jax.vmap(lambda k: sensor.simulate(k, (walls,)).get_retval()))(jr.split(KEY, n)))
+    distance = np.broadcast_to([1.0, 1.0 / np.cos(0.5), np.inf], (n, 3))
+    theirs = SENSORS[name].sample(np.random.default_rng(0), distance, RangeLimits(0.2, 2.5))
+    for beam in range(3):
+        a, b = ours[:, beam], theirs[:, beam]
+        cuts = [-np.inf, *np.quantile(b[np.isfinite(b)], [0.1, 0.25, 0.5, 0.75, 0.9]), 1e9]
+        for cut in cuts:
+            p, q = np.mean(a <= cut), np.mean(b <= cut)
+            assert abs(p - q) <= 5 * np.sqrt(2 * max(q * (1 - q), 1e-4) / n), (name, beam, cut)
+
+
+def test_it_nests_in_a_bigger_model():
+    case = make_case(5, shape=(3, 3))
+    inner = of_case(case)
+
+    @gen.gen
+    def robot():
+        walls, readings = inner() @ "map"
+        broken = gen.flip(0.1) @ "broken"
+        return walls, jnp.where(broken, jnp.nan, readings)
+
+    trace = jax.jit(robot.simulate)(KEY, ())
+    choices = trace.get_choices()
+    assert choices["map", "walls"].shape == (3, 3)
+    score = inner.assess(choices("map"), ())[0] + gen.flip.assess(C.v(choices["broken"]), (0.1,))[0]
+    np.testing.assert_allclose(trace.get_score(), score, rtol=1e-5)
+    cell = choices["map", "walls"][1, 2]
+    new, weight, _, _ = jax.jit(lambda t, c: t.update(KEY, c))(trace, C["map", "walls", 1, 2].set(~cell))
+    np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-3, atol=1e-3)
+
+
+def test_importance_weighs_by_what_is_given_and_project_divides_the_score():
+    case = make_case(6, shape=(3, 3), prior=0.3)
+    model, readings = of_case(case), jnp.asarray(case.scans.ranges_m)
+    trace, weight = model.importance(KEY, C["readings"].set(readings), ())
+    walls = np.asarray(trace.get_choices()["walls"])
+    np.testing.assert_allclose(weight, case.problem().table.log_likelihood(walls), rtol=1e-5)
+    np.testing.assert_allclose(trace.project(KEY, gen.Selection.at["readings"]), weight, rtol=1e-6)
+    np.testing.assert_allclose(
+        trace.project(KEY, gen.Selection.at["walls"]), case.prior.log_prob(walls, case.grid), rtol=1e-5
+    )
+    empty, nothing = model.importance(KEY, C.n(), ())
+    assert nothing == 0.0
+    np.testing.assert_allclose(empty.get_score(), model.assess(empty.get_choices(), ())[0], rtol=1e-5)
+
+
+def test_a_batch_of_traces_is_a_trace():
+    case = make_case(7, shape=(3, 3))
+    model = of_case(case)
+    batch = jax.jit(jax.vmap(lambda k: model.simulate(k, ())))(jr.split(KEY, 7))
+    assert batch.get_score().shape == (7,)
+    scores = jax.jit(jax.vmap(lambda c: model.assess(c, ())[0]))(batch.get_choices())
+    np.testing.assert_allclose(batch.get_score(), scores, rtol=1e-5)
+    # Geometry and prior are no leaves: a batch does not repeat them.
+    assert sum(leaf.size for leaf in jax.tree.leaves(batch)) <= 7 * (9 + 2 * case.scans.n_beams + 2)
+
+
+def test_equal_models_are_equal_and_a_trace_can_be_pickled():
+    case = make_case(7, shape=(3, 3))
+    one, two = of_case(case), of_case(case)
+    assert jax.tree.structure(one) == jax.tree.structure(two)
+    trace = one.simulate(KEY, ())
+    again = pickle.loads(pickle.dumps(trace))
+    assert jax.tree.structure(again) == jax.tree.structure(trace)
+    np.testing.assert_array_equal(again.get_choices()["readings"], trace.get_choices()["readings"])
+    other = bm.mapping_model(case.grid, [[0, 3, 0.0]], [0.0], case.prior, case.sensor, max_range_m=3.0)
+    assert jax.tree.structure(other) != jax.tree.structure(one)
+
+
+class Odd(bm.Gaussian):
+    def kernel_parameters(self):
+        return None
+
+
+def test_bad_input_is_named():
+    grid, p = bm.Grid((3, 3)), bm.Independent(0.5)
+    model = bm.mapping_model(grid, [1.5, 1.5, 0.0], [0.0, 1.0], p, bm.Gaussian(0.1), max_range_m=5.0)
+    walls, readings = np.zeros((3, 3), bool), np.ones(2)
+    with pytest.raises(bm.BadInput, match=r"'walls': found \(3, 4\), expected \(3, 3\)"):
+        model.assess(both(np.zeros((3, 4), bool), readings), ())
+    with pytest.raises(bm.BadInput, match=r"'readings': found \(1, 2\), expected \(2,\)"):
+        model.importance(KEY, C["readings"].set(np.ones((1, 2))), ())
+    with pytest.raises(bm.BadInput, match=r"'walls'.*0\.5"):
+        model.assess(both(walls + 0.5, readings), ())
+    with pytest.raises(bm.BadInput, match="'wals'"):
+        model.importance(KEY, C["wals"].set(walls), ())
+    with pytest.raises(bm.BadInput, match="'readings'"):
+        model.assess(C["walls"].set(walls), ())
+    with pytest.raises(bm.BadInput, match=r"p_wall must lie in \[0, 1\]"):
+        bm.mapping_model(grid, [1, 1, 0], [0.0], bm.Independent(1.5), bm.Gaussian(0.1), max_range_m=5.0)
+    with pytest.raises(bm.BadInput, match=r"p_wall has shape \(2, 2\), but the grid is \(3, 3\)"):
+        bm.mapping_model(
+            grid, [1, 1, 0], [0.0], bm.Independent(np.full((2, 2), 0.5)), bm.Gaussian(0.1), max_range_m=5.0
+        )
+    with pytest.raises(bm.BadInput, match="Odd has no likelihood on JAX"):
+        bm.mapping_model(grid, [1, 1, 0], [0.0], p, Odd(0.1), max_range_m=5.0)
+    with pytest.raises(bm.BadInput, match="max_range_m must be a positive"):
+        bm.mapping_model(grid, [1, 1, 0], [0.0], p, bm.Gaussian(0.1), max_range_m=-1.0)
+    sensor = sensor_model(grid, [1, 1, 0], [0.0], bm.Gaussian(0.1), max_range_m=5.0)
+    with pytest.raises(bm.BadInput, match=r"walls has shape \(2, 2\), expected \(3, 3\)"):
+        sensor.simulate(KEY, (np.zeros((2, 2), bool),))

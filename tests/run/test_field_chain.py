@@ -1,0 +1,125 @@
+"""Runs over reflectivities and surfaces are determined by their arguments: not by threads, stops or other chains."""
+
+import numpy as np
+import pytest
+from field_rooms import GRID, PRIORS, TRUTH, assert_same, infer, scans
+
+import bayesmap as bm
+from bayesmap.field_inference import default_draws
+from bayesmap.run import field_chain
+from bayesmap.run.chain import Schedule
+from bayesmap.samplers.field_gibbs import build_field
+
+KINDS = pytest.mark.parametrize("kind", PRIORS)
+
+
+@KINDS
+@pytest.mark.parametrize("chains", [1, 3])
+def test_the_number_of_threads_changes_nothing(kind, chains):
+    runs = [infer(kind, chains=chains, threads=threads) for threads in (1, 2, 4)]
+    assert_same(runs[0], runs[1])
+    assert_same(runs[0], runs[2])
+
+
+@KINDS
+def test_a_seed_gives_one_run_and_another_seed_another(kind):
+    assert_same(infer(kind, seed=3), infer(kind, seed=3))
+    assert (infer(kind, seed=3).draws != infer(kind, seed=4).draws).any()
+
+
+@KINDS
+def test_with_a_given_sensor_a_chain_does_not_know_of_the_others(kind):
+    """Where the sensor is fitted it does: the fit looks at all chains."""
+    many, one = (infer(kind, chains=chains, sensor=TRUTH) for chains in (3, 1))
+    np.testing.assert_array_equal(many.draws[0], one.draws[0])
+    np.testing.assert_array_equal(many.posterior.surfaces[0], one.posterior.surfaces[0])
+    np.testing.assert_array_equal(many.log_joint[0], one.log_joint[0])
+    assert (many.draws[1] != many.draws[0]).any()
+    fitted = [infer(kind, chains=chains).posterior.sensor for chains in (3, 1)]
+    assert fitted[0] != fitted[1]
+
+
+@KINDS
+@pytest.mark.parametrize("thin", [1, 3])
+def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
+    options = {"warmup": 12, "draws": 4, "thin": thin}
+    stops = []
+    whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=-1.0, **options)
+    assert [run.posterior.sweep for run in stops] == list(range(1, 12 + 4 * thin + 1))
+    assert not any(run.finished for run in stops)
+    for stop in stops[:: 1 if kind == "surfaces" else 4]:
+        assert_same(infer(kind, resume=stop, **options), whole)
+
+
+def test_a_run_saved_and_loaded_at_any_sweep_goes_on_bit_for_bit(tmp_path):
+    stops = []
+    whole = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=-1.0)
+    for stop in (stops[0], stops[7], stops[11], stops[14]):
+        stop.save(tmp_path / "part.nc")
+        assert_same(infer("surfaces", resume=bm.load(tmp_path / "part.nc")), whole)
+
+
+def test_a_finished_run_goes_on_to_itself():
+    run = infer("surfaces")
+    assert_same(infer("surfaces", resume=run), run)
+
+
+def test_asked_to_stop_it_stops_between_two_sweeps():
+    problem = build_field(scans(), GRID, bm.Surface(), TRUTH)
+    asked = []
+
+    def should_stop():
+        asked.append(True)
+        return len(asked) > 5
+
+    found = field_chain.run_field(
+        problem, Schedule(3, 10, 1), 1, 0, fit_sensor=False, fit_prior=False, should_stop=should_stop
+    )
+    assert (found.sweep, found.finished) == (5, False)
+    assert found.reflectivity.shape[1] == found.log_likelihood.shape[1] == 2
+    assert found.warmup_log_joint.shape == (1, 3)
+
+
+def test_progress_is_told_of_warm_up_and_draws_to_the_last_sweep(monkeypatch):
+    monkeypatch.setattr(field_chain, "TELL_EVERY_S", -1.0)
+    events = []
+    infer("reflectivities", on_progress=events.append)
+    events = [event for event in events if event.stage in ("warm-up", "draws")]
+    assert [event.done for event in events] == list(range(1, 19))
+    assert [event.stage for event in events] == ["warm-up"] * 12 + ["draws"] * 6
+    assert all(np.isfinite(event.log_joint) for event in events)
+
+
+def test_kept_log_likelihoods_are_those_of_the_kept_draws():
+    from oracle.field_law import log_likelihoods, paths_of
+
+    run = infer("reflectivities", sensor=TRUTH, draws=3)
+    rays = build_field(scans(), GRID, bm.Beta(), TRUTH).rays
+    states = np.zeros((rays.n_cells, 6))
+    for draw in range(3):
+        states[:, 0] = run.posterior.reflectivity[0, draw]  # in half precision
+        expected = log_likelihoods(paths_of(rays), states, TRUTH, True).sum()
+        assert run.posterior.log_likelihood[0, draw] == pytest.approx(expected, abs=2e-3 * scans().n_beams)
+
+
+def test_the_fewer_the_beams_the_more_draws_by_default():
+    grid = 300 * 300
+    assert [default_draws(beams, grid, 4) for beams in (0, 1, 25_000, 50_000, 100_000, 10**9)] == [
+        200, 200, 200, 100, 50, 50,
+    ]  # fmt: skip
+    # On large grids no more than 1 GiB of draws, but always 50
+    assert default_draws(1, 1000 * 1000, 1) == 200
+    assert default_draws(1, 1000 * 1000, 4) == 67
+    assert default_draws(1, 10**8, 4) == 50
+    run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0)
+    assert run.n_draws == default_draws(scans().n_beams, GRID.n_cells, 1) == 200
+
+
+@KINDS
+def test_no_draws_is_a_fit_and_nothing_else(kind):
+    run = infer(kind, draws=0)
+    assert run.finished
+    assert run.n_draws == 0
+    assert np.isnan(run.occupancy).all()
+    with pytest.raises(bm.BadInput, match="draws"):
+        run.log_score(scans())

@@ -1,0 +1,140 @@
+"""Enumeration equals the oracle's; importance sampling is unbiased, and says how little its particles are worth."""
+
+import numpy as np
+import pytest
+from oracle.enumeration import all_maps, marginals, number_of, pairs
+from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
+from oracle.worlds import make_case
+from sampler_cases import NAMES, WORLDS, world
+from scipy import special
+
+import bayesmap as bm
+from bayesmap.kernels.trace import trace
+from bayesmap.samplers.exact import enumerate_maps
+from bayesmap.samplers.importance import sample_importance
+from bayesmap.samplers.problem import Problem
+
+FLAT = 1e-4  # nats a beam: how much a robust table may differ from the model
+
+
+def on_all_cells(found, case):
+    """The enumeration's law over all maps of the grid: cells that it did not enumerate are as the prior has them."""
+    maps, p = all_maps(case.n), found.problem.p_wall
+    law = np.exp(found.log_posterior)[number_of(maps[:, found.unknown])]
+    rest = np.setdiff1d(np.arange(case.n), found.unknown)
+    return law * np.where(maps[:, rest], p[rest], 1 - p[rest]).prod(axis=1)
+
+
+@pytest.mark.parametrize("number", range(len(WORLDS)), ids=NAMES)
+def test_enumeration_is_the_oracle_s(number):
+    case = world(number)
+    found = enumerate_maps(case.problem())
+    close = 2 * FLAT * case.scans.n_beams if WORLDS[number][2] else 2e-3  # single precision of log-likelihoods
+    assert found.log_evidence == pytest.approx(case.exact.log_evidence, abs=close, rel=1e-6)
+    np.testing.assert_allclose(on_all_cells(found, case), case.exact.p, atol=close)
+    np.testing.assert_allclose(found.marginals().ravel(), marginals(case.exact.p, case.n), atol=close)
+    expected = pairs(case.exact.p, case.n)[np.ix_(found.unknown, found.unknown)]
+    np.testing.assert_allclose(found.pairs(), expected, atol=close)
+
+
+def test_exact_draws_follow_the_posterior():
+    case = world(3)
+    draws = enumerate_maps(case.problem()).sample(np.random.default_rng(1), 20_000)
+    assert least_p_value(draws.reshape(-1, case.n), case.exact.p) > ALPHA
+
+
+def test_too_many_unknown_cells_are_refused_with_the_remedy():
+    grid = bm.Grid((17, 1))
+    scans = bm.Scans([-1.0, 0.5, 0.0], [0.0], [[5.0]], max_range_m=50.0)
+    problem = Problem(trace(scans, grid, bm.Gaussian(1.0)), bm.Independent(0.5), scans.poses)
+    with pytest.raises(
+        bm.BadInput, match=r"17 cells are unknown, and enumeration takes at most 16; use method 'gibbs'"
+    ):
+        enumerate_maps(problem)
+    p = np.full((17, 1), 0.5)
+    p[3] = 0.0
+    assert len(enumerate_maps(Problem(problem.table, bm.Independent(p), scans.poses)).unknown) == 16
+
+
+# Importance sampling on worlds whose posterior it can reach: wide noise.
+WIDE = [i for i, w in enumerate(WORLDS) if w[1] == 2.0]
+
+
+@pytest.mark.parametrize("number", WIDE, ids=[NAMES[i] for i in WIDE])
+def test_importance_sampling_finds_marginals_pairs_and_evidence(number):
+    """Within 5.5 standard errors, a false alarm in 10^7 a number. They are computed from the enumeration: an estimate
+    from the particles themselves is too small where the few that matter are missing.
+    """
+    case = world(number)
+    found = sample_importance(case.problem(), 200_000, seed=number)
+    w = np.exp(found.log_weights)
+    maps = found.maps(np.arange(200_000)).reshape(-1, case.n)
+    i, j = np.triu_indices(case.n)
+    p, everything = case.exact.p, all_maps(case.n)
+    prior = np.where(everything, case.problem().p_wall, 1 - case.problem().p_wall).prod(axis=1)
+    weight = np.divide(p, prior, out=np.zeros_like(p), where=prior > 0)  # relative to its mean, under the prior
+    for truth, a, b in zip(pairs(case.exact.p, case.n)[i, j], i, j, strict=True):
+        estimate = w @ (maps[:, a] & maps[:, b])
+        deviation = (everything[:, a] & everything[:, b]) - truth
+        error = np.sqrt((p * weight * deviation**2).sum() / len(w))
+        assert abs(estimate - truth) < 5.5 * error + 1e-4
+    assert found.effective_sample_size == pytest.approx(1 / (w**2).sum())
+    spread = np.sqrt(((p * weight).sum() - 1) / len(w))
+    assert abs(found.log_evidence - case.exact.log_evidence) < 5.5 * spread + FLAT * case.scans.n_beams
+    observed = case.problem().table.observed().ravel()
+    expected = np.where(observed, w @ maps, case.problem().p_wall)
+    np.testing.assert_allclose(found.occupancy().ravel(), expected, atol=1e-9)
+
+
+def test_resampled_particles_follow_their_weights():
+    case = world(WIDE[0])
+    found = sample_importance(case.problem(), 300, seed=1)
+    counts = np.bincount(found.resample(np.random.default_rng(2), 100_000), minlength=300)
+    assert goodness_of_fit(counts, np.exp(found.log_weights)) > ALPHA
+
+
+def test_particles_are_drawn_from_the_prior():
+    case = world(next(i for i, w in enumerate(WORLDS) if w[0] == "cells" and w[3] == (4, 4)))
+    found = sample_importance(case.problem(), 20_000, seed=3)
+    maps, p = all_maps(16), case.problem().p_wall
+    law = np.where(maps, p, 1 - p).prod(axis=1)
+    assert least_p_value(found.maps(np.arange(20_000)).reshape(-1, 16), law) > ALPHA
+
+
+def test_each_weight_is_its_map_s_likelihood():
+    case = world(0)
+    problem = case.problem()
+    found = sample_importance(problem, 500, seed=4)
+    plain = [problem.table.log_likelihood(walls) for walls in found.maps(np.arange(500))]
+    np.testing.assert_allclose(found.log_weights, plain - special.logsumexp(plain), rtol=1e-6, atol=1e-4)
+
+
+def test_the_effective_sample_size_collapses_where_readings_are_sharp():
+    sharp = make_case(5, prior=0.5, sensor=bm.Gaussian(0.02), n_poses=3)
+    wide = make_case(5, prior=0.5, sensor=bm.Gaussian(2.0), n_poses=3)
+    ess = [sample_importance(c.problem(), 10_000, seed=1).effective_sample_size for c in (sharp, wide)]
+    assert ess[0] < 100 < ess[1]
+
+
+def test_a_particle_s_weight_does_not_depend_on_how_many_there_are_or_on_the_batches():
+    case = world(WIDE[0])
+    few, many = (sample_importance(case.problem(), n, seed=1) for n in (1000, 5000))
+    shift = many.log_weights[:1000] - few.log_weights
+    np.testing.assert_allclose(shift, shift[0], atol=1e-9)
+
+
+def test_a_stopped_run_keeps_its_particles():
+    case = world(WIDE[0])
+    found = sample_importance(case.problem(), 10**7, seed=1, should_stop=lambda: True)
+    assert not found.finished
+    assert 0 < len(found.log_weights) < 10**7
+    assert np.exp(found.log_weights).sum() == pytest.approx(1.0)
+
+
+def test_neighbouring_particles_have_no_random_number_in_common():
+    """No cell of a particle is correlated with any cell of the next: 256 correlations within 5.5 / sqrt(20 000)."""
+    case = world(next(i for i, w in enumerate(WORLDS) if w[0] == 0.5 and w[3] == (4, 4)))
+    found = sample_importance(case.problem(), 20_000, seed=6)
+    maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
+    correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
+    assert abs(correlations).max() < 5.5 / np.sqrt(20_000)

@@ -1,0 +1,163 @@
+"""Scans that say little or nothing: a run over reflectivities or surfaces is made of them all the same, or refused in
+one sentence.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from field_rooms import GRID, PRIORS, TRUTH, infer, scans
+
+import bayesmap as bm
+from bayesmap.sensors.model import SensorModel
+
+KINDS = pytest.mark.parametrize("kind", PRIORS)
+ROOM = scans(poses=6)
+INF, NAN = np.inf, np.nan
+
+
+def filled(value):
+    return replace(ROOM, ranges_m=np.full(ROOM.ranges_m.shape, value))
+
+
+def storm(seed=1):
+    """Nine readings of ten are invalid."""
+    invalid = np.random.default_rng(seed).random(ROOM.ranges_m.shape) < 0.9
+    return replace(ROOM, ranges_m=np.where(invalid, NAN, ROOM.ranges_m))
+
+
+ODD = {
+    "no hit at all": filled(INF),
+    "all too close": filled(-INF),
+    "no valid reading": filled(NAN),
+    "a storm of invalid readings": storm(),
+    "one beam": bm.Scans([3.0, 2.4, 0.0], [0.0], [[1.1]], max_range_m=6.0),
+    "one beam, no return": bm.Scans([3.0, 2.4, 0.0], [0.0], [[INF]], max_range_m=6.0),
+    "no beam through the grid": bm.Scans([-5.0, 2.0, np.pi], [0.0, 0.2], [[1.0, INF]], max_range_m=6.0),
+    "all the same reading": filled(1.0),
+    "readings of nothing": filled(0.0),
+    "readings past the range": filled(7.5),
+    "a scan of beams along lines": bm.Scans(
+        [3.0, 2.4, 0.0], np.arange(8) * np.pi / 4, [[1.0, INF, -INF, NAN, 2.0, 0.2, 1.5, INF]], max_range_m=6.0
+    ),
+    "too close though nothing can be": replace(filled(-INF), min_range_m=0.0),
+}
+
+
+def assert_sound(run):
+    """Numbers everywhere, within their bounds."""
+    posterior = run.posterior
+    for values in (posterior.reflectivity, posterior.occupancy):
+        assert ((values >= 0) & (values <= 1)).all()
+    for values in (posterior.log_likelihood, posterior.log_prior, posterior.surfaces, posterior.states):
+        assert np.isfinite(values).all()
+    noise = posterior.sensor.noise
+    found = [noise.sigma_m, noise.sigma_per_m, posterior.sensor.rate_short_per_m, posterior.prior.a, posterior.prior.b]
+    assert (np.array(found) > 0).all()
+    assert np.isfinite(found).all()
+    lower, upper = run.interval(0.9)
+    assert (lower <= upper).all()
+    assert run.summary().finished
+
+
+@KINDS
+@pytest.mark.parametrize("name", ODD)
+def test_a_run_is_made_of_scans_that_say_little(kind, name, tmp_path):
+    run = infer(kind, ODD[name], warmup=8, draws=5)
+    assert_sound(run)
+    run.save(tmp_path / "run.nc")
+    np.testing.assert_array_equal(bm.load(tmp_path / "run.nc").draws, run.draws)
+    assert np.isfinite(run.log_score(ROOM))
+
+
+@KINDS
+def test_where_nothing_was_seen_the_prior_stays(kind):
+    run = infer(kind, ODD["no beam through the grid"], sensor=TRUTH, draws=4)
+    np.testing.assert_allclose(run.occupancy, PRIORS[kind].mean)
+    assert not run.observed.any()
+
+
+@KINDS
+def test_a_fit_from_almost_nothing_stays_almost_where_it_began(kind):
+    from bayesmap.field_inference import first_sensor
+
+    start = first_sensor(PRIORS[kind], GRID.resolution)
+    found = infer(kind, ODD["no valid reading"], warmup=30).posterior.sensor
+    for name in ("p_random", "p_no_return", "p_short", "rate_short_per_m"):
+        assert getattr(found, name) == pytest.approx(getattr(start, name), rel=1e-6)
+    assert found.noise.sigma_m == pytest.approx(start.noise.sigma_m)
+
+
+def test_half_a_thousand_scans_of_one_pose_and_a_grid_of_one_cell():
+    many = bm.Scans(np.tile([0.5, 0.5, 0.0], (500, 1)), [0.0], np.full((500, 1), 0.3), max_range_m=2.0)
+    assert_sound(infer("surfaces", many, grid=bm.Grid((1, 1)), chains=1))
+
+
+@pytest.mark.parametrize("a", [1e-6, 1e-3, 50.0])
+@pytest.mark.parametrize("b", [1e-6, 500.0])
+def test_priors_of_any_size_give_reflectivities(a, b):
+    run = infer("reflectivities", ROOM, prior=bm.Beta(a, b), sensor=TRUTH, draws=3)
+    assert_sound(run)
+    assert np.isfinite(run.log_score(ROOM))
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [{"spread": 1e-5}, {"spread": 5.0, "extent": 10.0}, {"dof": 1.01}, {"dof": 500.0}, {"wander": 1e-4}],
+    ids=str,
+)
+def test_priors_of_any_shape_give_surfaces(shape):
+    sharp = bm.BeamMixture(bm.Gaussian(1e-3, 1e-4))
+    assert_sound(infer("surfaces", ROOM, prior=bm.Surface(**shape), sensor=sharp, warmup=40))
+
+
+@pytest.mark.parametrize("sensor", [bm.Gaussian(0.1), bm.StudentT(0.1), bm.BeamMixture(bm.StudentT(0.1))])
+@KINDS
+def test_other_sensors_are_refused_with_the_one_that_is_right(kind, sensor):
+    with pytest.raises(bm.BadInput, match="BeamMixture sensor with Gaussian noise"):
+        infer(kind, sensor=sensor)
+
+
+def test_a_sensor_of_one_s_own_is_refused_by_its_name():
+    class Sonar(SensorModel):
+        def log_likelihood(self, range_m, distance_m, limits):
+            return np.zeros(np.broadcast_shapes(np.shape(range_m), np.shape(distance_m)))
+
+        def reach_m(self, range_m, limits):
+            return np.zeros(np.shape(range_m))
+
+        def sample(self, rng, distance_m, limits):
+            return np.zeros(np.shape(distance_m))
+
+    with pytest.raises(bm.BadInput, match="got Sonar"):
+        infer("surfaces", sensor=Sonar())
+
+
+@KINDS
+@pytest.mark.parametrize("method", ["exact", "importance", "block", "propagate"])
+def test_other_methods_are_refused(kind, method):
+    name = type(PRIORS[kind]).__name__
+    with pytest.raises(bm.BadInput, match=f"{name} has one method, 'gibbs', got '{method}'"):
+        infer(kind, method=method)
+
+
+def test_words_that_are_no_sensor_are_refused():
+    with pytest.raises(bm.BadInput, match="sensor must be a sensor model or 'fit', got 'fitted'"):
+        infer("surfaces", sensor="fitted")
+
+
+def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
+    walls = bm.infer(ROOM, GRID, prior=bm.Independent(0.1), sensor=TRUTH, chains=1, warmup=2, draws=2)
+    surfaces = infer("surfaces", ROOM)
+    with pytest.raises(bm.BadInput, match="one over walls"):
+        infer("surfaces", ROOM, resume=walls)
+    with pytest.raises(bm.BadInput, match="over reflectivities or surfaces, not over walls"):
+        bm.infer(ROOM, GRID, prior=bm.Independent(0.1), sensor=TRUTH, resume=surfaces)
+    for options, word in (
+        ({"seed": 1}, "seed"), ({"sensor": TRUTH}, "sensor"), ({"chains": 3}, "chains"), ({"draws": 7}, "draws"),
+        ({"prior": bm.Surface(wander=0.5)}, "prior"), ({"prior": bm.Beta()}, "prior"), ({"hit_depth": 0.2}, "hit_dep"),
+    ):  # fmt: skip
+        with pytest.raises(bm.BadInput, match=f"resume: the saved run was made with other .*{word}"):
+            infer("surfaces", ROOM, resume=surfaces, **options)
+    with pytest.raises(bm.BadInput, match="resume: the saved run was made with other scans"):
+        infer("surfaces", storm(), resume=surfaces)

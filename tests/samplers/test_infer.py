@@ -1,0 +1,225 @@
+"""`bm.infer`: one door to all methods, whose answer depends on its arguments alone."""
+
+import signal
+
+import numpy as np
+import pytest
+from oracle.enumeration import marginals
+from oracle.verdict import ALPHA, least_p_value
+from oracle.worlds import make_case
+
+import bayesmap as bm
+from bayesmap.run import chain as runner
+
+MARKOV = ["gibbs", "block"]
+
+
+@pytest.fixture
+def case():
+    return make_case(11, prior=0.3, sensor=bm.Gaussian(0.5), n_poses=2)
+
+
+def infer(case, **options):
+    return bm.infer(case.scans, case.grid, **{"prior": case.prior, "sensor": case.sensor, **options})
+
+
+def assert_same_run(one, other):
+    for name in ("packed", "log_likelihood", "log_prior", "warmup_log_joint", "occupancy", "walls", "finished"):
+        np.testing.assert_array_equal(getattr(one.posterior, name), getattr(other.posterior, name), err_msg=name)
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance"])
+def test_every_method_finds_the_exact_marginals(case, method):
+    """Within 0.03: five standard errors of 4000 draws whose effective number is a tenth of that or more."""
+    run = infer(case, method=method, chains=4, draws=1000, particles=300_000, seed=2)
+    np.testing.assert_allclose(run.occupancy.ravel(), marginals(case.exact.p, 16), atol=0.03)
+    np.testing.assert_allclose(run.draws.mean(axis=(0, 1)).ravel(), marginals(case.exact.p, 16), atol=0.04)
+
+
+def test_belief_propagation_is_near_the_exact_marginals_and_keeps_no_draws(case):
+    run = infer(case, method="propagate")
+    np.testing.assert_allclose(run.occupancy.ravel(), marginals(case.exact.p, 16), atol=0.15)
+    assert run.draws.shape == (4, 0, 4, 4)
+    assert run.posterior.belief_changes[-1] < 0.01
+
+
+def test_exact_draws_and_evidence(case):
+    run = infer(case, method="exact", chains=2, draws=10_000)
+    assert least_p_value(run.draws.reshape(-1, 16), case.exact.p) > ALPHA
+    assert run.posterior.log_evidence == pytest.approx(case.exact.log_evidence, abs=1e-3)
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])
+def test_the_log_joint_is_that_of_the_draws(case, method):
+    run = infer(case, method=method, chains=2, draws=20, particles=1000)
+    from oracle.enumeration import number_of
+
+    expected = case.exact.log_joint[number_of(run.draws.reshape(2, 20, 16))]
+    np.testing.assert_allclose(run.log_joint, expected, atol=1e-3, rtol=1e-5)
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])
+def test_the_same_arguments_give_the_same_run_whatever_the_threads(case, method):
+    options = {"method": method, "draws": 50, "particles": 1000, "seed": 3}
+    assert_same_run(infer(case, threads=1, **options), infer(case, threads=7, **options))
+    assert (infer(case, **(options | {"seed": 4})).draws != infer(case, **options).draws).any()
+
+
+@pytest.mark.parametrize("method", MARKOV)
+def test_chains_may_start_from_a_map(case, method):
+    """With no warm-up and one sweep, the start still shows in what no beam reaches... so look at the start itself."""
+    start = np.random.default_rng(1).random((4, 4)) < 0.5
+    for given in (start, start.astype(np.uint8), np.stack([start] * 4)):
+        run = infer(case, method=method, start=given, warmup=0, draws=0)
+        np.testing.assert_array_equal(run.posterior.walls.reshape(4, 4, 4) != 0, np.stack([start] * 4))
+
+
+@pytest.mark.parametrize("method", MARKOV)
+@pytest.mark.parametrize("start", ["prior", "zeros", "ones", "propagate"])
+def test_a_run_stopped_by_ctrl_c_goes_on_to_the_same_end(case, method, start, monkeypatch):
+    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
+    options = {"method": method, "start": start, "warmup": 10, "draws": 20, "thin": 2, "seed": 5}
+    whole = infer(case, **options)
+
+    def interrupt(event):
+        if event.stage in ("warm-up", "draws") and event.done in (4, 30):
+            signal.raise_signal(signal.SIGINT)
+
+    first = infer(case, on_progress=interrupt, **options)
+    assert not first.finished
+    assert first.posterior.sweep == 4
+    second = infer(case, on_progress=interrupt, resume=first, **options)
+    assert not second.finished
+    assert second.posterior.sweep == 30
+    assert second.draws.shape[1] == 10
+    assert_same_run(infer(case, resume=second, **options), whole)
+
+
+def test_ctrl_c_during_the_warm_start_goes_on_to_the_same_end():
+    """On the tutorial's map, where one round and twenty do not give the same start."""
+    walls, pose = bm.worlds.tutorial()
+    grid, angles, sensor = bm.worlds.TUTORIAL_GRID, np.arange(100) / 100 * 2 * np.pi, bm.Gaussian(0.2)
+    scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0, seed=1)
+    options = {
+        "prior": bm.Independent(0.05),
+        "sensor": sensor,
+        "start": "propagate",
+        "warmup": 2,
+        "draws": 3,
+        "seed": 5,
+    }
+    whole = bm.infer(scans, grid, **options)
+    short = bm.infer(scans, grid, **(options | {"rounds": 1}))
+    assert (whole.draws != short.draws).any()
+
+    def interrupt(event):
+        if event.stage == "propagate" and event.done == 1:
+            signal.raise_signal(signal.SIGINT)
+
+    part = bm.infer(scans, grid, on_progress=interrupt, **options)
+    assert not part.finished
+    assert_same_run(bm.infer(scans, grid, resume=part, **options), whole)
+
+
+def test_a_resumed_run_still_knows_its_warm_start(case, monkeypatch):
+    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
+    options = {"start": "propagate", "warmup": 5, "draws": 5, "seed": 5}
+    seen = []
+    whole = infer(case, on_checkpoint=seen.append, **options)
+    resumed = infer(case, resume=seen[0], **options)
+    np.testing.assert_array_equal(resumed.posterior.belief_changes, whole.posterior.belief_changes)
+
+
+def test_belief_propagation_stopped_by_ctrl_c_is_not_finished(case):
+    def interrupt(event):
+        signal.raise_signal(signal.SIGINT)
+
+    run = infer(case, method="propagate", rounds=20, on_progress=interrupt)
+    assert len(run.posterior.belief_changes) == 1
+    assert not run.finished
+
+
+def test_ctrl_c_is_given_back_to_its_owner_afterwards(case):
+    before = signal.getsignal(signal.SIGINT)
+    infer(case, draws=2)
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_checkpoints_are_runs_that_can_be_resumed(case):
+    seen = []
+    whole = infer(case, warmup=10, draws=20, on_checkpoint=seen.append)
+    assert [run.posterior.sweep for run in seen] == [10]
+    assert_same_run(infer(case, warmup=10, draws=20, resume=seen[0]), whole)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"seed": 2}, r"seed \(1, now 2\)"),
+        ({"draws": 21}, r"draws \(20, now 21\)"),
+        ({"method": "block"}, r"method \('gibbs', now 'block'\)"),
+        ({"sensor": bm.Gaussian(0.6)}, "sensor"),
+        ({"prior": bm.Independent(0.31)}, "prior"),
+    ],
+)
+def test_a_run_made_with_other_arguments_is_not_resumed(case, change, message):
+    options = {"method": "gibbs", "warmup": 10, "draws": 20, "seed": 1}
+    saved = infer(case, **options)
+    with pytest.raises(bm.BadInput, match=f"resume: the saved run was made with other .*{message}"):
+        infer(case, resume=saved, **(options | change))
+
+
+def test_a_run_made_from_other_scans_is_not_resumed(case):
+    saved = infer(case, draws=2)
+    with pytest.raises(bm.BadInput, match="made with other scans or on another grid"):
+        bm.infer(case.scans.select(slice(0, 1)), case.grid, prior=case.prior, sensor=case.sensor, draws=2, resume=saved)
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])
+def test_scans_that_say_nothing_leave_the_prior(method):
+    """No scan at all, invalid readings, and beams that never meet the grid: 8000 draws, five standard errors."""
+    grid, prior = bm.Grid((3, 3)), bm.Independent(np.linspace(0, 1, 9).reshape(3, 3))
+    silent = [
+        bm.Scans(np.zeros((0, 3)), [0.0], np.zeros((0, 1)), max_range_m=5.0),
+        bm.Scans([[1.0, 1.0, 0.0]], [0.0], [[np.nan]], max_range_m=5.0),
+        bm.Scans([[9.0, 9.0, 0.0]], [0.0], [[1.0]], max_range_m=5.0),
+    ]
+    for scans in silent:
+        run = bm.infer(
+            scans, grid, prior=prior, sensor=bm.Gaussian(0.1), method=method, draws=2000, warmup=0, particles=20_000
+        )
+        np.testing.assert_allclose(run.draws.mean(axis=(0, 1)), prior.p_wall, atol=5 * np.sqrt(0.25 / 8000))
+        assert not run.observed.any()
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 5), (5, 1)])
+@pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])
+def test_maps_one_cell_wide_work(method, shape):
+    case = make_case(12, shape=shape, prior=0.3, sensor=bm.Gaussian(0.5), n_poses=2)
+    run = infer(case, method=method, draws=1000, particles=100_000, rounds=50)
+    np.testing.assert_allclose(run.occupancy.ravel(), marginals(case.exact.p, case.n), atol=0.04)
+
+
+class Sonar(bm.SensorModel):
+    """A user's own model: the Gaussian's law, written by hand, without compiled parameters."""
+
+    def log_likelihood(self, range_m, distance_m, limits):
+        reading = np.where(np.isposinf(range_m), limits.max_m, np.where(np.isneginf(range_m), limits.min_m, range_m))
+        x = (reading - np.minimum(distance_m, limits.max_m)) / 0.5
+        return np.where(np.isnan(range_m), 0.0, -0.5 * x**2 - np.log(0.5 * np.sqrt(2 * np.pi)))
+
+    def reach_m(self, range_m, limits):
+        return np.where(np.isnan(range_m), 0.0, np.inf)
+
+    def sample(self, rng, distance_m, limits):
+        return np.minimum(distance_m, limits.max_m) + 0.5 * rng.standard_normal(np.shape(distance_m))
+
+
+@pytest.mark.parametrize("method", MARKOV)
+def test_a_sensor_model_of_one_s_own_works_and_equals_the_built_in_one(case, method):
+    built_in, own = (infer(case, method=method, sensor=s, seed=7) for s in (bm.Gaussian(0.5), Sonar()))
+    # the same numbers to single precision: hardly a draw differs
+    assert (built_in.draws == own.draws).mean() > 0.99
+    np.testing.assert_allclose(own.occupancy, built_in.occupancy, atol=0.02)
+    simulated = bm.simulate(np.zeros((4, 4)), case.grid, [0, 3, 0], [0.0] * 99, sensor=Sonar(), max_range_m=3.0)
+    assert np.isfinite(simulated.ranges_m).all()

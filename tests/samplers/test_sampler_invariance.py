@@ -1,0 +1,58 @@
+"""Every sweep of every sampler leaves the exact posterior as it is.
+
+Chains start from exact, independent draws of the posterior; after some sweeps each is still one such draw if, and only
+if, the sweep leaves the posterior invariant. This holds however slowly a sampler mixes, so it is tried where walls are
+rare and readings sharp too. Marginals, pairwise joints and whole maps are compared with the oracle's enumeration.
+
+False alarms: `ALPHA` = 1e-4 for the whole file, over all choices of its (fixed) seeds.
+"""
+
+import numpy as np
+import pytest
+from oracle.verdict import ALPHA, least_p_value
+from sampler_cases import BOTH, NAMES, WORLDS, draw_maps, problem_of, run_sweeps, world
+
+import bayesmap as bm
+from bayesmap.beams.table import BeamTable
+
+CHAINS = 10_000
+TESTS = len(WORLDS) * len(BOTH)
+
+
+def p_value_after(case, problem, method, order, sweeps, seed):
+    starts = draw_maps(np.random.default_rng([seed, 1]), case.exact.p, case.n, CHAINS)
+    return least_p_value(run_sweeps(problem, method, order, starts, sweeps, seed), case.exact.p)
+
+
+@pytest.mark.parametrize(("method", "order"), BOTH)
+@pytest.mark.parametrize("number", range(len(WORLDS)), ids=NAMES)
+def test_a_sweep_leaves_the_exact_posterior_invariant(number, method, order):
+    case = world(number)
+    assert p_value_after(case, case.problem(), method, order, 3, number) > ALPHA / TESTS
+
+
+POWER = WORLDS.index(next(w for w in WORLDS if w[0] == 0.3 and w[1] == 0.5 and not w[2]))
+LONG = 40  # sweeps: what is wrong has the time to show
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block"])
+def test_a_prior_that_is_a_little_wrong_is_rejected(method):
+    case = world(POWER)
+    wrong = problem_of(case, prior=bm.Independent(0.33))
+    assert p_value_after(case, wrong, method, "radial", LONG, 1) < ALPHA / TESTS
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block"])
+def test_one_incidence_whose_gain_has_the_wrong_sign_is_rejected(method):
+    """One entry of the table, one that is often a first hit: its likelihood mirrored about that of "beyond"."""
+    case = world(POWER)
+    table = case.problem().table
+    maps = draw_maps(np.random.default_rng(3), case.exact.p, case.n, 500).reshape(-1, *case.grid.shape)
+    hits = np.stack([table.offsets[:-1] + table.first_hits(walls) for walls in maps]).ravel()
+    share = np.bincount(hits, minlength=table.n_incidences + 1)[: table.n_incidences] / len(maps)
+    gain = table.loglik - np.repeat(table.beyond, np.diff(table.offsets))
+    entry = np.argmax(share * (1 - share) * np.minimum(abs(gain), 1.0))
+    loglik = table.loglik.copy()
+    loglik[entry] -= 2 * gain[entry]
+    wrong = BeamTable(case.grid, table.offsets, table.cells, loglik, table.beyond)
+    assert p_value_after(case, problem_of(case, table=wrong), method, "radial", LONG, 2) < ALPHA / TESTS
