@@ -1,0 +1,104 @@
+"""A scan's likelihood at a pose equals what tracing the beams from there and predicting their readings says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_predictions import DEPTH, GRID, LIMITS, SENSORS, world
+
+import bayesmap as bm
+from bayesmap.kernels.crossings import trace_crossings
+from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.scan_likelihood import ScanLikelihood
+
+EDGE = GRID.resolution
+
+
+def predicted(scans, maps, sensor):
+    """The same by tracing, one map after the other, (maps, S, A), invalid readings 0."""
+    crossings = trace_crossings(scans, GRID)
+    found = [
+        log_densities(
+            crossings, crossings.distance_m(DEPTH), [m[None]], scans.ranges_m, sensor, LIMITS
+        )
+        for m in maps
+    ]
+    return np.nan_to_num(np.array(found)).reshape(len(maps), *scans.ranges_m.shape)
+
+
+def moved(scans, seed):
+    rng = np.random.default_rng(seed)
+    return replace(scans, poses=scans.poses + rng.normal(0, [0.3, 0.3, 0.5], scans.poses.shape))
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("name", SENSORS)
+def test_cells_without_surfaces(name, binary):
+    for seed in range(4):
+        scans, maps = world(seed, binary=binary)
+        there = moved(scans, seed)
+        likelihood = ScanLikelihood(scans, GRID, SENSORS[name], DEPTH)
+        chain, scan = (a.ravel() for a in np.meshgrid(np.arange(len(maps)), np.arange(len(scans)), indexing="ij"))
+        found = likelihood.beams(maps, np.tile(there.poses, (len(maps), 1)), scan, chain)
+        np.testing.assert_allclose(
+            found.reshape(len(maps), len(scans), -1), predicted(there, maps, SENSORS[name]), atol=1e-5, rtol=1e-5
+        )
+
+
+def surfaces(seed, maps):
+    """A surface in every cell of some maps, (maps, N, 6)."""
+    rng = np.random.default_rng(seed)
+    nx, ny = GRID.shape
+    x, y = np.meshgrid(np.arange(nx) + 0.5, np.arange(ny) + 0.5, indexing="ij")
+    out = np.zeros((maps, GRID.n_cells, 6), dtype=np.float32)
+    out[..., 0] = rng.beta(0.3, 1.0, out.shape[:2])
+    out[..., 1:3] = (np.stack([x, y], -1).reshape(-1, 2) + rng.normal(0, 0.3, (*out.shape[:2], 2))) * EDGE
+    out[..., 3:] = np.exp(rng.normal(-1.5, 0.3, (*out.shape[:2], 3))) * EDGE
+    return out
+
+
+def test_surfaces():
+    sensor = SENSORS["mixture"]
+    for seed in range(4):
+        scans, _ = world(seed)
+        there, maps = moved(scans, seed), surfaces(seed, 2)
+        crossings = trace_crossings(there, GRID)
+        likelihood = ScanLikelihood(scans, GRID, sensor, DEPTH)
+        for c, one in enumerate(maps):
+            columns = one[None]
+            expected = log_densities(crossings, crossings.distance_m(DEPTH), [columns], there.ranges_m, sensor, LIMITS)
+            scan = np.arange(len(scans))
+            found = likelihood.beams(maps, there.poses, scan, np.full(len(scans), c))
+            np.testing.assert_allclose(found.ravel(), np.nan_to_num(expected), atol=1e-5)
+
+
+def test_beams_that_left_while_the_sensor_moved_move_with_their_scan():
+    scans, maps = world(5)
+    rng = np.random.default_rng(0)
+    drift = rng.normal(0, 0.05, (*scans.ranges_m.shape, 3))
+    scans = replace(scans, beam_poses=scans.poses[:, None] + drift)
+    likelihood = ScanLikelihood(scans, GRID, bm.Gaussian(0.2), DEPTH)
+    scan, chain = np.arange(len(scans)), np.zeros(len(scans), dtype=int)
+    unmoved = likelihood.beams(maps, scans.poses, scan, chain)
+    np.testing.assert_allclose(unmoved, predicted(scans, maps[:1], bm.Gaussian(0.2))[0], atol=1e-5, rtol=1e-5)
+    turn, shift = 0.3, np.array([0.2, -0.1])
+    c, s = np.cos(turn), np.sin(turn)
+    rotation = np.array([[c, -s], [s, c]])
+
+    def rigid(poses):
+        return np.concatenate([poses[..., :2] @ rotation.T + shift, poses[..., 2:] + turn], axis=-1)
+
+    there = replace(scans, poses=rigid(scans.poses), beam_poses=rigid(scans.beam_poses))
+    found = likelihood.beams(maps, there.poses, scan, chain)
+    np.testing.assert_allclose(found, predicted(there, maps[:1], bm.Gaussian(0.2))[0], atol=1e-5, rtol=1e-5)
+
+
+def test_threads_and_company_do_not_matter():
+    scans, maps = world(3)
+    likelihood = ScanLikelihood(scans, GRID, SENSORS["mixture"], DEPTH)
+    scan = np.repeat(np.arange(len(scans)), 50)
+    poses = np.repeat(scans.poses, 50, axis=0) + np.random.default_rng(1).normal(0, 0.2, (len(scan), 3))
+    chain = np.zeros(len(scan), dtype=int)
+    together = likelihood(maps, poses, scan, chain)
+    alone = [likelihood(maps, poses[i : i + 1], scan[i : i + 1], chain[i : i + 1])[0] for i in range(0, len(scan), 7)]
+    assert (together[::7] == alone).all()
