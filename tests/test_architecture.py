@@ -20,7 +20,7 @@ LEVELS = (
     {"sensors"},
     {"beams", "cells"},
     {"kernels"},
-    {"sim", "programs"},
+    {"sim", "programs", "poses"},
     {"samplers"},
     {"run"},
     {"posterior"},

@@ -18,10 +18,7 @@ def predicted(scans, maps, sensor):
     """The same by tracing, one map after the other, (maps, S, A), invalid readings 0."""
     crossings = trace_crossings(scans, GRID)
     found = [
-        log_densities(
-            crossings, crossings.distance_m(DEPTH), [m[None]], scans.ranges_m, sensor, LIMITS
-        )
-        for m in maps
+        log_densities(crossings, crossings.distance_m(DEPTH), [m[None]], scans.ranges_m, sensor, LIMITS) for m in maps
     ]
     return np.nan_to_num(np.array(found)).reshape(len(maps), *scans.ranges_m.shape)
 

@@ -79,7 +79,8 @@ def beam_log_likelihoods(
     out: wp.array(dtype=wp.float64),
 ):
     """One thread a beam of a pose: log p(reading | cells, pose). A mount is a beam's start and angle in its scan's frame,
-    and ``mounts`` has one a beam of a scan, or one a beam."""
+    and ``mounts`` has one a beam of a scan, or one a beam.
+    """
     b = first + wp.tid()
     row = b / beams
     reading = scan[row] * beams + b % beams
@@ -146,7 +147,9 @@ class ScanLikelihood:
     hit_depth: float
     device: str = "cpu"
 
-    def beams(self, cells: NDArray[np.float32], poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]) -> Floats:
+    def beams(
+        self, cells: NDArray[np.float32], poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+    ) -> Floats:
         """Log density of each reading, invalid ones 0, in nats, (P, A).
 
         Args:

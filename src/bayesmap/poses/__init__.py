@@ -1,0 +1,1 @@
+"""Where the robot was: priors of poses, and their inference."""

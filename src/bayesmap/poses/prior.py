@@ -1,0 +1,272 @@
+"""Priors of the poses: known, uncertain about the log's own, or odometry through a motion model.
+
+A prior is a value that users pass; with the poses of a log it becomes a law (`PosePrior.law`), which samplers ask.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.planar import between, compose, wrapped
+
+Floats = NDArray[np.float64]
+
+LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
+
+
+class PoseLaw(ABC):
+    """A density over the poses of S scans, (S, 3) in the world frame; leading dimensions broadcast."""
+
+    @abstractmethod
+    def log_prob(self, poses: Floats) -> Floats:
+        """Log density of whole trajectories, (..., S, 3) to (...)."""
+
+    @abstractmethod
+    def log_change(self, poses: Floats, proposed: Floats) -> Floats:
+        """What each scan's move to its proposed pose would add to `log_prob`, all others staying: (..., S)."""
+
+    @abstractmethod
+    def precision(self, poses: Floats) -> Floats:
+        """Precision of each pose given the others, in world axes, (S, 3, 3)."""
+
+    @abstractmethod
+    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+        """Groups of the scans that may move; those of one group are independent given all others."""
+
+    @abstractmethod
+    def sample(self, rng: np.random.Generator) -> Floats:
+        """Draw poses, (S, 3)."""
+
+
+class PosePrior(ABC):
+    """What is believed of the poses before the scans are looked at."""
+
+    @abstractmethod
+    def law(self, log_poses: Floats) -> PoseLaw:
+        """The prior as a density, given the poses that the log states, (S, 3)."""
+
+    @abstractmethod
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values."""
+
+
+@dataclass(frozen=True)
+class Known(PosePrior):
+    """The poses are those of the log."""
+
+    def law(self, log_poses: Floats) -> PoseLaw:
+        """A law under which nothing moves."""
+        return _Fixed(log_poses)
+
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values."""
+        return {"kind": "known"}
+
+
+@dataclass(frozen=True)
+class Uncertain(PosePrior):
+    """Each pose is normal about the log's, independently.
+
+    Attributes:
+        sigma_m: standard deviation of x and of y, metres.
+        sigma_rad: of the heading, radians.
+
+    Raises:
+        BadInput: a number that is not positive.
+    """
+
+    sigma_m: float
+    sigma_rad: float
+
+    def __post_init__(self) -> None:
+        _check_positive("Uncertain", sigma_m=self.sigma_m, sigma_rad=self.sigma_rad)
+
+    def law(self, log_poses: Floats) -> PoseLaw:
+        """Independent normal distributions about the log's poses."""
+        return _Independent(log_poses, np.array([self.sigma_m, self.sigma_m, self.sigma_rad]))
+
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values."""
+        return {"kind": "uncertain", "sigma_m": self.sigma_m, "sigma_rad": self.sigma_rad}
+
+
+@dataclass(frozen=True)
+class Odometry(PosePrior):
+    """The log's poses are wheel odometry: each motion is normal about the one that odometry states.
+
+    In the frame of the earlier pose the motion from scan to scan has an error of zero mean, independent from motion to
+    motion, whose standard deviations grow with the distance travelled and the angle turned, the parameters of Thrun,
+    Burgard and Fox (Probabilistic Robotics, 2005, section 5.4) as a normal distribution of the motion itself:
+
+        sigma_xy^2  = (m_per_m d)^2 + (m_per_rad |turn|)^2 + still_m^2
+        sigma_yaw^2 = (rad_per_m d)^2 + (rad_per_rad |turn|)^2 + still_rad^2
+
+    The first pose is the log's: it is the frame of the map.
+
+    Attributes:
+        m_per_m, m_per_rad: error of the position in metres, per metre travelled and per radian turned.
+        rad_per_m, rad_per_rad: error of the heading in radians, likewise.
+        still_m, still_rad: error of a robot that stands still.
+
+    Raises:
+        BadInput: a number that is negative, or a standing error that is not positive.
+    """
+
+    m_per_m: float = 0.1
+    m_per_rad: float = 0.05
+    rad_per_m: float = 0.05
+    rad_per_rad: float = 0.1
+    still_m: float = 0.005
+    still_rad: float = 0.003
+
+    def __post_init__(self) -> None:
+        _check_positive("Odometry", still_m=self.still_m, still_rad=self.still_rad)
+        for name in ("m_per_m", "m_per_rad", "rad_per_m", "rad_per_rad"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise BadInput(f"Odometry: {name} must be a number that is not negative, got {value!r}")
+
+    def law(self, log_poses: Floats) -> PoseLaw:
+        """A Markov chain of poses whose motions are normal about the log's."""
+        motions = between(log_poses[:-1], log_poses[1:])
+        return _Markov(log_poses[0], motions, self.sigmas(motions))
+
+    def sigmas(self, motions: Floats) -> Floats:
+        """Standard deviations of x, y and yaw of the error of each motion, (..., 3)."""
+        travelled, turned = np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
+        xy = np.sqrt((self.m_per_m * travelled) ** 2 + (self.m_per_rad * turned) ** 2 + self.still_m**2)
+        yaw = np.sqrt((self.rad_per_m * travelled) ** 2 + (self.rad_per_rad * turned) ** 2 + self.still_rad**2)
+        return np.stack([xy, xy, yaw], axis=-1)
+
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values."""
+        return {
+            "kind": "odometry", "m_per_m": self.m_per_m, "m_per_rad": self.m_per_rad, "rad_per_m": self.rad_per_m,
+            "rad_per_rad": self.rad_per_rad, "still_m": self.still_m, "still_rad": self.still_rad,
+        }  # fmt: skip
+
+
+def pose_prior_from(description: dict[str, object]) -> PosePrior:
+    """The prior of a description."""
+    values = dict(description)
+    kinds: dict[object, type[PosePrior]] = {"known": Known, "uncertain": Uncertain, "odometry": Odometry}
+    return kinds[values.pop("kind")](**values)
+
+
+@dataclass(frozen=True, eq=False)
+class _Fixed(PoseLaw):
+    poses: Floats
+
+    def log_prob(self, poses: Floats) -> Floats:
+        same = (poses == self.poses).all(axis=(-2, -1))
+        return np.where(same, 0.0, -np.inf)
+
+    def log_change(self, poses: Floats, proposed: Floats) -> Floats:
+        return np.where((proposed == self.poses).all(axis=-1), 0.0, -np.inf)
+
+    def precision(self, poses: Floats) -> Floats:
+        return np.broadcast_to(np.eye(3) * 1e30, (len(self.poses), 3, 3))
+
+    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+        return ()
+
+    def sample(self, rng: np.random.Generator) -> Floats:
+        return self.poses.copy()
+
+
+@dataclass(frozen=True, eq=False)
+class _Independent(PoseLaw):
+    mean: Floats
+    sigma: Floats
+
+    def _each(self, poses: Floats) -> Floats:
+        error = poses - self.mean
+        error[..., 2] = wrapped(error[..., 2])
+        return _normal(error, self.sigma)
+
+    def log_prob(self, poses: Floats) -> Floats:
+        return np.asarray(self._each(poses).sum(axis=-1))
+
+    def log_change(self, poses: Floats, proposed: Floats) -> Floats:
+        return self._each(proposed) - self._each(poses)
+
+    def precision(self, poses: Floats) -> Floats:
+        return np.broadcast_to(np.diag(self.sigma**-2.0), (len(self.mean), 3, 3))
+
+    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+        return (np.arange(n_scans),)
+
+    def sample(self, rng: np.random.Generator) -> Floats:
+        return np.asarray(self.mean + self.sigma * rng.standard_normal(self.mean.shape))
+
+
+@dataclass(frozen=True, eq=False)
+class _Markov(PoseLaw):
+    first: Floats
+    motions: Floats  # (S - 1, 3), from scan to scan in the earlier one's frame
+    sigmas: Floats  # of their errors
+
+    def _factors(self, before: Floats, after: Floats) -> Floats:
+        """Log density of each motion, (..., S - 1)."""
+        error = between(before, after) - self.motions
+        error[..., 2] = wrapped(error[..., 2])
+        return _normal(error, self.sigmas)
+
+    def log_prob(self, poses: Floats) -> Floats:
+        chain = self._factors(poses[..., :-1, :], poses[..., 1:, :]).sum(axis=-1)
+        return np.where((poses[..., 0, :] == self.first).all(axis=-1), chain, -np.inf)
+
+    def log_change(self, poses: Floats, proposed: Floats) -> Floats:
+        now = self._factors(poses[..., :-1, :], poses[..., 1:, :])
+        change = np.zeros(poses.shape[:-1])
+        change[..., 1:] += self._factors(poses[..., :-1, :], proposed[..., 1:, :]) - now
+        change[..., :-1] += self._factors(proposed[..., :-1, :], poses[..., 1:, :]) - now
+        change[..., 0] = -np.inf
+        return change
+
+    def precision(self, poses: Floats) -> Floats:
+        weights = self.sigmas**-2.0
+        out = np.zeros((len(poses), 3, 3))
+        # The error of a motion, in the earlier pose's frame, is e = R(-yaw) (p' - p) - motion.
+        yaw = poses[:-1, 2]
+        c, s = np.cos(yaw), np.sin(yaw)
+        turn = np.zeros((len(yaw), 3, 3))
+        turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1], turn[:, 2, 2] = c, s, -s, c, 1.0
+        seen = between(poses[:-1], poses[1:])
+        later, earlier = turn, -turn
+        earlier = earlier.copy()
+        earlier[:, 0, 2], earlier[:, 1, 2] = seen[:, 1], -seen[:, 0]
+        out[1:] += np.einsum("sji,sj,sjk->sik", later, weights, later)
+        out[:-1] += np.einsum("sji,sj,sjk->sik", earlier, weights, earlier)
+        if len(poses) == 1:
+            out[0] = np.eye(3)
+        return out
+
+    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+        groups = np.arange(1, n_scans, 2), np.arange(2, n_scans, 2)
+        return tuple(group for group in groups if len(group))
+
+    def sample(self, rng: np.random.Generator) -> Floats:
+        poses = np.empty((len(self.motions) + 1, 3))
+        poses[0] = self.first
+        noisy = self.motions + self.sigmas * rng.standard_normal(self.motions.shape)
+        for i, motion in enumerate(noisy):
+            poses[i + 1] = compose(poses[i], motion)
+        return poses
+
+
+def _normal(error: Floats, sigma: Floats) -> Floats:
+    """Log density of independent normal errors of x, y and yaw, (..., 3) to (...)."""
+    return np.asarray((-0.5 * (error / sigma) ** 2 - np.log(sigma) - LOG_ROOT_TWO_PI).sum(axis=-1))
+
+
+def _check_positive(name: str, **values: float) -> None:
+    for which, value in values.items():
+        if not (math.isfinite(value) and value > 0):
+            raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")

@@ -1,0 +1,136 @@
+"""Priors of poses are densities, and what samplers ask of them follows from the density."""
+
+import numpy as np
+import pytest
+from scipy import integrate, stats
+
+from bayesmap.errors import BadInput
+from bayesmap.poses.prior import Known, Odometry, Uncertain, pose_prior_from
+from bayesmap.space.planar import between, compose, wrapped
+
+PRIORS = {"uncertain": Uncertain(0.1, 0.05), "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01)}
+
+
+def trajectory(seed, scans=6):
+    rng = np.random.default_rng(seed)
+    return np.column_stack([rng.normal(0, 2, (scans, 2)), rng.uniform(-np.pi, np.pi, scans)])
+
+
+def test_composing_undoes_seeing_from():
+    a, b = trajectory(0, 50), trajectory(1, 50)
+    np.testing.assert_allclose(compose(a, between(a, b)), b, atol=1e-12)
+    assert (np.abs(wrapped(np.linspace(-20, 20, 999))) <= np.pi).all()
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_the_change_of_one_pose_is_the_change_of_the_density(name):
+    law = PRIORS[name].law(trajectory(2))
+    rng = np.random.default_rng(3)
+    poses = law.sample(rng)
+    proposed = poses + rng.normal(0, 0.05, poses.shape)
+    changes = law.log_change(poses, proposed)
+    movable = np.concatenate(law.colours(len(poses)))
+    for i in movable:
+        one = poses.copy()
+        one[i] = proposed[i]
+        assert changes[i] == pytest.approx(law.log_prob(one) - law.log_prob(poses), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_scans_of_one_colour_are_independent_given_the_others(name):
+    """Moving all of a colour at once changes the density by the sum of their changes; of all scans it does not."""
+    law = PRIORS[name].law(trajectory(4))
+    rng = np.random.default_rng(5)
+    poses = law.sample(rng)
+    proposed = poses + rng.normal(0, 0.05, poses.shape)
+    for colour in law.colours(len(poses)):
+        together = poses.copy()
+        together[colour] = proposed[colour]
+        alone = law.log_change(poses, proposed)[colour].sum()
+        assert law.log_prob(together) - law.log_prob(poses) == pytest.approx(alone, abs=1e-8)
+    if name == "odometry":
+        rest = np.arange(1, len(poses))
+        together = poses.copy()
+        together[rest] = proposed[rest]
+        wrong = law.log_change(poses, proposed)[rest].sum()
+        assert abs(law.log_prob(together) - law.log_prob(poses) - wrong) > 1e-3
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_the_precision_is_the_curvature_of_the_density(name):
+    law = PRIORS[name].law(trajectory(6))
+    poses = trajectory(6)  # where errors are zero, so that second derivatives of the motions have no part
+    precision, h = law.precision(poses), 1e-4
+    for i in np.concatenate(law.colours(len(poses))):
+        curvature = np.zeros((3, 3))
+        for a in range(3):
+            for b in range(3):
+                total = 0.0
+                for sa in (1, -1):
+                    for sb in (1, -1):
+                        one = poses.copy()
+                        one[i, a] += sa * h
+                        one[i, b] += sb * h
+                        total += sa * sb * float(law.log_prob(one))
+                curvature[a, b] = -total / (4 * h * h)
+        np.testing.assert_allclose(precision[i], curvature, rtol=2e-3, atol=np.abs(curvature).max() * 1e-4)
+
+
+def test_the_density_of_a_motion_integrates_to_one():
+    prior = Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01)
+    log = np.array([[0.0, 0.0, 0.4], [0.5, 0.1, 0.9]])
+    law = prior.law(log)
+    sigma = prior.sigmas(between(log[:1], log[1:]))[0]
+    axes = [np.linspace(-6 * s, 6 * s, 61) for s in (sigma[0], sigma[0], sigma[2])]
+    x, y, yaw = np.meshgrid(*axes, indexing="ij")
+    second = log[1] + np.stack([x, y, yaw], axis=-1)
+    poses = np.stack([np.broadcast_to(log[0], second.shape), second], axis=-2)
+    density = np.exp(law.log_prob(poses))
+    total = density
+    for axis in reversed(axes):
+        total = integrate.trapezoid(total, axis)
+    assert total == pytest.approx(1.0, abs=1e-4)
+
+
+def test_samples_of_odometry_have_its_errors():
+    """Kolmogorov-Smirnov on every standardised error; false-alarm rate 1e-4 over the three."""
+    log = trajectory(8, 4000)
+    prior = PRIORS["odometry"]
+    law = prior.law(log)
+    poses = law.sample(np.random.default_rng(9))
+    motions = between(log[:-1], log[1:])
+    error = between(poses[:-1], poses[1:]) - motions
+    error[:, 2] = wrapped(error[:, 2])
+    standard = error / prior.sigmas(motions)
+    for axis in range(3):
+        assert stats.kstest(standard[:, axis], "norm").pvalue > 1e-4 / 3
+        assert stats.kstest(1.15 * standard[:, axis], "norm").pvalue < 1e-4 / 3  # a wrong twin
+
+
+def test_known_poses_do_not_move():
+    log = trajectory(10)
+    law = Known().law(log)
+    assert law.colours(len(log)) == ()
+    assert law.log_prob(log) == 0
+    assert law.log_prob(log + 1e-9) == -np.inf
+    assert (law.sample(np.random.default_rng(0)) == log).all()
+
+
+def test_the_first_pose_of_odometry_is_the_frame():
+    law = PRIORS["odometry"].law(trajectory(11))
+    assert 0 not in np.concatenate(law.colours(6))
+    assert law.log_prob(trajectory(11) + [1e-3, 0, 0]) == -np.inf
+
+
+@pytest.mark.parametrize("prior", [Known(), *PRIORS.values()])
+def test_a_description_makes_the_same_prior(prior):
+    assert pose_prior_from(prior.describe()) == prior
+
+
+@pytest.mark.parametrize(
+    "make",
+    [lambda: Uncertain(0.0, 0.1), lambda: Uncertain(0.1, float("nan")), lambda: Odometry(m_per_m=-1.0)],
+)
+def test_senseless_numbers_are_refused(make):
+    with pytest.raises(BadInput, match="sigma|m_per_m"):
+        make()
