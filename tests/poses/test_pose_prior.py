@@ -119,7 +119,7 @@ def test_known_poses_do_not_move():
 def test_the_first_pose_of_odometry_is_the_frame():
     law = PRIORS["odometry"].law(trajectory(11))
     assert 0 not in np.concatenate(law.colours(6))
-    assert law.log_prob(trajectory(11) + [1e-3, 0, 0]) == -np.inf
+    assert law.log_prob(trajectory(11) + np.array([1e-3, 0, 0])) == -np.inf
 
 
 @pytest.mark.parametrize("prior", [Known(), *PRIORS.values()])
@@ -132,5 +132,5 @@ def test_a_description_makes_the_same_prior(prior):
     [lambda: Uncertain(0.0, 0.1), lambda: Uncertain(0.1, float("nan")), lambda: Odometry(m_per_m=-1.0)],
 )
 def test_senseless_numbers_are_refused(make):
-    with pytest.raises(BadInput, match="sigma|m_per_m"):
+    with pytest.raises(BadInput, match=r"sigma|m_per_m"):
         make()

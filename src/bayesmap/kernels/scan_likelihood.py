@@ -1,8 +1,9 @@
 """The likelihood of whole scans at any poses, given the cells: what a pose is weighed by.
 
 Beams walk the grid from the pose itself, so nothing has to be traced beforehand. A beam stops in the i-th cell that it
-meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, and its reading has the density ``sum_i w_i p(z | stop i)``,
-the law of `bayesmap.kernels.predict` under one map. Where each beam stopped is summed out.
+meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, and its reading has the density
+``sum_i w_i p(z | stop i)``, the law of `bayesmap.kernels.predict` under one map. Where each beam stopped is summed
+out.
 """
 
 from dataclasses import dataclass
@@ -31,7 +32,7 @@ Floats = NDArray[np.float64]
 
 @wp.struct
 class Cells:
-    """One map a chain: stop probabilities of cells without surfaces, or surfaces; rows are chains, columns flat cells."""
+    """One map a chain: stop probabilities, or surfaces; rows are chains, columns the flat cells of the grid."""
 
     stop: wp.array2d(dtype=wp.float32)
     surface: wp.array2d(dtype=Cell)
@@ -78,8 +79,9 @@ def beam_log_likelihoods(
     range_m: wp.array(dtype=wp.float64),
     out: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam of a pose: log p(reading | cells, pose). A mount is a beam's start and angle in its scan's frame,
-    and ``mounts`` has one a beam of a scan, or one a beam.
+    """One thread a beam of a pose: log p(reading | cells, pose).
+
+    A mount is a beam's start and angle in its scan's frame; ``mounts`` has one for each angle, or one for each beam.
     """
     b = first + wp.tid()
     row = b / beams

@@ -25,7 +25,7 @@ def compose(first: Floats, then: Floats) -> Floats:
 
 
 def between(first: Floats, second: Floats) -> Floats:
-    """The pose ``second`` as it is seen from ``first``: ``compose(first, between(first, second)) == second``."""
+    """The second pose as it is seen from the first: what has to be composed with the first to make the second."""
     dx, dy = second[..., 0] - first[..., 0], second[..., 1] - first[..., 1]
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
     return np.stack([c * dx + s * dy, c * dy - s * dx, wrapped(second[..., 2] - first[..., 2])], axis=-1)
