@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
-    from bayesmap.cells.cell_priors import Beta as Beta
-    from bayesmap.cells.cell_priors import Surface as Surface
-    from bayesmap.cells.priors import Independent as Independent
+    from bayesmap.cells.binary import Independent as Independent
+    from bayesmap.cells.reflectivity import Beta as Beta
+    from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
     from bayesmap.field_result import FieldRun as FieldRun
     from bayesmap.io.logs import read_log as read_log
@@ -39,19 +39,19 @@ if TYPE_CHECKING:
 
 _HOME = {
     "BadInput": "bayesmap.errors",
-    "Beta": "bayesmap.cells.cell_priors",
+    "Beta": "bayesmap.cells.reflectivity",
     "BeamMixture": "bayesmap.sensors.mixture",
     "FieldRun": "bayesmap.field_result",
     "Gaussian": "bayesmap.sensors.noise",
     "Grid": "bayesmap.space.grid",
-    "Independent": "bayesmap.cells.priors",
+    "Independent": "bayesmap.cells.binary",
     "MapWidget": "bayesmap.app.widget",
     "Reading": "bayesmap.space.scans",
     "Run": "bayesmap.result",
     "Scans": "bayesmap.space.scans",
     "SensorModel": "bayesmap.sensors.model",
     "StudentT": "bayesmap.sensors.noise",
-    "Surface": "bayesmap.cells.cell_priors",
+    "Surface": "bayesmap.cells.surface",
     "infer": "bayesmap.api",
     "load": "bayesmap.loading",
     "mapping_model": "bayesmap.programs.mapping",

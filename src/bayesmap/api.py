@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.assembly import Assembly
-from bayesmap.cells.cell_priors import CellPrior
-from bayesmap.cells.priors import Independent
+from bayesmap.cells.binary import Independent
+from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.reflectivity import Reflective
 from bayesmap.errors import BadInput, check_count
 from bayesmap.field_inference import FIT, FieldJob, default_draws, fit_sensor, infer_field
 from bayesmap.field_result import FieldRun
@@ -56,7 +57,7 @@ def infer(
     scans: Scans,
     grid: Grid,
     *,
-    prior: Independent | CellPrior,
+    prior: CellPrior,
     sensor: SensorModel | Literal["fit"],
     method: Method = "gibbs",
     order: Order = "radial",
@@ -121,7 +122,7 @@ def infer(
     if method not in get_args(Method):
         raise BadInput(f"infer: method must be one of {', '.join(get_args(Method))}, got {method!r}")
     chains = check_count("infer", "chains", chains, 1)
-    if draws is None and isinstance(prior, CellPrior):
+    if draws is None and isinstance(prior, Reflective):
         draws = default_draws(scans.n_beams, grid.n_cells, chains)
     elif draws is None:
         draws = 0 if method == "propagate" else 1000
@@ -139,7 +140,7 @@ def infer(
         raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
     if isinstance(sensor, str) and sensor != FIT:
         raise BadInput(f"infer: sensor must be a sensor model or {FIT!r}, got {sensor!r}")
-    if isinstance(prior, CellPrior):
+    if isinstance(prior, Reflective):
         if method != "gibbs":
             raise BadInput(f"infer: {type(prior).__name__} has one method, 'gibbs', got {method!r}")
         if not isinstance(resume, FieldRun | None):
@@ -157,6 +158,7 @@ def infer(
             )
     if isinstance(resume, FieldRun):
         raise BadInput("resume: the saved run is one over reflectivities or surfaces, not over walls")
+    assert isinstance(prior, Independent)
     began = time.perf_counter()
     if isinstance(sensor, str):
         tell = _teller(on_progress, "fit")

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.posterior.packing import pack, unpack
+from bayesmap.cells.packing import pack, unpack
 from bayesmap.posterior.posterior import Posterior, mean_of_draws
 from bayesmap.result import Run
 from bayesmap.run.chain import Chains

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from bayesmap.cells.cell_priors import Beta, CellPrior, Surface
+from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.field_result import FieldRun
 from bayesmap.posterior.field import FieldPosterior
 from bayesmap.run.chain import Progress, Schedule
@@ -46,7 +46,7 @@ class FieldJob:
 
     scans: Scans
     grid: Grid
-    prior: CellPrior
+    prior: Reflective
     sensor: SensorModel | Literal["fit"]
     schedule: Schedule
     chains: int
@@ -67,9 +67,9 @@ def default_draws(beams: int, cells: int, chains: int) -> int:
     return max(FEWEST_DRAWS, min(affordable, fitting, MOST_DRAWS))
 
 
-def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
+def first_sensor(prior: Reflective, resolution_m: float) -> BeamMixture:
     """Where a fit starts: a laser with few outliers."""
-    sigma_m = 0.02 if isinstance(prior, Surface) else math.hypot(0.02, PLAIN_SPREAD * resolution_m)
+    sigma_m = 0.02 if prior.has_surfaces else math.hypot(0.02, PLAIN_SPREAD * resolution_m)
     return BeamMixture(Gaussian(sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
 
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.packing import unpack
 from bayesmap.errors import BadInput
-from bayesmap.posterior.packing import unpack
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.score import log_score
 from bayesmap.posterior.scoring import Score, score_posterior

@@ -157,9 +157,10 @@ def test_choices_are_those_of_the_library():
     from typing import get_args
 
     from bayesmap.api import Method
-    from bayesmap.cells.cell_priors import Beta, Surface
-    from bayesmap.cells.defaults import HIT_DEPTH, P_WALL
-    from bayesmap.cells.priors import Independent
+    from bayesmap.cells.binary import Independent
+    from bayesmap.cells.defaults import P_WALL
+    from bayesmap.cells.reflectivity import Beta
+    from bayesmap.cells.surface import Surface
     from bayesmap.cli import cells
     from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
     from bayesmap.field_inference import FEWEST_DRAWS, MOST_DRAWS
@@ -174,11 +175,11 @@ def test_choices_are_those_of_the_library():
     assert defaults["rounds"] == ROUNDS
     binary = cells.settled({**defaults, "cells": "binary"})
     assert cells.prior_of(binary).describe() == Independent(P_WALL).describe()
-    assert binary["hit_depth"] == HIT_DEPTH
+    assert binary["hit_depth"] == Independent.hit_depth
     kinds = {name: type(cells.prior_of(cells.settled({**defaults, "cells": name}))) for name in CELLS}
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
     # The help says what settings are where the user sets none.
     unset = {key.name: key.unset for key in INFER}
     assert unset["draws"] == f"{FEWEST_DRAWS}, to {MOST_DRAWS} for few beams; binary {cells.BINARY_DRAWS}"
-    assert unset["hit_depth"] == f"{cells.HIT_DEPTH['reflectivity']:g}; binary {HIT_DEPTH:g}"
+    assert unset["hit_depth"] == f"{Surface.hit_depth:g}; binary {Independent.hit_depth:g}"
     assert unset["prior"] == f"{P_WALL:g}"

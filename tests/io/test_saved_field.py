@@ -111,7 +111,7 @@ def test_an_attribute_that_was_changed_is_noticed(tmp_path):
     path = tmp_path / "changed.nc"
     infer("surfaces").save(path)
     with netCDF4.Dataset(path, "a") as file:
-        file.setncattr("bayesmap", file.getncattr("bayesmap").replace('"wander": 0.4', '"wander": 0.5'))
+        file.setncattr("bayesmap", file.getncattr("bayesmap").replace('"spread": 0.28', '"spread": 0.29'))
     with pytest.raises(bm.BadInput, match=r"changed\.nc: "):
         bm.load(path)
 

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bayesmap.cells.packing import pack
 from bayesmap.posterior import diagnostics
 from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
-from bayesmap.posterior.packing import pack
 
 
 def arviz_rhat(values):

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from bayesmap.cells.packing import pack
 from bayesmap.errors import BadInput
-from bayesmap.posterior.packing import pack
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.residuals import compare, residuals_of

@@ -10,7 +10,7 @@ from oracle.worlds import make_case
 from scipy import special
 
 import bayesmap as bm
-from bayesmap.posterior.packing import pack
+from bayesmap.cells.packing import pack
 from bayesmap.posterior.posterior import entropy_bits, mean_of_draws
 from bayesmap.posterior.score import beam_log_scores
 from bayesmap.sensors.model import RangeLimits

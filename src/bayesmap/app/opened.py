@@ -12,7 +12,7 @@ import numpy as np
 from bayesmap.app.document import LARGEST_SIDE_OF_FILE, METHODS, Document, Source, WallMap
 from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
-from bayesmap.cells.priors import Independent
+from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.loading import load
 from bayesmap.result import Run
@@ -53,15 +53,15 @@ class OpenedLog:
 
     @cached_property
     def _scene(self) -> Scene:
-        from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
+        from bayesmap.cells.defaults import default_sensor
         from bayesmap.kernels.trace import trace
 
         grid = self.document.grid
         sensor = default_sensor(grid.resolution)
-        table = trace(self.scans, grid, sensor, hit_depth=HIT_DEPTH)
+        table = trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth)
         problem = Problem(table, Independent(self.document.prior), self.scans.poses)
         ids = tuple(range(1, len(self.scans) + 1))
-        return Scene(self.scans, np.zeros((0, len(self.scans.angles_rad))), ids, sensor, problem, HIT_DEPTH)
+        return Scene(self.scans, np.zeros((0, len(self.scans.angles_rad))), ids, sensor, problem, Independent.hit_depth)
 
     def result(self) -> Result:
         """A log has none."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.document import SMALLEST_NOISE_M, Document
 from bayesmap.beams.table import BeamTable
-from bayesmap.cells.priors import Independent
+from bayesmap.cells.binary import Independent
 from bayesmap.samplers.problem import Problem
 from bayesmap.sensors.model import SensorModel
 from bayesmap.sensors.noise import Gaussian

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.packing import unpack
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
-from bayesmap.posterior.packing import unpack
 from bayesmap.run.chain import BUFFER_BYTES, SECONDS_PER_INCIDENCE, Chains
 from bayesmap.samplers.sampler import WallSampler
 

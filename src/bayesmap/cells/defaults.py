@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 
+from bayesmap.cells.binary import Independent
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import Gaussian
 
 P_WALL = 0.2
 """Prior wall probability: buildings are mostly free space, and unobserved cells should look unlike both."""
 
-HIT_DEPTH = 0.25
+HIT_DEPTH = Independent.hit_depth
 """Where in a cell a beam is expected to stop, as a fraction of its chord."""
 
 LASER_SIGMA_M = 0.02

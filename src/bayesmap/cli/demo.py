@@ -68,7 +68,7 @@ def _runs(talk: Talk, values: dict[str, Any]) -> dict[str, Run]:
     import numpy as np
 
     from bayesmap.api import infer
-    from bayesmap.cells.priors import Independent
+    from bayesmap.cells.binary import Independent
     from bayesmap.sensors.noise import Gaussian
     from bayesmap.sim.forward import simulate
     from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial

@@ -18,11 +18,11 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.packing import pack, unpack
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
 from bayesmap.posterior.field import FieldPosterior
-from bayesmap.posterior.packing import pack, unpack
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.sensors.describe import from_description
 from bayesmap.space.grid import Grid

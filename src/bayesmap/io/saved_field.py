@@ -19,7 +19,8 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.cell_priors import prior_from
+from bayesmap.cells.kind import prior_from
+from bayesmap.cells.reflectivity import Reflective
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
 from bayesmap.io.half_draws import read_half, write_half
@@ -130,13 +131,14 @@ def read_field(file: Any, header: dict[str, Any]) -> FieldPosterior:
     surfaces = np.empty((*draws["surface_l11"].shape, len(SURFACE)), dtype=np.float16)
     for i, name in enumerate(SURFACE):
         read_half(draws[f"surface_{name}"], surfaces[..., i])
-    sensor = from_description(header["sensor"])
+    sensor, prior = from_description(header["sensor"]), prior_from(header["prior"])
+    assert isinstance(prior, Reflective)
     assert isinstance(sensor, BeamMixture)
     return FieldPosterior(
         grid=grid,
         scans=scans_from(file, header),
         sensor=sensor,
-        prior=prior_from(header["prior"]),
+        prior=prior,
         settings=header["settings"],
         touched=(draws["cell_x"][:] * grid.shape[1] + draws["cell_y"][:]).astype(np.int32),
         busy=draws["surface_of"][:],

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.posterior.packing import count_walls
+from bayesmap.cells.packing import count_walls
 
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 4096

@@ -9,9 +9,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.packing import unpack
 from bayesmap.errors import BadInput
 from bayesmap.posterior.field import FieldPosterior
-from bayesmap.posterior.packing import unpack
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import SensorModel

@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bayesmap.cells.priors import Independent
+from bayesmap.cells.binary import Independent
 from bayesmap.gen.densities import flip
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.static import StaticGenerativeFunction, gen

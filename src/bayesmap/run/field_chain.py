@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.cell_priors import CellPrior
+from bayesmap.cells.reflectivity import Reflective
 from bayesmap.run.chain import Progress, Schedule, pause_after
 from bayesmap.samplers import fit
 from bayesmap.samplers.field_gibbs import FieldGibbs, FieldProblem
@@ -137,7 +137,7 @@ def _refitted(sampler: FieldGibbs, now: Parameters, sweep: int, fit_sensor: bool
 
 
 def expected_reflectivity(
-    hits: NDArray[np.int32], met: NDArray[np.int32], prior: CellPrior, drawn: NDArray[np.float16]
+    hits: NDArray[np.int32], met: NDArray[np.int32], prior: Reflective, drawn: NDArray[np.float16]
 ) -> NDArray[np.float32]:
     """Mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
@@ -206,7 +206,7 @@ class _Record:
     def add(
         self,
         sampler: FieldGibbs,
-        prior: CellPrior,
+        prior: Reflective,
         log_likelihood: NDArray[np.float64],
         log_prior: NDArray[np.float64],
         warming: bool,

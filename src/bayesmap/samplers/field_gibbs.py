@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import BeamRays
-from bayesmap.cells.cell_priors import CellPrior, Surface
+from bayesmap.cells.reflectivity import Reflective
 from bayesmap.errors import BadInput
 from bayesmap.samplers.fit import BEAMS_LOOKED_AT, Stops
 from bayesmap.samplers.plug_in import PlugIn, pace, plug_in, starts, steps
@@ -45,14 +45,14 @@ class FieldProblem:
     """
 
     rays: BeamRays
-    prior: CellPrior
+    prior: Reflective
     sensor: BeamMixture
     device: str = "cpu"
 
     @property
     def plain(self) -> bool:
         """Whether cells have no surfaces."""
-        return not isinstance(self.prior, Surface)
+        return not self.prior.has_surfaces
 
     @cached_property
     def guess(self) -> PlugIn:
@@ -63,7 +63,7 @@ class FieldProblem:
 def build_field(
     scans: Scans,
     grid: Grid,
-    prior: CellPrior,
+    prior: Reflective,
     sensor: SensorModel,
     *,
     hit_depth: float = 0.5,
@@ -90,15 +90,11 @@ def build_field(
     return FieldProblem(rays, prior, sensor, device)
 
 
-def prior_numbers(prior: CellPrior, edge_m: float) -> Any:
+def prior_numbers(prior: Reflective, edge_m: float) -> Any:
     """The prior as kernels take it, lengths in metres."""
     from bayesmap.kernels.field import PriorNumbers
 
-    if isinstance(prior, Surface):
-        return PriorNumbers(
-            prior.a, prior.b, prior.wander * edge_m, (prior.spread * edge_m) ** 2, prior.dof, prior.extent * edge_m
-        )
-    return PriorNumbers(prior.a, prior.b, edge_m, edge_m**2, 3.0, edge_m)
+    return PriorNumbers(*prior.kernel_numbers(edge_m))
 
 
 class FieldGibbs:
@@ -137,7 +133,7 @@ class FieldGibbs:
         self._looked_at = slice(every // 2, None, every)
 
     def sweep(
-        self, number: int, sensor: BeamMixture, prior: CellPrior
+        self, number: int, sensor: BeamMixture, prior: Reflective
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """One sweep of all chains; log-likelihood and log prior of the states *before* it, (C,) each."""
         parameters = sensor.kernel_parameters()

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, special
 
-from bayesmap.cells.cell_priors import CellPrior
+from bayesmap.cells.reflectivity import Reflective
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.sensors.noise import Gaussian
@@ -38,7 +38,7 @@ class Parameters:
     """What is fitted."""
 
     sensor: BeamMixture
-    prior: CellPrior
+    prior: Reflective
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +154,7 @@ def _refit_noise(
     return Gaussian(float(sigma_m), float(sigma_per_m))
 
 
-def refit_prior(prior: CellPrior, hits: NDArray[np.int32], met: NDArray[np.int32], step: float) -> CellPrior:
+def refit_prior(prior: Reflective, hits: NDArray[np.int32], met: NDArray[np.int32], step: float) -> Reflective:
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
 
     Cells whose ``met`` is negative have not counted yet and are left out.

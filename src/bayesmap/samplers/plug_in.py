@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from bayesmap.beams.rays import BeamRays
-from bayesmap.cells.cell_priors import CellPrior, Surface
+from bayesmap.cells.reflectivity import Reflective
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
 IDLE_ROUND, REMOTE_ROUND = 16, 32
@@ -48,7 +48,7 @@ class PlugIn:
         return np.asarray(self.hits > 0)
 
 
-def plug_in(rays: BeamRays, prior: CellPrior, device: str = "cpu") -> PlugIn:
+def plug_in(rays: BeamRays, prior: Reflective, device: str = "cpu") -> PlugIn:
     """Count hits and passes, and fit a normal distribution to each cell's end points."""
     from bayesmap.kernels.plug_in import passes_at_their_word
 
@@ -56,7 +56,7 @@ def plug_in(rays: BeamRays, prior: CellPrior, device: str = "cpu") -> PlugIn:
     end_cell = end_cells(rays)
     ended = end_cell >= 0
     cell, points = end_cell[ended], rays.end_points_m()[ended]
-    spread = (prior.spread if isinstance(prior, Surface) else 0.3) * edge
+    spread = prior.first_spread * edge
 
     def total(values: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         return np.bincount(cell, values, cells).astype(np.float64)
@@ -104,7 +104,7 @@ def end_cells(rays: BeamRays) -> NDArray[np.int32]:
 
 
 def starts(
-    guess: PlugIn, prior: CellPrior, edge_m: float, chains: int, rng: np.random.Generator
+    guess: PlugIn, prior: Reflective, edge_m: float, chains: int, rng: np.random.Generator
 ) -> NDArray[np.float32]:
     """States for several chains, (C, T, 6), scattered about the guess about as widely as the posterior.
 
@@ -121,7 +121,7 @@ def starts(
         state[:, 1] = guess.mean_m[:, 0] + l11 * e1
         state[:, 2] = guess.mean_m[:, 1] + l21 * e1 + l22 * e2
         state[:, 3], state[:, 4], state[:, 5] = l11, l21, l22
-        if isinstance(prior, Surface):
+        if prior.has_surfaces:
             idle = np.nonzero(~guess.busy)[0]
             surfaces = prior.sample_surfaces(rng, min(len(idle), FRESH)) * edge_m
             if len(idle) > FRESH:

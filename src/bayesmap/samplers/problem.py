@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
-from bayesmap.cells.priors import Independent
+from bayesmap.cells.binary import Independent
 
 LOG_ODDS_OF_FIXED = 1e15
 """Stands for infinite log-odds where the prior fixes a cell: more than any scan could outweigh."""

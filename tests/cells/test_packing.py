@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from bayesmap.posterior import packing
-from bayesmap.posterior.packing import count_walls, pack, unpack
+from bayesmap.cells import packing
+from bayesmap.cells.packing import count_walls, pack, unpack
 
 maps = st.tuples(st.integers(0, 3), st.integers(0, 5), st.integers(1, 9), st.integers(1, 9)).flatmap(
     lambda shape: arrays(np.bool_, shape)

@@ -1,0 +1,249 @@
+"""What a kind of cells is: the prior that users pass, and everything that the rest of the package asks of it.
+
+A kind says what the state of a cell is (its arrays), how likely it is before any scan, what it does to a beam, and what
+maps and axes call it. Samplers, files, scores, pictures, the command line and the page ask the kind, and none of them
+knows which kinds there are. Built in are `bayesmap.cells.binary`, `bayesmap.cells.reflectivity` and
+`bayesmap.cells.surface`; a class of your own that extends `CellPrior` works everywhere, too.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+
+if TYPE_CHECKING:
+    from bayesmap.cells.draws import Draws
+
+Floats = NDArray[np.float64]
+Cells = Mapping[str, NDArray[Any]]
+"""One map: the arrays that a kind declares, each (nx, ny)."""
+
+BATCH_BYTES = 32 << 20
+"""Of stops that are held at a time."""
+
+
+@dataclass(frozen=True)
+class Words:
+    """What a kind is called, and what its map shows.
+
+    Attributes:
+        kind: in settings, documents and saved runs: one word.
+        states: the states of the cells, in the plural: "walls or free".
+        mean: what the mean map shows, on colour bars.
+        value: what one draw's map shows.
+    """
+
+    kind: str
+    states: str
+    mean: str
+    value: str
+
+
+@dataclass(frozen=True)
+class ArraySpec:
+    """An array of a draw.
+
+    Attributes:
+        name: in `Cells`, in saved runs and in `Run.dataset`.
+        dims: its dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that some
+            beam touches, ("surface_cell",) for those in which a reading ends.
+        dtype: of its values.
+        storage: how draws are kept in memory: "bits" packs booleans, "half" rounds to half precision.
+        what: what it is, with its unit.
+    """
+
+    name: str
+    dims: tuple[str, ...]
+    dtype: str
+    storage: Literal["bits", "half", "plain"] = "plain"
+    what: str = ""
+
+    def stored(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values (..., *dims) as they are kept."""
+        if self.storage == "bits":
+            flat = np.asarray(values, dtype=np.bool_).reshape(*values.shape[: -len(self.dims)], -1)
+            return np.packbits(flat, axis=-1)
+        return np.asarray(values, dtype=np.float16 if self.storage == "half" else self.dtype)
+
+    def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+        """What was stored, with the sizes of its dimensions."""
+        if self.storage == "bits":
+            bits = np.unpackbits(stored, axis=-1, count=int(np.prod(shape)))
+            return bits.reshape(*stored.shape[:-1], *shape).view(np.bool_)
+        return stored
+
+    def empty(self, chains: int, draws: int, shape: tuple[int, ...]) -> NDArray[Any]:
+        """Room for draws, as they are kept."""
+        if self.storage == "bits":
+            return np.zeros((chains, draws, (int(np.prod(shape)) + 7) // 8), dtype=np.uint8)
+        return np.zeros((chains, draws, *shape), dtype=np.float16 if self.storage == "half" else self.dtype)
+
+
+_KINDS: dict[str, type[CellPrior]] = {}
+_ALIASES = {"independent": "binary", "beta": "reflectivity"}
+"""What descriptions have always called two of them."""
+
+
+class CellPrior(ABC):
+    """A kind of cells with its prior.
+
+    Attributes:
+        words: what it is called.
+        arrays: what a draw holds.
+        methods: the methods of `bayesmap.infer` that it has, the first being the default, and the sampler of each (see
+            `bayesmap.samplers.methods`).
+        hit_depth: where in a cell a beam stops unless the caller says otherwise, as a fraction of the beam's chord.
+        sensor_is_fitted: whether the command line fits the sensor unless one is given.
+        interval_reason: why `Run.interval` is refused; empty if it is not.
+        thresholds: mean stop probabilities above and below which a robot's map of occupied, free and unknown cells
+            calls a cell so; None leaves it to the format.
+    """
+
+    words: ClassVar[Words]
+    arrays: ClassVar[tuple[ArraySpec, ...]]
+    methods: ClassVar[Mapping[str, str]] = {"metropolis": "metropolis"}
+    hit_depth: ClassVar[float] = 0.5
+    sensor_is_fitted: ClassVar[bool] = False
+    interval_reason: ClassVar[str] = ""
+    thresholds: ClassVar[tuple[float, float] | None] = None
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "words" in cls.__dict__:
+            _KINDS[cls.words.kind] = cls
+
+    # The prior
+
+    @abstractmethod
+    def log_prob(self, cells: Cells, grid: Grid) -> float:
+        """Log prior density of a map, in nats, up to a constant that depends on neither map nor data."""
+
+    @abstractmethod
+    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+        """Draw a map."""
+
+    def propose(
+        self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
+    ) -> tuple[dict[str, Any], float]:
+        """Another state for one cell, for `bayesmap.samplers.metropolis`.
+
+        By default a state from the prior, which is right where the prior makes cells independent.
+
+        Returns:
+            the cell's new value of every array, and the log of prior ratio times proposal ratio.
+        """
+        fresh = self.sample_cells(rng, Grid((1, 1), grid.resolution))
+        return {name: values[0, 0] for name, values in fresh.items()}, 0.0
+
+    # The stop law
+
+    @abstractmethod
+    def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
+        """What the cells do to beams, as the one law of stops and the one predictive kernel read it.
+
+        Returns:
+            the probability that a cell stops a beam which comes to it, (N,), the beam then stopping at the hit depth;
+            or surfaces, (N, 6): reflectivity, mean x and y in metres from the grid's lower left corner, and the
+            Cholesky factor l11, l21, l22 of the covariance in metres. N counts the grid's cells as ``x * ny + y``.
+        """
+
+    def mean_stop(self, grid: Grid) -> Floats:
+        """Prior mean of the probability that a cell stops a beam that meets what is in it, (nx, ny).
+
+        By default estimated from 200 prior draws; override it where it is known.
+        """
+        rng = np.random.default_rng(0)
+        maps = [self._chance(self.sample_cells(rng, grid), grid) for _ in range(200)]
+        return np.asarray(np.mean(maps, axis=0, dtype=np.float64))
+
+    def _chance(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
+        stops = self.stops(cells, grid)
+        return (stops if stops.ndim == 1 else stops[:, 0]).reshape(grid.shape)
+
+    # What is asked of draws
+
+    def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[Any]:
+        """What a picture of one draw shows, (nx, ny)."""
+        return self._chance(draws.cells(chain, draw), draws.grid)
+
+    def mean_map(self, draws: Draws) -> Floats:
+        """Mean over draws of the probability that a cell stops a beam, (nx, ny); NaN without draws."""
+        total = np.zeros(draws.grid.shape)
+        for chain, draw in draws.numbers():
+            total += self.map_of(draws, chain, draw)
+        return total / draws.size if draws.size else np.full(draws.grid.shape, np.nan)
+
+    def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
+        """Central credible interval of what `map_of` shows: lower and upper end, (nx, ny) each.
+
+        Raises:
+            BadInput: a kind whose states have no interval.
+        """
+        maps = np.stack([self.map_of(draws, chain, draw) for chain, draw in draws.numbers()]).astype(np.float64)
+        lower, upper = np.quantile(maps, [0.5 * (1 - level), 0.5 * (1 + level)], axis=0)
+        return lower, upper
+
+    def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
+        """What `map_of` shows of some cells in all draws, (chains, draws, n): what convergence is judged by."""
+        out = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
+        return np.reshape(out, (draws.chains, draws.count, len(cells)))
+
+    def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
+        """Mean surfaces, for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
+
+        Raises:
+            BadInput: a kind without surfaces.
+        """
+        raise BadInput(
+            f"surfaces: the cells of this run are {self.words.states}, without surfaces; infer with prior=Surface(), "
+            "or --cells surface"
+        )
+
+    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+        """The stops of each draw in some cells, by flat index, all if None; some draws at a time.
+
+        This is what predictions are made of: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
+        """
+        batch: list[NDArray[np.float32]] = []
+        for chain, draw in draws.numbers():
+            stops = self.stops(draws.cells(chain, draw), draws.grid)
+            batch.append(np.asarray(stops if wanted is None else stops[wanted], dtype=np.float32))
+            if sum(one.nbytes for one in batch) >= BATCH_BYTES:
+                yield np.stack(batch)
+                batch = []
+        if batch:
+            yield np.stack(batch)
+
+    # Files
+
+    @abstractmethod
+    def describe(self) -> dict[str, Any]:
+        """The prior as plain JSON values; "kind" is its name."""
+
+    @classmethod
+    def from_description(cls, values: Mapping[str, Any]) -> CellPrior:
+        """The prior of a description: by default its other entries are the arguments."""
+        return cls(**{name: value for name, value in values.items() if name != "kind"})
+
+
+def prior_from(description: Mapping[str, Any]) -> CellPrior:
+    """The prior of a description.
+
+    Raises:
+        BadInput: a kind that no loaded module defines.
+    """
+    kind = str(description.get("kind"))
+    kind = _ALIASES.get(kind, kind)
+    if kind not in _KINDS:
+        import bayesmap.cells.kinds  # noqa: F401 -- those that are built in
+    if kind not in _KINDS:
+        raise BadInput(f"cells of kind {kind!r} are not known here; import the module that defines them first")
+    return _KINDS[kind].from_description(description)

@@ -1,0 +1,178 @@
+"""Reflectivities: a cell stops some of the beams that come to it.
+
+A wall that is there or not is too stiff for glass, chair legs, people and cells that a wall fills in part. Here a cell
+has a reflectivity m in [0, 1], the chance that it stops a beam; a stopped beam stops at the cell's hit depth.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import BATCH_BYTES, ArraySpec, CellPrior, Cells, Floats, Words
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+
+LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
+"""Reflectivities between which single precision can tell their log odds."""
+
+CELLS_AT_ONCE = 8192
+
+REFLECTIVITY = ArraySpec("reflectivity", ("cell",), "float32", "half", "chance that the cell stops a beam")
+EXPECTED = ArraySpec(
+    "expected", ("cell",), "float32", "half", "mean of the reflectivity given the draw's surfaces and stops"
+)
+
+
+@dataclass(frozen=True)
+class Reflective(CellPrior):
+    """What cells with a reflectivity have in common, with surfaces or without.
+
+    Attributes:
+        a, b: pseudo-counts of beams that were stopped, and of beams that were not.
+
+    Raises:
+        BadInput: a count that is not positive.
+    """
+
+    a: float = 0.02
+    b: float = 0.2
+
+    methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
+    sensor_is_fitted: ClassVar[bool] = True
+    thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # three beams in ten stopped is no place for a robot
+    has_surfaces: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        for which, value in (("a", self.a), ("b", self.b)):
+            if not (math.isfinite(value) and value > 0):
+                raise BadInput(f"{type(self).__name__}: {which} must be a positive number, got {value!r}")
+
+    @property
+    def mean(self) -> float:
+        """Prior mean of the reflectivity."""
+        return self.a / (self.a + self.b)
+
+    @property
+    def first_spread(self) -> float:
+        """Size of what a cell's readings scatter about, in edges, for the initial estimate."""
+        return 0.3
+
+    def log_prob(self, cells: Cells, grid: Grid) -> float:
+        """Log density of the log odds of all reflectivities, up to a constant, as the sampler reports it."""
+        m = np.clip(np.asarray(cells["reflectivity"], dtype=np.float64), LEAST_M, MOST_M)
+        return float((self.a * np.log(m) + self.b * np.log1p(-m)).sum())
+
+    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+        """Draw a map."""
+        m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
+        return {"reflectivity": m, "expected": m}
+
+    def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
+        """Place-holders, (count, 5): these cells have no surfaces."""
+        return np.zeros((count, 5))
+
+    def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
+        """The reflectivities, (N,)."""
+        return np.ravel(cells["reflectivity"]).astype(np.float32)
+
+    def mean_stop(self, grid: Grid) -> Floats:
+        """The prior's mean everywhere, (nx, ny)."""
+        return np.full(grid.shape, self.mean)
+
+    def kernel_numbers(self, edge_m: float) -> tuple[float, float, float, float, float, float]:
+        """The prior as the kernels of `bayesmap.kernels.cell_draws` take it, lengths in metres: a, b, and a surface's
+        prior, which is not looked at.
+        """
+        return self.a, self.b, edge_m, edge_m**2, 3.0, edge_m
+
+    def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
+        """Reflectivities, (nx, ny); the prior's mean where no beam comes."""
+        return draws.to_grid(draws.arrays["reflectivity"][chain, draw], "cell", self.mean)
+
+    def mean_map(self, draws: Draws) -> Floats:
+        """Posterior mean of the reflectivity, (nx, ny), that of ``expected``: it has the same limit as the mean of the
+        drawn ones, and less noise. The prior's mean where no beam comes; NaN without draws.
+        """
+        if draws.size == 0:
+            return np.full(draws.grid.shape, np.nan)
+        return draws.to_grid(draws.arrays["expected"].mean(axis=(0, 1), dtype=np.float64), "cell", self.mean)
+
+    def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
+        """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each."""
+        from scipy import stats
+
+        tails = (0.5 * (1 - level), 0.5 * (1 + level))
+        drawn = draws.arrays["reflectivity"]
+        ends = np.empty((2, drawn.shape[-1]))
+        for i in range(0, drawn.shape[-1], CELLS_AT_ONCE):
+            part = drawn[:, :, i : i + CELLS_AT_ONCE]
+            ends[:, i : i + CELLS_AT_ONCE] = quantiles_of_halves(part.reshape(-1, part.shape[-1]), tails)
+        before = stats.beta(self.a, self.b).ppf(tails)
+        lower, upper = (draws.to_grid(ends[i], "cell", float(before[i])) for i in (0, 1))
+        return lower, upper
+
+    def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
+        """Reflectivities of some cells that beams touch in all draws, (chains, draws, n)."""
+        place = np.searchsorted(draws.index["cell"], cells)
+        return np.asarray(draws.arrays["reflectivity"][:, :, place])
+
+    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+        """Expected reflectivities of each draw, (draws, n), some draws at a time.
+
+        The density of a reading is linear in each cell's reflectivity, so its mean over draws is that of drawn ones,
+        with less noise. Cells that no beam of the run touched have the prior's mean.
+        """
+        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
+        place, known = places_among(draws.index["cell"], cells)
+        expected = draws.arrays["expected"].reshape(draws.size, -1)
+        at_once = max(1, BATCH_BYTES // (4 * max(len(cells), 1)))
+        for i in range(0, draws.size, at_once):
+            some = expected[i : i + at_once]
+            stops = np.full((len(some), len(cells)), self.mean, dtype=np.float32)
+            stops[:, known] = some[:, place[known]]
+            yield stops
+
+
+@dataclass(frozen=True)
+class Beta(Reflective):
+    """A reflectivity in each cell, Beta(a, b), independently; a stopped beam stops at the cell's hit depth.
+
+    Attributes:
+        a, b: pseudo-counts of beams that were stopped, and of beams that were not.
+
+    Raises:
+        BadInput: a count that is not positive.
+    """
+
+    words: ClassVar[Words] = Words("reflectivity", "reflectivities", "mean reflectivity", "reflectivity")
+    arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED)
+
+    def describe(self) -> dict[str, Any]:
+        """The prior as plain JSON values."""
+        return {"kind": "beta", "a": self.a, "b": self.b}
+
+
+def places_among(held: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Where each of some cells stands among those held, and whether it does."""
+    place = np.minimum(np.searchsorted(held, cells), max(len(held) - 1, 0))
+    known = held[place] == cells if len(held) else np.zeros(len(cells), dtype=np.bool_)
+    return place, known
+
+
+def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Floats:
+    """Quantiles of numbers that are not negative, (draws, cells), linear between draws, (len(at), cells).
+
+    As `numpy.quantile`, but ten times as fast: the bits of such numbers, read as integers, have the same order.
+    """
+    ordered = np.sort(np.ascontiguousarray(draws.T).view(np.uint16), axis=1).view(np.float16)
+    place = np.array(at) * (len(draws) - 1)
+    below = np.floor(place).astype(np.intp)
+    low, high = (ordered[:, k].T.astype(np.float64) for k in (below, np.minimum(below + 1, len(draws) - 1)))
+    return np.asarray(low + (high - low) * (place - below)[:, None])

@@ -1,0 +1,230 @@
+"""Surfaces: reflectivities, and the place where each cell stops beams.
+
+The place is a normal distribution of the points where beams stop, as normal-distributions-transform maps keep it (Biber
+and Strasser, 2003), but inferred. What it means for a beam is in `bayesmap.kernels.meeting`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import BATCH_BYTES, ArraySpec, Cells, Floats, Words
+from bayesmap.cells.reflectivity import EXPECTED, REFLECTIVITY, Reflective, places_among
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+
+MOST_SPREAD = 3.0
+FRESH_CELLS = 1 << 16  # surfaces drawn from the prior, of which predictions take those that they need
+
+PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")
+"""What a surface is made of: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""
+
+
+def _spec(part: str) -> ArraySpec:
+    what = f"{part} of the surface, from the cell's centre" if part.startswith("mean") else f"{part} of its covariance"
+    return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{what}, in edges of a cell")
+
+
+@dataclass(frozen=True, init=False)
+class Surface(Reflective):
+    """A reflectivity in each cell as in `Beta`, and a surface: mu ~ N(centre, tau^2 I), Sigma ~ InverseWishart(nu, psi
+    I) x exp(-tr Sigma / (2 kappa^2)).
+
+    Lengths are in edges of a cell, so that one prior serves all resolutions.
+
+    Attributes:
+        a, b: of the reflectivity of what a beam meets.
+        mean_scale: tau, how far a surface's mean may lie from its cell's centre; once called ``wander``.
+        spread: sqrt(psi), the size of surfaces.
+        dof: nu, how sure that is; more than 1.
+        size_scale: kappa, the size beyond which surfaces are unlikely: about that of a cell; once called ``extent``.
+
+    Raises:
+        BadInput: a number that is not positive, too few degrees of freedom, or surfaces much larger than their scale.
+    """
+
+    mean_scale: float = 0.4
+    spread: float = 0.28
+    dof: float = 3.0
+    size_scale: float = 0.35
+
+    words: ClassVar[Words] = Words("surface", "reflectivities and surfaces", "mean reflectivity", "reflectivity")
+    arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED, *(_spec(part) for part in PARTS))
+    has_surfaces: ClassVar[bool] = True
+
+    def __init__(
+        self,
+        a: float = 0.02,
+        b: float = 0.2,
+        mean_scale: float = 0.4,
+        spread: float = 0.28,
+        dof: float = 3.0,
+        size_scale: float = 0.35,
+        *,
+        wander: float | None = None,
+        extent: float | None = None,
+    ) -> None:
+        values = {
+            "a": a, "b": b, "mean_scale": mean_scale if wander is None else wander, "spread": spread, "dof": dof,
+            "size_scale": size_scale if extent is None else extent,
+        }  # fmt: skip
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+        self.__post_init__()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("mean_scale", "spread", "size_scale"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
+        if not (math.isfinite(self.dof) and self.dof > 1):
+            raise BadInput(f"Surface: dof must exceed 1, got {self.dof!r}")
+        if self.spread > MOST_SPREAD * self.size_scale:  # next to no draw would be small enough
+            raise BadInput(
+                f"Surface: spread must not exceed {MOST_SPREAD:g} times size_scale, got {self.spread!r} and "
+                f"{self.size_scale!r}"
+            )
+
+    @property
+    def wander(self) -> float:
+        """The same as ``mean_scale``."""
+        return self.mean_scale
+
+    @property
+    def extent(self) -> float:
+        """The same as ``size_scale``."""
+        return self.size_scale
+
+    @property
+    def first_spread(self) -> float:
+        """Size of surfaces, for the initial estimate."""
+        return self.spread
+
+    def log_prob(self, cells: Cells, grid: Grid) -> float:
+        """Log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, lengths in metres.
+
+        The Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
+        """
+        edge = grid.resolution
+        x, y, l11, l21, l22 = (np.asarray(cells[f"surface_{part}"], dtype=np.float64) * edge for part in PARTS)
+        q = l21 / (l11 * l22)
+        shape = -self.dof * np.log(l11) - (self.dof + 1) * np.log(l22)
+        shape -= 0.5 * (self.spread * edge) ** 2 * (1 / l11**2 + 1 / l22**2 + q**2)
+        size = (l11**2 + l21**2 + l22**2) / (self.size_scale * edge) ** 2
+        mean = (x**2 + y**2) / (self.mean_scale * edge) ** 2
+        return super().log_prob(cells, grid) + float((shape - 0.5 * (size + mean)).sum())
+
+    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+        """Draw a map: a surface in every cell."""
+        surfaces = self.sample_surfaces(rng, grid.n_cells).reshape(*grid.shape, len(PARTS))
+        return super().sample_cells(rng, grid) | {f"surface_{part}": surfaces[..., i] for i, part in enumerate(PARTS)}
+
+    def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
+        """Draw surfaces: mean x, y less the centre, and l11, l21, l22 of Sigma = L L', in edges, (count, 5)."""
+        out = np.zeros((count, 5))
+        left = np.arange(count)
+        while len(left):
+            drawn = self._sample_unbounded(rng, len(left))
+            with np.errstate(over="ignore"):  # what is too large for a number is too large
+                size = (drawn[:, 2:] ** 2).sum(axis=1) / self.size_scale**2
+            accepted = rng.random(len(left)) < np.exp(-0.5 * size)
+            out[left[accepted]] = drawn[accepted]
+            left = left[~accepted]
+        return out
+
+    def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
+        """The same without the factor that bounds their size: Bartlett's factor of the Wishart, inverted."""
+        a11 = np.sqrt(rng.chisquare(self.dof, count))
+        a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
+        a21 = rng.standard_normal(count)
+        mean = self.mean_scale * rng.standard_normal((2, count))
+        with np.errstate(divide="ignore", over="ignore"):
+            shape = (self.spread / a22, -self.spread * a21 / (a11 * a22), self.spread / a11)
+        return np.stack([*mean, *shape], axis=-1)
+
+    def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
+        """Surfaces, (N, 6), lengths in metres from the grid's corner."""
+        parts = [np.ravel(cells[f"surface_{part}"]) for part in PARTS]
+        out = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
+        out[:, 1:] *= grid.resolution
+        out[:, 1:3] += centres_m(np.arange(grid.n_cells), grid)
+        return out
+
+    def kernel_numbers(self, edge_m: float) -> tuple[float, float, float, float, float, float]:
+        """a, b, tau, psi, nu, kappa, lengths in metres."""
+        sizes = (self.mean_scale * edge_m, (self.spread * edge_m) ** 2, self.dof, self.size_scale * edge_m)
+        return self.a, self.b, *sizes
+
+    def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
+        """Posterior mean surfaces of the cells in which a reading ends.
+
+        Returns:
+            means in the world frame (U, 2), covariances of the points (U, 2, 2), both in metres, and the mean
+            reflectivity of their cells, (U,).
+        """
+        edge, held = draws.grid.resolution, draws.index["surface_cell"]
+        mean, second = np.zeros((len(held), 2)), np.zeros((len(held), 2, 2))
+        for chain, draw in draws.numbers():
+            x, y, l11, l21, l22 = (
+                draws.arrays[f"surface_{part}"][chain, draw].astype(np.float64) * edge for part in PARTS
+            )
+            mean += np.stack([x, y], axis=-1)
+            second[:, 0, 0] += l11**2
+            second[:, 0, 1] += l11 * l21
+            second[:, 1, 1] += l21**2 + l22**2
+        second[:, 1, 0] = second[:, 0, 1]
+        n = max(draws.size, 1)
+        reflectivity = self.mean_map(draws).ravel()[held]
+        return centres_m(held, draws.grid) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
+
+    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+        """Expected reflectivities and the draw's surfaces, (draws, n, 6), some draws at a time.
+
+        Only cells in which some reading ends keep their surfaces: those of the others are hardly anything but draws
+        from the prior, and are drawn anew here.
+        """
+        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
+        place, known = places_among(draws.index["cell"], cells)
+        surface_place, with_surface = places_among(draws.index["surface_cell"], cells)
+        place, surface_place = place[known], surface_place[with_surface]
+        edge = draws.grid.resolution
+        centre = centres_m(cells, draws.grid)
+        rng = np.random.default_rng(0)
+        # Surfaces are drawn once and passed on from cell to cell: each draw of the map takes them up from another
+        # place, and what a cell gets does not depend on which others are asked for.
+        fresh = np.zeros((FRESH_CELLS, 6), dtype=np.float32)
+        fresh[:, 0] = self.mean
+        fresh[:, 1:] = self.sample_surfaces(rng, len(fresh))
+        numbers = list(draws.numbers())
+        at_once = max(1, BATCH_BYTES // (32 * max(len(cells), 1)))
+        for i in range(0, len(numbers), at_once):
+            batch = np.empty((len(numbers[i : i + at_once]), len(cells), 6), dtype=np.float32)
+            for states, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
+                states[:] = fresh[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
+                states[known, 0] = draws.arrays["expected"][chain, draw, place]
+                for part, name in enumerate(PARTS, 1):
+                    states[with_surface, part] = draws.arrays[f"surface_{name}"][chain, draw, surface_place]
+                states[:, 1:] *= edge
+                states[:, 1:3] += centre
+            yield batch
+
+    def describe(self) -> dict[str, Any]:
+        """The prior as plain JSON values."""
+        return {
+            "kind": "surface", "a": self.a, "b": self.b, "mean_scale": self.mean_scale, "spread": self.spread,
+            "dof": self.dof, "size_scale": self.size_scale,
+        }  # fmt: skip
+
+
+def centres_m(cells: NDArray[Any], grid: Grid) -> Floats:
+    """Centres of some cells by flat index, metres from the grid's lower left corner, (n, 2)."""
+    ny = grid.shape[1]
+    return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * grid.resolution
