@@ -4,8 +4,9 @@
 PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11,\
 	$(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN := .venv/bin
+# For our own environment alone: the benchmark's peers need other versions, in environments of their own.
 # Not an absolute path: pip splits this at blanks, which a checkout's folder may have.
-export PIP_CONSTRAINT := constraints.txt
+INSTALL := PIP_CONSTRAINT=constraints.txt $(BIN)/python -m pip install --quiet
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .PHONY: demo test lint bench clean
@@ -14,11 +15,11 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 .venv/core: pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { echo "bayesmap needs Python 3.11 or later; name one with make PYTHON=..."; exit 1; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --editable .
+	$(INSTALL) --editable .
 	@touch $@
 
 .venv/dev: .venv/core
-	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	$(INSTALL) --editable '.[dev]'
 	@touch $@
 
 demo: .venv/core          ## infer the tutorial's map; pictures, the saved run and the JSON land in runs/demo

@@ -1,9 +1,20 @@
-"""One measured figure, and how to measure it."""
+"""One measured figure: the best of several repeats, and how to take more of them.
 
-import statistics
+Other programs on the machine can only make a repeat slower, so the best repeat is the least disturbed one. What is
+compared is measured in turn (repeat of one, repeat of the other, and again), so that a busy minute meets both.
+"""
+
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any, TypeVar
+
+from benchmarks import yardstick
+
+Sample = TypeVar("Sample")
+
+Seconds = Callable[[], float]
+"""Does a repeat of some work and returns the seconds that one unit of it took."""
 
 
 @dataclass(frozen=True)
@@ -12,11 +23,13 @@ class Figure:
 
     Attributes:
         name: stable key, such as "tutorial/gibbs_sweep".
-        value: the median of the repeats.
+        value: the best of the repeats.
         unit: of the value; "x" for ratios.
         better: "lower" or "higher".
-        spread: (min, max) of the repeats.
+        spread: (smallest, largest) of the repeats.
         against: what a ratio is to, or what else one must know.
+        yardstick_s: the fastest run of the yardstick between the repeats, None if the figure is no time.
+        again: takes as many repeats once more and returns the figure made of all so far; None if that is no use.
     """
 
     name: str
@@ -25,32 +38,117 @@ class Figure:
     better: str = "lower"
     spread: tuple[float, float] | None = None
     against: str = ""
+    yardstick_s: float | None = None
+    again: "Callable[[], Figure] | None" = field(default=None, compare=False, repr=False)
+
+    def to_json(self) -> dict[str, Any]:
+        """Everything but how to measure it again."""
+        return asdict(replace(self, again=None)) | {"again": self.again is not None}
+
+
+def repeated(take: Callable[[], Sample], make: Callable[[list[Sample]], Figure], repeats: int) -> Figure:
+    """A figure made of samples, taken in turn with the yardstick.
+
+    Args:
+        take: takes one sample.
+        make: the figure that all samples so far amount to.
+        repeats: how many samples to take, and to take again.
+    """
+    samples: list[Sample] = []
+    yardsticks: list[float] = []
+
+    def more() -> Figure:
+        for _ in range(repeats):
+            yardsticks.append(yardstick.seconds())
+            samples.append(take())
+        return replace(make(samples), yardstick_s=min(yardsticks), again=more)
+
+    return more()
+
+
+def timer(work: Callable[[], float]) -> Seconds:
+    """Seconds a unit of ``work``, which returns how many units it did."""
+
+    def seconds() -> float:
+        began = time.perf_counter()
+        units = work()
+        return (time.perf_counter() - began) / units
+
+    return seconds
 
 
 def timed(
-    name: str, work: Callable[[], int], *, unit: str, scale: float, repeats: int = 7, against: str = ""
+    name: str,
+    work: Callable[[], float],
+    *,
+    unit: str,
+    scale: float,
+    repeats: int = 7,
+    against: str = "",
+    warm_up: bool = True,
 ) -> Figure:
     """Time ``work``, which returns how many units it did, after one run that is not counted."""
-    work()
-    values = []
-    for _ in range(repeats):
-        began = time.perf_counter()
-        units = work()
-        values.append((time.perf_counter() - began) / units * scale)
-    return Figure(name, statistics.median(values), unit, spread=(min(values), max(values)), against=against)
+    return best(name, timer(work), unit=unit, scale=scale, repeats=repeats, against=against, warm_up=warm_up)
+
+
+def best(
+    name: str, seconds: Seconds, *, unit: str, scale: float, repeats: int, against: str = "", warm_up: bool = True
+) -> Figure:
+    """The same for work that takes its own time."""
+    if warm_up:
+        seconds()
+
+    def make(samples: list[float]) -> Figure:
+        values = [scale * sample for sample in samples]
+        return Figure(name, min(values), unit, spread=(min(values), max(values)), against=against)
+
+    return repeated(seconds, make, repeats)
 
 
 def rate(name: str, work: Callable[[], float], *, unit: str, repeats: int = 7) -> Figure:
     """The same for figures where more is better: ``work`` returns what it did, the figure is that per second."""
     work()
-    values = []
-    for _ in range(repeats):
-        began = time.perf_counter()
-        done = work()
-        values.append(done / (time.perf_counter() - began))
-    return Figure(name, statistics.median(values), unit, "higher", (min(values), max(values)))
+    seconds = timer(work)
+
+    def make(samples: list[float]) -> Figure:
+        rates = [1.0 / sample for sample in samples]
+        return Figure(name, max(rates), unit, "higher", (min(rates), max(rates)))
+
+    return repeated(seconds, make, repeats)
 
 
-def ratio(name: str, peer_seconds: float, our_seconds: float, against: str) -> Figure:
-    """How many times faster we are."""
-    return Figure(name, peer_seconds / our_seconds, "x", "higher", against=against)
+def ratio(
+    name: str,
+    slower: Seconds,
+    faster: Seconds,
+    *,
+    repeats: int = 5,
+    against: Callable[[float], str] = lambda slower_s: "",
+) -> Figure:
+    """How many times faster one thing is than another, both measured in turn: the fastest of each.
+
+    Args:
+        name: of the figure.
+        slower: what it is compared with, warmed up.
+        faster: ours, warmed up.
+        repeats: of each.
+        against: says what the comparison is with, given the seconds of its fastest repeat.
+    """
+
+    def make(samples: list[tuple[float, float]]) -> Figure:
+        slower_s, faster_s = (min(column) for column in zip(*samples, strict=True))
+        ratios = [one / other for one, other in samples]
+        return Figure(name, slower_s / faster_s, "x", "higher", (min(ratios), max(ratios)), against(slower_s))
+
+    return repeated(lambda: (slower(), faster()), make, repeats)
+
+
+def derived(
+    name: str, figures: Sequence[Figure], value: Callable[[list[float]], float], *, unit: str = "", against: str = ""
+) -> Figure:
+    """A figure computed from others; measured again, they all are."""
+
+    def again() -> Figure:
+        return derived(name, [f.again() if f.again else f for f in figures], value, unit=unit, against=against)
+
+    return Figure(name, value([figure.value for figure in figures]), unit, against=against, again=again)

@@ -1,44 +1,24 @@
 """`make bench`: every figure in one run, beside the peers, against the committed baseline.
 
-Times move with the machine, so what is compared with the baseline is each time over a yardstick measured in the same
-run (a fixed piece of NumPy work): the gate fails when one got worse by more than half. Ratios to peers are compared
-as they are. `--save` writes a new baseline.
+Times are divided by a yardstick that is measured between their repeats; ratios to peers are compared as they are. The
+gate fails when a figure got worse than the baseline by more than half, and stays so when it is measured again
+(`benchmarks/gate.py`). `--save` writes a new baseline.
 """
 
 import argparse
 import importlib
-import json
 import platform
-import statistics
 import sys
-import time
 from collections.abc import Iterator
-from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
-
 from bayesmap import __version__
+from benchmarks import gate
 from benchmarks.figure import Figure
 
 BASELINE = Path(__file__).with_name("baseline.json")
 SUITES = ("ranges", "tutorial", "scaling", "building", "surfaces", "programs")
 HAVE_SLOW_PARTS = {"surfaces"}
-WORSE = 1.5
-TIMES = {"us/sweep", "us/edit", "ms/sweep", "s"}
-
-
-def yardstick_seconds() -> float:
-    """A fixed piece of single-core work, the median of several: what "fast" means on this machine, today."""
-    rng = np.random.default_rng(0)
-    values, places = rng.random(1 << 20), rng.integers(0, 1 << 20, 1 << 20)
-    times = []
-    for _ in range(9):
-        began = time.perf_counter()
-        np.exp(values[places]).cumsum()
-        np.sort(values[: 1 << 17])
-        times.append(time.perf_counter() - began)
-    return statistics.median(times)
 
 
 def measure(suites: list[str], device: str, with_peers: bool, slow: bool) -> Iterator[Figure]:
@@ -48,15 +28,11 @@ def measure(suites: list[str], device: str, with_peers: bool, slow: bool) -> Ite
         yield from importlib.import_module(f"benchmarks.suites.{suite}").run(device, with_peers, **more)
 
 
-def comparable(figure: dict[str, object] | Figure, yardstick_s: float) -> float:
-    """A figure freed of the machine's speed, larger is worse."""
-    found = asdict(figure) if isinstance(figure, Figure) else figure
-    value = float(str(found["value"]))
-    if found["unit"] in TIMES:
-        value /= yardstick_s
-    elif str(found["unit"]).endswith("/s"):
-        value *= yardstick_s
-    return value if found["better"] == "lower" else 1.0 / value
+def row(figure: Figure, factor: float | None) -> str:
+    """A line of the table."""
+    spread = "" if figure.spread is None else f"[{figure.spread[0]:.4g} .. {figure.spread[1]:.4g}]"
+    change = "" if factor is None else f"{factor:5.2f} x baseline"
+    return f"{figure.name:34} {figure.value:10.4g} {figure.unit:12} {spread:22} {change:16} {figure.against}".rstrip()
 
 
 def main() -> int:
@@ -73,31 +49,28 @@ def main() -> int:
     if unknown:
         parser.error(f"no suite {unknown.pop()!r}; there is: {', '.join(SUITES)}")
 
-    yardstick = yardstick_seconds()
-    saved = json.loads(BASELINE.read_text()) if BASELINE.exists() else {"figures": {}, "yardstick_s": yardstick}
-    python = platform.python_version()
-    print(f"bayesmap {__version__}, Python {python}, {options.device}, yardstick {yardstick * 1e3:.1f} ms")
-    figures, worse = {}, []
-    suites = options.suites or list(SUITES)
-    for figure in measure(suites, options.device, not options.no_peers, options.slow):
-        figures[figure.name] = asdict(figure)
-        before = saved["figures"].get(figure.name) if options.device == saved.get("device", "cpu") else None
-        change = ""
-        if before is not None:
-            factor = comparable(figure, yardstick) / comparable(before, saved["yardstick_s"])
-            change = f"{factor:5.2f} x baseline"
-            if factor > WORSE:
-                worse.append(figure.name)
-        spread = "" if figure.spread is None else f"[{figure.spread[0]:.4g} .. {figure.spread[1]:.4g}]"
-        row = f"{figure.name:34} {figure.value:10.4g} {figure.unit:12} {spread:22} {change:16} {figure.against}"
-        print(row.rstrip(), flush=True)
+    baseline = gate.Baseline.read(BASELINE)
+    print(f"bayesmap {__version__}, Python {platform.python_version()}, {options.device}")
+    figures: dict[str, Figure] = {}
+    worse = []
 
-    document = {"device": options.device, "yardstick_s": yardstick, "version": __version__, "figures": figures}
+    def factor(figure: Figure) -> float | None:
+        return baseline.factor(figure, options.device)
+
+    for first in measure(options.suites or list(SUITES), options.device, not options.no_peers, options.slow):
+        # While the suite waits for us here, what it measures is still set up, and can be measured again.
+        figure = first if options.save else gate.confirmed(first, factor)
+        figures[figure.name] = figure
+        found = factor(figure)
+        if found is not None and found > gate.WORSE:
+            worse.append(figure.name)
+        print(row(figure, found), flush=True)
+
     for path in filter(None, (options.json, BASELINE if options.save else None)):
-        path.write_text(json.dumps(document, indent=1) + "\n")
+        gate.write(path, options.device, __version__, figures)
     if worse:
-        print(f"worse than the baseline by more than {WORSE} x: {', '.join(worse)}")
-    return 1 if worse else 0
+        print(f"worse than the baseline by more than {gate.WORSE} x: {', '.join(worse)}")
+    return 1 if worse and not options.save else 0
 
 
 if __name__ == "__main__":

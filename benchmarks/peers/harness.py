@@ -14,13 +14,13 @@ import contextlib
 import json
 import os
 import platform
-import statistics
 import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 
@@ -66,32 +66,47 @@ def available_cores() -> int:
     return os.cpu_count() or 1
 
 
-def time_case(peer: str, name: str, case: Case, prior: float, repeats: int) -> dict[str, object]:
-    """Set the case up, run it once to compile and warm up, then time `repeats` calls."""
+def set_up(peer: str, name: str, case: Case, prior: float) -> tuple[Ready, dict[str, object]]:
+    """Set a case up and run it once to compile and warm up; also what there is to say of it."""
     before = time.perf_counter()
     ready = case.prepare(prior)
     ready.advance()
-    set_up = time.perf_counter() - before
-    seconds, cpu_seconds = [], []
-    for _ in range(repeats):
-        wall, cpu = time.perf_counter(), time.process_time()
-        ready.advance()
-        seconds.append((time.perf_counter() - wall) / ready.sweeps)
-        cpu_seconds.append((time.process_time() - cpu) / ready.sweeps)
-    return {
+    about = {
         "schema_version": SCHEMA_VERSION,
         "peer": peer,
         "case": name,
         "what": case.what,
         "prior": prior,
         "sweeps_per_repeat": ready.sweeps,
-        "seconds_per_sweep": seconds,
-        "cpu_seconds_per_sweep": cpu_seconds,
-        "median_seconds": statistics.median(seconds),
-        "set_up_seconds": set_up,
+        "set_up_seconds": time.perf_counter() - before,
         "cores": available_cores(),
-        "walls_in_last_state": ready.walls_in_last_state(),
     }
+    return ready, about
+
+
+def repeat(ready: Ready) -> dict[str, object]:
+    """One timed call: seconds and processor seconds (summed over cores) of a sweep."""
+    wall, cpu = time.perf_counter(), time.process_time()
+    ready.advance()
+    seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
+    return {"seconds": seconds / ready.sweeps, "cpu_seconds": cpu_seconds / ready.sweeps}
+
+
+def in_turn(ready: Ready, about: Mapping[str, object], stream: TextIO) -> None:
+    """Say what was set up, then time one call for every line of standard input: one JSON object a line.
+
+    The benchmark measures ours between two lines, so that both meet the same busy and quiet moments.
+    """
+    print(json.dumps(about), file=stream, flush=True)
+    for _ in sys.stdin:
+        print(json.dumps(repeat(ready)), file=stream, flush=True)
+
+
+def at_once(ready: Ready, about: Mapping[str, object], repeats: int) -> dict[str, object]:
+    """Time some calls one after the other."""
+    found = [repeat(ready) for _ in range(repeats)]
+    times = {key: [one[key] for one in found] for key in ("seconds", "cpu_seconds")}
+    return {**about, **times, "walls_in_last_state": ready.walls_in_last_state()}
 
 
 def main(
@@ -120,6 +135,7 @@ def main(
     parser.add_argument("--repeats", type=int, default=5, help="timed calls after the warm-up (default 5)")
     parser.add_argument("--prior", type=float, help="prior wall probability (default: the case's own)")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_argument("--in-turn", action="store_true", help="time one call for every line of standard input")
     parser.add_argument("--check", action="store_true", help="compare with known answers instead of timing")
     if dump_data is not None:
         parser.add_argument("--dump-data", type=Path, metavar="NPZ", help="write the true map and readings")
@@ -134,21 +150,24 @@ def main(
         print(f"wrote {options.dump_data}", file=sys.stderr)
         if options.case is None and not options.check:
             return
+    versions = {"python": platform.python_version(), **{package: version(package) for package in packages}}
     # Libraries may print; standard output is for the document alone.
+    stream = sys.stdout
     with contextlib.redirect_stdout(sys.stderr):
         if options.check:
             report = {"peer": peer, **check()}
         elif options.case is not None:
             case = cases[options.case]
             prior = case.prior if options.prior is None else options.prior
-            report = time_case(peer, options.case, case, prior, options.repeats)
-            report["log_joint_of_truth"] = log_joint_of_truth(prior)
+            ready, about = set_up(peer, options.case, case, prior)
+            about["log_joint_of_truth"] = log_joint_of_truth(prior)
+            if options.in_turn:
+                in_turn(ready, {**about, "versions": versions}, stream)
+                return
+            report = at_once(ready, about, options.repeats)
         else:
             parser.error("give --case, --check" + (" or --dump-data" if dump_data else ""))
-    report["versions"] = {
-        "python": platform.python_version(),
-        **{package: version(package) for package in packages},
-    }
+    report["versions"] = versions
     if options.json:
         print(json.dumps(report, indent=2))
     else:

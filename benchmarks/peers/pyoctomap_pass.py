@@ -59,15 +59,21 @@ def main() -> None:
     parser.add_argument("--scans", type=Path, required=True)
     parser.add_argument("--resolution", type=float, required=True, help="edge of a cell in metres")
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--in-turn", action="store_true", help="time one call for every line of standard input")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     options = parser.parse_args()
     with np.load(options.scans) as archive:
         scans = dict(archive)
     case = harness.Case(lambda prior: prepare(scans, options.resolution), float("nan"), "pass over all scans")
+    stream = sys.stdout
     with contextlib.redirect_stdout(sys.stderr):
-        report = harness.time_case("pyoctomap", options.case, case, case.prior, options.repeats)
-    report["log_joint_of_truth"] = float("nan")
-    report["versions"] = {"python": platform.python_version(), "pyoctomap": version("pyoctomap")}
+        ready, about = harness.set_up("pyoctomap", options.case, case, case.prior)
+        about["log_joint_of_truth"] = float("nan")
+        about["versions"] = {"python": platform.python_version(), "pyoctomap": version("pyoctomap")}
+        if options.in_turn:
+            harness.in_turn(ready, about, stream)
+            return
+        report = harness.at_once(ready, about, options.repeats)
     print(json.dumps(report, indent=2) if options.json else report)
 
 

@@ -1,6 +1,6 @@
 """Does the cost of a sweep stay linear in the beams, or in the incidences?"""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -11,8 +11,8 @@ from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import Problem
 from bayesmap.sim.tutorial import TUTORIAL_GRID
-from benchmarks.figure import Figure, timed
-from benchmarks.suites.tutorial import SENSOR, sweep_time
+from benchmarks.figure import Figure, derived, timed
+from benchmarks.suites.tutorial import SENSOR, sweep_time, sweeps_of
 
 BEAMS = (100, 200, 400, 800, 1600)
 
@@ -29,17 +29,17 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
 def walls_of_the_tutorial(device: str) -> Iterator[Figure]:
     """Binary walls of the tutorial's map, seen by 100 to 1600 beams."""
     walls, pose = bm.worlds.tutorial()
-    times = []
+    figures = []
     for beams in BEAMS:
         angles = np.arange(beams) / beams * 2 * np.pi
         scans = bm.simulate(walls, TUTORIAL_GRID, pose, angles, sensor=SENSOR, max_range_m=42.0, seed=0)
         table = trace(scans, TUTORIAL_GRID, SENSOR)
         sampler = Gibbs(Problem(table, bm.Independent(0.5), scans.poses, device), "radial")
-        figure = sweep_time(f"scaling/{beams}_beams", sampler, 2_000_000 // beams)
-        times.append(figure.value)
+        figure = sweep_time(f"scaling/{beams}_beams", sweeps_of(sampler, 2_000_000 // beams))
+        figures.append(figure)
         yield figure
-    exponent = float(np.polyfit(np.log(BEAMS), np.log(times), 1)[0])
-    yield Figure("scaling/exponent", exponent, "", against="sweep time ~ beams^exponent, 100 to 1600 beams")
+    against = "sweep time ~ beams^exponent, 100 to 1600 beams"
+    yield derived("scaling/exponent", figures, lambda times: exponent(BEAMS, times), against=against)
 
 
 def surfaces_of_a_building(device: str) -> Iterator[Figure]:
@@ -51,7 +51,7 @@ def surfaces_of_a_building(device: str) -> Iterator[Figure]:
     everything = bm.simulate(
         world.walls, world.grid, poses, angles, sensor=sensor, max_range_m=20.0, seed=1, opacity=world.opacity
     )
-    incidences, times = [], []
+    incidences, figures = [], []
     for scans in SCANS:
         some = everything.select(slice(None, None, max(SCANS) // scans))
         problem = build_field(some, world.grid, prior, sensor, device=device)
@@ -69,7 +69,12 @@ def surfaces_of_a_building(device: str) -> Iterator[Figure]:
         name = f"scaling/surface_{len(some) * SCAN_BEAMS}_beams"
         figure = timed(name, work, unit="ms/sweep", scale=1e3, repeats=5, against=against)
         incidences.append(problem.rays.n_incidences)
-        times.append(figure.value)
+        figures.append(figure)
         yield figure
-    exponent = float(np.polyfit(np.log(incidences), np.log(times), 1)[0])
-    yield Figure("scaling/surface_exponent", exponent, "", against="sweep time ~ incidences^exponent, surfaces")
+    against = "sweep time ~ incidences^exponent, surfaces"
+    yield derived("scaling/surface_exponent", figures, lambda times: exponent(incidences, times), against=against)
+
+
+def exponent(sizes: Sequence[float], times: Sequence[float]) -> float:
+    """Of the power law fitted to times by least squares of their logarithms."""
+    return float(np.polyfit(np.log(sizes), np.log(times), 1)[0])

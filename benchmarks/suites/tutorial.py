@@ -1,6 +1,6 @@
 """The tutorial's map, 100 beams: sweeps of one chain on one core, and the same work done by the peers."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -13,10 +13,11 @@ from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.problem import Problem
 from bayesmap.samplers.sampler import WallSampler
 from bayesmap.sim.tutorial import TUTORIAL_GRID
-from benchmarks.figure import Figure, rate, ratio, timed
-from benchmarks.peer_runner import Unavailable, run_peer, tutorial_data
+from benchmarks.figure import Figure, rate, ratio, timed, timer
+from benchmarks.peer_runner import Unavailable, peer, tutorial_data
 
 SENSOR = bm.Gaussian(0.2)
+PARTICLES, PEER_PARTICLES = 50_000, 10_000
 
 
 def problem(p_wall: float, device: str) -> Problem:
@@ -27,8 +28,8 @@ def problem(p_wall: float, device: str) -> Problem:
     return Problem(trace(scans, TUTORIAL_GRID, SENSOR), bm.Independent(p_wall), scans.poses, device)
 
 
-def sweep_time(name: str, sampler: WallSampler, sweeps: int, chains: int = 1, threads: int = 1) -> Figure:
-    """Microseconds of a sweep of one chain, draws not kept."""
+def sweeps_of(sampler: WallSampler, sweeps: int, chains: int = 1, threads: int = 1) -> Callable[[], int]:
+    """Work for the stopwatch: sweeps of settled chains, draws not kept; it returns how many there were."""
     shape = sampler.problem.table.grid.shape
     state = [sampler.init(np.zeros((chains, *shape), dtype=bool), seed=0)]
     state[0], _ = sampler.step(state[0], 500, keep=False, threads=threads)
@@ -37,49 +38,70 @@ def sweep_time(name: str, sampler: WallSampler, sweeps: int, chains: int = 1, th
         state[0], _ = sampler.step(state[0], sweeps, keep=False, threads=threads)
         return sweeps * chains
 
+    return work
+
+
+def sweep_time(name: str, work: Callable[[], int]) -> Figure:
+    """Microseconds of a sweep."""
     return timed(name, work, unit="us/sweep", scale=1e6)
 
 
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
     """All figures of the suite."""
     likely, rare = problem(0.5, device), problem(0.05, device)
-    raster = sweep_time("tutorial/gibbs_raster", Gibbs(likely, "raster"), 20_000)
-    radial = sweep_time("tutorial/gibbs_radial", Gibbs(likely, "radial"), 20_000)
-    yield raster
-    yield radial
-    yield sweep_time("tutorial/gibbs_random", Gibbs(likely, "random"), 10_000)
-    block = sweep_time("tutorial/block_raster", BlockGibbs(rare, "raster"), 2_000)
-    yield block
+    raster = sweeps_of(Gibbs(likely, "raster"), 20_000)
+    block = sweeps_of(BlockGibbs(rare, "raster"), 2_000)
+    yield sweep_time("tutorial/gibbs_raster", raster)
+    yield sweep_time("tutorial/gibbs_radial", sweeps_of(Gibbs(likely, "radial"), 20_000))
+    yield sweep_time("tutorial/gibbs_random", sweeps_of(Gibbs(likely, "random"), 10_000))
+    yield sweep_time("tutorial/block_raster", block)
 
-    one = sweep_time("tutorial/8_chains_1_core", Gibbs(likely, "radial"), 10_000, chains=8, threads=1)
     cores = available_cores()
-    many = sweep_time("tutorial/8_chains_all_cores", Gibbs(likely, "radial"), 10_000, chains=8, threads=cores)
-    yield ratio("tutorial/8_chains_speedup", one.value, many.value, f"{cores} cores against one, same run")
+    one, many = (sweeps_of(Gibbs(likely, "radial"), 10_000, chains=8, threads=threads) for threads in (1, cores))
+    against = f"{cores} cores against one, in turn"
+    yield ratio("tutorial/8_chains_speedup", timer(one), timer(many), repeats=7, against=lambda _: against)
 
     def particles() -> float:
-        return float(len(sample_importance(likely, 50_000, seed=0).log_weights))
+        return float(len(sample_importance(likely, PARTICLES, seed=0).log_weights))
 
-    importance = rate("tutorial/importance", particles, unit="maps/s", repeats=5)
-    yield importance
-    if not with_peers:
-        return
-    truth = {p.p_wall[0]: p.log_joint(tutorial_data()[0]) for p in (likely, rare)}
-    for peer, case, cores, ours in (
-        ("genjax", "raster", 1, raster),
-        ("genjax", "radial", 1, radial),
-        ("genjax", "incremental", 1, raster),
-        ("genjax", "block", 1, block),
-        ("genjax", "importance", None, importance),
-        ("numpyro", "dense", 1, raster),
-        ("numpyro", "dense", None, raster),
-        ("numpyro", "sparse", 1, raster),
-    ):
-        result = run_peer(peer, case, repeats=5, cores=cores)
-        if isinstance(result, Unavailable):
-            print(f"skipped: {result.reason}", flush=True)
-            continue
-        assert abs(result.log_joint_of_truth - truth[result.prior]) < 0.01, f"{peer} solves another problem"
-        ours_s = 10_000 / ours.value if ours is importance else ours.value * 1e-6
-        where = "all cores" if cores is None else "1 core"
-        against = f"{peer} {case}, {where}: {result.median_s * 1e3:.2f} ms; cpu/wall {result.cpu_per_wall:.2f}"
-        yield ratio(f"tutorial/{peer}_{case}_{'all' if cores is None else 1}", result.median_s, ours_s, against)
+    yield rate("tutorial/importance", particles, unit="maps/s", repeats=5)
+    if with_peers:
+        truth = {p.p_wall[0]: p.log_joint(tutorial_data()[0]) for p in (likely, rare)}
+        radial = sweeps_of(Gibbs(likely, "radial"), 20_000)
+        for name, case, cores_of_peer, ours in (
+            ("genjax", "raster", 1, raster),
+            ("genjax", "radial", 1, radial),
+            ("genjax", "incremental", 1, raster),
+            ("genjax", "block", 1, block),
+            ("genjax", "importance", None, lambda: particles() / PEER_PARTICLES),
+            ("numpyro", "dense", 1, raster),
+            ("numpyro", "dense", None, raster),
+            ("numpyro", "sparse", 1, raster),
+        ):
+            yield from beside(name, case, cores_of_peer, ours, truth)
+
+
+def beside(
+    name: str, case: str, cores: int | None, ours: Callable[[], float], truth: dict[float, float]
+) -> Iterator[Figure]:
+    """A peer that does the same, in turn with ours.
+
+    Args:
+        name: the peer's.
+        case: what it is to do.
+        cores: for the peer; None for all.
+        ours: our work, in the units of the peer's.
+        truth: log p(true walls, readings) by prior; a peer that says otherwise solves another problem.
+    """
+    with peer(name, case, cores=cores) as theirs:
+        if isinstance(theirs, Unavailable):
+            print(f"skipped: {theirs.reason}", flush=True)
+            return
+        about, where = theirs.about, "all cores" if cores is None else "1 core"
+        assert abs(about["log_joint_of_truth"] - truth[about["prior"]]) < 0.01, f"{name} solves another problem"
+
+        def against(seconds: float) -> str:
+            return f"{name} {case}, {where}: {seconds * 1e3:.2f} ms; cpu/wall {theirs.cpu_per_wall:.2f}"
+
+        key = f"tutorial/{name}_{case}_{'all' if cores is None else 1}"
+        yield ratio(key, theirs.seconds, timer(ours), against=against)
