@@ -22,8 +22,9 @@ ENVIRONMENTS = ROOT / ".bench"
 PEERS = Path(__file__).resolve().with_name("peers")
 INSTALL_TIMEOUT_S = 900
 
-OURS = {"PIP_CONSTRAINT", "PIP_BUILD_CONSTRAINT", "PIP_REQUIREMENT", "PIP_TARGET", "PIP_PREFIX", "PIP_USER", "PYTHONPATH"}
-"""Variables that say what is installed for bayesmap, and where: none of a peer's business."""
+OURS = {"PYTHONPATH", *(f"PIP_{name}" for name in ("CONSTRAINT", "REQUIREMENT", "TARGET", "PREFIX", "USER"))}
+"""Variables that say what is installed for bayesmap, and where; a peer's packages and versions are its own."""
+
 
 PYTHONS = {
     "genjax": ((3, 11), (3, 12)),
@@ -95,9 +96,7 @@ def _run(command: list[str]) -> str | None:
     """Run a command; None if it succeeded, otherwise what it says went wrong, in one line."""
     environment = {key: value for key, value in os.environ.items() if key not in OURS}
     try:
-        subprocess.run(
-            command, capture_output=True, text=True, check=True, timeout=INSTALL_TIMEOUT_S, env=environment
-        )
+        subprocess.run(command, capture_output=True, text=True, check=True, timeout=INSTALL_TIMEOUT_S, env=environment)
     except subprocess.CalledProcessError as error:
         lines = [line.strip() for line in (error.stdout + error.stderr).splitlines() if line.strip()]
         errors = [line.removeprefix("ERROR: ") for line in lines if line.startswith("ERROR: ")]

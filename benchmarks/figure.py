@@ -43,7 +43,7 @@ class Figure:
 
     def to_json(self) -> dict[str, Any]:
         """Everything but how to measure it again."""
-        return asdict(replace(self, again=None)) | {"again": self.again is not None}
+        return {key: value for key, value in asdict(replace(self, again=None)).items() if key != "again"}
 
 
 def repeated(take: Callable[[], Sample], make: Callable[[list[Sample]], Figure], repeats: int) -> Figure:
@@ -61,6 +61,7 @@ def repeated(take: Callable[[], Sample], make: Callable[[list[Sample]], Figure],
         for _ in range(repeats):
             yardsticks.append(yardstick.seconds())
             samples.append(take())
+            yardsticks.append(yardstick.seconds())
         return replace(make(samples), yardstick_s=min(yardsticks), again=more)
 
     return more()

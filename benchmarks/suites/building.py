@@ -5,9 +5,8 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-
-import numpy as np
 
 import bayesmap as bm
 from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
@@ -17,7 +16,7 @@ from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import Problem
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.start import start_maps
-from benchmarks.figure import Figure, timed
+from benchmarks.figure import Figure, best, timed
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 RESOLUTION_M, MAX_RANGE_M = 0.1, 20.0
@@ -89,14 +88,14 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
 def whole_run(repeats: int = 3) -> Iterator[Figure]:
     """Log to 4 chains of 80 draws, with what R-hat says of them."""
     script = WHOLE_RUN.format(max_range=MAX_RANGE_M, resolution=RESOLUTION_M)
-    found: dict[str, list[float]] = {}
-    for _ in range(repeats):
+    found: dict[str, float] = {}
+
+    def log_to_chains() -> float:
         done = subprocess.run([sys.executable, "-c", script, str(LOG)], capture_output=True, text=True, check=True)
-        for name, value in re.findall(r"(\w+)=(\S+)", done.stdout):
-            found.setdefault(name, []).append(float(value))
-    seconds, rhat = found["seconds"], found["rhat"][0]
-    note = f"R-hat of the log joint {rhat:.3f}, of the log likelihood {found['rhat_likelihood'][0]:.3f}"
-    yield Figure(
-        "building/whole_run", float(np.median(seconds)), "s", spread=(min(seconds), max(seconds)), against=note
-    )
-    yield Figure("building/peak_memory", max(found["peak_mb"]), "MB")
+        found.update({name: float(value) for name, value in re.findall(r"(\w+)=(\S+)", done.stdout)})
+        return found["seconds"]
+
+    whole = best("building/whole_run", log_to_chains, unit="s", scale=1, repeats=repeats, warm_up=False)
+    note = f"R-hat of the log joint {found['rhat']:.3f}, of the log likelihood {found['rhat_likelihood']:.3f}"
+    yield replace(whole, against=note)
+    yield Figure("building/peak_memory", found["peak_mb"], "MB")

@@ -1,8 +1,6 @@
 """The mapping model as a probabilistic program: sweeps of trace edits, their growth, and importance sampling."""
 
-import json
-import statistics
-import subprocess
+import os
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -15,8 +13,9 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.gen import IndexRequest, StaticRequest, Update
-from benchmarks.figure import Figure, ratio, timed
-from benchmarks.peer_runner import Unavailable, run_peer, tutorial_data
+from benchmarks.figure import Figure, Seconds, best, ratio, timed, timer
+from benchmarks.peer_runner import Unavailable, peer, tutorial_data
+from benchmarks.turns import turns
 
 BEAMS, MAPS, PEER_MAPS = 100, 100_000, 10_000
 SIDES = (21, 42, 84, 168)
@@ -70,8 +69,8 @@ def start(model: Any, walls: np.ndarray) -> Any:
     return model.importance(jr.key(0), C["walls"].set(walls), ())[0]
 
 
-def sweep() -> Figure:
-    """441 edits and 441 decisions, in milliseconds."""
+def edit_sweeps() -> Callable[[], int]:
+    """Work for the stopwatch: sweeps of 441 edits and 441 decisions."""
     walls, readings = tutorial_data()
     model = model_of(21)
     state = [model.importance(jr.key(0), C["walls"].set(walls) | C["readings"].set(readings), ())[0]]
@@ -84,7 +83,7 @@ def sweep() -> Figure:
         jax.block_until_ready(state[0])
         return 20
 
-    return timed("programs/edit_sweep", work, unit="ms/sweep", scale=1e3, against="441 edits, tutorial's map")
+    return work
 
 
 def curve(side: int) -> Figure:
@@ -105,67 +104,34 @@ def curve(side: int) -> Figure:
     return timed(f"programs/edit_{side}", work, unit="us/edit", scale=1e6, against=what)
 
 
-IMPORTANCE = """
-import json, os, sys, time
-os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:1])
-import jax, jax.random as jr
-from bayesmap.gen import ChoiceMapBuilder as C
-from benchmarks.peer_runner import tutorial_data
-from benchmarks.suites.programs import model_of
-maps, repeats, keep = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]
-# Not ru_maxrss, which a process inherits from the one that started it.
-memory_mb = lambda: int(open("/proc/self/status").read().split("VmHWM:")[1].split()[0]) / 1024
-model, readings, seconds = model_of(21), tutorial_data()[1], []
-jax.block_until_ready(jax.jit(lambda k: jr.uniform(k))(jr.key(0)))
-before = memory_mb()
-draw = lambda key, z: model.importance(key, C["readings"].set(z), ())[0 if keep == "traces" else 1 :]
-run = jax.jit(lambda key, z: jax.vmap(lambda k: draw(k, z))(jr.split(key, maps)))
-for repeat in range(repeats + 1):
-    began = time.perf_counter()
-    found = jax.block_until_ready(run(jr.key(repeat), readings))
-    seconds.append(time.perf_counter() - began)
-    del found
-print(json.dumps({"seconds": seconds[1:], "before_mb": before, "peak_mb": memory_mb()}))
-"""
-
-
-def importance(keep: str) -> tuple[Figure, Figure]:
-    """Seconds and peak memory of weighted maps, in a process of its own, on one core as the peer's.
-
-    Args:
-        keep: "traces", or "weights" alone: any map can be drawn again from its key.
-    """
-    command = [sys.executable, "-c", IMPORTANCE, str(MAPS), "5", keep]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    found = json.loads(done.stdout.splitlines()[-1])
-    seconds = found["seconds"]
-    spread, what = (min(seconds), max(seconds)), f"{MAPS} maps, {keep} kept, one core"
-    before = f"{what}; {found['before_mb']:.0f} MB before"
-    return (
-        Figure(f"programs/importance_{keep}", statistics.median(seconds), "s", spread=spread, against=what),
-        Figure(f"programs/memory_{keep}", found["peak_mb"], "MB", against=before),
-    )
-
-
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
     """All figures of the suite; they are for the CPU."""
-    edits = sweep()
-    yield edits
+    sweeps = edit_sweeps()
+    yield timed("programs/edit_sweep", sweeps, unit="ms/sweep", scale=1e3, against="441 edits, tutorial's map")
     for side in SIDES:
         yield curve(side)
-    weighted, memory = importance("traces")
-    yield weighted
-    yield memory
-    yield from importance("weights")
-    if not with_peers:
-        return
-    ours = {"incremental": edits.value * 1e-3, "importance": weighted.value * PEER_MAPS / MAPS}
-    for case, ours_s in ours.items():
-        result = run_peer("genjax", case, repeats=5)
-        if isinstance(result, Unavailable):
-            print(f"skipped: {result.reason}", flush=True)
-            continue
-        against = (
-            f"genjax {result.versions.get('genjax', '')}, {case}: {result.median_s * 1e3:.1f} ms per {result.what}"
-        )
-        yield ratio(f"programs/genjax_{case}", result.median_s, ours_s, against)
+    if with_peers:
+        yield from beside("incremental", timer(sweeps))
+    for keep in ("traces", "weights"):
+        command = [sys.executable, "-m", "benchmarks.weighted_maps", str(MAPS), keep]
+        with turns(command, cores=1, environment=os.environ, timeout_s=300.0) as ours:
+            what = f"{MAPS} maps, {keep} kept, one core"
+            yield best(f"programs/importance_{keep}", ours.seconds, unit="s", scale=MAPS, repeats=5, against=what)
+            before = f"{what}; {ours.about['before_mb']:.0f} MB before"
+            yield Figure(f"programs/memory_{keep}", ours.answers[-1]["peak_mb"], "MB", against=before)
+            if with_peers and keep == "traces":
+                yield from beside("importance", lambda ours=ours: PEER_MAPS * ours.seconds())
+
+
+def beside(case: str, ours: Seconds) -> Iterator[Figure]:
+    """GenJAX doing the same, in turn with ours."""
+    with peer("genjax", case) as theirs:
+        if isinstance(theirs, Unavailable):
+            print(f"skipped: {theirs.reason}", flush=True)
+            return
+        who = f"genjax {theirs.about['versions']['genjax']}, {case}"
+
+        def against(seconds: float) -> str:
+            return f"{who}: {seconds * 1e3:.1f} ms per {theirs.about['what']}"
+
+        yield ratio(f"programs/genjax_{case}", theirs.seconds, ours, against=against)

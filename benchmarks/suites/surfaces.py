@@ -2,12 +2,11 @@
 
 import json
 import os
-import statistics
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,8 +22,8 @@ from bayesmap.run.field_chain import run_field
 from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
-from benchmarks.figure import Figure, ratio, timed
-from benchmarks.peer_runner import Unavailable, run_peer
+from benchmarks.figure import Figure, ratio, timed, timer
+from benchmarks.peer_runner import Unavailable, peer
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 RESOLUTION_M, MAX_RANGE_M, EVERY = 0.1, 20.0, 10
@@ -50,9 +49,8 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
     grid = Grid.covering(scans, RESOLUTION_M)
     sweeps = {}
     for kind in PRIORS:
-        figure = sweep_time(kind, train, grid, device)
-        sweeps[kind] = figure.value * 1e-3
-        yield figure
+        sweeps[kind], against = settled_sweeps(kind, train, grid, device)
+        yield timed(f"surfaces/{kind}_sweep", sweeps[kind], unit="ms/sweep", scale=1e3, against=against)
     if with_peers:
         yield from octomap(train, sweeps)
     if device != "cpu":
@@ -61,8 +59,8 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
         yield from whole_program(scans, resolution_m, repeats=3 if resolution_m == RESOLUTION_M else 1)
 
 
-def sweep_time(kind: str, train: Scans, grid: Grid, device: str) -> Figure:
-    """Milliseconds of a sweep of one settled chain on one core, the sensor fitted."""
+def settled_sweeps(kind: str, train: Scans, grid: Grid, device: str) -> tuple[Callable[[], int], str]:
+    """Work for the stopwatch, sweeps of one settled chain on one core, the sensor fitted; and what it is."""
     prior = PRIORS[kind]
     problem = build_field(train, grid, prior, first_sensor(prior, grid.resolution), device=device)
     settled = run_field(problem, Schedule(SETTLING, 0), 1, 0, fit_sensor=True, fit_prior=True)
@@ -76,43 +74,47 @@ def sweep_time(kind: str, train: Scans, grid: Grid, device: str) -> Figure:
         return SWEEPS
 
     against = f"{problem.rays.n_beams:,} beams, {problem.rays.n_incidences * 1e-6:.1f} M incidences, one core"
-    return timed(f"surfaces/{kind}_sweep", sweeps, unit="ms/sweep", scale=1e3, against=against)
+    return sweeps, against
 
 
-def octomap(train: Scans, sweeps_s: dict[str, float]) -> Iterator[Figure]:
-    """One pass of OctoMap over the same scans, as a multiple of one of our sweeps."""
+def octomap(train: Scans, sweeps: dict[str, Callable[[], int]]) -> Iterator[Figure]:
+    """One pass of OctoMap over the same scans, as a multiple of one of our sweeps, in turn with them."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scans.npz"
         arrays = {"poses": train.poses, "angles_rad": train.angles_rad, "ranges_m": train.ranges_m}
         np.savez(path, **arrays, max_range_m=train.max_range_m)
         given = ("--scans", str(path), "--resolution", str(RESOLUTION_M))
-        result = run_peer("pyoctomap", "pass", repeats=5, cores=1, arguments=given)
-    if isinstance(result, Unavailable):
-        print(f"skipped: {result.reason}", flush=True)
-        return
-    what = f"OctoMap, one pass on one core: {result.median_s * 1e3:.0f} ms; cpu/wall {result.cpu_per_wall:.2f}"
-    for kind, ours_s in sweeps_s.items():
-        yield ratio(f"surfaces/octomap_{kind}", result.median_s, ours_s, what)
+        with peer("pyoctomap", "pass", arguments=given) as theirs:
+            if isinstance(theirs, Unavailable):
+                print(f"skipped: {theirs.reason}", flush=True)
+                return
+
+            def against(seconds: float) -> str:
+                return f"OctoMap, one pass on one core: {seconds * 1e3:.0f} ms; cpu/wall {theirs.cpu_per_wall:.2f}"
+
+            for kind, ours in sweeps.items():
+                yield ratio(f"surfaces/octomap_{kind}", theirs.seconds, timer(ours), against=against)
 
 
 def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[Figure]:
     """`bayesmap infer` with its defaults, in a process of its own, then the score of what it found."""
     name = f"surfaces/{round(100 * resolution_m)}_cm"
     asked = ["--resolution", str(resolution_m), "--max-range", str(MAX_RANGE_M), "--holdout", str(EVERY)]
-    seconds, documents = [], []
+    documents = []
     with tempfile.TemporaryDirectory() as folder:
-        for _ in range(repeats):
-            command = [sys.executable, "-m", "bayesmap.cli.main", "infer", str(LOG), *asked, "-o", folder, "--force"]
-            began = time.perf_counter()
+        command = [sys.executable, "-m", "bayesmap.cli.main", "infer", str(LOG), *asked, "-o", folder, "--force"]
+
+        def log_to_score() -> int:
             done = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
-            seconds.append(time.perf_counter() - began)
             documents.append(json.loads(done.stdout))
+            return 1
+
+        whole = timed(f"{name}/whole_program", log_to_score, unit="s", scale=1, repeats=repeats, warm_up=False)
+        document = documents[-1]
+        what = f"{document['chains']} chains of {document['sweeps']} sweeps, all cores"
+        yield replace(whole, against=f"{what}, score of held-out beams included")
         posterior = load(Path(folder) / "run.nc").posterior
     assert isinstance(posterior, FieldPosterior)
-    document = documents[-1]
-    spread = (min(seconds), max(seconds))
-    what = f"{document['chains']} chains of {document['sweeps']} sweeps, all cores, score of held-out beams included"
-    yield Figure(f"{name}/whole_program", statistics.median(seconds), "s", spread=spread, against=what)
     yield Figure(f"{name}/peak_memory", max(found["peak_memory_mb"] for found in documents), "MB")
     found = document["diagnostics"]
     against = f"of the log likelihood {found['rhat_log_likelihood']:.3f}; {document['draws']} draws a chain"

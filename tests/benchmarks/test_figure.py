@@ -1,0 +1,76 @@
+"""A figure is the best of its repeats, and repeats of what is compared are taken in turn."""
+
+import itertools
+
+import pytest
+
+from benchmarks import yardstick
+from benchmarks.figure import Figure, derived, ratio, repeated, timed
+
+
+@pytest.fixture(autouse=True)
+def quick_yardstick(monkeypatch):
+    """The yardstick takes 3, 2, 1, 1, ... seconds."""
+    times = itertools.chain([3.0, 2.0], itertools.repeat(1.0))
+    monkeypatch.setattr(yardstick, "seconds", lambda: next(times))
+
+
+def test_the_best_repeat_counts_and_more_can_be_taken():
+    samples = iter([5.0, 4.0, 6.0, 2.0, 7.0, 8.0])
+    first = repeated(lambda: next(samples), lambda all_: Figure("a", min(all_), "s"), repeats=3)
+    assert first.value == 4.0
+    assert first.yardstick_s == 1.0
+    assert first.again().value == 2.0
+
+
+def test_a_ratio_is_of_the_fastest_of_each_measured_in_turn():
+    calls, theirs, ours = [], iter([30.0, 20.0, 90.0]), iter([9.0, 3.0, 2.0])
+
+    def slower():
+        calls.append("theirs")
+        return next(theirs)
+
+    def faster():
+        calls.append("ours")
+        return next(ours)
+
+    found = ratio("r", slower, faster, repeats=3, against=lambda seconds: f"{seconds:g} s")
+    assert found.value == 10.0
+    assert found.spread == (30 / 9, 45.0)
+    assert found.against == "20 s"
+    assert found.better == "higher"
+    assert calls == ["theirs", "ours"] * 3
+
+
+def test_timed_work_is_divided_by_its_units_after_a_run_that_does_not_count():
+    calls = []
+
+    def work():
+        calls.append(1)
+        return 10**9
+
+    figure = timed("t", work, unit="s", scale=1.0, repeats=2)
+    assert len(calls) == 3
+    assert 0 < figure.value < 1e-6
+
+
+def test_a_derived_figure_measures_its_sources_again():
+    samples = iter([4.0, 2.0, 3.0, 1.0])
+    one = repeated(lambda: next(samples), lambda all_: Figure("a", min(all_), "s"), repeats=1)
+    double = derived("d", [one, Figure("fixed", 10.0, "MB")], sum)
+    assert double.value == 14.0
+    assert double.again().value == 12.0
+    assert double.again().again().value == 11.0
+
+
+def test_json_says_everything_but_how_to_measure_again():
+    figure = Figure("a", 1.0, "s", spread=(1.0, 2.0), again=lambda: None)
+    assert figure.to_json() == {
+        "name": "a",
+        "value": 1.0,
+        "unit": "s",
+        "better": "lower",
+        "spread": (1.0, 2.0),
+        "against": "",
+        "yardstick_s": None,
+    }

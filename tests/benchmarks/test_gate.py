@@ -1,0 +1,88 @@
+"""The gate fails on what is slower, and not on a machine that was busy for a while."""
+
+from dataclasses import replace
+
+import pytest
+
+from benchmarks.figure import Figure
+from benchmarks.gate import PAUSES_S, Baseline, confirmed, write
+
+
+def baseline(**changes):
+    before = {"value": 2.0, "unit": "s", "better": "lower", "yardstick_s": 0.5, **changes}
+    return Baseline("cpu", {"a": before})
+
+
+def test_times_are_compared_in_yardsticks():
+    assert baseline().factor(Figure("a", 4.0, "s", yardstick_s=1.0), "cpu") == 1.0
+    assert baseline().factor(Figure("a", 4.0, "s", yardstick_s=0.5), "cpu") == 2.0
+
+
+def test_rates_and_ratios_are_worse_when_they_are_lower():
+    rates = baseline(unit="maps/s", better="higher")
+    assert rates.factor(Figure("a", 1.0, "maps/s", "higher", yardstick_s=1.0), "cpu") == 1.0
+    assert rates.factor(Figure("a", 1.0, "maps/s", "higher", yardstick_s=0.5), "cpu") == 2.0
+    ratios = baseline(unit="x", better="higher")
+    assert ratios.factor(Figure("a", 0.5, "x", "higher", yardstick_s=7.0), "cpu") == 4.0
+
+
+def test_memory_is_compared_as_it_is():
+    assert baseline(unit="MB").factor(Figure("a", 3.0, "MB"), "cpu") == 1.5
+
+
+def test_other_devices_and_new_figures_have_nothing_to_be_compared_with():
+    assert baseline().factor(Figure("a", 1.0, "s", yardstick_s=1.0), "cuda:0") is None
+    assert baseline().factor(Figure("new", 1.0, "s", yardstick_s=1.0), "cpu") is None
+
+
+class Machine:
+    """Gives times one after the other, and notes how long it was left alone."""
+
+    def __init__(self, *times):
+        self.times, self.slept = list(times), []
+
+    def figure(self):
+        return Figure("a", self.times.pop(0), "s", yardstick_s=0.5, again=self.figure)
+
+    def confirmed(self):
+        return confirmed(self.figure(), lambda f: baseline().factor(f, "cpu"), worse=1.5, sleep=self.slept.append)
+
+
+def test_a_figure_that_passes_is_not_measured_again():
+    machine = Machine(2.9, 99.0)
+    assert machine.confirmed().value == 2.9
+    assert machine.slept == []
+
+
+def test_a_busy_moment_is_waited_out():
+    machine = Machine(9.0, 8.0, 2.0, 99.0)
+    assert machine.confirmed().value == 2.0
+    assert machine.slept == list(PAUSES_S[:2])
+
+
+def test_what_stays_slow_stays_worse():
+    machine = Machine(9.0, 8.0, 7.0, 6.0, 5.0)
+    assert machine.confirmed().value == 5.0
+    assert machine.slept == list(PAUSES_S)
+
+
+def test_what_cannot_be_measured_again_is_taken_as_it_is():
+    figure = Figure("a", 9.0, "s", yardstick_s=0.5)
+    assert confirmed(figure, lambda f: 4.5, sleep=pytest.fail) is figure
+
+
+def test_a_baseline_is_read_as_it_was_written(tmp_path):
+    figure = Figure("a", 2.0, "s", yardstick_s=0.5, spread=(2.0, 3.0))
+    write(tmp_path / "b.json", "cpu", "0.1", {"a": figure})
+    found = Baseline.read(tmp_path / "b.json")
+    assert found.factor(replace(figure, value=3.0), "cpu") == 1.5
+    assert Baseline.read(tmp_path / "none.json").factor(figure, "cpu") is None
+
+
+def test_the_committed_baseline_can_be_compared_with():
+    from benchmarks.run import BASELINE
+
+    baseline = Baseline.read(BASELINE)
+    for name, before in baseline.figures.items():
+        fields = {key: before[key] for key in ("value", "unit", "better", "yardstick_s")}
+        assert baseline.factor(Figure(name, **fields), baseline.device) == pytest.approx(1.0), name
