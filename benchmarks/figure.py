@@ -29,6 +29,8 @@ class Figure:
         spread: (smallest, largest) of the repeats.
         against: what a ratio is to, or what else one must know.
         yardstick_s: the fastest run of the yardstick between the repeats, None if the figure is no time.
+        gated: whether it is to fail when it is worse than the baseline. A ratio to a peer is not: the peer's speed is not
+            ours to keep, and our time in it is a figure of its own.
         again: takes as many repeats once more and returns the figure made of all so far; None if that is no use.
     """
 
@@ -39,6 +41,7 @@ class Figure:
     spread: tuple[float, float] | None = None
     against: str = ""
     yardstick_s: float | None = None
+    gated: bool = True
     again: "Callable[[], Figure] | None" = field(default=None, compare=False, repr=False)
 
     def to_json(self) -> dict[str, Any]:
@@ -124,6 +127,7 @@ def ratio(
     faster: Seconds,
     *,
     repeats: int = 5,
+    gated: bool = True,
     against: Callable[[float], str] = lambda slower_s: "",
 ) -> Figure:
     """How many times faster one thing is than another, both measured in turn: the fastest of each.
@@ -133,13 +137,15 @@ def ratio(
         slower: what it is compared with, warmed up.
         faster: ours, warmed up.
         repeats: of each.
+        gated: False for a peer.
         against: says what the comparison is with, given the seconds of its fastest repeat.
     """
 
     def make(samples: list[tuple[float, float]]) -> Figure:
         slower_s, faster_s = (min(column) for column in zip(*samples, strict=True))
         ratios = [one / other for one, other in samples]
-        return Figure(name, slower_s / faster_s, "x", "higher", (min(ratios), max(ratios)), against(slower_s))
+        found = Figure(name, slower_s / faster_s, "x", "higher", (min(ratios), max(ratios)), against(slower_s))
+        return replace(found, gated=gated)
 
     return repeated(lambda: (slower(), faster()), make, repeats)
 

@@ -72,9 +72,13 @@ def confirmed(
 ) -> Figure:
     """The figure itself if it passes; otherwise measured again until it passes or every try is used up."""
     for pause_s in pauses_s:
-        found = factor(figure)
-        if found is None or found <= worse or figure.again is None:
+        if figure.again is None or not fails(figure, factor(figure), worse):
             break
         sleep(pause_s)
         figure = figure.again()
     return figure
+
+
+def fails(figure: Figure, factor: float | None, worse: float = WORSE) -> bool:
+    """Whether a figure that is so many times worse than the baseline's is to fail."""
+    return figure.gated and factor is not None and factor > worse

@@ -1,8 +1,7 @@
 """`make bench`: every figure in one run, beside the peers, against the committed baseline.
 
-Times are divided by a yardstick that is measured between their repeats; ratios to peers are compared as they are. The
-gate fails when a figure got worse than the baseline by more than half, and stays so when it is measured again
-(`benchmarks/gate.py`). `--save` writes a new baseline.
+Times are divided by a yardstick that is measured between their repeats. The gate fails when a figure of ours got worse
+than the baseline by more than half, and stays so when it is measured again (`benchmarks/gate.py`). `--save` writes a new baseline.
 """
 
 import argparse
@@ -62,7 +61,7 @@ def main() -> int:
         figure = first if options.save else gate.confirmed(first, factor)
         figures[figure.name] = figure
         found = factor(figure)
-        if found is not None and found > gate.WORSE:
+        if gate.fails(figure, found):
             worse.append(figure.name)
         print(row(figure, found), flush=True)
 

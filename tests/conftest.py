@@ -1,7 +1,14 @@
 """Settings for all tests; its presence also puts tests/ on the import path (`from data import intel_log`)."""
 
+import signal
+
 from hypothesis import settings
 
 # A slow machine is no failure.
 settings.register_profile("bayesmap", deadline=None)
 settings.load_profile("bayesmap")
+
+# Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to
+# ignore it, as a script's shell starts jobs in the background, it is put in force again.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -93,7 +93,7 @@ def octomap(train: Scans, sweeps: dict[str, Callable[[], int]]) -> Iterator[Figu
                 return f"OctoMap, one pass on one core: {seconds * 1e3:.0f} ms; cpu/wall {theirs.cpu_per_wall:.2f}"
 
             for kind, ours in sweeps.items():
-                yield ratio(f"surfaces/octomap_{kind}", theirs.seconds, timer(ours), against=against)
+                yield ratio(f"surfaces/octomap_{kind}", theirs.seconds, timer(ours), gated=False, against=against)
 
 
 def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[Figure]:

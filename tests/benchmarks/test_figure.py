@@ -73,4 +73,5 @@ def test_json_says_everything_but_how_to_measure_again():
         "spread": (1.0, 2.0),
         "against": "",
         "yardstick_s": None,
+        "gated": True,
     }

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from benchmarks.figure import Figure
-from benchmarks.gate import PAUSES_S, Baseline, confirmed, write
+from benchmarks.gate import PAUSES_S, Baseline, confirmed, fails, write
 
 
 def baseline(**changes):
@@ -69,6 +69,13 @@ def test_what_stays_slow_stays_worse():
 def test_what_cannot_be_measured_again_is_taken_as_it_is():
     figure = Figure("a", 9.0, "s", yardstick_s=0.5)
     assert confirmed(figure, lambda f: 4.5, sleep=pytest.fail) is figure
+
+
+def test_a_ratio_to_a_peer_fails_nothing():
+    figure = Figure("a", 9.0, "s", yardstick_s=0.5, gated=False, again=pytest.fail)
+    assert confirmed(figure, lambda f: 4.5) is figure
+    assert not fails(figure, 4.5)
+    assert fails(replace(figure, gated=True), 4.5)
 
 
 def test_a_baseline_is_read_as_it_was_written(tmp_path):

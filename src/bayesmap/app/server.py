@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import secrets
+import signal
 import socket
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import uvicorn
 from starlette.applications import Starlette
@@ -130,6 +131,15 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         self._on_ready()
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        # uvicorn listens to Ctrl-C even in a process that was started to ignore it.
+        before = signal.getsignal(signal.SIGINT)
+        with super().capture_signals():
+            if before is signal.SIG_IGN:
+                signal.signal(signal.SIGINT, before)
+            yield
 
 
 async def _serve(

@@ -13,7 +13,8 @@ from types import FrameType
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
     """While inside, the first Ctrl-C makes the yielded function return True; a second one interrupts at once.
 
-    Outside the main thread, where Python takes no signals, the function always returns False.
+    Outside the main thread, where Python takes no signals, the function always returns False; so it does in a process
+    that was started to ignore Ctrl-C, as shells start jobs in the background of a script.
     """
     stopped = False
 
@@ -23,7 +24,8 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
             raise KeyboardInterrupt
         stopped = True
 
-    if threading.current_thread() is not threading.main_thread():
+    in_main_thread = threading.current_thread() is threading.main_thread()
+    if not in_main_thread or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         yield lambda: False
         return
     before = signal.signal(signal.SIGINT, handle)
