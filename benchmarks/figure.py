@@ -29,8 +29,8 @@ class Figure:
         spread: (smallest, largest) of the repeats.
         against: what a ratio is to, or what else one must know.
         yardstick_s: the fastest run of the yardstick between the repeats, None if the figure is no time.
-        gated: whether it is to fail when it is worse than the baseline. A ratio to a peer is not: the peer's speed is not
-            ours to keep, and our time in it is a figure of its own.
+        gated: whether being worse than the baseline is a failure. For a ratio to a peer it is not: the peer's speed is
+            not ours to keep, and our time in it is a figure of its own.
         again: takes as many repeats once more and returns the figure made of all so far; None if that is no use.
     """
 

@@ -1,7 +1,8 @@
 """`make bench`: every figure in one run, beside the peers, against the committed baseline.
 
 Times are divided by a yardstick that is measured between their repeats. The gate fails when a figure of ours got worse
-than the baseline by more than half, and stays so when it is measured again (`benchmarks/gate.py`). `--save` writes a new baseline.
+than the baseline by more than half, and stays so when it is measured again (`benchmarks/gate.py`). `--save` writes a
+new baseline.
 """
 
 import argparse
