@@ -19,7 +19,7 @@ def test_collapse_shows_as_one_sample_at_the_right():
     assert counts[-1] == 1
     assert counts[60:-1].sum() == 0
     assert "1,000 samples, effective sample size 1.0" in texts(ax)
-    assert "largest weight: 1 of the total" in texts(ax)
+    assert "one sample has all the weight" in texts(ax)
     below = int((logs + 700 < -10_000).sum())
     assert f"{below:,} below -10,000" in texts(ax)
     assert counts.sum() + below == 1000
@@ -31,6 +31,12 @@ def test_equal_weights_have_full_size():
     logs = normalized(np.full(250, -12_345.0))
     np.testing.assert_allclose(logs, -np.log(250))
     assert effective_sample_size(logs) == pytest.approx(250)
+
+
+def test_the_largest_weight_is_a_share_of_the_sum():
+    ax = Figure().add_subplot()
+    draw_weights(ax, np.log([1.0, 1.0, 2.0]), range_nats=(-5.0, 0.0))
+    assert "largest weight: 50 % of the sum" in texts(ax)
 
 
 def test_normalising_neither_overflows_nor_minds_zero_weights():

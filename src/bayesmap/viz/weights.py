@@ -14,6 +14,8 @@ from bayesmap.viz.cells import as_array
 
 BINS = 100
 TUTORIAL_RANGE = (-10_000.0, 0.0)
+ALL = 0.9995
+"""A share of the sum that, rounded to a tenth of a percent, is all of it."""
 
 
 def draw_weights(
@@ -51,7 +53,8 @@ def draw_weights(
 
     largest = float(logs.max())
     if largest >= low:
-        note = f"largest weight: {np.exp(largest):.3g} of the total"
+        share = float(np.exp(largest))
+        note = "one sample has all the weight" if share > ALL else f"largest weight: {100 * share:.3g} % of the sum"
         near_right = largest > 0.5 * (low + high)
         ax.axvline(largest, color=palette.TRUTH, linewidth=1.2, label="largest")
         ax.annotate(

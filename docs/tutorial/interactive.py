@@ -1,0 +1,29 @@
+"""Makes interactive.html: the tutorial's map with draws of its posterior, as a page in one file.
+
+Run `python docs/tutorial/interactive.py` from the repository's root. It does what a reader does who starts `bayesmap app`,
+presses *Run* and then *Export, Page with its draws*.
+"""
+
+from pathlib import Path
+
+from bayesmap.app.engine import Engine
+from bayesmap.app.tasks import Export, Infer, Report
+from bayesmap.app.worlds import tutorial_document
+
+PAGE = Path(__file__).with_name("interactive.html")
+
+
+def interactive_page() -> bytes:
+    """The page: Gibbs sampling on the tutorial's map, 1000 sweeps of two chains, every other draw kept."""
+    reports: list[Report] = []
+    engine = Engine(reports.append)
+    engine.take(Infer(1, tutorial_document(), "run"))
+    while engine.busy:
+        engine.advance()
+    engine.take(Export(1, "html"))
+    (download,) = (report for report in reports if report.header["type"] == "download")
+    return bytes(download.buffers["data"])
+
+
+if __name__ == "__main__":
+    PAGE.write_bytes(interactive_page())

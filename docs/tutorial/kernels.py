@@ -1,0 +1,331 @@
+# ---
+# jupyter:
+#   jupytext:
+#     formats: py:percent
+# ---
+# ruff: noqa: D100
+
+# %% [markdown]
+# # The same samplers, compiled
+#
+# The [page before](gibbs.md) wrote Gibbs sampling as programs of `bayesmap.gen`. bayesmap has the same samplers as
+# compiled kernels, which are thousands of times faster; `bm.infer` runs them. Here we check that they sample the same
+# posterior, use their speed to count what the programs could only show, look at a quite different method, belief
+# propagation, and end with a building.
+#
+# Code that only draws a figure or checks what the text says is folded away. In lines that begin with `time:` measured
+# figures are rounded.
+
+# %%
+import jax
+import jax.numpy as jnp
+import jax.random as jrand
+import numpy as np
+
+import bayesmap as bm
+from bayesmap import gen, viz
+from bayesmap.cells.defaults import default_sensor
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.posterior.diagnostics import rhat
+from bayesmap.viz.palette import CHAINS
+
+# %% Functions that draw tags=["hide-input"]
+from drawing import panels, show
+
+# %% [markdown]
+# ## The same posterior
+#
+# For every beam the kernels keep a list of the cells on its way, and for each the log-likelihood of the reading if that
+# cell is the first wall. To update a cell, they visit the beams that cross it and nothing else
+# ([beam-table.md](../beam-table.md)).
+#
+# The map, the robot and its sensor are those of the pages before. Here are four draws of the kernels' chains, scored by
+# the kernels and by the generative function `bm.mapping_model`.
+
+# %%
+MAX_RANGE_M = 42.0
+true_walls, pose = bm.worlds.tutorial()
+grid = bm.Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))
+angles_rad = np.arange(100) / 100 * 2 * np.pi
+sensor = bm.Gaussian(0.2)
+scans = bm.simulate(true_walls, grid, pose, angles_rad, sensor=sensor, max_range_m=MAX_RANGE_M, seed=0)
+problem = {"scans": scans, "grid": grid, "prior": bm.Independent(0.5), "sensor": sensor}
+
+run = bm.infer(**problem, method="gibbs", chains=4, warmup=200, draws=5_000)
+model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), sensor, max_range_m=MAX_RANGE_M)
+readings = C["readings"].set(scans.ranges_m[0])
+by_gen = [float(model.assess(readings | C["walls"].set(walls), ())[0]) for walls in run.draws[:, 0]]
+print("log joint by gen:        ", np.round(by_gen, 2))
+print("log joint by the kernels:", np.round(run.log_joint[:, 0], 2))
+assert np.allclose(by_gen, run.log_joint[:, 0], atol=0.05)
+
+# %% [markdown]
+# So the two score alike. Do they sample alike? We let the program of the last page, a Gibbs sweep by edits of a trace,
+# run for a few thousand sweeps, and compare how often each cell is a wall.
+
+# %%
+N_SWEEPS = 4_000
+
+
+@jax.jit
+def edit_chain(keys, trace):
+    """The map after each sweep of edits."""
+
+    def update(k, carried):
+        key, trace = carried
+        cell_key, i, j = jrand.fold_in(key, k), k // 21, k % 21
+        flip = gen.IndexRequest(j, gen.Update(C.v(~trace.get_choices()["walls"][i, j])))
+        flipped, change, _, _ = trace.edit(cell_key, gen.StaticRequest({"walls": gen.IndexRequest(i, flip)}))
+        keep = gen.bernoulli.sample(cell_key, logits=change)
+        return key, jax.lax.cond(keep, lambda: flipped, lambda: trace)
+
+    def sweep(trace, key):
+        _, trace = jax.lax.fori_loop(0, 441, update, (key, trace))
+        return trace, trace.get_choices()["walls"]
+
+    return jax.lax.scan(sweep, trace, keys)[1]
+
+
+start, _ = model.importance(jrand.key(0), readings | C["walls"].set(jnp.zeros((21, 21), bool)), ())
+by_edits = np.asarray(edit_chain(jrand.split(jrand.key(0), N_SWEEPS), start))[200:].mean(axis=0)
+differs = np.abs(by_edits - run.occupancy)
+print(f"a cell's share of walls by the program and by the kernels: {differs.mean():.4f} apart on average,")
+print(
+    f"  {differs.max():.3f} at most (the true map is {np.abs(true_walls - run.occupancy).mean():.2f} away on average)"
+)
+print(f"time: {1e6 / run.summary().microseconds_per_sweep:.0f} sweeps a second by the kernels, on one core")
+
+# %% tags=["hide-input"]
+assert differs.max() < 0.06
+assert differs.mean() < 0.01
+assert run.summary().rhat_max < 1.01
+figure, axes = panels("gen, 3800 sweeps", "kernels, 20 000 sweeps", "uncertainty")
+for ax, mean in zip(axes[:2], (by_edits, run.occupancy), strict=True):
+    viz.draw_probability(ax, grid, mean)
+    viz.draw_truth_outline(ax, grid, true_walls)
+viz.draw_entropy(axes[2], grid, run.occupancy)
+show(figure, "agree.png", "Posterior probability of a wall, twice, and its entropy: bright is uncertain.")
+
+# %% [markdown]
+# ## Where walls are rare, counted
+#
+# On the last page a chain that changes single cells was stuck where the prior of a wall was 0.05, and blocks were
+# not. One chain is an anecdote. We start chains from an empty map, from a map full of walls, and from prior draws, and
+# let each run. If they have converged, they agree. *R-hat* compares the spread between chains with the spread within
+# them: 1 means agreement, and over 1.05 is not to be trusted. It is computed here of the log joint, over the second
+# half of the first n sweeps.
+
+# %%
+RARE = 0.05
+rare = problem | {"prior": bm.Independent(RARE)}
+prior_starts = [bm.Independent(RARE).sample(np.random.default_rng(k), grid) for k in range(4)]
+starts = np.stack([0 * true_walls] * 4 + [0 * true_walls + 1] * 4 + prior_starts)
+SWEEPS = {"gibbs": 16_384, "block": 1_024}
+traces = {
+    method: bm.infer(
+        **rare, method=method, start=starts, chains=12, warmup=n, draws=0, seed=3
+    ).posterior.warmup_log_joint
+    for method, n in SWEEPS.items()
+}
+
+
+def rhat_after(trace):
+    """R-hat of the second half of the first n sweeps, for n = 16, 32, ..."""
+    return {n: rhat(trace[:, n // 2 : n]) for n in 2 ** np.arange(4, 15) if n <= trace.shape[1]}
+
+
+single, block = (rhat_after(traces[method]) for method in ("gibbs", "block"))
+for n, value in single.items():
+    by_start = traces["gibbs"][:, n // 2 : n].mean(axis=1).reshape(3, 4).mean(axis=1)
+    parts = ", ".join(f"{name} {mean:9.0f}" for name, mean in zip(("zeros", "ones", "prior"), by_start, strict=True))
+    print(f"single cells, {n:5d} sweeps: R-hat {value:5.2f}; mean log joint from {parts}")
+for n, value in block.items():
+    print(f"blocks,       {n:5d} sweeps: R-hat {value:5.2f}")
+
+# %% tags=["hide-input"]
+assert all(single[n] > 1.5 for n in (16, 64, 256, 1024))
+assert all(block[n] < 1.05 for n in (128, 256, 512, 1024))
+figure, axes = panels("single cells: log joint", "2 x 2 blocks: log joint", "R-hat", size_in=3.6)
+top = max(trace.max() for trace in traces.values()) + 10
+for ax, trace in zip(axes[:2], traces.values(), strict=True):
+    for chain_number, line in enumerate(trace):
+        color = CHAINS[chain_number // 4]
+        label = ("zeros", "ones", "prior")[chain_number // 4] if chain_number % 4 == 0 else None
+        ax.loglog(1 + np.arange(len(line)), top - line, color=color, linewidth=0.7, alpha=0.8, label=label)
+    ax.set(xlabel="sweep", ylim=(1e6, 1.0))
+axes[0].set_ylabel("nats below the top")
+axes[0].legend(frameon=False, title="start", fontsize=8, title_fontsize=8)
+for name, values in (("single cells", single), ("2 x 2 blocks", block)):
+    axes[2].semilogx(list(values), list(values.values()), marker="o", markersize=3, label=name)
+axes[2].axhline(1.05, color="grey", linewidth=0.8, linestyle="--")
+axes[2].set(xlabel="sweeps")
+axes[2].legend(frameon=False, fontsize=8)
+show(figure, "rare.png", "Prior 0.05. Twelve chains by single cells and by blocks, and R-hat of both. Dashed: 1.05.")
+
+# %% [markdown]
+# After a thousand sweeps over single cells the chains still disagree, by thousands of nats. Only after some thousand
+# more do they meet. One chain that is watched for a hundred sweeps is flat, and looks as if it had arrived. The chains
+# that start full of walls fare best: their first sweep, going outwards, carves free space until it meets the readings.
+# That is luck of the start, not a cure. Blocks agree within tens of sweeps, from wherever they start.
+#
+# How long does one chain take to arrive? Say that it has when its log joint is as high as all but the lowest
+# thousandth of the posterior's. And since a sweep over blocks costs more than one over cells, we give the ratio of
+# their times too.
+
+# %%
+reference = bm.infer(**rare, method="block", chains=4, warmup=200, draws=3_000, seed=4)
+threshold = np.quantile(reference.log_joint, 1e-3)
+arrived = {}
+for method, n in (("gibbs", 8_000), ("block", 200)):
+    early = bm.infer(**rare, method=method, start="zeros", chains=16, warmup=n, draws=0, seed=5)
+    there = early.posterior.warmup_log_joint > threshold
+    assert there.any(axis=1).all()
+    arrived[method] = there.argmax(axis=1) + 1
+    low, middle, high = np.percentile(arrived[method], [0, 50, 100])
+    print(f"{method}: from an empty map, {low:.0f} to {high:.0f} sweeps, median {middle:.0f} (16 chains)")
+settled = {"start": reference.draws[:, -1], "chains": 4, "warmup": 0, "draws": 1_000, "seed": 6}
+cost = [bm.infer(**rare, method=method, **settled).summary().microseconds_per_sweep for method in ("gibbs", "block")]
+print(f"time: a sweep over blocks costs about {cost[1] / cost[0]:.0f} times one over cells")
+
+# %% tags=["hide-input"]
+assert reference.summary().rhat_max < 1.01
+assert np.median(arrived["gibbs"]) > 20 * np.median(arrived["block"])
+
+# %% [markdown]
+# ## Belief propagation
+#
+# Sampling is one road. Belief propagation is another: beams and cells exchange messages, "given what I have heard
+# from the others, this is what I think of you", until nobody changes its mind. It gives the probability of each cell
+# in a few rounds, and nothing else. These *marginals* are exact where no two beams share a cell, and approximate
+# otherwise. How good are they here? Block Gibbs, long converged, is the judge. Then we ask again with a worse sensor,
+# 0.5 m of noise, where the readings leave more open.
+
+# %%
+compared = []
+for sigma_m in (0.2, 0.5):
+    worse = bm.Gaussian(sigma_m)
+    seen = bm.simulate(true_walls, grid, pose, angles_rad, sensor=worse, max_range_m=MAX_RANGE_M, seed=0)
+    known = {"scans": seen, "grid": grid, "prior": bm.Independent(RARE), "sensor": worse}
+    gibbs = bm.infer(**known, method="block", chains=4, draws=2_000)
+    belief = bm.infer(**known, method="propagate", rounds=50, chains=1, draws=500)
+    off = np.abs(belief.occupancy - gibbs.occupancy)
+    typical = np.median(gibbs.log_joint) - np.median(belief.log_joint)
+    print(f"noise {sigma_m} m, {len(belief.posterior.belief_changes)} rounds of beliefs")
+    print(
+        f"  marginals differ by {off.mean():.4f} on average, {off.max():.3f} at most, {(off > 0.1).sum()} by over 0.1"
+    )
+    print(f"  entropy of the marginals: {belief.entropy.sum():.1f} bits, by block Gibbs {gibbs.entropy.sum():.1f}")
+    print(f"  whole maps drawn from the beliefs are {typical:.0f} nats less likely than draws (medians)")
+    compared.append((gibbs, belief))
+    assert gibbs.summary().rhat_max < 1.02
+    assert typical > 1000
+
+# %% tags=["hide-input"]
+off_good, off_worse = (np.abs(belief.occupancy - gibbs.occupancy).max() for gibbs, belief in compared)
+assert off_good < 0.03
+assert off_worse > 0.2
+assert compared[1][1].entropy.sum() < compared[1][0].entropy.sum()
+figure, axes = panels("noise 0.2 m", "noise 0.5 m", size_in=3.6)
+for ax, (gibbs, belief) in zip(axes, compared, strict=True):
+    ax.plot([0, 1], [0, 1], color="grey", linewidth=0.8)
+    ax.plot(gibbs.occupancy.ravel(), belief.occupancy.ravel(), "o", markersize=3, alpha=0.5)
+    ax.set(xlabel="block Gibbs", ylabel="belief propagation", aspect="equal")
+show(figure, "beliefs.png", "Wall probability of each cell, by beliefs and by block Gibbs. On the line they agree.")
+
+# %% [markdown]
+# With the good sensor the marginals are right to about a percent. With the worse one, beliefs are too sure: the cells
+# off the line at the top of the figure are walls for certain, by beliefs, while the posterior leaves them open. Beams
+# that share cells pass for independent witnesses. And in both cases marginals are not maps. "The wall is here or
+# there" cannot be said cell by cell: whole maps drawn from the beliefs are less likely than the posterior's own draws
+# by thousands of nats.
+#
+# So bayesmap uses belief propagation to start chains on large maps, and where marginals are all that is asked for.
+#
+# ## More than one place
+#
+# From the middle of the room some corners are not to be seen. Nothing in the model says that there is one pose only:
+# more poses are more beams. The noise is 0.5 m again.
+
+# %%
+stops = np.array([pose, [6.0, 9.0, 0.0], [13.0, 10.0, 0.0], [9.0, 5.0, 0.0], [9.0, 14.0, 0.0]])
+noisy = bm.Gaussian(0.5)
+several = []
+for poses in (stops[:1], stops):
+    seen = bm.simulate(true_walls, grid, poses, angles_rad, sensor=noisy, max_range_m=MAX_RANGE_M, seed=0)
+    several.append(bm.infer(seen, grid, prior=bm.Independent(RARE), sensor=noisy, method="block", draws=1_000))
+    undecided = int(((several[-1].occupancy > 0.1) & (several[-1].occupancy < 0.9)).sum())
+    print(f"{len(poses)} pose(s): {several[-1].entropy.sum():6.1f} bits, {undecided:2d} cells between 0.1 and 0.9")
+
+# %% tags=["hide-input"]
+assert several[1].entropy.sum() < 0.8 * several[0].entropy.sum()
+figure, axes = panels("one pose", "entropy", "five poses", "entropy")
+for at, poses, inferred in ((0, stops[:1], several[0]), (2, stops, several[1])):
+    viz.draw_probability(axes[at], grid, inferred.occupancy)
+    viz.draw_truth_outline(axes[at], grid, true_walls)
+    for stop in poses:
+        viz.draw_sensor(axes[at], stop)
+    viz.draw_entropy(axes[at + 1], grid, inferred.occupancy)
+show(figure, "poses.png", "The posterior and its entropy after a scan from one place, and after scans from five.")
+
+# %% [markdown]
+# ## A building
+#
+# A robot's log is the same thing, only larger: thousands of beams, cells of 10 cm, and readings that no wall
+# explains, because people walk by and glass lets beams through. `bm.read_log` reads one; here we simulate a robot's
+# round through an office, so that there is a truth to compare with. The sensor model is a mixture with room for
+# outliers ([defaults.md](../defaults.md)). The chains start from belief propagation. Every tenth scan is held out,
+# and the posterior is asked to predict it.
+
+# %%
+office = bm.worlds.building(seed=3, size_m=(14.0, 9.0), resolution=0.1)
+route = bm.worlds.patrol(office, 60, seed=1)
+laser = default_sensor(office.grid.resolution)
+log = bm.simulate(
+    office.walls, office.grid, route, np.deg2rad(np.arange(-90, 90)), sensor=laser, max_range_m=10.0, seed=0,
+    opacity=office.opacity,
+)  # fmt: skip
+used, held_out = log.holdout(10)
+office_problem = {"scans": used, "grid": office.grid, "prior": bm.Independent(0.2), "sensor": laser}
+mapped = bm.infer(**office_problem, chains=4, warmup=200, draws=200)
+guess = bm.infer(**office_problem, method="propagate", chains=1, draws=100)
+nothing = bm.infer(**office_problem, start="prior", chains=1, warmup=0, draws=1)
+print(f"{len(used)} scans, {used.n_beams} beams; {office.grid.shape[0]} x {office.grid.shape[1]} cells")
+for problem_found in mapped.summary().problems():
+    print(f"  not settled: {problem_found}")
+print(f"held-out beams, nats each: {mapped.log_score(held_out):.3f} by chains,")
+print(
+    f"  {guess.log_score(held_out):.3f} by beliefs, {nothing.log_score(held_out):.3f} by a chain after a single sweep"
+)
+seconds = [some.posterior.seconds["sampling"] for some in (mapped, guess)]
+print(f"time: {seconds[0]:.2f} s in sweeps, {seconds[1]:.2f} s in beliefs")
+certain = (mapped.entropy < 0.1)[mapped.observed].mean()
+print(f"of the observed cells {certain:.1%} are certain to 0.1 bits")
+walls_seen, free_seen = mapped.observed & office.walls, mapped.observed & ~office.walls
+print(f"their mean probability of a wall: {mapped.occupancy[walls_seen].mean():.2f} where there is one,")
+print(f"  {mapped.occupancy[free_seen].mean():.3f} where there is none")
+
+# %% tags=["hide-input"]
+assert mapped.log_score(held_out) > nothing.log_score(held_out)
+assert mapped.log_score(held_out) > guess.log_score(held_out) - 0.05
+assert mapped.occupancy[walls_seen].mean() > 0.7
+assert mapped.occupancy[free_seen].mean() < 0.02
+figure, axes = panels("probability of a wall", "entropy", size_in=4.4, height_in=3.2)
+viz.draw_probability(axes[0], office.grid, mapped.occupancy, mapped.observed)
+viz.draw_truth_outline(axes[0], office.grid, office.walls)
+viz.draw_sensor(axes[0], route)
+viz.draw_entropy(axes[1], office.grid, mapped.occupancy, mapped.observed)
+show(figure, "building.png", "An office, with the robot's way. Outlined: the true walls. Hatched: no beam came there.")
+
+# %% [markdown]
+# What is uncertain lies at the rims of what was seen. The summary counts the cells on which the chains have not
+# settled after 400 sweeps: it is there to be read. For such a map beliefs predict the held-out beams about as well as
+# the chains, and sooner.
+#
+# ## Where to go from here
+#
+# - [Where is the robot?](localization.md) The map is known, and the pose is not.
+# - [Neither is known](both.md): poses and walls together.
+# - Your own log: `bayesmap infer my.log.gz -o runs/mine`; the [README](../../README.md) has the commands.
+# - Your own sensor, prior or sampler: [CONTRIBUTING.md](../../CONTRIBUTING.md).
+# - How the kernels avoid most of the work: [inference.md](../inference.md) and [beam-table.md](../beam-table.md).
+# - `bayesmap.gen` for models of your own: [coming-from-genjax.md](../coming-from-genjax.md).

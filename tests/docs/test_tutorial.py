@@ -1,0 +1,144 @@
+"""The tutorial: its notebooks run with all their checks, and its pages are made of them."""
+
+import ast
+import importlib.util
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+TUTORIAL = ROOT / "docs" / "tutorial"
+FIGURES = TUTORIAL / "figures"
+CHROMIUM = shutil.which("chromium")
+
+
+def loaded(name):
+    """A script of the tutorial, as a module."""
+    spec = importlib.util.spec_from_file_location(f"tutorial_{name}", TUTORIAL / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+render = loaded("render")
+every_page = pytest.mark.parametrize("name", render.PAGES)
+
+
+def source_of(name):
+    return (TUTORIAL / f"{name}.py").read_text(encoding="utf-8")
+
+
+def page_of(name):
+    return (TUTORIAL / f"{name}.md").read_text(encoding="utf-8")
+
+
+def figures_of(name):
+    return re.findall(r"!\[[^]]*\]\(figures/([^)]+)\)", page_of(name))
+
+
+@every_page
+def test_a_notebook_runs_and_draws_the_figures_of_its_page(name, tmp_path):
+    """Its cells assert what its prose says."""
+    environment = os.environ | {
+        "BAYESMAP_TUTORIAL_FIGURES": str(tmp_path),
+        "PYTHONPATH": os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]),
+    }
+    command = [sys.executable, str(TUTORIAL / f"{name}.py")]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    assert {path.name for path in tmp_path.glob("*.png")} == set(figures_of(name))
+
+
+@every_page
+def test_a_page_is_made_of_its_notebook(name):
+    """A change of a notebook needs `python docs/tutorial/render.py`."""
+    cells, page = render.cells(source_of(name)), page_of(name)
+    blocks = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    assert [block.rstrip("\n") for block in blocks] == [cell.text for cell in cells if cell.is_code]
+    assert [cell.text for cell in cells if not cell.is_code and cell.text not in page] == []
+    assert page.count("<details>") == sum(bool(cell.folded) for cell in cells)
+
+
+@every_page
+def test_what_a_page_shows_of_its_checks_and_figures_is_folded(name):
+    """The code that a reader sees first draws no figure."""
+    shown = [cell.text for cell in render.cells(source_of(name)) if cell.is_code and not cell.folded]
+    assert [text for text in shown if re.search(r"\b(panels|show)\(|^from drawing", text, re.MULTILINE)] == []
+
+
+def test_the_figures_are_those_of_the_pages():
+    named = [figure for name in render.PAGES for figure in figures_of(name)]
+    assert len(named) == len(set(named)) > 15
+    assert {path.name for path in FIGURES.iterdir()} == set(named)
+
+
+def test_the_first_page_leads_to_all_others():
+    contents = (TUTORIAL / "README.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\d\. \[[^]]+\]\((\w+)\.md\)", contents, re.MULTILINE) == list(render.PAGES)
+    for script in TUTORIAL.glob("*.py"):
+        assert script.stem in (*render.PAGES, "render", "drawing", "interactive")
+
+
+def definitions(source):
+    """Functions by name, as syntax trees without positions; `step` and the like, inside others, are not looked at."""
+    return {node.name: ast.dump(node) for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)}
+
+
+def test_what_two_pages_define_is_the_same_on_both():
+    """The second page says so of the model that it repeats."""
+    first, second = definitions(source_of("mapping")), definitions(source_of("gibbs"))
+    assert {"walls_prior", "distances_to_cells", "exact_range", "beam", "full_model"} <= first.keys() & second.keys()
+    assert [name for name in first.keys() & second.keys() if first[name] != second[name]] == []
+
+
+def test_measured_times_are_rounded():
+    assert render.rounded("time: 123 sweeps, 0.0024 s, 8 ms") == "time: 100 sweeps, 0.002 s, 10 ms"
+    assert render.rounded("time: 93456.7 sweeps") == "time: 100,000 sweeps"
+    assert render.rounded("123 sweeps") == "123 sweeps"
+
+
+def test_a_page_has_its_cells_in_order_and_folds_those_that_say_so(tmp_path):
+    source = (
+        "# %% [markdown]\n# One\n#\n# two\n\n# %%\na = 3\nprint(a)\n\n"
+        '# %% A check tags=["hide-input"]\nprint(a + 1)\nprint("figure: f.png: F")\n'
+    )
+    outputs = render.execute(source, tmp_path / "n.py")
+    assert outputs == ["3\n", "4\nfigure: f.png: F\n"]
+    page = render.page("n", source, outputs)
+    assert "One\n\ntwo\n\n```python\na = 3\nprint(a)\n```\n\n```text\n3\n```" in page
+    assert "<details><summary>A check</summary>\n\n```python\nprint(a + 1)" in page
+    assert page.endswith("</details>\n\n```text\n4\n```\n\n![F](figures/f.png)\n\n*F*\n")
+
+
+def recording(html):
+    return json.loads(re.search(r"data-recording>(.*?)</script>", html, re.DOTALL)[1].replace("<\\/", "</"))
+
+
+def test_the_interactive_page_is_made_by_its_script():
+    """Only the recording is compared: the page carries the viewer that it was made with, and stays usable with it."""
+    html = (TUTORIAL / "interactive.html").read_text(encoding="utf-8")
+    made = loaded("interactive").interactive_page().decode()
+    assert recording(html) == recording(made)
+    assert recording(html)["draws"]["chains"] * recording(html)["draws"]["count"] == 1000
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_the_interactive_page_opens_from_a_disk():
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        page, requests = browser.new_page(), []
+        page.on("request", lambda request: requests.append(request.url))
+        page.goto((TUTORIAL / "interactive.html").as_uri())
+        page.wait_for_function("() => window.bayesmap?.snapshot().painted?.sweeps === 1000")
+        page.get_by_role("radio", name="One draw").check()
+        page.wait_for_function("() => window.bayesmap.snapshot().painted.layer === 'draw'")
+        browser.close()
+    assert [url for url in requests if not url.startswith(("file:", "blob:", "data:"))] == []
