@@ -23,13 +23,13 @@ import jax.numpy as jnp
 import jax.random as jrand
 import numpy as np
 
+# %% Functions that draw tags=["hide-input"]
+from drawing import panels, show
+
 import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.viz.palette import CHAINS
-
-# %% Functions that draw tags=["hide-input"]
-from drawing import panels, show
 
 # %% The model of the first page, and its readings tags=["hide-input"]
 P_WALL, SIGMA_M, N_BEAMS, MAX_RANGE_M = 0.5, 0.2, 100, 42.0

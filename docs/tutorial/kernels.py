@@ -22,15 +22,15 @@ import jax.numpy as jnp
 import jax.random as jrand
 import numpy as np
 
+# %% Functions that draw tags=["hide-input"]
+from drawing import panels, show
+
 import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.cells.defaults import default_sensor
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.viz.palette import CHAINS
-
-# %% Functions that draw tags=["hide-input"]
-from drawing import panels, show
 
 # %% [markdown]
 # ## The same posterior

@@ -28,12 +28,12 @@ import jax.numpy as jnp
 import jax.random as jrand
 import numpy as np
 
+# %% Functions that draw tags=["hide-input"]
+from drawing import panels, show
+
 import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.gen import ChoiceMapBuilder as C
-
-# %% Functions that draw tags=["hide-input"]
-from drawing import panels, show
 
 # %% [markdown]
 # ## The map
