@@ -1,0 +1,209 @@
+"""The shortest path whose risk stays under a bound.
+
+The risk of a path is the probability that a disc which moves along it touches something, over joint draws of the map
+(`bayesmap.posterior.passage`). It is no sum over cells, so it cannot be minimised by a search on a graph; but a search
+can propose paths. Each minimises length plus a price for every metre near what may be there; a ladder of prices gives
+paths from the shortest to the safest, the joint draws judge each, and the shortest that is safe enough is taken.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.posterior.passage import ALONG, SOLID, FreeProbability, centres_world
+from bayesmap.space.grid import Grid
+
+Floats = NDArray[np.float64]
+
+PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
+"""Metres of detour that a path takes rather than go one metre where the disc is blocked with probability 1 - 1 / e."""
+
+STEPS = {
+    (1, 0): (), (0, 1): (), (1, 1): (), (1, -1): (),
+    (2, 1): ((1, 0), (1, 1)), (1, 2): ((0, 1), (1, 1)), (2, -1): ((1, 0), (1, -1)), (1, -2): ((0, -1), (1, -1)),
+}  # fmt: skip
+"""To the cells that an edge of the graph leads to, and back, sixteen directions; and the cells that it crosses."""
+
+SURE = 1.0 - 1e-6
+"""Cells in which the disc is blocked with more than this probability are no part of the graph."""
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """A path for a disc.
+
+    Attributes:
+        path: its corners in the world frame, (P, 2), start and goal included.
+        length_m: of the path.
+        free: the probability that the disc touches nothing, over joint draws.
+        within_risk: whether that is as much as was asked for; if not, this is the safest path that was found.
+    """
+
+    path: Floats
+    length_m: float
+    free: FreeProbability
+    within_risk: bool
+
+
+def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
+    """Probability that a disc about each cell's centre touches something, (nx, ny).
+
+    Args:
+        batches: stops of all cells of the grid, some draws at a time, as `bayesmap.posterior.passage.in_the_way`.
+        grid: where they are.
+        radius_m: of the disc.
+    """
+    from scipy import ndimage
+
+    total, draws = np.zeros(grid.shape), 0
+    for batch in batches:
+        for stops in batch:
+            solid = _solid_squares(stops, grid)
+            if solid.any():
+                # From the centre of a square to its edge, half an edge less.
+                away_m = ndimage.distance_transform_edt(~solid) * grid.resolution - 0.5 * grid.resolution
+                total += away_m < radius_m
+            draws += 1
+    return total / max(draws, 1)
+
+
+def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
+    """The grid's squares in which something solid lies in one draw, (nx, ny)."""
+    if stops.ndim == 1:
+        return np.asarray(stops.reshape(grid.shape) >= SOLID)
+    out = np.zeros(grid.shape, dtype=np.bool_)
+    surface = stops[stops[:, 0] >= SOLID].astype(np.float64)
+    var_x, both, var_y = surface[:, 3] ** 2, surface[:, 3] * surface[:, 4], (surface[:, 4:] ** 2).sum(axis=1)
+    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
+    angle, long = 0.5 * np.arctan2(2 * both, var_x - var_y), np.sqrt(half + off)
+    axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * long[:, None]
+    probes = surface[:, None, 1:3] + ALONG[None, :, None] * axis[:, None]
+    cell = np.floor(probes.reshape(-1, 2) / grid.resolution).astype(int)
+    inside = ((cell >= 0) & (cell < grid.shape)).all(axis=1)
+    out[cell[inside, 0], cell[inside, 1]] = True
+    return out
+
+
+def plan_route(
+    blocked: Floats,
+    grid: Grid,
+    start: Floats,
+    goal: Floats,
+    risk: float,
+    judge: Callable[[Floats], FreeProbability],
+) -> Route:
+    """The shortest path from start to goal whose risk stays under a bound.
+
+    Args:
+        blocked: probability that the disc is blocked at each cell's centre, (nx, ny).
+        grid: of these.
+        start: in the world frame, (2,).
+        goal: likewise.
+        risk: the most that the probability of touching something may be, inside (0, 1).
+        judge: gives the probability of a path.
+
+    Raises:
+        BadInput: start or goal outside the grid, or blocked in nearly every draw; or no path at all between them.
+    """
+    if not 0 < risk < 1:
+        raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")
+    ends = [_cell_of(point, grid, blocked, name) for point, name in ((start, "start"), (goal, "goal"))]
+    danger = -np.log1p(-np.minimum(blocked, SURE))
+    routes: list[Route] = []
+    for price in PRICES:
+        cells = _cheapest(danger, price, grid.shape, ends[0], ends[1])
+        if cells is None:
+            raise BadInput(
+                "plan: no path leads from start to goal: the disc is blocked on all ways in nearly every draw; try a "
+                "smaller radius"
+            )
+        path = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
+        path = _straightened(path, danger, grid, price)
+        free = judge(path)
+        length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
+        routes.append(Route(path, length_m, free, 1.0 - free.probability <= risk))
+        if routes[-1].within_risk:
+            break
+    fit = [route for route in routes if route.within_risk]
+    if fit:
+        return min(fit, key=lambda route: route.length_m)
+    return max(routes, key=lambda route: route.free.probability)
+
+
+def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
+    cell = np.floor(grid.to_cells(point)).astype(int)
+    if not ((cell >= 0) & (cell < grid.shape)).all():
+        raise BadInput(f"plan: {name} {point.tolist()} lies outside the map")
+    if blocked[tuple(cell)] > SURE:
+        raise BadInput(
+            f"plan: at the {name} {point.tolist()} the disc touches something in every draw; move it, or take a "
+            "smaller radius"
+        )
+    return int(cell[0] * grid.shape[1] + cell[1])
+
+
+def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, goal: int) -> NDArray[np.intp] | None:
+    """Flat indices of the cells of the cheapest path; None if there is none."""
+    from scipy import sparse
+    from scipy.sparse import csgraph
+
+    nx, ny = shape
+    x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
+    flat = danger.ravel()
+    passable = flat < -math.log1p(-SURE)
+    rows, columns, costs = [], [], []
+    for (dx, dy), crossed in STEPS.items():
+        here = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
+        along = np.stack([here + i * ny + j for i, j in ((0, 0), *crossed, (dx, dy))])
+        along = along[:, passable[along].all(axis=0)]
+        rows.append(along[0])
+        columns.append(along[-1])
+        costs.append(math.hypot(dx, dy) * (1.0 + price * flat[along].mean(axis=0)))
+    graph = sparse.coo_array(
+        (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns))), shape=(nx * ny, nx * ny)
+    ).tocsr()
+    _, before = csgraph.dijkstra(graph, directed=False, indices=start, return_predecessors=True)
+    cells = [goal]
+    while cells[-1] != start:
+        if before[cells[-1]] < 0:
+            return None
+        cells.append(int(before[cells[-1]]))
+    return np.array(cells[::-1])
+
+
+def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Floats:
+    """The path without the corners that a straight line is no dearer for."""
+    kept, i = [0], 0
+    while i < len(path) - 1:
+        j = len(path) - 1
+        while (
+            j > i + 1 and _cost(path[[i, j]], danger, grid, price) > _cost(path[i : j + 1], danger, grid, price) + 1e-9
+        ):
+            j = i + (j - i + 1) // 2 if j - i > 8 else j - 1
+        kept.append(j)
+        i = j
+    return path[kept]
+
+
+def _no_dearer(path: Floats, i: int, j: int, danger: Floats, grid: Grid, price: float) -> bool:
+    """Whether the straight line between two corners costs no more than the path between them."""
+    return _cost(path[[i, j]], danger, grid, price) <= _cost(path[i : j + 1], danger, grid, price) + 1e-9
+
+
+def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
+    """Length plus price along a polyline, sampled every half cell."""
+    total = 0.0
+    for start, end in itertools.pairwise(path):
+        length = float(np.hypot(*(end - start)))
+        n = max(2, int(np.ceil(2 * length / grid.resolution)) + 1)
+        points = start + np.linspace(0, 1, n)[:, None] * (end - start)
+        cell = np.clip(np.floor(grid.to_cells(points)).astype(int), 0, np.array(grid.shape) - 1)
+        total += length * (1.0 + price * float(danger[cell[:, 0], cell[:, 1]].mean()))
+    return total
