@@ -170,7 +170,7 @@ class ScanLikelihood:
         mounts, readings = self._on_device
         inputs = [
             compiled(self.sensor, limits),
-            self._frame(),
+            grid_frame(self.grid, self.hit_depth),
             put_cells(cells, device),
             devices.to_device(poses, wp.float64, device),
             devices.to_device(scan, wp.int32, device),
@@ -202,12 +202,14 @@ class ScanLikelihood:
             mounts = np.stack([x, y, scans.beam_angles_world() - yaw], axis=-1).reshape(-1, 3)
         return devices.to_device(mounts, wp.float64, self.device), readings
 
-    def _frame(self) -> Frame:
-        frame = Frame()
-        frame.nx, frame.ny = self.grid.shape
-        frame.origin_x, frame.origin_y = self.grid.origin
-        frame.resolution, frame.depth = self.grid.resolution, self.hit_depth
-        return frame
+
+def grid_frame(grid: Grid, hit_depth: float) -> Frame:
+    """A grid as kernels take it."""
+    frame = Frame()
+    frame.nx, frame.ny = grid.shape
+    frame.origin_x, frame.origin_y = grid.origin
+    frame.resolution, frame.depth = grid.resolution, hit_depth
+    return frame
 
 
 def put_cells(cells: NDArray[np.float32], device: str) -> Cells:
