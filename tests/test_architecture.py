@@ -21,6 +21,7 @@ LEVELS = (
     {"beams", "cells"},
     {"kernels"},
     {"sim", "programs", "poses"},
+    {"model"},
     {"samplers"},
     {"run"},
     {"posterior"},

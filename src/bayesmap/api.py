@@ -286,7 +286,7 @@ def _fingerprint(
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
     # The table's likelihoods stand for the sensor, which may be of the user's own making.
     table = problem.table
-    for array in (scans.poses, scans.angles_rad, scans.ranges_m, problem.p_wall, table.loglik, table.beyond):
+    for array in (scans.poses, scans.angles_rad, scans.ranges_m, problem.p_wall, table.loglik, table.no_hit):
         digest.update(np.ascontiguousarray(array).tobytes())
     if not isinstance(start, str):
         digest.update(np.ascontiguousarray(start, dtype=np.bool_).tobytes())

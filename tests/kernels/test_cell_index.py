@@ -12,7 +12,7 @@ from bayesmap.kernels import parallel
 from bayesmap.kernels.index import index_by_cell
 from bayesmap.kernels.trace import trace
 
-FIELDS = ("offsets", "entry", "beam", "loglik", "gain_bound", "lead")
+FIELDS = ("offsets", "entry", "beam", "loglik", "gain_bound", "advantage")
 
 
 @pytest.mark.parametrize("name", SENSORS)
@@ -52,9 +52,9 @@ def test_the_lead_is_the_least_that_a_wall_can_be_worth(seed):
     """To a beam that hits it, over all maps of 3 x 3 cells; and some map has just that."""
     table = make_case(seed, shape=(3, 3), n_poses=3, sensor=bm.BeamMixture(bm.Gaussian(0.2))).problem().table
     index = index_by_cell(table)
-    for b, e, lead in zip(index.beam, index.entry, index.lead, strict=True):
-        behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.beyond[b])
-        assert lead == pytest.approx(table.loglik[e] - behind.max(), abs=1e-5)
+    for b, e, advantage in zip(index.beam, index.entry, index.advantage, strict=True):
+        behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.no_hit[b])
+        assert advantage == pytest.approx(table.loglik[e] - behind.max(), abs=1e-5)
 
 
 def test_incidences_that_could_gain_come_first():
@@ -74,7 +74,7 @@ def test_table_and_index_do_not_depend_on_the_number_of_threads(threads, monkeyp
     monkeypatch.setattr(parallel, "available_cores", lambda: threads)
     monkeypatch.setattr(indexing, "available_cores", lambda: threads)
     again = trace(scans, GRID, SENSORS["mixture"])
-    for name in ("offsets", "cells", "loglik", "beyond"):
+    for name in ("offsets", "cells", "loglik", "no_hit"):
         np.testing.assert_array_equal(getattr(again, name), getattr(table, name))
     for name in FIELDS:
         np.testing.assert_array_equal(getattr(index_by_cell(again), name), getattr(index, name))

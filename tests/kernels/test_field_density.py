@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import Worlds, centres_of, draw_worlds
+from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds
 
 import bayesmap as bm
 from bayesmap.kernels.field_score import FieldScore
-from bayesmap.kernels.rays import trace_rays
 from bayesmap.samplers.field_gibbs import build_field
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
@@ -74,7 +73,7 @@ def test_stops_far_from_the_reading_that_count_as_random_readings_hardly_matter(
     rng = np.random.default_rng(10)
     poses = np.column_stack([np.full(400, -0.05), rng.uniform(0.02, 0.18, 400), np.zeros(400)])
     scans = bm.Scans(poses, [-0.03, 0.0, 0.03], np.ones((400, 3)), max_range_m=2.6)
-    whole = trace_rays(scans, grid, margin_m=np.inf, whole=True)
+    whole = beam_rays(scans, grid, margin_m=np.inf, whole=True)
     lost, far = [], 0
     for _ in range(5):
         states = draw_states(rng, prior, centres_of(whole))
@@ -94,7 +93,7 @@ def test_the_compiled_law_of_readings_adds_up_to_one(name):
     plain = isinstance(prior, bm.Beta)
     z = np.append(np.linspace(0.1, 3.0, 8001), [np.inf, -np.inf])
     scans = bm.Scans(np.tile([-0.3, 0.33, 0.1], (len(z), 1)), [0.0], z[:, None], max_range_m=3.0, min_range_m=0.1)
-    rays = trace_rays(scans, LONE, margin_m=0.0, whole=True)
+    rays = beam_rays(scans, LONE, margin_m=0.0, whole=True)
     rays = replace(rays, near=rays.offsets[:-1])
     for seed in range(4):
         score = FieldScore(rays, SENSOR.kernel_parameters(), plain=plain)

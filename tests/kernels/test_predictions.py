@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.crossings import trace_crossings
 from bayesmap.kernels.predict import forecast, log_densities
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.sensors.model import RangeLimits
 
@@ -42,22 +42,28 @@ def world(seed, *, poses=2, rays=12, binary=False):
     return scans, (np.round(stop) if binary else stop).astype(np.float32)
 
 
-def stops(crossings, b, m):
+def batches(rays, *maps):
+    """Maps of the whole grid as predictions take them: the cells that beams touch."""
+    return [m[:, rays.touched] for m in maps]
+
+
+def stops(rays, b, m):
     """Weights of a beam's stops, nowhere last, under one draw: the formula of the module."""
-    cells = crossings.cells[crossings.offsets[b] : crossings.offsets[b + 1]]
+    cells = rays.cells[rays.offsets[b] : rays.offsets[b + 1]]
     at = m[cells].astype(float)
     free = np.concatenate([[1.0], np.cumprod(1.0 - at)])
     return np.append(free[:-1] * at, free[-1])
 
 
-def mean_over_draws(crossings, maps, of_stop):
+def mean_over_draws(rays, maps, of_stop):
     """Sum over stops of weight x of_stop(beam, distance), averaged over draws, (B,)."""
-    d = crossings.distance_m(DEPTH).astype(float)
-    out = np.zeros(crossings.n_beams)
-    for b in range(crossings.n_beams):
-        places = np.append(d[crossings.offsets[b] : crossings.offsets[b + 1]], np.inf)
+    enter, leave = rays.stretches()
+    d = enter + DEPTH * (leave - enter)
+    out = np.zeros(rays.n_beams)
+    for b in range(rays.n_beams):
+        places = np.append(d[rays.offsets[b] : rays.offsets[b + 1]], np.inf)
         worth = of_stop(b, places)
-        out[b] = np.mean([(stops(crossings, b, m) * worth).sum() for m in maps])
+        out[b] = np.mean([(stops(rays, b, m) * worth).sum() for m in maps])
     return out
 
 
@@ -67,17 +73,17 @@ def test_densities_are_the_plain_sums(name, binary):
     sensor = SENSORS[name]
     for seed in range(4):
         scans, maps = world(seed, binary=binary)
-        crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
-        found = forecast(crossings, crossings.distance_m(DEPTH), [maps[:1], maps[1:]], z, sensor, LIMITS)
+        rays, z = trace_rays(scans, GRID), scans.ranges_m.ravel()
+        found = forecast(rays, batches(rays, maps[:1], maps[1:]), sensor, DEPTH)
 
         def worth(b, d, z=z):
             return np.exp(sensor.log_likelihood(np.full(len(d), z[b]), d, LIMITS))
 
-        plain = mean_over_draws(crossings, maps, worth)
+        plain = mean_over_draws(rays, maps, worth)
         valid = ~np.isnan(z)
         np.testing.assert_allclose(found.log_density[valid], np.log(plain[valid]), atol=1e-6)
         assert np.isnan(found.log_density[~valid]).all()
-        alone = log_densities(crossings, crossings.distance_m(DEPTH), [maps], z, sensor, LIMITS)
+        alone = log_densities(rays, batches(rays, maps), sensor, DEPTH)
         np.testing.assert_allclose(alone, found.log_density, rtol=1e-12)
 
 
@@ -85,11 +91,11 @@ def test_densities_are_the_plain_sums(name, binary):
 def test_cumulatives_are_the_plain_sums(name):
     sensor = SENSORS[name]
     scans, maps = world(10)
-    crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
-    found = forecast(crossings, crossings.distance_m(DEPTH), [maps], z, sensor, LIMITS)
+    rays, z = trace_rays(scans, GRID), scans.ranges_m.ravel()
+    found = forecast(rays, batches(rays, maps), sensor, DEPTH)
 
     def below(r):
-        return mean_over_draws(crossings, maps, lambda b, d: sensor.cumulative(np.full(len(d), r[b]), d, LIMITS))
+        return mean_over_draws(rays, maps, lambda b, d: sensor.cumulative(np.full(len(d), r[b]), d, LIMITS))
 
     valid = ~np.isnan(z)
     np.testing.assert_allclose(found.pit_high[valid], below(z)[valid], atol=1e-9)
@@ -110,40 +116,22 @@ def test_the_cumulative_is_the_integral_of_the_density(name):
     r = np.linspace(LIMITS.min_m, LIMITS.max_m, 40_001)
     _, maps = world(20)
     scans = bm.Scans([0.1, 3.3, 0.3], np.zeros(len(r)), r[None], max_range_m=LIMITS.max_m, min_range_m=LIMITS.min_m)
-    crossings = trace_crossings(scans, GRID)
-    found = forecast(crossings, crossings.distance_m(DEPTH), [maps], r, sensor, LIMITS)
+    rays = trace_rays(scans, GRID)
+    found = forecast(rays, batches(rays, maps), sensor, DEPTH)
     p = np.exp(found.log_density)
     integral = found.p_too_close[0] + np.append(0.0, np.cumsum((p[1:] + p[:-1]) / 2 * np.diff(r)))
     np.testing.assert_allclose(found.pit_high, integral, atol=2e-5)
     assert found.pit_high[-1] + found.p_no_return[0] == pytest.approx(1.0, abs=1e-12)
 
 
-def test_a_spread_widens_the_noise_of_its_own_cells():
-    scans, maps = world(30)
-    crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
-    spread = np.full(len(crossings.cells), 0.4, np.float32)
-    where = crossings.distance_m(DEPTH)
-    narrow, wide = (bm.BeamMixture(bm.Gaussian(s)) for s in (0.3, 0.5))
-    spread_out = forecast(crossings, where, [maps], z, narrow, LIMITS, spread_m=spread)
-    as_wide = forecast(crossings, where, [maps], z, wide, LIMITS)
-    for a, b in zip(dataclasses.astuple(spread_out), dataclasses.astuple(as_wide), strict=True):
-        np.testing.assert_allclose(a, b, atol=1e-6)
-    q = np.array([0.2, 0.8])
-    mixed = mix_stops(crossings, where, [maps], spread_m=spread)
-    np.testing.assert_allclose(mixed.spread_m[mixed.weight > 1e-6], 0.4, rtol=1e-3)
-    plain = mix_stops(crossings, where, [maps])
-    spread_q, wide_q = range_quantiles(mixed, q, narrow, LIMITS), range_quantiles(plain, q, wide, LIMITS)
-    np.testing.assert_allclose(spread_q, wide_q, atol=1e-3)
-
-
 def test_weights_of_stops_are_their_means_over_draws():
     scans, maps = world(40)
-    crossings = trace_crossings(scans, GRID)
-    mixed = mix_stops(crossings, crossings.distance_m(DEPTH), [maps[:2], maps[2:]])
-    for b in range(crossings.n_beams):
-        expected = np.mean([stops(crossings, b, m) for m in maps], axis=0)
-        mine = slice(crossings.offsets[b], crossings.offsets[b + 1])
-        np.testing.assert_allclose(np.append(mixed.weight[mine], mixed.beyond[b]), expected, atol=1e-6)
+    rays = trace_rays(scans, GRID)
+    mixed = mix_stops(rays, batches(rays, maps[:2], maps[2:]), DEPTH)
+    for b in range(rays.n_beams):
+        expected = np.mean([stops(rays, b, m) for m in maps], axis=0)
+        mine = slice(rays.offsets[b], rays.offsets[b + 1])
+        np.testing.assert_allclose(np.append(mixed.weight[mine], mixed.no_stop[b]), expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", SENSORS)
@@ -151,14 +139,15 @@ def test_quantiles_rise_and_belong_to_the_cumulative(name):
     sensor, robust = SENSORS[name], name in ROBUST
     scans, maps = world(50)
     scans = dataclasses.replace(scans, ranges_m=np.full(scans.ranges_m.shape, 1.0))
-    crossings = trace_crossings(scans, GRID)
-    where, levels = crossings.distance_m(DEPTH), np.array([0.025, 0.1, 0.25, 0.5, 0.75, 0.9, 0.975])
-    q = range_quantiles(mix_stops(crossings, where, [maps]), levels, sensor, LIMITS)
+    rays = trace_rays(scans, GRID)
+    levels = np.array([0.025, 0.1, 0.25, 0.5, 0.75, 0.9, 0.975])
+    q = range_quantiles(mix_stops(rays, batches(rays, maps), DEPTH), levels, sensor)
     with np.errstate(invalid="ignore"):
         assert not (np.diff(q, axis=1) < 0).any()
     for i, level in enumerate(levels):
         at, before = (
-            forecast(crossings, where, [maps], q[:, i] - back, sensor, LIMITS) for back in (0.0, 0.002)
+            forecast(dataclasses.replace(rays, range_m=q[:, i] - back), batches(rays, maps), sensor, DEPTH)
+            for back in (0.0, 0.002)
         )  # at the quantile the cumulative has reached the level, just before it has not
         inner = np.isfinite(q[:, i])
         assert (at.pit_high[inner] >= level - 1e-6).all()
@@ -175,14 +164,14 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
     sensor = SENSORS[name]
     scans, maps = world(60, poses=4)
     scans = dataclasses.replace(scans, ranges_m=np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 3.0))
-    crossings, z = trace_crossings(scans, GRID), scans.ranges_m.ravel()
-    where = crossings.distance_m(DEPTH)
-    chance, stopped = first_hit_events(mix_stops(crossings, where, [maps]), z, sensor, LIMITS)
+    rays, z = trace_rays(scans, GRID), scans.ranges_m.ravel()
+    chance, stopped = first_hit_events(mix_stops(rays, batches(rays, maps), DEPTH), sensor)
+    enter, end_of = rays.stretches()[0], rays.ends_m()
     checked = 0
-    for b in range(crossings.n_beams):
-        mine = slice(crossings.offsets[b], crossings.offsets[b + 1])
+    for b in range(rays.n_beams):
+        mine = slice(rays.offsets[b], rays.offsets[b + 1])
         event = stopped[mine] >= 0
-        entry, end, p, y = (a[mine][event] for a in (crossings.entry_m, crossings.ends_m(), chance, stopped))
+        entry, end, p, y = (a[mine][event] for a in (enter, end_of, chance, stopped))
         assert (entry <= z[b]).all()
         np.testing.assert_array_equal(y, (entry <= z[b]) & (z[b] < np.minimum(end, LIMITS.max_m)))
         if not y.any():
@@ -191,7 +180,7 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
 
         def below(r, b=b):
             return mean_over_draws(
-                crossings, maps, lambda i, d: sensor.cumulative(np.full(len(d), r), d, LIMITS) * (i == b)
+                rays, maps, lambda i, d: sensor.cumulative(np.full(len(d), r), d, LIMITS) * (i == b)
             )[b]
 
         whole = (below(end[-1]) - below(entry[-1])) / (1 - below(entry[0]))
@@ -207,11 +196,10 @@ def test_what_cannot_be_predicted_is_refused():
             return None
 
     scans, maps = world(70)
-    crossings = trace_crossings(scans, GRID)
-    arguments = (crossings, crossings.distance_m(0.0))
+    rays = trace_rays(scans, GRID)
     with pytest.raises(bm.BadInput, match=r"Own has no compiled form, so only its log score can be had"):
-        forecast(*arguments, [maps], scans.ranges_m, Own(0.1), LIMITS)
+        forecast(rays, batches(rays, maps), Own(0.1), DEPTH)
     with pytest.raises(bm.BadInput, match="there is no draw to predict from"):
-        forecast(*arguments, [], scans.ranges_m, bm.Gaussian(0.1), LIMITS)
+        forecast(rays, [], bm.Gaussian(0.1), DEPTH)
     with pytest.raises(bm.BadInput, match="there is no draw to predict from"):
-        mix_stops(*arguments, [])
+        mix_stops(rays, [], DEPTH)

@@ -1,122 +1,263 @@
-"""Rays are the beam table's walks, cut after the reading and marked where it begins to matter."""
+"""Rays hold the cells that the tutorial's formula finds, in order, and where in them the beam is follows from its
+line.
+"""
+
+import dataclasses
 
 import numpy as np
 import pytest
-from oracle.field_worlds import scans_of_all_kinds
+from oracle.field_worlds import beam_rays
+from oracle.formula import beams, touches
 
 import bayesmap as bm
-from bayesmap.kernels.crossings import trace_crossings
-from bayesmap.kernels.rays import trace_rays
+from bayesmap.beams.rays import Rays, around_readings
+from bayesmap.kernels.counts import count_hits
+from bayesmap.kernels.rays import stop_distances, trace_rays
 from bayesmap.kernels.trace import trace
 
+GRID = bm.Grid((13, 9), 0.25, (3.0, -1.0))
 MARGIN_M = 0.3
+KINDS = {"anywhere": False, "on lines and corners": True}
+EVERYWHERE = pytest.mark.parametrize("kind", KINDS)
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["anywhere", "on lines"])
-def case(request):
-    grid = bm.Grid((6, 5), resolution=0.5, origin=(-1.0, 2.0))
-    return grid, scans_of_all_kinds(3, grid, lattice=request.param)
+def random_scans(seed, *, lattice=False, poses=3, rays=30, grid=GRID):
+    """Poses in and around the grid, readings of all kinds."""
+    rng = np.random.default_rng(seed)
+    size = np.array(grid.shape) * grid.resolution
+    xy = np.array(grid.origin) + rng.uniform(-0.2, 1.2, (poses, 2)) * size
+    yaw, angles = rng.uniform(-4, 4, poses), rng.uniform(0, 2 * np.pi, rays)
+    if lattice:
+        xy, yaw, angles = np.round(xy * 8) / 8, np.zeros(poses), np.arange(rays) * np.pi / 12
+    readings = rng.uniform(0.1, 4.0, (poses, rays))
+    kinds = rng.random(readings.shape)
+    readings[kinds < 0.15] = np.inf
+    readings[(kinds >= 0.15) & (kinds < 0.2)] = -np.inf
+    readings[(kinds >= 0.2) & (kinds < 0.25)] = np.nan
+    return bm.Scans(np.column_stack([xy, yaw]), angles, readings, max_range_m=4.0, min_range_m=0.1)
 
 
-def of_beam(array, offsets, b):
-    return array[offsets[b] : offsets[b + 1]]
+def near_readings(scans, margin_m):
+    reach_m, near_m = around_readings(scans, margin_m, GRID.resolution)
+    return trace_rays(scans, GRID, reach_m=reach_m, near_m=near_m)
 
 
-def test_whole_rays_cross_the_beam_table_s_cells_in_its_order(case):
-    grid, scans = case
-    rays = trace_rays(scans, grid, margin_m=0.0, whole=True)
-    table = trace(scans, grid, bm.Gaussian(0.1))
+def of_beam(array, rays, b):
+    return array[rays.offsets[b] : rays.offsets[b + 1]]
+
+
+def assert_equal(a: Rays, b: Rays):
+    for field in dataclasses.fields(Rays):
+        mine, theirs = getattr(a, field.name), getattr(b, field.name)
+        if isinstance(mine, np.ndarray):
+            np.testing.assert_array_equal(mine, theirs)
+
+
+@EVERYWHERE
+def test_whole_rays_do_not_depend_on_the_readings(kind):
+    scans = random_scans(1, lattice=KINDS[kind])
+    other = dataclasses.replace(scans, ranges_m=np.where(np.isnan(scans.ranges_m), np.nan, 0.2))
+    rays = trace_rays(scans, GRID)
+    assert_equal(dataclasses.replace(rays, range_m=other.ranges_m.ravel()), trace_rays(other, GRID))
+
+
+@EVERYWHERE
+def test_cells_and_where_they_are_entered_are_the_formula_s(kind):
+    for seed in range(2, 6):
+        scans = random_scans(seed, lattice=KINDS[kind])
+        rays = trace_rays(scans, GRID)
+        met = touches(*beams(scans.poses, scans.angles_rad, GRID), GRID.shape) * GRID.resolution
+        met[np.isnan(scans.ranges_m.ravel())] = np.inf
+        enter, _ = rays.stretches()
+        for b in range(rays.n_beams):
+            cells = of_beam(rays.cells, rays, b)
+            reached, at_most = (set(np.flatnonzero(met[b] <= scans.max_range_m + by)) for by in (-1e-8, 1e-8))
+            assert reached <= set(cells.tolist()) <= at_most
+            assert len(set(cells.tolist())) == len(cells)
+            np.testing.assert_allclose(of_beam(enter, rays, b), met[b, cells], atol=1e-9)
+
+
+@EVERYWHERE
+def test_the_middle_of_a_stretch_lies_in_its_cell_and_its_ends_on_the_border(kind):
+    scans = random_scans(4, lattice=KINDS[kind])
+    rays, edge = trace_rays(scans, GRID), GRID.resolution
+    enter, leave = rays.stretches()
+    beam, low = rays.beam_of_entry(), np.stack([rays.cells // GRID.shape[1], rays.cells % GRID.shape[1]], -1)
+    for distance, on_border in ((enter, True), ((enter + leave) / 2, False), (leave, True)):
+        at = (rays.start_m[beam] + distance[:, None] * rays.direction[beam]) / edge - low
+        assert ((at > -1e-8) & (at < 1 + 1e-8)).all()
+        if on_border:
+            assert (np.minimum(np.abs(at), np.abs(1 - at)).min(axis=1) < 1e-8).all()
+
+
+@EVERYWHERE
+def test_stretches_follow_one_another_without_gaps(kind):
+    rays = trace_rays(random_scans(4, lattice=KINDS[kind]), GRID)
+    (enter, leave), ends = rays.stretches(), rays.ends_m()
+    assert (leave >= enter).all()
+    for b in range(rays.n_beams):
+        np.testing.assert_allclose(of_beam(ends, rays, b)[:-1], of_beam(enter, rays, b)[1:], atol=1e-9)
+        assert (of_beam(ends, rays, b) >= of_beam(enter, rays, b) - 1e-9).all()
+        assert (np.diff(of_beam(enter, rays, b)) > -1e-9).all()
+
+
+@EVERYWHERE
+@pytest.mark.parametrize("depth", [0.0, 0.25, 1.0])
+def test_compiled_stops_are_the_given_part_of_the_stretch(kind, depth):
+    for seed in range(5):
+        rays = trace_rays(random_scans(seed, lattice=KINDS[kind]), GRID)
+        enter, leave = rays.stretches()
+        np.testing.assert_allclose(stop_distances(rays, depth), enter + depth * (leave - enter), rtol=1e-6, atol=1e-8)
+
+
+def test_a_start_next_to_a_grid_line_counts_as_on_it_in_the_walk_and_in_the_stretches():
+    """Within a billionth of a cell the walk takes a start for one on the line; so must what follows from the cells."""
+    for off in (-2e-9, -5e-10, 0.0, 5e-10, 2e-9):
+        for yaw in np.arange(8) * np.pi / 4 + np.array([0.0, 1e-3])[:, None].repeat(8, 1):
+            for angle in np.ravel(yaw):
+                scans = bm.Scans([4.0 + off * 0.25, -0.5 + off * 0.25, angle], [0.0], [[np.inf]], max_range_m=4.0)
+                rays = trace_rays(scans, GRID)
+                enter, leave = rays.stretches()
+                assert (np.diff(enter) > -1e-8).all()
+                assert (leave - enter <= np.sqrt(2) * 0.25 + 1e-9).all()
+                np.testing.assert_allclose(stop_distances(rays, 0.5), (enter + leave) / 2, rtol=1e-6, atol=1e-9)
+
+
+def test_a_table_s_cells_are_its_rays():
+    scans = random_scans(3)
+    rays, table = trace_rays(scans, GRID), trace(scans, GRID, bm.Gaussian(0.1))
     np.testing.assert_array_equal(rays.offsets, table.offsets)
-    np.testing.assert_array_equal(rays.touched[rays.cells], table.cells)
-    np.testing.assert_array_equal(rays.touched, np.unique(table.cells))
+    np.testing.assert_array_equal(rays.cells, table.cells)
+    np.testing.assert_array_equal(rays.touched, np.unique(rays.cells))
+    np.testing.assert_array_equal(rays.touched[rays.columns], rays.cells)
 
 
-def test_beams_are_traced_some_at_a_time_to_the_same_rays(case, monkeypatch):
-    grid, scans = case
-    whole, told = trace_rays(scans, grid, margin_m=MARGIN_M), []
+def test_scans_may_be_traced_alone_and_from_other_poses():
+    scans, there = random_scans(6), random_scans(7)
+    whole = trace_rays(scans, GRID, poses_world=there.poses)
+    assert_equal(whole, trace_rays(dataclasses.replace(scans, poses=there.poses), GRID))
+    for scan in range(len(scans)):
+        alone = trace_rays(scans.select(slice(scan, scan + 1)), GRID, poses_world=there.poses[scan])
+        first = scan * len(scans.angles_rad)
+        for b in range(alone.n_beams):
+            np.testing.assert_array_equal(of_beam(alone.cells, alone, b), of_beam(whole.cells, whole, first + b))
+
+
+def test_beams_that_left_from_poses_of_their_own_are_traced_from_there():
+    scans = random_scans(6, poses=1)
+    moving = np.repeat(scans.poses[:, None], scans.n_beams, axis=1)
+    moving[0, 1::2] += [0.4, -0.2, 0.3]
+    other = dataclasses.replace(scans, poses=moving[0, 1], beam_poses=None)
+    found = trace_rays(dataclasses.replace(scans, beam_poses=moving), GRID)
+    both = [trace_rays(s, GRID) for s in (scans, other)]
+    for b in range(scans.n_beams):
+        np.testing.assert_array_equal(of_beam(found.cells, found, b), of_beam(both[b % 2].cells, both[b % 2], b))
+        np.testing.assert_array_equal(found.start_m[b], both[b % 2].start_m[b])
+
+
+def test_beams_are_traced_some_at_a_time_to_the_same_rays(monkeypatch):
+    scans, told = random_scans(3), []
+    whole = near_readings(scans, MARGIN_M)
     monkeypatch.setattr("bayesmap.kernels.rays.BEAMS_AT_ONCE", 7)
-    pieces = trace_rays(scans, grid, margin_m=MARGIN_M, on_progress=lambda *now: told.append(now))
-    for name in ("touched", "offsets", "cells", "distance_m", "near"):
-        np.testing.assert_array_equal(getattr(pieces, name), getattr(whole, name))
+    reach_m, near_m = around_readings(scans, MARGIN_M, GRID.resolution)
+    pieces = trace_rays(scans, GRID, reach_m=reach_m, near_m=near_m, on_progress=lambda *now: told.append(now))
+    assert_equal(pieces, whole)
     done = [done for done, _ in told]
     assert done == sorted(done)
     assert told[-1] == (whole.n_beams, whole.n_beams)
 
 
-@pytest.mark.parametrize("depth", [0.0, 0.5, 1.0])
-def test_a_plain_stop_is_at_the_given_part_of_the_chord(case, depth):
-    grid, scans = case
-    rays = trace_rays(scans, grid, margin_m=0.0, hit_depth=depth, whole=True)
-    crossings = trace_crossings(scans, grid)
-    np.testing.assert_allclose(rays.distance_m, crossings.entry_m + depth * crossings.chord_m, atol=1e-5)
-
-
-def test_a_ray_ends_where_no_stop_can_explain_its_reading(case):
-    grid, scans = case
-    rays, whole = trace_rays(scans, grid, margin_m=MARGIN_M), trace_crossings(scans, grid)
+@EVERYWHERE
+def test_a_ray_ends_where_no_stop_can_explain_its_reading(kind):
+    scans = random_scans(3, lattice=KINDS[kind])
+    rays, whole = near_readings(scans, MARGIN_M), trace_rays(scans, GRID)
+    enter, _ = whole.stretches()
     for b, reading in enumerate(scans.ranges_m.ravel()):
-        entry = of_beam(whole.entry_m, whole.offsets, b)
-        wanted = entry <= (reading + MARGIN_M if np.isfinite(reading) else np.inf) + 1e-6
-        cells = of_beam(rays.cells, rays.offsets, b)
-        np.testing.assert_array_equal(rays.touched[cells], of_beam(whole.cells, whole.offsets, b)[wanted])
-    assert (np.diff(rays.offsets)[np.isnan(scans.ranges_m.ravel())] == 0).all()
+        wanted = of_beam(enter, whole, b) <= (reading + MARGIN_M if np.isfinite(reading) else np.inf) + 1e-6
+        np.testing.assert_array_equal(of_beam(rays.cells, rays, b), of_beam(whole.cells, whole, b)[wanted])
+    assert (rays.lengths[np.isnan(scans.ranges_m.ravel())] == 0).all()
 
 
-def test_near_begins_at_the_first_entry_not_far_before_the_reading(case):
-    grid, scans = case
-    rays = trace_rays(scans, grid, margin_m=MARGIN_M)
+@EVERYWHERE
+def test_near_begins_at_the_first_entry_not_far_before_the_reading(kind):
+    scans = random_scans(3, lattice=KINDS[kind])
+    rays = near_readings(scans, MARGIN_M)
+    entered, _ = rays.stretches()
     for b, reading in enumerate(scans.ranges_m.ravel()):
-        distance = of_beam(rays.distance_m, rays.offsets, b)
-        far = int(rays.near[b] - rays.offsets[b])
+        enter, far = of_beam(entered, rays, b), int(rays.near[b] - rays.offsets[b])
         if not np.isfinite(reading):
             assert far == 0
             continue
-        nearest = reading - MARGIN_M - grid.resolution
-        assert (distance[:far] < nearest).all()
-        assert far == len(distance) or distance[far] >= nearest - 1e-6
+        nearest = reading - MARGIN_M - GRID.resolution
+        assert (enter[:far] < nearest).all()
+        assert far == len(enter) or enter[far] >= nearest - 1e-6
 
 
-def test_margins_may_differ_from_beam_to_beam(case):
-    grid, scans = case
+def test_margins_may_differ_from_beam_to_beam():
+    scans = random_scans(8)
     margins = np.linspace(0.0, 2.0, scans.n_beams)
-    rays = trace_rays(scans, grid, margin_m=margins)
+    rays = near_readings(scans, margins)
     for b in (1, scans.n_beams // 2, scans.n_beams - 1):
-        alone = trace_rays(scans, grid, margin_m=float(margins[b]))
-        assert np.diff(rays.offsets)[b] == np.diff(alone.offsets)[b]
+        alone = near_readings(scans, float(margins[b]))
+        assert rays.lengths[b] == alone.lengths[b]
         assert rays.near[b] - rays.offsets[b] == alone.near[b] - alone.offsets[b]
 
 
-def test_end_points_and_centres_are_in_metres_from_the_corner(case):
-    grid, scans = case
-    rays = trace_rays(scans, grid, margin_m=MARGIN_M)
-    ends = rays.end_points_m()
+def test_end_points_are_in_metres_from_the_corner():
+    scans = random_scans(3)
+    ends = near_readings(scans, MARGIN_M).end_points_m()
     hit = np.isfinite(scans.ranges_m.ravel())
-    np.testing.assert_allclose(ends[hit], scans.hit_points_world() - np.array(grid.origin), atol=1e-5)
+    np.testing.assert_allclose(ends[hit], scans.hit_points_world() - np.array(GRID.origin), atol=1e-12)
     assert not np.isfinite(ends[~hit]).all(axis=1).any()
-    x, y = grid.centers_m()
-    flat = rays.touched
-    expected = np.stack([x[flat // grid.shape[1]], y[flat % grid.shape[1]]], axis=-1) - np.array(grid.origin)
-    np.testing.assert_allclose(rays.centres_m(), expected, atol=1e-9)
 
 
-def test_values_go_back_to_the_grid():
+@pytest.mark.parametrize("readings", [[np.nan, np.nan], [1.0, np.inf]])
+def test_no_valid_beam_or_none_through_the_grid_is_no_entry(readings):
+    away = bm.Scans([-0.5, 1.5, np.pi], [0.0, 0.1], [readings], max_range_m=9.0)
+    rays = trace_rays(away, bm.Grid((4, 3)))
+    assert rays.n_incidences == len(rays.touched) == 0
+    assert rays.n_beams == 2
+    assert rays.ends_m().shape == rays.distance_m(0.5).shape == (0,)
+
+
+def test_all_margins_at_once_make_no_warning_of_readings_that_are_too_close():
+    rays = near_readings(random_scans(3), np.inf)
+    assert (rays.near == rays.offsets[:-1]).all()
+
+
+def test_too_many_incidences_are_refused(monkeypatch):
+    monkeypatch.setattr("bayesmap.kernels.rays.MAX_INCIDENCES", 10)
+    with pytest.raises(bm.BadInput, match=r"90 beams cross .* cells, over the limit of 10; use a coarser resolution"):
+        trace_rays(random_scans(3), GRID)
+
+
+@EVERYWHERE
+def test_hits_and_passes_are_those_of_a_slow_count(kind):
+    for seed in range(8):
+        scans = random_scans(seed, lattice=KINDS[kind])
+        met = touches(*beams(scans.poses, scans.angles_rad, GRID), GRID.shape) * GRID.resolution
+        rays = trace_rays(scans, GRID)
+        ends = rays.ends_m()
+        hits, passes = np.zeros((2, GRID.n_cells), int)
+        for b, z in enumerate(scans.ranges_m.ravel()):
+            reach = min(z, scans.max_range_m)
+            cells = [c for c in of_beam(rays.cells, rays, b).tolist() if met[b, c] <= reach + 1e-9]
+            inside = len(cells) and z <= of_beam(ends, rays, b).max() + 1e-6
+            stopped = np.isfinite(z) and inside
+            if stopped:
+                hits[cells[-1]] += 1
+            if not np.isneginf(z) and not np.isnan(z):
+                np.add.at(passes, cells[: -1 if stopped else None], 1)
+        found = count_hits(scans, GRID)
+        np.testing.assert_array_equal(found[0], hits)
+        np.testing.assert_array_equal(found[1], passes)
+
+
+def test_chains_have_the_same_rays_with_their_cells_numbered():
     scans = bm.Scans([-0.5, 1.5, 0.0], [0.0], [[1.2]], max_range_m=9.0)
-    rays = trace_rays(scans, bm.Grid((4, 3)), margin_m=0.5)
+    rays = beam_rays(scans, bm.Grid((4, 3)), margin_m=0.5)
     assert rays.n_cells == rays.n_incidences == 2
     np.testing.assert_array_equal(
         rays.to_grid(np.array([[5.0, 6.0]]), -1.0)[0], [[-1, 5, -1], [-1, 6, -1], [-1, -1, -1], [-1, -1, -1]]
     )
-
-
-@pytest.mark.parametrize("readings", [[np.nan, np.nan], [1.0, np.inf]])
-def test_no_valid_beam_or_none_through_the_grid_is_no_cell(readings):
-    away = bm.Scans([-0.5, 1.5, np.pi], [0.0, 0.1], [readings], max_range_m=9.0)
-    rays = trace_rays(away, bm.Grid((4, 3)), margin_m=0.5)
-    assert rays.n_cells == rays.n_incidences == 0
-    assert rays.n_beams == 2
-
-
-def test_all_margins_at_once_make_no_warning_of_readings_that_are_too_close(case):
-    grid, scans = case
-    rays = trace_rays(scans, grid, margin_m=np.inf, whole=True)
-    assert (rays.near == rays.offsets[:-1]).all()
+    np.testing.assert_allclose(rays.centres_m(), [[0.5, 1.5], [1.5, 1.5]])

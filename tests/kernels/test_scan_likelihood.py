@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_predictions import DEPTH, GRID, LIMITS, SENSORS, world
+from test_predictions import DEPTH, GRID, SENSORS, world
 
 import bayesmap as bm
-from bayesmap.kernels.crossings import trace_crossings
 from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.scan_likelihood import ScanLikelihood
 
 EDGE = GRID.resolution
@@ -16,10 +16,8 @@ EDGE = GRID.resolution
 
 def predicted(scans, maps, sensor):
     """The same by tracing, one map after the other, (maps, S, A), invalid readings 0."""
-    crossings = trace_crossings(scans, GRID)
-    found = [
-        log_densities(crossings, crossings.distance_m(DEPTH), [m[None]], scans.ranges_m, sensor, LIMITS) for m in maps
-    ]
+    rays = trace_rays(scans, GRID)
+    found = [log_densities(rays, [m[None, rays.touched]], sensor, DEPTH) for m in maps]
     return np.nan_to_num(np.array(found)).reshape(len(maps), *scans.ranges_m.shape)
 
 
@@ -59,11 +57,10 @@ def test_surfaces():
     for seed in range(4):
         scans, _ = world(seed)
         there, maps = moved(scans, seed), surfaces(seed, 2)
-        crossings = trace_crossings(there, GRID)
+        rays = trace_rays(there, GRID)
         likelihood = ScanLikelihood(scans, GRID, sensor, DEPTH)
         for c, one in enumerate(maps):
-            columns = one[None]
-            expected = log_densities(crossings, crossings.distance_m(DEPTH), [columns], there.ranges_m, sensor, LIMITS)
+            expected = log_densities(rays, [one[None, rays.touched]], sensor, DEPTH)
             scan = np.arange(len(scans))
             found = likelihood.beams(maps, there.poses, scan, np.full(len(scans), c))
             np.testing.assert_allclose(found.ravel(), np.nan_to_num(expected), atol=1e-5)

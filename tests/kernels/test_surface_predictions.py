@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.crossings import trace_crossings
 from bayesmap.kernels.predict import forecast
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.stop_mixture import mix_stops
 from bayesmap.sensors.model import RangeLimits
 
@@ -21,7 +21,8 @@ def world(seed):
     readings = rng.uniform(0.2, 4.9, (2, 14))
     readings[rng.random(readings.shape) < 0.2] = np.inf
     scans = bm.Scans(poses, rng.uniform(0, 7, 14), readings, max_range_m=LIMITS.max_m)
-    crossings, touched = trace_crossings(scans, GRID).numbered()
+    rays = trace_rays(scans, GRID)
+    touched = rays.touched
     cells = len(touched)
     centre = np.stack([touched // 6 + 0.5, touched % 6 + 0.5], axis=-1) * GRID.resolution
     states = np.zeros((3, cells, 6), np.float32)
@@ -29,7 +30,7 @@ def world(seed):
     states[..., 1:3] = centre + rng.normal(0, 0.1, (3, cells, 2))
     states[..., 3], states[..., 5] = rng.uniform(0.02, 0.2, (2, 3, cells))
     states[..., 4] = rng.normal(0, 0.05, (3, cells))
-    return scans, crossings, states
+    return scans, rays, states
 
 
 def meeting(state, start, u):
@@ -46,13 +47,13 @@ def meeting(state, start, u):
     return m * gate, max(distance, 0.0), np.sqrt(np.linalg.det(wide) / w2)
 
 
-def stops(crossings, states, b):
+def stops(rays, states, b):
     """Weight, distance and spread of every stop of a beam under one draw, nowhere last."""
-    start = crossings.start_m[b].astype(float)
+    start = rays.start_m[b].astype(float)
     found = []
     free = 1.0
-    for c in crossings.cells[crossings.offsets[b] : crossings.offsets[b + 1]]:
-        chance, d, s = meeting(states[c], start, crossings.direction[b].astype(float))
+    for c in rays.columns[rays.offsets[b] : rays.offsets[b + 1]]:
+        chance, d, s = meeting(states[c], start, rays.direction[b].astype(float))
         found.append((free * chance, d, s))
         free *= 1 - chance
     return [*found, (free, np.inf, 0.0)]
@@ -61,13 +62,13 @@ def stops(crossings, states, b):
 def test_densities_and_cumulatives_are_the_plain_sums():
     sensor = bm.BeamMixture(bm.Gaussian(SIGMA), *MIXTURE)
     for seed in range(3):
-        scans, crossings, states = world(seed)
+        scans, rays, states = world(seed)
         z = scans.ranges_m.ravel()
-        found = forecast(crossings, crossings.distance_m(0.5), [states[:2], states[2:]], z, sensor, LIMITS)
-        for b in range(crossings.n_beams):
+        found = forecast(rays, [states[:2], states[2:]], sensor, 0.5)
+        for b in range(rays.n_beams):
             density, below = [], []
             for draw in states:
-                terms = stops(crossings, draw, b)
+                terms = stops(rays, draw, b)
                 laws = [bm.BeamMixture(bm.Gaussian(np.hypot(SIGMA, s)), *MIXTURE) for *_, s in terms]
                 pairs = list(zip(terms, laws, strict=True))
                 one = [w * np.exp(law.log_likelihood(z[b], np.float64(d), LIMITS)) for (w, d, _), law in pairs]
@@ -77,15 +78,15 @@ def test_densities_and_cumulatives_are_the_plain_sums():
             assert found.pit_high[b] == pytest.approx(np.mean(below), abs=2e-5)
 
 
-def test_places_of_a_cell_are_merged_with_their_moments():
-    _, crossings, states = world(5)
-    mixed = mix_stops(crossings, crossings.distance_m(0.5), [states])
-    for b in range(crossings.n_beams):
-        draws = np.array([stops(crossings, draw, b) for draw in states])  # (draws, stops, 3)
+def test_stops_in_a_cell_are_merged_with_their_moments():
+    _, rays, states = world(5)
+    mixed = mix_stops(rays, [states], 0.5)
+    for b in range(rays.n_beams):
+        draws = np.array([stops(rays, draw, b) for draw in states])  # (draws, stops, 3)
         w, d, s = np.moveaxis(draws[:, :-1], -1, 0)
-        mine = slice(crossings.offsets[b], crossings.offsets[b + 1])
+        mine = slice(rays.offsets[b], rays.offsets[b + 1])
         np.testing.assert_allclose(mixed.weight[mine], w.mean(axis=0), atol=1e-6)
-        assert mixed.beyond[b] == pytest.approx(draws[:, -1, 0].mean(), abs=1e-5)
+        assert mixed.no_stop[b] == pytest.approx(draws[:, -1, 0].mean(), abs=1e-5)
         some = w.mean(axis=0) > 1e-3
         mean = (w * d).sum(axis=0)[some] / w.sum(axis=0)[some]
         square = (w * (d**2 + s**2)).sum(axis=0)[some] / w.sum(axis=0)[some]

@@ -10,7 +10,17 @@ import numpy as np
 from oracle.field_law import draw_readings, draw_states, paths_of
 
 import bayesmap as bm
+from bayesmap.beams.beam_rays import BeamRays
+from bayesmap.beams.rays import around_readings
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.samplers.field_gibbs import FieldGibbs, FieldProblem, build_field
+
+
+def beam_rays(scans, grid, *, margin_m=np.inf, hit_depth=0.5, whole=False):
+    """Rays as chains keep them, cut and marked about the readings, or whole."""
+    reach_m, near_m = around_readings(scans, margin_m, grid.resolution)
+    rays = trace_rays(scans, grid, reach_m=None if whole else reach_m, near_m=near_m)
+    return BeamRays.of(rays, rays.distance_m(hit_depth))
 
 
 def corners(shape, worlds, gap):

@@ -7,12 +7,11 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
-from bayesmap.kernels.crossings import trace_crossings
 from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, FOLDS, fit_baseline, hit_ratio, inner_score, log_odds, make_folds
 from bayesmap.posterior.scoring import score_prediction
 from bayesmap.posterior.tuning import SENSOR, Parameter, maximise, sensor_of
-from bayesmap.sensors.model import RangeLimits
 
 BY_NAME = {b.name: b for b in BASELINES}
 HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])
@@ -95,9 +94,9 @@ def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
     logs = []
     for fold in folds:
         stop = baseline.stop(fold.hits, fold.passes, fitted.values)[None].astype(np.float32)
-        crossings = trace_crossings(fold.scans, grid)
-        where, limits = crossings.distance_m(fitted.values["hit_depth"]), RangeLimits(0.0, 6.0)
-        logs.append(log_densities(crossings, where, [stop], fold.scans.ranges_m, fitted.predictor.sensor, limits))
+        rays = trace_rays(fold.scans, grid)
+        sensor, depth = fitted.predictor.sensor, fitted.values["hit_depth"]
+        logs.append(log_densities(rays, [stop[:, rays.touched]], sensor, depth))
     dof = getattr(fitted.predictor.sensor.noise, "dof", None)
     found = inner_score(folds, baseline, dof, fitted.values)
     assert found == pytest.approx(np.concatenate(logs).mean(), abs=1e-4)

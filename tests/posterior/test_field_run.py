@@ -6,10 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 from oracle.field_law import log_likelihoods, paths_of
-from oracle.field_worlds import scans_of_all_kinds
+from oracle.field_worlds import beam_rays, scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.field import field_beam_log_scores, quantiles_of_halves
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
@@ -100,7 +99,7 @@ def test_the_log_score_is_the_log_mean_density_of_the_reference(kind):
     if kind == "surfaces":
         assert len(posterior.busy) == len(posterior.touched) == 12
     held = scans_of_all_kinds(6, GRID, poses=7)
-    rays = trace_rays(held, GRID, margin_m=0.0, hit_depth=0.5, whole=True)
+    rays = beam_rays(held, GRID, margin_m=0.0, hit_depth=0.5, whole=True)
     paths, density = paths_of(rays, far=False), 0.0
     for chain in range(2):
         for draw in range(8):
@@ -135,7 +134,7 @@ def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
     # Plain cells in the way: three, each passed with the chance 1 - a / (a + b) = 2/3.
     score = run.log_score(held)
     if kind == "reflectivities":
-        rays = trace_rays(held, GRID, margin_m=0.0, whole=True)
+        rays = beam_rays(held, GRID, margin_m=0.0, whole=True)
         state = np.zeros((3, 6))
         state[:, 0] = 1 / 3
         expected = log_likelihoods(paths_of(rays), state, SENSOR, True)[0]  # linear in every m

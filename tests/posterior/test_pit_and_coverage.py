@@ -11,7 +11,7 @@ from oracle.verdict import ALPHA
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.kernels.crossings import trace_crossings
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.calibration import (
     Blocks,
     binary_scores,
@@ -41,12 +41,12 @@ def drawn_from_the_model(sensor, seed, scans=150, rays=24):
     stop = np.clip(solid * rng.uniform(0.5, 1.2, (3, GRID.n_cells)), 0, 1).astype(np.float32)
     poses = np.column_stack([rng.uniform(0.5, 3.5, (scans, 2)), rng.uniform(-4, 4, scans)])
     blank = bm.Scans(poses, np.linspace(0, 6, rays), np.ones((scans, rays)), max_range_m=4.0, min_range_m=0.2)
-    crossings = trace_crossings(blank, GRID)
-    where = crossings.distance_m(DEPTH)
+    traced = trace_rays(blank, GRID)
+    where = traced.distance_m(DEPTH)
     d = np.full(blank.n_beams, np.inf)
     for b in range(blank.n_beams):
-        mine = slice(crossings.offsets[b], crossings.offsets[b + 1])
-        halts = rng.random(mine.stop - mine.start) < stop[rng.integers(3), crossings.cells[mine]]
+        mine = slice(traced.offsets[b], traced.offsets[b + 1])
+        halts = rng.random(mine.stop - mine.start) < stop[rng.integers(3), traced.cells[mine]]
         if halts.any():
             d[b] = where[mine][halts.argmax()]
     z = sensor.sample(rng, d, LIMITS).reshape(scans, rays)

@@ -22,7 +22,7 @@ def plain_rounds(table, p_wall, rounds, damping):
             n = len(cells)
             if n == 0:
                 continue
-            worth = np.append(table.loglik[entries], table.beyond[b]).astype(np.float64)
+            worth = np.append(table.loglik[entries], table.no_hit[b]).astype(np.float64)
             like = np.exp(worth - worth.max())
             maps = all_maps(n)
             first = np.where(maps.any(axis=1), maps.argmax(axis=1), n)

@@ -13,12 +13,11 @@ import pytest
 from field_rooms import PRIORS, infer, scans
 from oracle.field_exact import exact_reflectivities
 from oracle.field_law import draw_states, log_likelihoods, paths_of
-from oracle.field_worlds import build_worlds, copies
+from oracle.field_worlds import beam_rays, build_worlds, copies
 from oracle.verdict import ALPHA
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.kernels.rays import trace_rays
 from bayesmap.run import field_chain
 from bayesmap.run.chain import Schedule
 
@@ -52,7 +51,7 @@ def world_of(case):
     grid = bm.Grid(shape, EDGE)
     cell = np.arange(grid.n_cells)
     centres = np.stack([cell // shape[1] + 0.5, cell % shape[1] + 0.5], axis=-1) * EDGE
-    rays = trace_rays(HELD_OUT, grid, margin_m=0.0, hit_depth=0.5, whole=True)
+    rays = beam_rays(HELD_OUT, grid, margin_m=0.0, hit_depth=0.5, whole=True)
     # by the grid's numbers of cells, not by those of what these beams touch
     held_out = paths_of(replace(rays, cells=rays.touched[rays.cells]), far=False)
     return prior, isinstance(prior, bm.Beta), centres, held_out, build_worlds(SCANS, grid, prior, LAW, 1).problem.rays

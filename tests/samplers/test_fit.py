@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 from field_rooms import GRID, TRUTH, assert_same, infer, scans
 from oracle.field_law import draw_readings, draw_states, paths_of
-from oracle.field_worlds import centres_of
+from oracle.field_worlds import beam_rays, centres_of
 from oracle.worlds import bm_limits
 
 import bayesmap as bm
 from bayesmap.field_inference import first_sensor, fit_sensor
-from bayesmap.kernels.rays import trace_rays
 from bayesmap.run.chain import Schedule
 from bayesmap.run.field_chain import run_field
 from bayesmap.samplers.field_gibbs import build_field
@@ -56,7 +55,7 @@ def drawn_map(prior, seed, poses=250, beams=30):
     grid, rng = bm.Grid((16, 16), 0.25), np.random.default_rng(seed)
     where = np.column_stack([rng.uniform(0, 4, (poses, 2)), rng.uniform(-3, 3, poses)])
     nothing = bm.Scans(where, np.linspace(-2, 2, beams), np.full((poses, beams), np.inf), max_range_m=6.0)
-    rays = trace_rays(nothing, grid, margin_m=np.inf, whole=True)
+    rays = beam_rays(nothing, grid, margin_m=np.inf, whole=True)
     cells = draw_states(rng, prior, centres_of(rays))
     readings = draw_readings(rng, paths_of(rays, far=False), cells, TRUTH, isinstance(prior, bm.Beta))
     return replace(nothing, ranges_m=readings.reshape(poses, beams)), grid

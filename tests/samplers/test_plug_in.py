@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from oracle.field_worlds import scans_of_all_kinds
+from oracle.field_worlds import beam_rays, scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.kernels.rays import trace_rays
 from bayesmap.samplers.field_gibbs import build_field
 from bayesmap.samplers.plug_in import end_cells, pace, plug_in, steps
 
@@ -90,7 +89,7 @@ def test_cells_rest_the_longer_the_further_readings_are(problem):
 
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():
     scans = bm.Scans([-0.5, 0.5, 0.0], [0.0, 0.4], [[7.0, 1.0]], max_range_m=9.0)
-    rays = trace_rays(scans, bm.Grid((3, 1)), margin_m=0.1)
+    rays = beam_rays(scans, bm.Grid((3, 1)), margin_m=0.1)
     assert end_cells(rays)[0] == -1
     assert plug_in(rays, bm.Beta()).hits.sum() <= 1
 
@@ -98,5 +97,5 @@ def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell(
 def test_readings_along_the_axes_that_did_not_return_end_nowhere():
     """Infinity times a direction of zero is not a number."""
     scans = bm.Scans([0.5, 0.5, 0.0], np.arange(4) * np.pi / 2, [[np.inf, -np.inf, np.nan, 0.3]], max_range_m=2.0)
-    rays = trace_rays(scans, bm.Grid((1, 1)), margin_m=0.1)
+    rays = beam_rays(scans, bm.Grid((1, 1)), margin_m=0.1)
     np.testing.assert_array_equal(end_cells(rays), [-1, -1, -1, 0])

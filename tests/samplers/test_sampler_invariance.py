@@ -44,15 +44,15 @@ def test_a_prior_that_is_a_little_wrong_is_rejected(method):
 
 @pytest.mark.parametrize("method", ["gibbs", "block"])
 def test_one_incidence_whose_gain_has_the_wrong_sign_is_rejected(method):
-    """One entry of the table, one that is often a first hit: its likelihood mirrored about that of "beyond"."""
+    """One entry of the table, one that is often a first hit: its likelihood mirrored about that of no hit."""
     case = world(POWER)
     table = case.problem().table
     maps = draw_maps(np.random.default_rng(3), case.exact.p, case.n, 500).reshape(-1, *case.grid.shape)
     hits = np.stack([table.offsets[:-1] + table.first_hits(walls) for walls in maps]).ravel()
     share = np.bincount(hits, minlength=table.n_incidences + 1)[: table.n_incidences] / len(maps)
-    gain = table.loglik - np.repeat(table.beyond, np.diff(table.offsets))
+    gain = table.loglik - np.repeat(table.no_hit, np.diff(table.offsets))
     entry = np.argmax(share * (1 - share) * np.minimum(abs(gain), 1.0))
     loglik = table.loglik.copy()
     loglik[entry] -= 2 * gain[entry]
-    wrong = BeamTable(case.grid, table.offsets, table.cells, loglik, table.beyond)
+    wrong = BeamTable(case.grid, table.offsets, table.cells, loglik, table.no_hit)
     assert p_value_after(case, problem_of(case, table=wrong), method, "radial", LONG, 2) < ALPHA / TESTS

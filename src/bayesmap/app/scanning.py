@@ -119,7 +119,7 @@ def touched(table: BeamTable) -> Touched:
     place = np.zeros(table.grid.n_cells, dtype=np.int32)
     place[cells] = np.arange(len(cells), dtype=np.int32)
     small = Grid((max(1, len(cells)), 1))
-    return Touched(cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.beyond))
+    return Touched(cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.no_hit))
 
 
 def rays(scene: Scene, scan: int | None) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:

@@ -1,51 +1,68 @@
-"""Beams as rays through cells that may stop them: what inference on reflectivities and surfaces needs.
+"""Rays: which cells of a grid each beam crosses, as a function of the poses, and where in them.
 
-Where walls are binary a beam's table of likelihoods says all (`bayesmap.beams.table`). A cell that stops only some
-beams, at a place of its own, gives each beam another likelihood in every draw; so here the geometry is kept, and the
-likelihood is worked out on the way.
+This is the one structure for what beams cross. It is traced by `bayesmap.kernels.rays.trace_rays`, for any scans from
+any poses. The beam table of binary walls, the stops of surfaces, predictions and the JAX model all start from it.
+
+Only the cells are kept, 4 bytes for each. Where a beam enters and leaves a cell follows from its line and the cell's
+square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
+
+    t_in  = max over axes of (side that the beam enters by - start) / direction
+    t_out = min over axes of (side that it leaves by - start) / direction
+
+(the slab method: Kay and Kajiya, *Ray tracing complex scenes*, 1986), with three rules for what a touch means:
+
+- the cell in which a beam starts is met where the beam leaves it, as in the tutorial: t_in = t_out;
+- a cell that is touched in a corner only has a stretch of no length;
+- an axis along which the beam does not move (a direction cosine below `PARALLEL`) limits nothing.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import Floats, RangeLimits
 from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+MAX_INCIDENCES = 2**31 - 1
+"""Indices of entries have 32 bits."""
+
+TIE = 1.0e-9
+"""Cells: a start closer than this to a grid line lies on it."""
+
+PARALLEL = 1.0e-10
+"""Direction cosines below this count as zero, as in the tutorial."""
 
 
 @dataclass(frozen=True, eq=False)
-class BeamRays:
-    """Rays, and the cells that they cross, in order.
+class Rays:
+    """B beams and the K cells that they touch, beam after beam, in the order in which they are touched.
 
-    Cells are numbered by their place among those that any beam touches: ``touched[i]`` is the flat index
-    ``x * ny + y`` of cell i. Coordinates are metres from the grid's lower left corner.
+    Coordinates are metres from the grid's lower left corner.
 
     Attributes:
         grid: the grid whose cells are meant.
-        touched: flat indices of the T cells that beams touch, ascending, int32.
         offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
-        cells: number of the touched cell, shape (K,), int32.
-        distance_m: where the beam would stop in that cell, were it plain, shape (K,), float32.
-        near: entry from which the reading's likelihood must be looked at: before it a stop means that the reading is
-            random, shape (B,), int32.
-        start_m: where each beam starts, shape (B, 2), float32.
-        direction: unit vectors, shape (B, 2), float32.
-        range_m: readings, coded as in `bayesmap.space.scans.Scans`, shape (B,).
+        cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
+        near: the first entry at which a stop could explain the reading, of each beam, shape (B,), int32; its first
+            entry where nothing is known of that.
+        start_m: where each beam starts, shape (B, 2).
+        direction: its unit vector, shape (B, 2).
+        range_m: its reading, coded as in `bayesmap.space.scans.Scans`, shape (B,).
         limits: the sensor's span.
     """
 
     grid: Grid
-    touched: NDArray[np.int32]
     offsets: NDArray[np.int32]
     cells: NDArray[np.int32]
-    distance_m: NDArray[np.float32]
     near: NDArray[np.int32]
-    start_m: NDArray[np.float32]
-    direction: NDArray[np.float32]
-    range_m: NDArray[np.float64]
+    start_m: Floats
+    direction: Floats
+    range_m: Floats
     limits: RangeLimits
 
     @property
@@ -59,22 +76,88 @@ class BeamRays:
         return len(self.cells)
 
     @property
-    def n_cells(self) -> int:
-        """Number of touched cells."""
-        return len(self.touched)
+    def lengths(self) -> NDArray[np.int32]:
+        """How many cells each beam touches, shape (B,)."""
+        return np.diff(self.offsets)
 
-    def centres_m(self) -> NDArray[np.float64]:
-        """Centres of the touched cells, metres from the grid's lower left corner, shape (T, 2)."""
-        ny = self.grid.shape[1]
-        return np.stack([self.touched // ny + 0.5, self.touched % ny + 0.5], axis=-1) * self.grid.resolution
+    def beam_of_entry(self) -> NDArray[np.int32]:
+        """The beam of each entry, shape (K,)."""
+        return np.repeat(np.arange(self.n_beams, dtype=np.int32), self.lengths)
 
-    def end_points_m(self) -> NDArray[np.float64]:
-        """Where each reading ends, metres from the lower left corner, shape (B, 2); NaN where it is no hit."""
+    @cached_property
+    def touched(self) -> NDArray[np.int32]:
+        """Flat indices of the cells that any beam touches, ascending."""
+        seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        seen[self.cells] = True
+        return np.flatnonzero(seen).astype(np.int32)
+
+    def stretches(self) -> tuple[Floats, Floats]:
+        """Where each beam enters and leaves each of its cells, metres from its start, shape (K,) each.
+
+        This is the plain reference for what kernels work out on the way.
+        """
+        beam, ny = self.beam_of_entry(), self.grid.shape[1]
+        enter, leave = np.zeros(len(beam)), np.full(len(beam), np.inf)
+        holds_start = np.ones(len(beam), dtype=np.bool_)
+        for axis, cell in enumerate((self.cells // ny, self.cells % ny)):
+            start, along = self.start_m[:, axis] / self.grid.resolution, self.direction[:, axis]
+            moves = np.abs(along) >= PARALLEL
+            per_cell = 1.0 / np.where(moves, along, 1.0)
+            first = np.where(along > 0, np.ceil(start - TIE) - 1, np.floor(start + TIE))
+            side = cell + (along < 0)[beam]
+            t_in = (side - start[beam]) * per_cell[beam]
+            t_out = (side + np.sign(along)[beam] - start[beam]) * per_cell[beam]
+            enter = np.where(moves[beam], np.maximum(enter, t_in), enter)
+            leave = np.where(moves[beam], np.minimum(leave, t_out), leave)
+            holds_start &= ~moves[beam] | (cell == first[beam])
+        leave = np.maximum(leave, 0.0)
+        enter = np.where(holds_start, leave, enter)
+        return enter * self.grid.resolution, np.maximum(leave, enter) * self.grid.resolution
+
+    def distance_m(self, hit_depth: float) -> NDArray[np.float32]:
+        """Where the beam stops in each cell if it is ``hit_depth`` of its stretch inside, metres, shape (K,)."""
+        enter, leave = self.stretches()
+        return (enter + hit_depth * (leave - enter)).astype(np.float32)
+
+    def ends_m(self) -> Floats:
+        """Where each cell's own part of the beam ends: where the next begins or, of the last, where it leaves, (K,).
+
+        Of cells that are entered together, on lines and corners, only the last one's part has a length.
+        """
+        enter, leave = self.stretches()
+        ends = leave.copy()
+        ends[:-1] = np.maximum(enter[1:], enter[:-1])
+        last = self.offsets[1:][self.lengths > 0] - 1
+        ends[last] = leave[last]
+        return ends
+
+    def end_points_m(self) -> Floats:
+        """Where each reading ends, shape (B, 2); NaN where it is no hit."""
         range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
-        return np.asarray(self.start_m + range_m[:, None] * self.direction.astype(np.float64))
+        return np.asarray(self.start_m + range_m[:, None] * self.direction)
 
-    def to_grid(self, values: NDArray[np.float64], elsewhere: float) -> NDArray[np.float64]:
-        """Spread one value for each touched cell, (..., T), over the grid, (..., nx, ny)."""
-        out = np.full((*values.shape[:-1], self.grid.n_cells), elsewhere)
-        out[..., self.touched] = values
-        return out.reshape(*values.shape[:-1], *self.grid.shape)
+    @cached_property
+    def columns(self) -> NDArray[np.int32]:
+        """Of each entry the place of its cell among the touched ones, (K,): for maps that hold only those."""
+        number = np.empty(self.grid.n_cells, dtype=np.int32)
+        number[self.touched] = np.arange(len(self.touched), dtype=np.int32)
+        return number[self.cells]
+
+
+def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
+    """How far beams must be followed, and from where on looked at, if only stops near a reading can explain it.
+
+    Args:
+        scans: B beams.
+        margin_m: how far from its reading a beam may have stopped, noise and surface included, one number or (B,).
+        resolution_m: edge of a cell: stops are looked at from one cell before the margin on.
+
+    Returns:
+        ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays`, (B,) each: the sensor's largest range and 0
+        where a reading is no hit.
+    """
+    ranges = scans.ranges_m.ravel()
+    finite = np.isfinite(ranges)
+    hits_m = np.where(finite, ranges, 0.0)
+    reach_m = np.where(finite, hits_m + margin_m, scans.max_range_m)
+    return reach_m, np.where(finite, np.maximum(hits_m - margin_m - resolution_m, 0.0), 0.0)

@@ -20,9 +20,6 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
-MAX_INCIDENCES = 2**31 - 1
-"""Indices into the table have 32 bits."""
-
 
 @dataclass(frozen=True, eq=False)
 class BeamTable:
@@ -33,19 +30,19 @@ class BeamTable:
         offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
         cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
         loglik: log-likelihood of the reading if that cell is the first wall, shape (K,), float32.
-        beyond: log-likelihood of the reading if no listed cell is a wall, shape (B,), float32.
+        no_hit: log-likelihood of the reading if no listed cell is a wall, shape (B,), float32.
     """
 
     grid: Grid
     offsets: NDArray[np.int32]
     cells: NDArray[np.int32]
     loglik: NDArray[np.float32]
-    beyond: NDArray[np.float32]
+    no_hit: NDArray[np.float32]
 
     @property
     def n_beams(self) -> int:
         """Number of beams."""
-        return len(self.beyond)
+        return len(self.no_hit)
 
     @property
     def n_incidences(self) -> int:
@@ -55,7 +52,7 @@ class BeamTable:
     @property
     def nbytes(self) -> int:
         """Memory of the table itself, in bytes."""
-        return sum(a.nbytes for a in (self.offsets, self.cells, self.loglik, self.beyond))
+        return sum(a.nbytes for a in (self.offsets, self.cells, self.loglik, self.no_hit))
 
     def observed(self) -> NDArray[np.bool_]:
         """Cells that at least one beam touches, shape (nx, ny)."""
@@ -81,7 +78,7 @@ class BeamTable:
         """Log-likelihood of each beam's reading given a map, shape (B,)."""
         first = self.first_hits(walls)
         hit = first < np.diff(self.offsets)
-        terms = self.beyond.copy()
+        terms = self.no_hit.copy()
         terms[hit] = self.loglik[(self.offsets[:-1] + first)[hit]]
         return terms
 
@@ -111,7 +108,7 @@ class CellIndex:
         gain_bound: the most that this incidence and those after it in the cell could together add to the
             log-odds of a wall, whatever the rest of the map, shape (K,), float32. Incidences that could gain
             come first, so that a sampler can stop as soon as the outcome is certain.
-        lead: how much likelier a first hit here is than the likeliest outcome behind it, shape (K,), float32: the
+        advantage: how much likelier a first hit here is than the likeliest outcome behind it, shape (K,), float32: the
             least that a wall which the beam hits is worth to it.
     """
 
@@ -120,4 +117,4 @@ class CellIndex:
     beam: NDArray[np.int32]
     loglik: NDArray[np.float32]
     gain_bound: NDArray[np.float32]
-    lead: NDArray[np.float32]
+    advantage: NDArray[np.float32]

@@ -26,7 +26,7 @@ class Beliefs:
         self._offsets = devices.to_device(table.offsets, wp.int32, device)
         self._table_cells = devices.to_device(table.cells, wp.int32, device)
         self._relative = wp.empty(incidences, dtype=wp.float32, device=device)
-        self._beyond = wp.empty(beams, dtype=wp.float32, device=device)
+        self._no_hit = wp.empty(beams, dtype=wp.float32, device=device)
         self._ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
         self._behind = wp.empty(incidences, dtype=wp.float32, device=device)
         self._logit = devices.to_device(logit, wp.float64, device)
@@ -35,13 +35,13 @@ class Beliefs:
         self._odds = wp.empty(cells, dtype=wp.float32, device=device)
         self._belief = wp.empty(cells, dtype=wp.float32, device=device)
         inputs = [self._offsets]
-        inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.beyond)]
-        launch(relative_likelihood, beams, [*inputs, self._relative, self._beyond], device)
+        inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
+        launch(relative_likelihood, beams, [*inputs, self._relative, self._no_hit], device)
         self._gather()
 
     def round(self, damping: float, threads: int | None = None) -> None:
         """All beams send messages, computed from the beliefs of the last round; then all cells gather them."""
-        inputs = [self._bounds, self._offsets, self._table_cells, self._relative, self._beyond, self._odds]
+        inputs = [self._bounds, self._offsets, self._table_cells, self._relative, self._no_hit, self._odds]
         inputs += [wp.float32(damping), self._ratio, self._behind, self._product, self._received]
         launch(beam_messages, self._parts, inputs, self._device, threads)
         self._gather()

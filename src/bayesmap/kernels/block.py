@@ -6,13 +6,14 @@ one step, which single cells cannot do where free space is likely and a beam ins
 
 For each beam that reaches the block, let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells in the
 order in which it meets them, before the first wall outside the block, and l_out that of the wall behind (or of
-"beyond"). A state is worth l_j for the first j that is a wall in it, else l_out; l_out is the same for all 16.
+"no hit"). A state is worth l_j for the first j that is a wall in it, else l_out; l_out is the same for all 16.
 """
 
 import numpy as np
 import warp as wp
 
-from bayesmap.beams.table import MAX_INCIDENCES, BeamTable
+from bayesmap.beams.rays import MAX_INCIDENCES
+from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import available_cores, launch

@@ -26,7 +26,7 @@ class WallChains:
     def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
         self.device = device
         self.shape = chains, cells = walls.shape
-        beams = table.beyond.shape[0]
+        beams = table.no_hit.shape[0]
         states = Chains()
         states.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
         states.first = wp.empty((chains, beams), dtype=wp.int32, device=device)

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import available_cores, launch
-from bayesmap.kernels.trace import walk_columns
+from bayesmap.kernels.rays import Lines, beam_lines, put_lines
 from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -17,12 +17,8 @@ wp.set_module_options({"enable_backward": False})
 @wp.kernel
 def count_hits_and_passes(
     first: int,
-    nx: int,
-    ny: int,
-    start_x: wp.array(dtype=wp.float64),
-    start_y: wp.array(dtype=wp.float64),
-    angle_rad: wp.array(dtype=wp.float64),
-    longest: wp.array(dtype=wp.float64),
+    lines: Lines,
+    reach_m: wp.array(dtype=wp.float64),
     hit: wp.array(dtype=wp.uint8),
     bounds: wp.array(dtype=wp.int32),
     hits: wp.array2d(dtype=wp.int32),
@@ -31,14 +27,17 @@ def count_hits_and_passes(
     """One thread a share of the beams, counting in rows of its own: no two threads write to the same number."""
     t = first + wp.tid()
     for b in range(bounds[t], bounds[t + 1]):
-        w = walk_begin(start_x[b], start_y[b], wp.cos(angle_rad[b]), wp.sin(angle_rad[b]), nx, ny, longest[b])
-        ends_inside = w.end >= longest[b]
+        p = lines.start_m[b] / lines.edge_m
+        u = lines.direction[b]
+        longest = reach_m[b] / lines.edge_m
+        w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, longest)
+        ends_inside = w.end >= longest
         last = int(-1)
         while w.distance <= w.end:
-            if is_inside(w, nx, ny):
+            if is_inside(w, lines.nx, lines.ny):
                 if last >= 0:
                     passes[t, last] = passes[t, last] + 1
-                last = w.cell_x * ny + w.cell_y
+                last = w.cell_x * lines.ny + w.cell_y
             w = walk_next(w)
         if last >= 0:
             if hit[b] != wp.uint8(0) and ends_inside:
@@ -57,11 +56,12 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[n
     device = devices.resolve(device)
     ranges = scans.ranges_m.ravel()
     hit = np.isfinite(ranges)
-    longest = np.where(hit, ranges, np.where(np.isposinf(ranges), scans.max_range_m, -1.0))
+    reach_m = np.where(hit, ranges, np.where(np.isposinf(ranges), scans.max_range_m, -1.0))
     threads = available_cores()
     bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
     counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
-    inputs = [*grid.shape, *walk_columns(scans, grid, longest, device), devices.to_device(hit, wp.uint8, device)]
+    inputs = [put_lines(*beam_lines(scans, grid), grid, device), devices.to_device(reach_m, wp.float64, device)]
+    inputs.append(devices.to_device(hit, wp.uint8, device))
     launch(count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device)
     hits, passes = (a.numpy().sum(axis=0, dtype=np.int32) for a in counts)
     return hits, passes

@@ -13,7 +13,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import BeamRays
+from bayesmap.beams.beam_rays import BeamRays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.busy import busy_index, update_busy
 from bayesmap.kernels.cell_draws import CellPrior, propose, settle

@@ -6,7 +6,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import BeamRays
+from bayesmap.beams.beam_rays import BeamRays
 from bayesmap.kernels.field import as_cells, put_rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.meeting import Cell, ray_from

@@ -4,8 +4,8 @@ The conditional of a cell is Bernoulli on its prior log-odds plus the sum, over 
 there would add to their log-likelihood. Three things keep a sweep from visiting every incidence, and none changes a
 draw: a cell that no beam reaches takes a prior draw without its beams being looked at; a free cell's sum is kept until
 one of its beams moves; and where a bound already makes the cell's state certain up to a chance of e^-20 it serves
-instead of the sum (`CellIndex.gain_bound` for free cells, `CellIndex.lead` for walls, which need not then look for the
-walls behind them), unless the uniform number turns out to be smaller than that.
+instead of the sum (`CellIndex.gain_bound` for free cells, `CellIndex.advantage` for walls, which need not then look for
+the walls behind them), unless the uniform number turns out to be smaller than that.
 """
 
 import warp as wp
@@ -91,7 +91,7 @@ def draw_wall_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) 
         least = wp.float64(0.0)
         for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
             if chain.first[t.cell_beam[i]] == t.cell_entry[i]:
-                least += wp.float64(t.cell_lead[i])
+                least += wp.float64(t.cell_advantage[i])
         chain.gain[c] = wp.float32(least)
         chain.known[c] = BOUND
     if chain.known[c] == BOUND:

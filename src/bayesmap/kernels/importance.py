@@ -33,8 +33,8 @@ def weigh_particles(
     particle = particle_0 + wp.uint64(i)
     cells = wp.uint64(prior.level.shape[0])
     total = wp.float64(0.0)
-    for b in range(t.beyond.shape[0]):
-        term = t.beyond[b]
+    for b in range(t.no_hit.shape[0]):
+        term = t.no_hit[b]
         for k in range(t.offsets[b], t.offsets[b + 1]):
             if particle_wall(prior, key, particle, cells, t.cells[k]):
                 term = t.loglik[k]

@@ -17,17 +17,17 @@ def beam_extremes(
     first: int,
     offsets: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
     lowest: wp.array(dtype=wp.float32),
-    lead: wp.array(dtype=wp.float32),
+    advantage: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: the least that its reading can be worth, and each entry's lead over what lies behind."""
+    """One thread a beam: the least that its reading can be worth, and each entry's advantage over what lies behind."""
     b = first + wp.tid()
-    least = beyond[b]
-    behind = beyond[b]
+    least = no_hit[b]
+    behind = no_hit[b]
     for i in range(offsets[b + 1] - offsets[b]):
         k = offsets[b + 1] - 1 - i
-        lead[k] = loglik[k] - behind
+        advantage[k] = loglik[k] - behind
         behind = wp.max(behind, loglik[k])
         least = wp.min(least, loglik[k])
     lowest[b] = least
@@ -41,14 +41,14 @@ def scatter_entries(
     cells: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
     lowest: wp.array(dtype=wp.float32),
-    lead: wp.array(dtype=wp.float32),
+    advantage: wp.array(dtype=wp.float32),
     offsets: wp.array(dtype=wp.int32),
     fill: wp.array(dtype=wp.int32),
     entry: wp.array(dtype=wp.int32),
     beam: wp.array(dtype=wp.int32),
     out_loglik: wp.array(dtype=wp.float32),
     gain_bound: wp.array(dtype=wp.float32),
-    out_lead: wp.array(dtype=wp.float32),
+    out_advantage: wp.array(dtype=wp.float32),
 ):
     """One thread a range of cells: two passes over the table, gaining entries first, then bounds from behind."""
     t = first + wp.tid()
@@ -70,7 +70,7 @@ def scatter_entries(
                         beam[i] = b
                         out_loglik[i] = loglik[k]
                         gain_bound[i] = gain
-                        out_lead[i] = lead[k]
+                        out_advantage[i] = advantage[k]
     for c in range(low, high):
         bound = wp.float32(0.0)
         for j in range(offsets[c + 1] - offsets[c]):
@@ -91,11 +91,13 @@ def index_by_cell(table: BeamTable) -> CellIndex:
     beam_offsets = devices.to_device(table.offsets, wp.int32, "cpu")
     loglik = devices.to_device(table.loglik, wp.float32, "cpu")
     lowest = wp.empty(table.n_beams, dtype=wp.float32, device="cpu")
-    lead = wp.empty(table.n_incidences, dtype=wp.float32, device="cpu")
-    beyond = devices.to_device(table.beyond, wp.float32, "cpu")
-    launch(beam_extremes, table.n_beams, [beam_offsets, loglik, beyond, lowest, lead], "cpu")
+    advantage = wp.empty(table.n_incidences, dtype=wp.float32, device="cpu")
+    no_hit = devices.to_device(table.no_hit, wp.float32, "cpu")
+    launch(beam_extremes, table.n_beams, [beam_offsets, loglik, no_hit, lowest, advantage], "cpu")
     entry, beam = (wp.empty(table.n_incidences, dtype=wp.int32, device="cpu") for _ in range(2))
-    values, gain_bound, cell_lead = (wp.empty(table.n_incidences, dtype=wp.float32, device="cpu") for _ in range(3))
+    values, gain_bound, cell_advantage = (
+        wp.empty(table.n_incidences, dtype=wp.float32, device="cpu") for _ in range(3)
+    )
     launch(
         scatter_entries,
         threads,
@@ -105,14 +107,14 @@ def index_by_cell(table: BeamTable) -> CellIndex:
             devices.to_device(table.cells, wp.int32, "cpu"),
             loglik,
             lowest,
-            lead,
+            advantage,
             devices.to_device(offsets, wp.int32, "cpu"),
             wp.empty(cells, dtype=wp.int32, device="cpu"),
             entry,
             beam,
             values,
             gain_bound,
-            cell_lead,
+            cell_advantage,
         ],
         "cpu",
     )
@@ -122,5 +124,5 @@ def index_by_cell(table: BeamTable) -> CellIndex:
         beam=beam.numpy(),
         loglik=values.numpy(),
         gain_bound=gain_bound.numpy(),
-        lead=cell_lead.numpy(),
+        advantage=cell_advantage.numpy(),
     )

@@ -4,6 +4,7 @@ import math
 
 import warp as wp
 
+from bayesmap.kernels.rays import Lines, distance_at, first_past, line_of
 from bayesmap.sensors.model import KernelParameters, RangeLimits
 
 wp.set_module_options({"enable_backward": False})
@@ -76,35 +77,54 @@ def mixture_log_likelihood(
 def fill_likelihood(
     first: int,
     s: SensorParameters,
+    lines: Lines,
     offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    depth: wp.float64,
     range_m: wp.array(dtype=wp.float64),
-    values: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: replace each entry's distance by its log-likelihood. Only finite readings."""
+    """One thread a beam: the log-likelihood of each entry, and of no hit; only for finite readings.
+
+    The noise of a mixture matters between two distances only, whose entries are found by halving.
+    """
     b = first + wp.tid()
     reading = range_m[b]
     if not wp.isfinite(reading):
         return
     one = wp.float64(1.0)
+    begin = offsets[b]
+    end = offsets[b + 1]
+    line = line_of(lines, b)
     if s.robust == 0:
-        beyond[b] = wp.float32(noise_log_density(s, reading, s.max_m))
-        for k in range(offsets[b], offsets[b + 1]):
-            values[k] = wp.float32(noise_log_density(s, reading, wp.min(wp.float64(values[k]), s.max_m)))
+        no_hit[b] = wp.float32(noise_log_density(s, reading, s.max_m))
+        for k in range(begin, end):
+            loglik[k] = wp.float32(noise_log_density(s, reading, wp.min(distance_at(line, cells[k], depth), s.max_m)))
         return
     short = s.p_short * s.rate_short_per_m * wp.exp(-s.rate_short_per_m * wp.max(reading, wp.float64(0.0)))
-    beyond[b] = wp.float32(mixture_log_likelihood(s, reading, s.max_m, short, False))
+    log_no_hit = wp.float32(mixture_log_likelihood(s, reading, s.max_m, short, False))
+    no_hit[b] = log_no_hit
     floor = s.p_random / (s.max_m - s.min_m)
     log_before = wp.float32(wp.log(floor))
     log_after = wp.float32(wp.log(floor + (one - s.p_random) * short))
-    for k in range(offsets[b], offsets[b + 1]):
-        wall = wp.float64(values[k])
-        x = (reading - wall) / (s.sigma_m + s.sigma_per_m * wall)
-        if wall > s.max_m:
-            values[k] = beyond[b]
-        elif s.dof > wp.float64(0.0) or x * x < NEGLIGIBLE:
-            values[k] = wp.float32(mixture_log_likelihood(s, reading, wall, short, True))
-        elif wall <= reading:
-            values[k] = log_before
-        else:
-            values[k] = log_after
+    k = begin
+    far = wp.float64(wp.inf)
+    if s.dof == wp.float64(0.0):
+        widths = wp.sqrt(NEGLIGIBLE)
+        k = first_past(line, cells, begin, end, (reading - widths * s.sigma_m) / (one + widths * s.sigma_per_m), depth)
+        if widths * s.sigma_per_m < one:
+            far = (reading + widths * s.sigma_m) / (one - widths * s.sigma_per_m)
+    for i in range(begin, k):
+        loglik[i] = log_before
+    while k < end:
+        wall = distance_at(line, cells[k], depth)
+        if wall > far or wall > s.max_m:
+            break
+        loglik[k] = wp.float32(mixture_log_likelihood(s, reading, wall, short, True))
+        k += 1
+    out_of_range = first_past(line, cells, k, end, s.max_m, depth)
+    for i in range(k, out_of_range):
+        loglik[i] = log_after
+    for i in range(out_of_range, end):
+        loglik[i] = log_no_hit

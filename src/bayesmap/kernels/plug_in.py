@@ -4,7 +4,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import BeamRays
+from bayesmap.beams.beam_rays import BeamRays
 from bayesmap.kernels.field import put_rays
 from bayesmap.kernels.stops import Rays
 

@@ -16,12 +16,13 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.crossings import Crossings
+from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.cell_stop import Maps, StopStates, put_maps, stop_in
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
+from bayesmap.kernels.rays import Lines, line_of, put_rays
 from bayesmap.kernels.reading_law import additive_log_density, clipped, cumulative, mixture_density, short_density
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
@@ -46,9 +47,11 @@ def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
 def add_forecasts(
     first: int,
     s: SensorParameters,
+    lines: Lines,
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
-    places: Places,
+    columns: wp.array(dtype=wp.int32),
+    maps: Maps,
     draws: int,
     range_m: wp.array(dtype=wp.float64),
     with_cumulative: int,
@@ -64,6 +67,7 @@ def add_forecasts(
     if wp.isnan(z):
         return
     one = wp.float64(1.0)
+    line = line_of(lines, b)
     nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
     sums = wp.vec2d(most[b], total[b])
     at = clipped(s, z)
@@ -74,21 +78,21 @@ def add_forecasts(
         for i in range(offsets[b + 1] - offsets[b] + 1):
             k = offsets[b] + i
             weight = survive
-            place = nowhere
+            stop = nowhere
             if k < offsets[b + 1]:
-                place = meet_cell(places, d, b, k, cells[k])
-                weight = survive * place[0]
-                survive = survive * (one - place[0])
+                stop = stop_in(maps, d, columns[k], line, cells[k])
+                weight = survive * stop[0]
+                survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
                 if s.robust != 0:
-                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, short, place[1], place[2]))
+                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, short, stop[1], stop[2]))
                 else:
-                    sums = add_log(sums, wp.log(weight) + additive_log_density(s, z, place[1], place[2]))
+                    sums = add_log(sums, wp.log(weight) + additive_log_density(s, z, stop[1], stop[2]))
                 if with_cumulative != 0:
-                    below[b] = below[b] + weight * cumulative(s, at, place[1], place[2])
+                    below[b] = below[b] + weight * cumulative(s, at, stop[1], stop[2])
                     if s.robust != 0:
-                        below_max[b] = below_max[b] + weight * cumulative(s, s.max_m, place[1], place[2])
-                        below_min[b] = below_min[b] + weight * cumulative(s, s.min_m, place[1], place[2])
+                        below_max[b] = below_max[b] + weight * cumulative(s, s.max_m, stop[1], stop[2])
+                        below_min[b] = below_min[b] + weight * cumulative(s, s.min_m, stop[1], stop[2])
                 if survive < gone:
                     break
     most[b] = sums[0]
@@ -128,88 +132,62 @@ def compiled(sensor: SensorModel, limits: RangeLimits) -> Any:
 
 
 def _sums(
-    crossings: Crossings,
-    distance_m: NDArray[np.float32],
-    batches: Iterable[Maps],
-    ranges_m: Floats,
+    rays: Rays,
+    batches: Iterable[StopStates],
     sensor: SensorModel,
-    limits: RangeLimits,
-    spread_m: NDArray[np.float32] | None,
+    hit_depth: float,
     device: str,
     with_cumulative: bool,
 ) -> tuple[Floats, list[Floats]]:
     """Log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
-    s, beams = compiled(sensor, limits), crossings.n_beams
+    s, beams = compiled(sensor, rays.limits), rays.n_beams
     most: Any = wp.full(beams, 0.0 if s.robust else -1.0e300, dtype=wp.float64, device=device)
     total = wp.zeros(beams, dtype=wp.float64, device=device)
     cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
-    fixed = [devices.to_device(a, wp.int32, device) for a in (crossings.offsets, crossings.cells)]
-    ranges = devices.to_device(ranges_m.ravel(), wp.float64, device)
+    fixed = [*put_rays(rays, device), devices.to_device(rays.columns, wp.int32, device)]
+    ranges = devices.to_device(rays.range_m, wp.float64, device)
     draws = 0
     for batch in batches:
         draws += len(batch)
-        places = put_places(batch, crossings, distance_m, spread_m, device)
-        inputs = [s, *fixed, places, len(batch), ranges, int(with_cumulative), most, total, *cumulatives]
-        launch(add_forecasts, beams, inputs, device)
+        inputs = [s, *fixed, put_maps(batch, hit_depth, device), len(batch), ranges, int(with_cumulative)]
+        launch(add_forecasts, beams, [*inputs, most, total, *cumulatives], device)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     with np.errstate(divide="ignore"):
         log_density = most.numpy() + np.log(total.numpy() / draws)
-    log_density[np.isnan(ranges_m.ravel())] = np.nan
+    log_density[np.isnan(rays.range_m)] = np.nan
     return log_density, [c.numpy() / draws for c in cumulatives]
 
 
 def log_densities(
-    crossings: Crossings,
-    distance_m: NDArray[np.float32],
-    batches: Iterable[Maps],
-    ranges_m: Floats,
-    sensor: SensorModel,
-    limits: RangeLimits,
-    *,
-    spread_m: NDArray[np.float32] | None = None,
-    device: str = "cpu",
+    rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
 ) -> Floats:
     """Log predictive density of every reading alone, (B,): see `forecast`.
 
     Here, and here alone, beams may have been traced no further than their reading reaches.
     """
-    values, _ = _sums(crossings, distance_m, batches, ranges_m, sensor, limits, spread_m, device, False)
-    return values
+    return _sums(rays, batches, sensor, hit_depth, device, False)[0]
 
 
 def forecast(
-    crossings: Crossings,
-    distance_m: NDArray[np.float32],
-    batches: Iterable[Maps],
-    ranges_m: Floats,
-    sensor: SensorModel,
-    limits: RangeLimits,
-    *,
-    spread_m: NDArray[np.float32] | None = None,
-    device: str = "cpu",
+    rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
 ) -> Forecast:
     """Predict the reading of every beam under the mean over draws of the law above.
 
     Args:
-        crossings: of beams traced over their whole length.
-        distance_m: where a beam stops in each cell, (K,): ``crossings.distance_m(hit_depth)``.
-        batches: draws of the map, some at a time, whose columns are the numbers in ``crossings.cells``.
-        ranges_m: the readings, B of them in any shape.
+        rays: beams traced over their whole length, and their readings.
+        batches: draws of the map, some at a time, whose columns are the cells ``rays.touched``.
         sensor: the law of a reading given where its beam stops.
-        limits: of the sensor.
-        spread_m: standard deviation of where the beam stops, (K,); none if None.
+        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
         device: where to compute.
 
     Raises:
         BadInput: a sensor model without compiled form, or no draws.
     """
-    log_density, (at, at_max, at_min) = _sums(
-        crossings, distance_m, batches, ranges_m, sensor, limits, spread_m, device, True
-    )
-    z = ranges_m.ravel()
-    robust = bool(compiled(sensor, limits).robust)
+    log_density, (at, at_max, at_min) = _sums(rays, batches, sensor, hit_depth, device, True)
+    z = rays.range_m
+    robust = bool(compiled(sensor, rays.limits).robust)
     nan = np.where(np.isnan(z), np.nan, 0.0)
     none, close = (1.0 - at_max, at_min) if robust else (np.zeros_like(at), np.zeros_like(at))
     low = np.where(np.isneginf(z) & robust, 0.0, np.where(np.isposinf(z) & robust, at_max, at))

@@ -1,6 +1,6 @@
 """Belief propagation with ray potentials: all messages of a beam in one pass back and one forth.
 
-For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a first hit on cell i and l_out beyond
+For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a first hit on cell i and l_out of no hit
 (all relative to the beam's largest),
 
     S_i = p_{i+1} l_{i+1} + (1 - p_{i+1}) S_{i+1},  S_n = l_out       expected likelihood if cells up to i are free
@@ -30,13 +30,13 @@ def relative_likelihood(
     first: int,
     offsets: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
     relative: wp.array(dtype=wp.float32),
-    relative_beyond: wp.array(dtype=wp.float32),
+    relative_no_hit: wp.array(dtype=wp.float32),
 ):
     """One thread a beam: likelihoods relative to the beam's largest."""
     b = first + wp.tid()
-    most = beyond[b]
+    most = no_hit[b]
     for k in range(offsets[b], offsets[b + 1]):
         most = wp.max(most, loglik[k])
     last = wp.float32(1.0)
@@ -47,7 +47,7 @@ def relative_likelihood(
             value = wp.max(wp.exp(now), TINY)
             last = now
         relative[k] = value
-    relative_beyond[b] = wp.max(wp.exp(beyond[b] - most), TINY)
+    relative_no_hit[b] = wp.max(wp.exp(no_hit[b] - most), TINY)
 
 
 @wp.kernel
@@ -57,7 +57,7 @@ def beam_messages(
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
     relative: wp.array(dtype=wp.float32),
-    relative_beyond: wp.array(dtype=wp.float32),
+    relative_no_hit: wp.array(dtype=wp.float32),
     odds: wp.array(dtype=wp.float32),
     damping: wp.float32,
     ratio: wp.array(dtype=wp.float32),
@@ -79,7 +79,7 @@ def beam_messages(
     for b in range(bounds[part], bounds[part + 1]):
         start = offsets[b]
         end = offsets[b + 1]
-        s = relative_beyond[b]
+        s = relative_no_hit[b]
         for i in range(end - start):
             k = end - 1 - i
             behind[k] = s

@@ -1,19 +1,18 @@
-"""Tracing rays: as the beam table is traced, but keeping the geometry instead of likelihoods."""
+"""Tracing rays: count each beam's cells, then write them down; and where a beam crosses a cell."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from bayesmap.beams.rays import BeamRays
-from bayesmap.beams.table import MAX_INCIDENCES
+from bayesmap.beams.rays import MAX_INCIDENCES, PARALLEL, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.trace import count_cells, fill_cells, walk_columns
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.kernels.walk import cell_before, is_inside, walk_begin, walk_next
+from bayesmap.sensors.model import Floats, RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -22,117 +21,285 @@ wp.set_module_options({"enable_backward": False})
 BEAMS_AT_ONCE = 1 << 16
 """Traced before the next report."""
 
+LEAST_COSINE = wp.constant(wp.float64(PARALLEL))
+
+
+@wp.struct
+class Lines:
+    """Beams and the grid, on a device: starts in metres from its corner, unit vectors, its rows and its edge."""
+
+    start_m: wp.array(dtype=wp.vec2d)
+    direction: wp.array(dtype=wp.vec2d)
+    nx: int
+    ny: int
+    edge_m: wp.float64
+
+
+@wp.struct
+class Slab:
+    """One axis of a beam's line, in units of cells."""
+
+    start: wp.float64
+    per_cell: (
+        wp.float64
+    )  # distance from one grid line to the next, with the direction's sign; 0 if it never crosses one
+    first: int  # the cell of the start, as the walk has it
+    side: int  # 1 if cells are entered by their far side
+    onward: int
+
+
+@wp.func
+def slab_of(start: wp.float64, along: wp.float64) -> Slab:
+    """An axis, by its coordinates."""
+    s = Slab()
+    s.start = start
+    if wp.abs(along) >= LEAST_COSINE:
+        s.per_cell = wp.float64(1.0) / along
+        s.onward = wp.where(along > wp.float64(0.0), 1, -1)
+        s.side = wp.where(along > wp.float64(0.0), 0, 1)
+        s.first = cell_before(start, s.onward)
+    return s
+
+
+@wp.struct
+class Line:
+    """A beam's line: both axes, rows and edge of its grid; and start and direction again in single precision."""
+
+    x: Slab
+    y: Slab
+    ny: int
+    per_column: wp.float64
+    edge_m: wp.float64
+    start_m: wp.vec2
+    direction: wp.vec2
+
+
+@wp.func
+def line_of(lines: Lines, b: int) -> Line:
+    """A beam's line."""
+    line = Line()
+    start = lines.start_m[b]
+    direction = lines.direction[b]
+    line.start_m = wp.vec2(wp.float32(start[0]), wp.float32(start[1]))
+    line.direction = wp.vec2(wp.float32(direction[0]), wp.float32(direction[1]))
+    line.x = slab_of(start[0] / lines.edge_m, direction[0])
+    line.y = slab_of(start[1] / lines.edge_m, direction[1])
+    line.ny = lines.ny
+    line.per_column = wp.float64(1.0) / wp.float64(lines.ny)
+    line.edge_m = lines.edge_m
+    return line
+
+
+@wp.func
+def stretch(line: Line, cell: int) -> wp.vec2d:
+    """Where a beam enters and leaves a cell that it touches, metres: `bayesmap.beams.rays.Rays.stretches`."""
+    zero = wp.float64(0.0)
+    x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
+    y = cell - x * line.ny
+    enter = zero
+    leave = wp.float64(1.0e300)
+    holds_start = bool(True)
+    if line.x.onward != 0:
+        at = wp.float64(x + line.x.side) - line.x.start
+        enter = wp.max(enter, at * line.x.per_cell)
+        leave = (at + wp.float64(line.x.onward)) * line.x.per_cell
+        holds_start = x == line.x.first
+    if line.y.onward != 0:
+        at_y = wp.float64(y + line.y.side) - line.y.start
+        enter = wp.max(enter, at_y * line.y.per_cell)
+        leave = wp.min(leave, (at_y + wp.float64(line.y.onward)) * line.y.per_cell)
+        holds_start = holds_start and y == line.y.first
+    leave = wp.max(leave, zero)
+    if holds_start:
+        enter = leave
+    return wp.vec2d(enter * line.edge_m, wp.max(leave, enter) * line.edge_m)
+
+
+@wp.func
+def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
+    """Where a beam stops in a cell if it is a part of its stretch inside, metres."""
+    s = stretch(line, cell)
+    return s[0] + depth * (s[1] - s[0])
+
+
+@wp.func
+def first_past(
+    line: Line, cells: wp.array(dtype=wp.int32), begin: int, end: int, distance_m: wp.float64, depth: wp.float64
+) -> int:
+    """The first entry in [begin, end) whose stop is at a distance or past it, or end: stops are in order."""
+    low = begin
+    high = end
+    while low < high:
+        middle = (low + high) // 2
+        if distance_at(line, cells[middle], depth) < distance_m:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
 
 @wp.kernel
-def find_near(
+def count_cells(first: int, lines: Lines, reach_m: wp.array(dtype=wp.float64), counts: wp.array(dtype=wp.int32)):
+    """One thread a beam: how many cells does it touch?"""
+    b = first + wp.tid()
+    p = lines.start_m[b] / lines.edge_m
+    u = lines.direction[b]
+    n = int(0)
+    w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, reach_m[b] / lines.edge_m)
+    while w.distance <= w.end:
+        if is_inside(w, lines.nx, lines.ny):
+            n += 1
+        w = walk_next(w)
+    counts[b] = n
+
+
+@wp.kernel
+def fill_cells(
     first: int,
+    lines: Lines,
+    reach_m: wp.array(dtype=wp.float64),
+    near_m: wp.array(dtype=wp.float64),
     offsets: wp.array(dtype=wp.int32),
-    distance_m: wp.array(dtype=wp.float32),
-    nearest_m: wp.array(dtype=wp.float32),
+    cells: wp.array(dtype=wp.int32),
     near: wp.array(dtype=wp.int32),
 ):
-    """One thread a beam: its first entry at or after a distance."""
+    """One thread a beam: write its cells, and find the first that it enters at a distance or past it."""
     b = first + wp.tid()
+    p = lines.start_m[b] / lines.edge_m
+    u = lines.direction[b]
     k = offsets[b]
-    while k < offsets[b + 1] and distance_m[k] < nearest_m[b]:
-        k += 1
+    begins = near_m[b] / lines.edge_m
+    w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, reach_m[b] / lines.edge_m)
     near[b] = k
+    while w.distance <= w.end:
+        if is_inside(w, lines.nx, lines.ny):
+            cells[k] = w.cell_x * lines.ny + w.cell_y
+            k += 1
+            if w.distance < begins:
+                near[b] = k
+        w = walk_next(w)
 
 
 @wp.kernel
-def mark_touched(first: int, cells: wp.array(dtype=wp.int32), touched: wp.array(dtype=wp.uint8)):
-    """One thread an entry: its cell is touched (all threads that meet here write the same)."""
-    touched[cells[first + wp.tid()]] = wp.uint8(1)
+def fill_distances(
+    first: int,
+    lines: Lines,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    depth: wp.float64,
+    distance_m: wp.array(dtype=wp.float32),
+):
+    """One thread a beam: where it would stop in each of its cells."""
+    b = first + wp.tid()
+    line = line_of(lines, b)
+    for k in range(offsets[b], offsets[b + 1]):
+        distance_m[k] = wp.float32(distance_at(line, cells[k], depth))
 
 
-@wp.kernel
-def renumber(first: int, number: wp.array(dtype=wp.int32), cells: wp.array(dtype=wp.int32)):
-    """One thread an entry: from the cell's flat index to its number among the touched ones."""
-    k = first + wp.tid()
-    cells[k] = number[cells[k]]
+def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> NDArray[np.float32]:
+    """As `Rays.distance_m`, compiled: metres, shape (K,)."""
+    distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
+    launch(fill_distances, rays.n_beams, [*put_rays(rays, device), wp.float64(hit_depth), distance_m], device)
+    return np.asarray(distance_m.numpy())
+
+
+def put_rays(rays: Rays, device: str) -> list[Any]:
+    """Rays where kernels read them: lines, offsets, and cells."""
+    lines = put_lines(rays.start_m, rays.direction, rays.grid, device)
+    return [lines, *(devices.to_device(a, wp.int32, device) for a in (rays.offsets, rays.cells))]
+
+
+def put_lines(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
+    """Beams where kernels read them, starts in metres from the grid's lower left corner."""
+    lines = Lines()
+    for name, array in (("start_m", start_m), ("direction", direction)):
+        flat = np.ascontiguousarray(array, dtype=np.float64)
+        setattr(lines, name, wp.array(flat, dtype=wp.vec2d, device=device, copy=device != "cpu"))
+    lines.nx, lines.ny = grid.shape
+    lines.edge_m = grid.resolution
+    return lines
+
+
+def beam_lines(scans: Scans, grid: Grid) -> tuple[Floats, Floats]:
+    """Start of every beam, metres from the grid's lower left corner, and its unit vector, (B, 2) each."""
+    start = (scans.beam_starts_world() - np.array(grid.origin)).reshape(-1, 2)
+    angle = scans.beam_angles_world().ravel()
+    return start, np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
 def trace_rays(
     scans: Scans,
     grid: Grid,
     *,
-    margin_m: float | NDArray[np.float64],
-    hit_depth: float = 0.5,
-    whole: bool = False,
+    poses_world: ArrayLike | None = None,
+    reach_m: Floats | None = None,
+    near_m: Floats | None = None,
     device: str = "cpu",
     on_progress: Callable[[int, int], None] = lambda done, total: None,
-) -> BeamRays:
-    """Follow every beam through the grid.
+) -> Rays:
+    """Follow every beam of some scans through a grid.
 
     Args:
-        scans: S scans of A beams; beam ``s * A + a`` is beam a of scan s.
+        scans: S scans of A beams; beam ``s * A + a`` of the rays is beam a of scan s. An invalid reading says nothing:
+            its beam has no entry.
         grid: the map's grid.
-        margin_m: how far from its reading a beam may have stopped, noise and surface included, one number or one for
-            each beam: entries past the reading plus this are left out, those before the reading minus this are not
-                ``near``.
-        hit_depth: where in a plain cell a beam stops, as a fraction of its chord.
-        whole: keep all entries to the end of the sensor's range, for predicting readings.
+        poses_world: other poses for the scans, (S, 3), as `bayesmap.space.scans.Scans.at` takes them.
+        reach_m: how far each beam is followed, (B,); to the sensor's largest range if None, and never further.
+        near_m: distance before which no stop could explain the beam's reading, (B,); 0 if None.
         device: where to trace; the rays come back in main memory.
-        on_progress: told how many beams of how many are done; each is followed twice.
+        on_progress: given how many beams of how many are done; each is followed twice.
 
     Raises:
         BadInput: more incidences than 32-bit indices can count.
     """
     device = devices.resolve(device)
-    ranges = scans.ranges_m.ravel()
-    finite = np.isfinite(ranges)
-    hits_m = np.where(finite, ranges, 0.0)
-    reach_m = np.where(finite & (not whole), np.minimum(hits_m + margin_m, scans.max_range_m), scans.max_range_m)
-    rays = walk_columns(scans, grid, np.where(np.isnan(ranges), -1.0, reach_m), device)
-    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)
-    angles_rad = scans.beam_angles_world().ravel()
-    beams = len(ranges)
+    scans = scans if poses_world is None else scans.at(poses_world)
+    ranges, beams = scans.ranges_m.ravel(), scans.n_beams
+    reach = np.minimum(np.inf if reach_m is None else reach_m, scans.max_range_m)
+    reach = np.where(np.isnan(ranges), -1.0, reach)
+    start_m, direction = beam_lines(scans, grid)
+    lines = put_lines(start_m, direction, grid, device)
+    reach_there = devices.to_device(reach, wp.float64, device)
+    near_there = devices.to_device(np.zeros(beams) if near_m is None else near_m, wp.float64, device)
 
-    inputs: list[Any]
     counts = wp.empty(beams, dtype=wp.int32, device=device)
     for begin, size in _pieces(beams):
-        launch(count_cells, size, [*grid.shape, *rays, counts], device, begin=begin)
+        launch(count_cells, size, [lines, reach_there, counts], device, begin=begin)
         on_progress((begin + size) // 2, beams)
-    ends = np.cumsum(counts.numpy(), dtype=np.int64)
-    total = int(ends[-1]) if beams else 0
-    if total > MAX_INCIDENCES:
-        raise BadInput(
-            f"scans: {beams:,} beams cross {total:,} cells, over the limit of {MAX_INCIDENCES:,}; "
-            "use a coarser resolution, a shorter --max-range, or fewer scans"
-        )
-    offsets = np.concatenate([[0], ends]).astype(np.int32)
-    offsets_dev = devices.to_device(offsets, wp.int32, device)
-    cells = wp.empty(total, dtype=wp.int32, device=device)
-    distance_m = wp.empty(total, dtype=wp.float32, device=device)
-    geometry = [wp.float64(grid.resolution), wp.float64(hit_depth)]
+    offsets = offsets_of(counts.numpy(), "beams")
+    cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
+    near = wp.empty(beams, dtype=wp.int32, device=device)
+    offsets_there = devices.to_device(offsets, wp.int32, device)
     for begin, size in _pieces(beams):
-        inputs = [*grid.shape, *rays, offsets_dev, *geometry, cells, distance_m]
+        inputs = [lines, reach_there, near_there, offsets_there, cells, near]
         launch(fill_cells, size, inputs, device, begin=begin)
         on_progress((beams + begin + size) // 2, beams)
-
-    nearest_m = np.where(finite, hits_m - margin_m - grid.resolution, -np.inf)
-    near = wp.empty(beams, dtype=wp.int32, device=device)
-    inputs = [offsets_dev, distance_m, devices.to_device(nearest_m, wp.float32, device), near]
-    launch(find_near, beams, inputs, device)
-
-    marks = wp.zeros(grid.n_cells, dtype=wp.uint8, device=device)
-    launch(mark_touched, total, [cells, marks], device)
-    touched = np.nonzero(marks.numpy())[0].astype(np.int32)
-    number = np.zeros(grid.n_cells, dtype=np.int32)
-    number[touched] = np.arange(len(touched), dtype=np.int32)
-    launch(renumber, total, [devices.to_device(number, wp.int32, device), cells], device)
-    return BeamRays(
+    return Rays(
         grid=grid,
-        touched=touched,
         offsets=offsets,
         cells=cells.numpy(),
-        distance_m=distance_m.numpy(),
         near=near.numpy(),
-        start_m=(starts * grid.resolution).astype(np.float32),
-        direction=np.stack([np.cos(angles_rad), np.sin(angles_rad)], axis=-1).astype(np.float32),
+        start_m=start_m,
+        direction=direction,
         range_m=ranges,
         limits=RangeLimits(scans.min_range_m, scans.max_range_m),
     )
+
+
+def offsets_of(counts: NDArray[np.int32], what: str) -> NDArray[np.int32]:
+    """Where each beam's entries begin, and where the last one's end, (B + 1,).
+
+    Raises:
+        BadInput: more entries than 32-bit indices can count.
+    """
+    ends = np.cumsum(counts, dtype=np.int64)
+    total = int(ends[-1]) if len(ends) else 0
+    if total > MAX_INCIDENCES:
+        raise BadInput(
+            f"scans: {len(counts):,} {what} cross {total:,} cells, over the limit of {MAX_INCIDENCES:,}; "
+            "use a coarser resolution, a shorter --max-range, or fewer scans"
+        )
+    return np.concatenate([[0], ends]).astype(np.int32)
 
 
 def _pieces(beams: int) -> Iterator[tuple[int, int]]:

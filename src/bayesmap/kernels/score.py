@@ -21,7 +21,7 @@ def beam_term(
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
     packed: wp.array2d(dtype=wp.uint8),
     d: int,
     b: int,
@@ -31,13 +31,13 @@ def beam_term(
         c = cells[k]
         if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
             return loglik[k]
-    return beyond[b]
+    return no_hit[b]
 
 
 def _on_device(table: BeamTable, device: str) -> list[Any]:
     """The table's arrays, as both kernels take them."""
     indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
-    return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.beyond)]
+    return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
 
 
 @wp.kernel
@@ -46,7 +46,7 @@ def add_densities(
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
     packed: wp.array2d(dtype=wp.uint8),
     most: wp.array(dtype=wp.float64),
     total: wp.array(dtype=wp.float64),
@@ -54,7 +54,7 @@ def add_densities(
     """One thread a beam: add exp(log-likelihood) under each packed map to a running log-sum-exp."""
     b = first + wp.tid()
     for d in range(packed.shape[0]):
-        value = wp.float64(beam_term(offsets, cells, loglik, beyond, packed, d, b))
+        value = wp.float64(beam_term(offsets, cells, loglik, no_hit, packed, d, b))
         if value > most[b]:
             total[b] = total[b] * wp.exp(most[b] - value) + wp.float64(1.0)
             most[b] = value
@@ -90,15 +90,15 @@ def sum_log_likelihoods(
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
     packed: wp.array2d(dtype=wp.uint8),
     total: wp.array(dtype=wp.float64),
 ):
     """One thread a packed map: log p(readings | map)."""
     d = first + wp.tid()
     value = wp.float64(0.0)
-    for b in range(beyond.shape[0]):
-        value += wp.float64(beam_term(offsets, cells, loglik, beyond, packed, d, b))
+    for b in range(no_hit.shape[0]):
+        value += wp.float64(beam_term(offsets, cells, loglik, no_hit, packed, d, b))
     total[d] = value
 
 

@@ -26,13 +26,13 @@ class Table:
     offsets: wp.array(dtype=wp.int32)
     cells: wp.array(dtype=wp.int32)
     loglik: wp.array(dtype=wp.float32)
-    beyond: wp.array(dtype=wp.float32)
+    no_hit: wp.array(dtype=wp.float32)
     cell_offsets: wp.array(dtype=wp.int32)
     cell_entry: wp.array(dtype=wp.int32)
     cell_beam: wp.array(dtype=wp.int32)
     cell_loglik: wp.array(dtype=wp.float32)
     cell_gain: wp.array(dtype=wp.float32)
-    cell_lead: wp.array(dtype=wp.float32)
+    cell_advantage: wp.array(dtype=wp.float32)
 
 
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
@@ -115,7 +115,7 @@ def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
     """What beam b's reading is worth when entry k is its first wall."""
     if k < end:
         return t.loglik[k]
-    return t.beyond[b]
+    return t.no_hit[b]
 
 
 @wp.func
@@ -143,7 +143,7 @@ def derive_state(chain_0: int, t: Table, chains: Chains):
     for c in range(chain.reached.shape[0]):
         chain.reached[c] = 0
         chain.known[c] = UNKNOWN
-    for b in range(t.beyond.shape[0]):
+    for b in range(t.no_hit.shape[0]):
         start = t.offsets[b]
         end = t.offsets[b + 1]
         k = next_wall(t, chain.walls, start, end)
@@ -214,13 +214,13 @@ def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
     on.offsets = devices.to_device(table.offsets, wp.int32, device)
     on.cells = devices.to_device(table.cells, wp.int32, device)
     on.loglik = devices.to_device(table.loglik, wp.float32, device)
-    on.beyond = devices.to_device(table.beyond, wp.float32, device)
+    on.no_hit = devices.to_device(table.no_hit, wp.float32, device)
     on.cell_offsets = devices.to_device(index.offsets, wp.int32, device)
     on.cell_entry = devices.to_device(index.entry, wp.int32, device)
     on.cell_beam = devices.to_device(index.beam, wp.int32, device)
     on.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
     on.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
-    on.cell_lead = devices.to_device(index.lead, wp.float32, device)
+    on.cell_advantage = devices.to_device(index.advantage, wp.float32, device)
     return on
 
 

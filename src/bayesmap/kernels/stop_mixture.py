@@ -13,15 +13,16 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.crossings import Crossings
+from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.cell_stop import Maps, StopStates, put_maps, stop_in
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.places import Maps, Places, meet_cell, put_places
 from bayesmap.kernels.predict import compiled
+from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
 from bayesmap.kernels.reading_law import cumulative
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import SensorModel
 
 wp.set_module_options({"enable_backward": False})
 
@@ -35,31 +36,37 @@ MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can
 @wp.kernel
 def add_stops(
     first: int,
+    lines: Lines,
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
-    places: Places,
+    columns: wp.array(dtype=wp.int32),
+    maps: Maps,
     draws: int,
     weight: wp.array(dtype=wp.float32),
     shift: wp.array(dtype=wp.float32),
     square: wp.array(dtype=wp.float32),
-    beyond: wp.array(dtype=wp.float64),
+    no_stop: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam: add the weight of each stop, and the moments of its place about ``distance_m``."""
+    """One thread a beam: add the weight of each stop, and the moments of where it is about the part ``maps.depth`` of
+    the cell's stretch.
+    """
     b = first + wp.tid()
+    line = line_of(lines, b)
     for d in range(draws):
         survive = wp.float64(1.0)
         for k in range(offsets[b], offsets[b + 1]):
-            place = meet_cell(places, d, b, k, cells[k])
-            w = survive * place[0]
-            survive = survive * (wp.float64(1.0) - place[0])
+            stop = stop_in(maps, d, columns[k], line, cells[k])
+            w = survive * stop[0]
+            survive = survive * (wp.float64(1.0) - stop[0])
             if w > wp.float64(0.0):
-                away = place[1] - wp.float64(places.distance_m[k])
                 weight[k] = weight[k] + wp.float32(w)
-                shift[k] = shift[k] + wp.float32(w * away)
-                square[k] = square[k] + wp.float32(w * (away * away + place[2] * place[2]))
+                if maps.surfaces != 0:
+                    away = stop[1] - distance_at(line, cells[k], maps.depth)
+                    shift[k] = shift[k] + wp.float32(w * away)
+                    square[k] = square[k] + wp.float32(w * (away * away + stop[2] * stop[2]))
                 if survive < LEAST_CHANCE:
                     break
-        beyond[b] = beyond[b] + survive
+        no_stop[b] = no_stop[b] + survive
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,49 +74,42 @@ class StopMixture:
     """Where each beam stops: a mixture over the cells that it meets.
 
     Attributes:
-        crossings: the beams; entries below are theirs.
+        rays: the beams; entries below are theirs.
         weight: probability that the beam stops there, (K,), float32.
         distance_m, spread_m: mean and standard deviation of where, metres, (K,), float32.
-        beyond: probability that it stops nowhere in the map, (B,).
+        no_stop: probability that it stops nowhere in the map, (B,).
     """
 
-    crossings: Crossings
+    rays: Rays
     weight: NDArray[np.float32]
     distance_m: NDArray[np.float32]
     spread_m: NDArray[np.float32]
-    beyond: Floats
+    no_stop: Floats
 
 
-def mix_stops(
-    crossings: Crossings,
-    distance_m: NDArray[np.float32],
-    batches: Iterable[Maps],
-    *,
-    spread_m: NDArray[np.float32] | None = None,
-    device: str = "cpu",
-) -> StopMixture:
+def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
     """Average over draws; arguments as of `bayesmap.kernels.predict.forecast`.
 
     Raises:
         BadInput: no draws.
     """
     device = devices.resolve(device)
-    size = len(crossings.cells)
-    sums = [wp.zeros(size, dtype=wp.float32, device=device) for _ in range(3)]
-    beyond = wp.zeros(crossings.n_beams, dtype=wp.float64, device=device)
-    fixed = [devices.to_device(a, wp.int32, device) for a in (crossings.offsets, crossings.cells)]
+    sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
+    no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
+    fixed = [*put_rays(rays, device), devices.to_device(rays.columns, wp.int32, device)]
     draws = 0
     for batch in batches:
         draws += len(batch)
-        places = put_places(batch, crossings, distance_m, spread_m, device)
-        launch(add_stops, crossings.n_beams, [*fixed, places, len(batch), *sums, beyond], device)
+        inputs = [*fixed, put_maps(batch, hit_depth, device), len(batch), *sums, no_stop]
+        launch(add_stops, rays.n_beams, inputs, device)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     weight, shift, square = (a.numpy() for a in sums)
     some = np.where(weight > 0, weight, np.float32(1.0))
     mean = shift / some
     spread = np.sqrt(np.maximum(square / some - mean * mean, 0.0))
-    return StopMixture(crossings, weight / np.float32(draws), distance_m + mean, spread, beyond.numpy() / draws)
+    distance_m = stop_distances(rays, hit_depth, device) + mean
+    return StopMixture(rays, weight / np.float32(draws), distance_m, spread, no_stop.numpy() / draws)
 
 
 @wp.struct
@@ -120,13 +120,13 @@ class Stops:
     weight: wp.array(dtype=wp.float32)
     distance_m: wp.array(dtype=wp.float32)
     spread_m: wp.array(dtype=wp.float32)
-    beyond: wp.array(dtype=wp.float64)
+    no_stop: wp.array(dtype=wp.float64)
 
 
 @wp.func
 def mixture_below(s: SensorParameters, stops: Stops, b: int, range_m: wp.float64) -> wp.float64:
     """P(reading <= range) of a beam."""
-    p = stops.beyond[b] * cumulative(s, range_m, wp.float64(wp.inf), wp.float64(0.0))
+    p = stops.no_stop[b] * cumulative(s, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for k in range(stops.offsets[b], stops.offsets[b + 1]):
         weight = wp.float64(stops.weight[k])
         if weight > LEAST_WEIGHT:
@@ -173,8 +173,9 @@ def find_events(
     first: int,
     s: SensorParameters,
     stops: Stops,
-    entry_m: wp.array(dtype=wp.float32),
-    end_m: wp.array(dtype=wp.float32),
+    lines: Lines,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
     range_m: wp.array(dtype=wp.float64),
     chance: wp.array(dtype=wp.float32),
     stopped: wp.array(dtype=wp.int8),
@@ -188,10 +189,15 @@ def find_events(
     one = wp.float64(1.0)
     if wp.isnan(z):
         return
+    line = line_of(lines, b)
     before = wp.float64(-1.0)
-    for k in range(stops.offsets[b], stops.offsets[b + 1]):
-        enter = wp.float64(entry_m[k])
-        leave = wp.min(wp.float64(end_m[k]), s.max_m)
+    for k in range(offsets[b], offsets[b + 1]):
+        own = stretch(line, cells[k])
+        enter = own[0]
+        leave = own[1]
+        if k + 1 < offsets[b + 1]:
+            leave = stretch(line, cells[k + 1])[0]
+        leave = wp.min(leave, s.max_m)
         if enter > z:
             break
         if leave > enter:
@@ -206,17 +212,15 @@ def find_events(
 
 def _put(stops: StopMixture, device: str) -> Any:
     packed = Stops()
-    packed.offsets = devices.to_device(stops.crossings.offsets, wp.int32, device)
+    packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
     packed.weight = devices.to_device(stops.weight, wp.float32, device)
     packed.distance_m = devices.to_device(stops.distance_m, wp.float32, device)
     packed.spread_m = devices.to_device(stops.spread_m, wp.float32, device)
-    packed.beyond = devices.to_device(stops.beyond, wp.float64, device)
+    packed.no_stop = devices.to_device(stops.no_stop, wp.float64, device)
     return packed
 
 
-def range_quantiles(
-    stops: StopMixture, levels: Floats, sensor: SensorModel, limits: RangeLimits, device: str = "cpu"
-) -> Floats:
+def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
     """The least range below which the reading falls with each probability, metres, shape (B, levels).
 
     No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
@@ -226,13 +230,13 @@ def range_quantiles(
         stops: where the beams stop.
         levels: rising probabilities.
         sensor: the law of a reading given where its beam stops.
-        limits: of the sensor.
         device: where to compute.
     """
     device = devices.resolve(device)
+    limits = stops.rays.limits
     s = compiled(sensor, limits)
     low, high = (limits.min_m, limits.max_m) if s.robust else (-limits.max_m, 2.0 * limits.max_m)
-    beams = stops.crossings.n_beams
+    beams = stops.rays.n_beams
     out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
     inputs = [s, _put(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
     launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
@@ -240,7 +244,7 @@ def range_quantiles(
 
 
 def first_hit_events(
-    stops: StopMixture, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits, device: str = "cpu"
+    stops: StopMixture, sensor: SensorModel, device: str = "cpu"
 ) -> tuple[NDArray[np.float32], NDArray[np.int8]]:
     """Of each stretch of a beam in a cell that its reading gets to: does the reading end there?
 
@@ -249,20 +253,17 @@ def first_hit_events(
 
     Args:
         stops: where the beams stop.
-        ranges_m: the readings, B of them.
         sensor: the law of a reading given where its beam stops.
-        limits: of the sensor.
         device: where to compute.
 
     Returns:
         The chances, and 1 where the reading ended, 0 where it went on, -1 where there is no event; both (K,).
     """
     device = devices.resolve(device)
-    size = len(stops.weight)
+    rays, size = stops.rays, len(stops.weight)
     chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
-    edges = (stops.crossings.entry_m, stops.crossings.ends_m())
-    inputs = [compiled(sensor, limits), _put(stops, device), *(devices.to_device(a, wp.float32, device) for a in edges)]
-    inputs += [devices.to_device(ranges_m.ravel(), wp.float64, device), chance, stopped]
-    launch(find_events, stops.crossings.n_beams, inputs, device)
+    inputs = [compiled(sensor, rays.limits), _put(stops, device), *put_rays(rays, device)]
+    inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
+    launch(find_events, rays.n_beams, inputs, device)
     return chance.numpy(), stopped.numpy()

@@ -18,13 +18,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.beams.crossings import Crossings
+from bayesmap.beams.rays import Rays
 from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.shares import Tell, nobody, parts
 from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
-from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans
 
@@ -140,18 +139,18 @@ class Fold:
     hits: Floats
     passes: Floats
     scans: Scans
-    crossings: Crossings
+    rays: Rays
 
     def thinned(self) -> Fold:
         """The same counts, and every `THIN`-th of the scans to predict: for a first rough search."""
-        return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.crossings.grid)
+        return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
 
 
 def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
-    from bayesmap.kernels.crossings import trace_crossings
+    from bayesmap.kernels.rays import trace_rays
 
     reach = np.where(np.isfinite(scans.ranges_m), scans.ranges_m + PAST_READING_M, scans.max_range_m).ravel()
-    return Fold(hits, passes, scans, trace_crossings(scans, grid, reach))
+    return Fold(hits, passes, scans, trace_rays(scans, grid, reach_m=reach))
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
@@ -189,10 +188,9 @@ def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, va
     total, beams = 0.0, 0
     sensor = sensor_of(values, dof)
     for fold in folds:
-        stop = baseline.stop(fold.hits, fold.passes, values)[None].astype(np.float32)
-        limits = RangeLimits(fold.scans.min_range_m, fold.scans.max_range_m)
-        distance_m = fold.crossings.distance_m(values["hit_depth"])
-        logs = log_densities(fold.crossings, distance_m, [stop], fold.scans.ranges_m, sensor, limits)
+        touched = fold.rays.touched
+        stop = baseline.stop(fold.hits[touched], fold.passes[touched], values)[None].astype(np.float32)
+        logs = log_densities(fold.rays, [stop], sensor, values["hit_depth"])
         valid = ~np.isnan(logs)
         total, beams = total + float(logs[valid].sum()), beams + int(valid.sum())
     return total / beams

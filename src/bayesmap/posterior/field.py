@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from bayesmap.beams.beam_rays import BeamRays
+from bayesmap.beams.rays import around_readings
 from bayesmap.cells.reflectivity import Reflective, quantiles_of_halves
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.space.grid import Grid
@@ -166,14 +168,16 @@ def field_beam_log_scores(
 ) -> Floats:
     """Log predictive density of every reading, NaN where it is invalid, log mean over draws, in nats, (B,)."""
     from bayesmap.kernels.field_score import FieldScore
-    from bayesmap.kernels.rays import trace_rays
+    from bayesmap.kernels.rays import stop_distances, trace_rays
 
     sensor = posterior.sensor if sensor is None else sensor
     # Stops further from a reading than this explain it as chance or a passing object alone.
     ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()
     margin_m = CELLS_AROUND * posterior.grid.resolution + SIGMAS_AROUND * sensor.noise.scale_at(ranges)
     hit_depth = float(posterior.settings["hit_depth"])
-    rays = trace_rays(scans, posterior.grid, margin_m=margin_m, hit_depth=hit_depth)
+    reach_m, near_m = around_readings(scans, margin_m, posterior.grid.resolution)
+    traced = trace_rays(scans, posterior.grid, reach_m=reach_m, near_m=near_m)
+    rays = BeamRays.of(traced, stop_distances(traced, hit_depth))
     parameters = sensor.kernel_parameters()
     assert parameters is not None
     score = FieldScore(rays, parameters, plain=posterior.kind == "reflectivity")

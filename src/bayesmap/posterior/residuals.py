@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor
 from bayesmap.posterior.shares import Tell, nobody, parts, watched
-from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.scans import Reading, Scans
 
 Floats = NDArray[np.float64]
@@ -45,22 +44,19 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
     Raises:
         BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
     """
-    from bayesmap.kernels.crossings import trace_crossings
     from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.rays import trace_rays
     from bayesmap.kernels.stop_mixture import mix_stops, range_quantiles
 
     if not placed(scans).size:
         raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")
-    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    crossings, touched = trace_crossings(scans, predictor.grid, device=device).numbered()
-    where = crossings.distance_m(predictor.hit_depth)
-    draws = predictor.draws
+    rays = trace_rays(scans, predictor.grid, device=device)
+    sensor, depth, draws = predictor.sensor, predictor.hit_depth, predictor.draws
     mixing, forecasting = parts(on_progress, 0.5, 1.0)
-    law = mix_stops(crossings, where, watched(predictor.batches(touched), draws, mixing), device=device)
-    median_m = range_quantiles(law, np.array([0.5]), predictor.sensor, limits, device)[:, 0]
-    ranges = scans.ranges_m.ravel()
-    batches = watched(predictor.batches(touched), draws, forecasting)
-    found = forecast(crossings, where, batches, ranges, predictor.sensor, limits, device=device)
+    law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
+    median_m = range_quantiles(law, np.array([0.5]), sensor, device)[:, 0]
+    batches = watched(predictor.batches(rays.touched), draws, forecasting)
+    found = forecast(rays, batches, sensor, depth, device=device)
     return compare(scans, median_m, found.log_density)
 
 

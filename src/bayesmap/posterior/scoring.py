@@ -141,8 +141,8 @@ def score_prediction(
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
     """
-    from bayesmap.kernels.crossings import trace_crossings
     from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.rays import trace_rays
     from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
 
     valid = (scans.readings != Reading.INVALID).ravel()
@@ -150,17 +150,15 @@ def score_prediction(
         raise BadInput("score: none of the scans has a valid reading")
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     sensor, ranges = predictor.sensor, scans.ranges_m.ravel()
-    crossings, touched = trace_crossings(scans, predictor.grid, device=device).numbered()
-    where = crossings.distance_m(predictor.hit_depth)
-    draws = predictor.draws
+    rays = trace_rays(scans, predictor.grid, device=device)
+    depth, draws = predictor.hit_depth, predictor.draws
     forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
-    batches = watched(predictor.batches(touched), draws, forecasting)
-    found = forecast(crossings, where, batches, ranges, sensor, limits, device=device)
-    law = mix_stops(crossings, where, watched(predictor.batches(touched), draws, mixing), device=device)
+    found = forecast(rays, watched(predictor.batches(rays.touched), draws, forecasting), sensor, depth, device=device)
+    law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
-    quantiles = range_quantiles(law, np.array(ends), sensor, limits, device)[valid]
+    quantiles = range_quantiles(law, np.array(ends), sensor, device)[valid]
     at_quantiles(1.0)
-    chance, stopped = first_hit_events(law, ranges, sensor, limits, device)
+    chance, stopped = first_hit_events(law, sensor, device)
     at_events(1.0)
 
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
@@ -179,7 +177,7 @@ def score_prediction(
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)
-    of_events = Blocks.make(np.repeat(scan, np.diff(crossings.offsets))[event], seed)
+    of_events = Blocks.make(np.repeat(scan, rays.lengths)[event], seed)
     none = Estimate(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])),

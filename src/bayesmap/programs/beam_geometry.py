@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
+from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -85,41 +85,27 @@ class BeamGeometry:
         return f"BeamGeometry({self.n_beams} beams on {self.shape[0]} x {self.shape[1]} cells)"
 
 
-class _Distance(SensorModel):
-    """What the tracing takes for a sensor, so that it writes distances where likelihoods would stand."""
-
-    def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        return distance_m
-
-    def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        return np.full(np.shape(range_m), np.inf)
-
-    def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
-        return distance_m
-
-
 def beam_geometry(
     grid: Grid, poses: ArrayLike, angles_rad: NDArray[np.float64], limits: RangeLimits, hit_depth: float
 ) -> BeamGeometry:
     """Trace the beams of S poses, shape (S, 3), and A angles: beam s * A + a is beam a of pose s."""
-    from bayesmap.kernels.trace import trace  # loads Warp
+    from bayesmap.kernels.rays import trace_rays  # loads Warp
 
     unread = np.zeros((len(np.atleast_2d(poses)), len(angles_rad)))
     scans = Scans(poses, angles_rad, unread, limits.max_m, limits.min_m)  # type: ignore[arg-type]
-    table = trace(scans, grid, _Distance(), hit_depth=hit_depth)
+    rays = trace_rays(scans, grid)
 
-    lengths = np.diff(table.offsets)
-    beam = np.repeat(np.arange(table.n_beams, dtype=np.int32), lengths)
-    position = (np.arange(table.n_incidences) - table.offsets[beam]).astype(np.int32)
-    width = int(lengths.max(initial=0)) + LOOK
-    cells = np.full((table.n_beams, width), grid.n_cells, dtype=np.int32)
-    distance_m = np.full((table.n_beams, width), np.inf, dtype=np.float32)
-    cells[beam, position] = table.cells
-    distance_m[beam, position] = table.loglik
+    beam = rays.beam_of_entry()
+    position = (np.arange(rays.n_incidences) - rays.offsets[beam]).astype(np.int32)
+    width = int(rays.lengths.max(initial=0)) + LOOK
+    cells = np.full((rays.n_beams, width), grid.n_cells, dtype=np.int32)
+    distance_m = np.full((rays.n_beams, width), np.inf, dtype=np.float32)
+    cells[beam, position] = rays.cells
+    distance_m[beam, position] = rays.distance_m(hit_depth)
 
-    by_cell = np.argsort(table.cells, kind="stable")
+    by_cell = np.argsort(rays.cells, kind="stable")
     offsets = np.zeros(grid.n_cells + 1, dtype=np.int32)
-    np.cumsum(np.bincount(table.cells, minlength=grid.n_cells), out=offsets[1:])
+    np.cumsum(np.bincount(rays.cells, minlength=grid.n_cells), out=offsets[1:])
     padding = np.zeros(GROUP, dtype=np.int32)
     return BeamGeometry(
         shape=grid.shape,

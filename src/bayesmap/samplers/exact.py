@@ -78,7 +78,7 @@ def enumerate_maps(problem: Problem) -> Enumeration:
         log_p += np.where(state >> i & 1, np.log(p[cell]), np.log1p(-p[cell]))
     for b in range(table.n_beams):
         still_free = np.ones(len(state), dtype=np.bool_)
-        term = np.full(len(state), np.float64(table.beyond[b]))
+        term = np.full(len(state), np.float64(table.no_hit[b]))
         for k in range(table.offsets[b], table.offsets[b + 1]):
             cell = table.cells[k]
             wall = (state >> bit_of[cell] & 1 == 1) if bit_of[cell] >= 0 else np.full(len(state), p[cell] == 1.0)

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import BeamRays
+from bayesmap.beams.beam_rays import BeamRays
+from bayesmap.beams.rays import around_readings
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.errors import BadInput
 from bayesmap.samplers.fit import BEAMS_LOOKED_AT, Stops
@@ -76,7 +77,7 @@ def build_field(
         BadInput: a sensor that is not a `BeamMixture` of Gaussian noise, or too many incidences.
     """
     from bayesmap.kernels.device import resolve
-    from bayesmap.kernels.rays import trace_rays
+    from bayesmap.kernels.rays import stop_distances, trace_rays
 
     device = resolve(device)
     if not (isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian)):
@@ -86,8 +87,9 @@ def build_field(
         )
     ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
     margin_m = CELLS_AROUND * grid.resolution + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
-    rays = trace_rays(scans, grid, margin_m=margin_m, hit_depth=hit_depth, device=device, on_progress=on_progress)
-    return FieldProblem(rays, prior, sensor, device)
+    reach_m, near_m = around_readings(scans, margin_m, grid.resolution)
+    rays = trace_rays(scans, grid, reach_m=reach_m, near_m=near_m, device=device, on_progress=on_progress)
+    return FieldProblem(BeamRays.of(rays, stop_distances(rays, hit_depth, device)), prior, sensor, device)
 
 
 def prior_numbers(prior: Reflective, edge_m: float) -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from bayesmap.beams.rays import BeamRays
+from bayesmap.beams.beam_rays import BeamRays
 from bayesmap.cells.reflectivity import Reflective
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for

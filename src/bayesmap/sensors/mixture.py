@@ -80,12 +80,16 @@ class BeamMixture(SensorModel):
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
         """The logarithm of the three formulas above, by the kind of the reading."""
-        z, d = np.broadcast_arrays(range_m, distance_m)
+        return self.stop_log_likelihood(range_m, distance_m, np.zeros(()), limits)
+
+    def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """The same, with the noise widened by the spread of the stop: ``sqrt(scale(d)^2 + spread^2)``."""
+        z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
         p = np.ones(z.shape)  # an invalid reading says nothing
         finite, none, close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
-        p[finite] = self._hit(z[finite], d[finite], limits)
-        p[none] = self._no_return(d[none], limits)
-        p[close] = self._too_close(d[close], limits)
+        p[finite] = self._hit(z[finite], d[finite], s[finite], limits)
+        p[none] = self._no_return(d[none], s[none], limits)
+        p[close] = self._too_close(d[close], s[close], limits)
         with np.errstate(divide="ignore"):
             return np.asarray(np.maximum(np.log(p), LOG_IMPOSSIBLE))
 
@@ -93,24 +97,24 @@ class BeamMixture(SensorModel):
         """The chance that the wall at d is what comes back: q(d) (1 - p_no_return), and 0 out of range."""
         return np.where(d <= limits.max_m, self.unblocked(d) * (1.0 - self.p_no_return), 0.0)
 
-    def _hit(self, z: Floats, d: Floats, limits: RangeLimits) -> Floats:
+    def _hit(self, z: Floats, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         wall_m = np.minimum(d, limits.max_m)
-        scale = self.noise.scale_at(wall_m)
+        scale = np.hypot(self.noise.scale_at(wall_m), spread_m)
         noise = np.exp(self.noise.log_density((z - wall_m) / scale)) / scale
         rate = self.rate_short_per_m
         short = np.where(z < wall_m, self.p_short * rate * np.exp(-rate * np.maximum(z, 0.0)), 0.0)
         uniform = self.p_random / (limits.max_m - limits.min_m)
         return np.asarray(uniform + (1 - self.p_random) * (short + self._returned(d, limits) * noise))
 
-    def _no_return(self, d: Floats, limits: RangeLimits) -> Floats:
+    def _no_return(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
-        above = self.noise.tail((limits.max_m - wall_m) / self.noise.scale_at(wall_m))
+        above = self.noise.tail((limits.max_m - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))
         return np.asarray((1 - self.p_random) * (self.unblocked(wall_m) - returned * (1.0 - above)))
 
-    def _too_close(self, d: Floats, limits: RangeLimits) -> Floats:
+    def _too_close(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
         blocked = 1.0 - self.unblocked(np.minimum(wall_m, limits.min_m))
-        below = 1.0 - self.noise.tail((limits.min_m - wall_m) / self.noise.scale_at(wall_m))
+        below = 1.0 - self.noise.tail((limits.min_m - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))
         return np.asarray((1 - self.p_random) * (blocked + returned * below))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
@@ -27,7 +28,7 @@ class SensorModel(ABC):
     Distances are in metres; a distance of ``inf`` means that the beam meets nothing. Readings are coded as in
     `bayesmap.space.scans.Scans`: a finite range is a hit, ``inf`` no return, ``-inf`` too close, NaN invalid.
     To write a new sensor model, implement the three methods below: the beam table, and with it every sampler,
-    then works with it. `kernel_parameters` is optional speed: without it the table is filled by NumPy.
+    then works with it. The other methods are optional: they replace numerical defaults by formulas.
     """
 
     @abstractmethod
@@ -40,13 +41,26 @@ class SensorModel(ABC):
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
         """The distance past which `log_likelihood` no longer depends on the distance, for each reading.
 
-        The rest of such a beam is one entry of the table, "beyond", worth
+        The rest of such a beam is one entry of the table, "no hit", worth
         ``log_likelihood(range, inf)``. Return ``inf`` where there is no such distance.
         """
 
     @abstractmethod
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Draw a reading for every distance; the law is the one that `log_likelihood` scores."""
+
+    def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """log p(range | the beam stops at about a distance), broadcast over all: the law that maps are inferred by.
+
+        ``spread_m`` is the standard deviation of where the beam stops. Without a formula of its own a model has the
+        mean of its `log_likelihood` over a normal distribution of stops, by quadrature.
+        """
+        z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
+        out = np.asarray(self.log_likelihood(z, d, limits), dtype=np.float64).copy()
+        wide = (s > 0) & np.isfinite(d)
+        if wide.any():
+            out[wide] = _mean_over_stops(self, z[wide], d[wide], s[wide], limits)
+        return out
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
         """P(reading <= range | distance), broadcast over both; too close counts as -inf, no return as +inf.
@@ -62,6 +76,27 @@ class SensorModel(ABC):
     def kernel_parameters(self) -> KernelParameters | None:
         """The numbers with which the compiled likelihood computes this model, or None if it cannot."""
         return None
+
+
+STANDARD = np.linspace(-6.0, 6.0, 241)
+"""Where a stop may lie, in standard deviations."""
+
+
+def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
+    """Log of the mean of p(z | t) over t ~ N(d, s^2), for t >= 0: the midpoint rule on two sets of nodes, (n,) each.
+
+    A sensor may be far sharper than the spread. So the nodes are those of the normal distribution, and as many that
+    crowd about the reading.
+    """
+    crowded = np.sinh(np.linspace(-9.0, 9.0, 242)) / math.sinh(9.0)
+    near = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
+    t = np.concatenate([d + s * STANDARD[:, None], near + 12.0 * s * crowded[:, None]])
+    t = np.sort(np.clip(t, np.maximum(d - 6.0 * s, 0.0), d + 6.0 * s), axis=0)
+    middle, width = 0.5 * (t[1:] + t[:-1]), np.diff(t, axis=0)
+    with np.errstate(divide="ignore"):
+        log_weight = np.log(width) - 0.5 * ((middle - d) / s) ** 2
+    log_p = model.log_likelihood(np.broadcast_to(z, middle.shape), middle, limits)
+    return np.asarray(np.logaddexp.reduce(log_weight + log_p, axis=0) - np.logaddexp.reduce(log_weight, axis=0))
 
 
 @dataclass(frozen=True)

@@ -39,9 +39,13 @@ class AdditiveNoise(SensorModel):
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Log density of ``range - min(distance, max_range)``; 0 where the reading is invalid."""
+        return self.stop_log_likelihood(range_m, distance_m, np.zeros(()), limits)
+
+    def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """The same, with the noise widened by the spread of the stop."""
         reading = np.clip(range_m, _finite_or(limits.min_m, range_m), _finite_or(limits.max_m, range_m))
         expected = np.minimum(distance_m, limits.max_m)
-        scale = self.scale_at(expected)
+        scale = np.hypot(self.scale_at(expected), spread_m)
         log_density = self.log_density((reading - expected) / scale) - np.log(scale)
         return np.where(np.isnan(range_m), 0.0, log_density)
 

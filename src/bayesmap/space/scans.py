@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.planar import between, compose
 
 
 class Reading(IntEnum):
@@ -134,6 +135,20 @@ class Scans:
         return replace(
             self, poses=self.poses[scans], ranges_m=self.ranges_m[scans], stamps_s=stamps, beam_poses=beam_poses
         )
+
+    def at(self, poses_world: ArrayLike) -> Scans:
+        """The same readings from other poses, (S, 3). Where the sensor moved while it turned, its path moves along.
+
+        Raises:
+            BadInput: poses of another shape, or that are not finite.
+        """
+        poses = as_poses(poses_world)
+        if poses.shape != self.poses.shape:
+            raise BadInput(f"scans: poses has shape {poses.shape}, expected {self.poses.shape}")
+        if self.beam_poses is None:
+            return replace(self, poses=poses)
+        seen_from_scan = between(self.poses[:, None], self.beam_poses)
+        return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
         """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.

@@ -1,0 +1,67 @@
+"""Whether a beam stops in a cell, where, and how exactly that is known: all that a kind of cell is to a prediction.
+
+Every kernel that predicts asks `stop_in`, and `put_maps` fills in what that reads. Binary walls are stop probabilities
+0 and 1.
+"""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.meeting import Cell, meet, ray_from
+from bayesmap.kernels.rays import Line, distance_at
+
+wp.set_module_options({"enable_backward": False})
+
+StopStates = NDArray[np.float32]
+"""Some maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
+mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
+
+
+@wp.struct
+class Maps:
+    """Some maps on a device, one a row; and where beams stop in cells without a surface, as a part of their stretch."""
+
+    stop: wp.array2d(dtype=wp.float32)
+    surface: wp.array2d(dtype=Cell)
+    surfaces: int
+    depth: wp.float64
+
+
+@wp.func
+def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
+    """Chance that a beam stops in a cell once it gets there, and distance and spread in metres if it does.
+
+    Args:
+        maps: some maps.
+        row: which of them.
+        column: where it has the cell.
+        line: the beam's.
+        cell: flat index in the grid.
+    """
+    if maps.surfaces != 0:
+        state = maps.surface[row, column]
+        met = meet(state, ray_from(line.start_m, line.direction))
+        chance = wp.float64(state[0]) * wp.float64(met.chance)
+        return wp.vec3d(chance, wp.float64(met.distance_m), wp.sqrt(wp.float64(met.variance)))
+    chance = wp.float64(maps.stop[row, column])
+    if chance == wp.float64(0.0):
+        return wp.vec3d(chance, chance, chance)
+    return wp.vec3d(chance, distance_at(line, cell, maps.depth), wp.float64(0.0))
+
+
+def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
+    """Some maps on a device; their number of dimensions says which kind of cells they have."""
+    maps = Maps()
+    maps.surfaces = int(states.ndim == 3)
+    maps.depth = hit_depth
+    if states.ndim == 3:
+        padded = np.zeros((*states.shape[:2], 8), dtype=np.float32)
+        padded[..., : states.shape[2]] = states
+        maps.surface = wp.array(padded, dtype=Cell, device=device)
+    else:
+        maps.stop = devices.to_device(states, wp.float32, device)
+    return maps
