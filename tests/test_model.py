@@ -1,46 +1,20 @@
 """The joint law in plain NumPy is what its formula says, for walls, reflectivities and surfaces."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
-from oracle.field_law import draw_states, log_likelihoods, paths_of
+from oracle.field_law import log_likelihoods, paths_of
 from oracle.field_worlds import beam_rays, scans_of_all_kinds
 from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
-from bayesmap.model import Model
+from bayesmap.model import Model, State
 from bayesmap.poses.prior import Uncertain
 
 GRID = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
 DEPTH = 0.3
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 SENSORS = {"mixture": SENSOR, "student-t mixture": bm.BeamMixture(bm.StudentT(0.1, 3.0)), "gaussian": bm.Gaussian(0.3)}
-
-
-@dataclass(frozen=True)
-class Walls:
-    """Binary walls: stop probabilities 0 and 1."""
-
-    p: float = 0.2
-
-    def log_prob(self, cells, grid):
-        return float(np.where(cells["walls"], np.log(self.p), np.log1p(-self.p)).sum())
-
-    def stops(self, cells, grid):
-        return np.asarray(cells["walls"], dtype=float).ravel()
-
-
-@dataclass(frozen=True)
-class Given:
-    """Stop probabilities or surfaces as they are, without a prior."""
-
-    def log_prob(self, cells, grid):
-        return 0.0
-
-    def stops(self, cells, grid):
-        return cells["states"]
 
 
 def scans(seed, lattice=False):
@@ -52,7 +26,7 @@ def scans(seed, lattice=False):
 def test_walls_have_the_likelihood_of_their_first_hits(name, lattice):
     """The beam table's plain reference looks for the first wall of each beam; here one weight of all stops is 1."""
     sensor, rng = SENSORS[name], np.random.default_rng(1)
-    model = Model(scans(1, lattice), GRID, Walls(), sensor, hit_depth=DEPTH)
+    model = Model(scans(1, lattice), GRID, bm.Independent(0.2), sensor, hit_depth=DEPTH)
     table = trace(model.scans, GRID, sensor, hit_depth=DEPTH)
     for density in (0.0, 0.1, 0.5):
         walls = rng.random(GRID.shape) < density
@@ -64,33 +38,30 @@ def test_walls_have_the_likelihood_of_their_first_hits(name, lattice):
         assert model.log_joint(state) == pytest.approx(prior + model.log_likelihood(state))
 
 
-def surfaces_of(prior, seed):
-    ny = GRID.shape[1]
-    flat = np.arange(GRID.n_cells)
-    centres = np.stack([flat // ny + 0.5, flat % ny + 0.5], axis=-1) * GRID.resolution
-    return draw_states(np.random.default_rng(seed), prior, (centres, GRID.resolution))
+def map_of(prior, seed):
+    return prior.sample_cells(np.random.default_rng(seed), GRID)
 
 
 @pytest.mark.parametrize("prior", [bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)], ids=["reflectivities", "surfaces"])
 def test_reflectivities_and_surfaces_have_the_likelihood_of_the_definition(prior):
     """The other reference works with covariances and knows nothing of this one."""
-    plain = isinstance(prior, bm.Beta)
     for seed in range(4):
-        model = Model(scans(seed), GRID, Given(), SENSOR, hit_depth=DEPTH)
-        states = surfaces_of(prior, seed)
-        found = model.beam_log_likelihoods(model.state({"states": states[:, 0] if plain else states}))
+        model, cells = Model(scans(seed), GRID, prior, SENSOR, hit_depth=DEPTH), map_of(prior, seed)
+        state = model.state(cells)
         rays = beam_rays(model.scans, GRID, hit_depth=DEPTH, whole=True)
-        expected = log_likelihoods(paths_of(rays, far=False), states[rays.touched], SENSOR, plain)
-        np.testing.assert_allclose(found, expected, atol=1e-6 if plain else 1e-5)
+        stops = np.zeros((len(rays.touched), 6))
+        stops[:, : 6 if prior.has_surfaces else 1] = prior.stops(cells, GRID).reshape(GRID.n_cells, -1)[rays.touched]
+        expected = log_likelihoods(paths_of(rays, far=False), stops, SENSOR, not prior.has_surfaces)
+        np.testing.assert_allclose(model.beam_log_likelihoods(state), expected, atol=1e-5)
+        assert model.log_joint(state) == pytest.approx(prior.log_prob(cells, GRID) + expected.sum(), abs=1e-3)
 
 
 def test_readings_integrate_to_one_under_any_map():
     z = np.append(np.linspace(0.1, 3.0, 4001), [np.inf, -np.inf])
     beams = bm.Scans(np.tile([-0.8, 2.3, 0.4], (len(z), 1)), [0.0], z[:, None], max_range_m=3.0, min_range_m=0.1)
     for prior in (bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)):
-        model, states = Model(beams, GRID, Given(), SENSOR, hit_depth=DEPTH), surfaces_of(prior, 7)
-        states = states[:, 0] if isinstance(prior, bm.Beta) else states
-        p = np.exp(model.beam_log_likelihoods(model.state({"states": states})))
+        model = Model(beams, GRID, prior, SENSOR, hit_depth=DEPTH)
+        p = np.exp(model.beam_log_likelihoods(model.state(map_of(prior, 7))))
         assert np.trapezoid(p[:-2], z[:-2]) + p[-2:].sum() == pytest.approx(1.0, abs=2e-3)
 
 
@@ -98,22 +69,24 @@ def test_poses_that_move_are_weighed_where_they_are():
     there = scans(3)
     rng = np.random.default_rng(4)
     poses = there.poses + rng.normal(0, 0.1, there.poses.shape)
-    states = {"states": surfaces_of(bm.Surface(), 4)}
-    model = Model(there, GRID, Given(), SENSOR, Uncertain(0.1, 0.1))
-    moved = Model(there.at(poses), GRID, Given(), SENSOR)
-    at = model.state(states).__class__(states, SENSOR, poses)
-    assert model.log_likelihood(at) == pytest.approx(moved.log_likelihood(moved.state(states)))
-    prior = stats.norm.logpdf(poses - there.poses, 0, 0.1).sum()
-    assert model.log_joint(at) == pytest.approx(prior + model.log_likelihood(at))
-    fixed = Model(there, GRID, Given(), SENSOR)
+    prior, cells = bm.Surface(0.5, 1.0), map_of(bm.Surface(0.5, 1.0), 4)
+    model = Model(there, GRID, prior, SENSOR, Uncertain(0.1, 0.1))
+    moved = Model(there.at(poses), GRID, prior, SENSOR)
+    at = State(cells, SENSOR, poses)
+    assert model.log_likelihood(at) == pytest.approx(moved.log_likelihood(moved.state(cells)))
+    of_poses = stats.norm.logpdf(poses - there.poses, 0, 0.1).sum()
+    rest = prior.log_prob(cells, GRID) + model.log_likelihood(at)
+    assert model.log_joint(at) == pytest.approx(of_poses + rest)
+    fixed = Model(there, GRID, prior, SENSOR)
     assert fixed.log_joint(at) == -np.inf
-    assert np.isfinite(fixed.log_joint(fixed.state(states)))
+    assert np.isfinite(fixed.log_joint(fixed.state(cells)))
     with pytest.raises(bm.BadInput, match=r"state: poses has shape \(1, 3\)"):
-        fixed.log_joint(model.state(states).__class__(states, SENSOR, poses[:1]))
+        fixed.log_joint(State(cells, SENSOR, poses[:1]))
 
 
 def test_many_beams_are_weighed_some_at_a_time(monkeypatch):
-    model, states = Model(scans(5), GRID, Given(), SENSOR), {"states": surfaces_of(bm.Surface(), 5)}
-    whole = model.beam_log_likelihoods(model.state(states))
+    model = Model(scans(5), GRID, bm.Surface(), SENSOR)
+    state = model.state(map_of(bm.Surface(), 5))
+    whole = model.beam_log_likelihoods(state)
     monkeypatch.setattr("bayesmap.model.BEAMS_AT_ONCE", 1)
-    np.testing.assert_allclose(model.beam_log_likelihoods(model.state(states)), whole)
+    np.testing.assert_allclose(model.beam_log_likelihoods(state), whole)

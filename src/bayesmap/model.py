@@ -14,15 +14,15 @@ Here it is written down in plain NumPy, in double precision, for every kind of c
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.stop_law import stops_of
+from bayesmap.cells.kind import CellPrior, Cells
 from bayesmap.errors import BadInput
 from bayesmap.poses.prior import Known, PosePrior
 from bayesmap.sensors.model import Floats, SensorModel
@@ -32,27 +32,17 @@ from bayesmap.space.scans import Scans
 BEAMS_AT_ONCE = 8192
 
 
-class CellLaw(Protocol):
-    """What the model asks of a kind of cells."""
-
-    def log_prob(self, cells: Mapping[str, NDArray[Any]], grid: Grid) -> float:
-        """Log prior density of a map, in nats."""
-
-    def stops(self, cells: Mapping[str, NDArray[Any]], grid: Grid) -> NDArray[np.floating]:
-        """What the map does to beams: stop probabilities (N,) or surfaces (N, 6), see `bayesmap.beams.stop_law`."""
-
-
 @dataclass(frozen=True, eq=False)
 class State:
     """One draw of all unknowns.
 
     Attributes:
-        cells: the arrays that the kind of cells declares.
+        cells: the arrays that the kind of cells declares, each over the whole grid.
         sensor: the law of the readings.
         poses: of the scans, in the world frame, (S, 3).
     """
 
-    cells: Mapping[str, NDArray[Any]]
+    cells: Cells
     sensor: SensorModel
     poses: Floats
 
@@ -72,12 +62,12 @@ class Model:
 
     scans: Scans
     grid: Grid
-    cells: CellLaw
+    cells: CellPrior
     sensor: SensorModel
     poses: PosePrior = field(default_factory=Known)
     hit_depth: float = 0.0
 
-    def state(self, cells: Mapping[str, NDArray[Any]]) -> State:
+    def state(self, cells: Cells) -> State:
         """A state with these cells, the model's sensor, and the poses that the log states."""
         return State(cells, self.sensor, self.scans.poses)
 
