@@ -62,8 +62,12 @@ def resolve(name: str = "cpu") -> str:
 
 
 def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
-    """Put a NumPy array where kernels read it; on the CPU this shares memory when dtype and layout fit."""
-    flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(dtype))
+    """Put a NumPy array where kernels read it; on the CPU this shares memory when dtype and layout fit.
+
+    Of vectors, the array's last axis holds the components.
+    """
+    scalar = getattr(dtype, "_wp_scalar_type_", dtype)
+    flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(scalar))
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
 
 

@@ -1,0 +1,117 @@
+"""Likelihood grids of scans, and the pyramids of their maxima."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.parallel import launch
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.kernel
+def draw_points(
+    first: int,
+    bands: int,
+    offsets: wp.array(dtype=wp.int32),
+    scan: wp.array(dtype=wp.int32),
+    pose: wp.array(dtype=wp.vec3d),
+    points: wp.array2d(dtype=wp.vec2f),
+    kind: wp.array2d(dtype=wp.uint8),
+    origin: wp.array(dtype=wp.vec2d),
+    resolution: wp.float64,
+    stamp: wp.array2d(dtype=wp.uint8),
+    pyramid: wp.array4d(dtype=wp.uint8),
+):
+    """One thread a band of a grid: put the largest of all stamps that cover a cell into it."""
+    t = first + wp.tid()
+    g = t / bands
+    band = t - g * bands
+    nx = pyramid.shape[2]
+    ny = pyramid.shape[3]
+    low = nx * band / bands
+    high = nx * (band + 1) / bands
+    radius = stamp.shape[0] / 2
+    for x in range(low, high):
+        for y in range(ny):
+            pyramid[g, 0, x, y] = wp.uint8(0)
+    for e in range(offsets[g], offsets[g + 1]):
+        s = scan[e]
+        p = pose[e]
+        cosine = wp.cos(p[2])
+        sine = wp.sin(p[2])
+        for b in range(points.shape[1]):
+            if kind[s, b] == wp.uint8(0):
+                continue
+            px = wp.float64(points[s, b][0])
+            py = wp.float64(points[s, b][1])
+            cx = int(wp.floor((p[0] + cosine * px - sine * py - origin[g][0]) / resolution))
+            cy = int(wp.floor((p[1] + sine * px + cosine * py - origin[g][1]) / resolution))
+            if cy < -radius or cy >= ny + radius:
+                continue
+            for x in range(wp.max(cx - radius, low), wp.min(cx + radius + 1, high)):
+                for y in range(wp.max(cy - radius, 0), wp.min(cy + radius + 1, ny)):
+                    value = stamp[x - cx + radius, y - cy + radius]
+                    if value > pyramid[g, 0, x, y]:
+                        pyramid[g, 0, x, y] = value
+
+
+@wp.kernel
+def next_level(first: int, level: int, pyramid: wp.array4d(dtype=wp.uint8)):
+    """One thread a row: maxima over blocks of 2^level cells, from those over blocks half as long."""
+    t = first + wp.tid()
+    nx = pyramid.shape[2]
+    ny = pyramid.shape[3]
+    g = t / nx
+    x = t - g * nx
+    half = 1 << (level - 1)
+    x2 = wp.min(x + half, nx - 1)
+    for y in range(ny):
+        y2 = wp.min(y + half, ny - 1)
+        low = wp.max(pyramid[g, level - 1, x, y], pyramid[g, level - 1, x2, y])
+        high = wp.max(pyramid[g, level - 1, x, y2], pyramid[g, level - 1, x2, y2])
+        pyramid[g, level, x, y] = wp.max(low, high)
+
+
+def draw_grids(
+    points: Any,
+    kind: Any,
+    offsets: NDArray[np.int32],
+    scan: NDArray[np.int32],
+    poses_world: NDArray[np.float64],
+    origins: NDArray[np.float64],
+    resolution: float,
+    stamp: NDArray[np.uint8],
+    shape: tuple[int, int],
+    levels: int,
+    device: str,
+    threads: int | None = None,
+    pyramid: Any = None,
+) -> Any:
+    """Grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
+
+    Args:
+        points, kind: of all scans, (S, B), on the device.
+        offsets: grid g is made of entries offsets[g] .. offsets[g + 1], shape (grids + 1,).
+        scan, poses_world: of each entry.
+        origins: corner of each grid, shape (grids, 2).
+        stamp: what a point puts around itself, odd square.
+        pyramid: an array of the right shape to write into.
+    """
+    grids = len(offsets) - 1
+    if pyramid is None:
+        pyramid = wp.empty((grids, levels, *shape), dtype=wp.uint8, device=device)
+    bands = 1 if device == "cpu" and grids > 1 else (4 if device == "cpu" else 64)
+    if device == "cpu" and threads == 1:
+        bands = 1
+    inputs = [bands, devices.to_device(offsets, wp.int32, device), devices.to_device(scan, wp.int32, device)]
+    inputs += [devices.to_device(poses_world, wp.vec3d, device), points, kind]
+    inputs += [devices.to_device(origins, wp.vec2d, device), wp.float64(resolution)]
+    inputs += [devices.to_device(stamp, wp.uint8, device), pyramid]
+    launch(draw_points, grids * bands, inputs, device, threads)
+    for level in range(1, levels):
+        launch(next_level, grids * shape[0], [level, pyramid], device, threads)
+    return pyramid

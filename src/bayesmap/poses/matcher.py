@@ -1,0 +1,158 @@
+"""Where do some points fit best into a likelihood grid? The matcher of front end, loop closure and localization.
+
+The score of a pose is the mean over the points of the grid's value where they fall, from 0 to 1, less what the prior
+asks for being off the centre. It is maximised over a window of whole cells and steps of angle, exactly, by branch and
+bound (`bayesmap.kernels.branch_and_bound`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.poses.likelihood_grid import LikelihoodGrids
+from bayesmap.poses.se2 import wrap
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Pull:
+    """How a match is drawn to the window's centre: one standard deviation off costs weight / 2 of the score."""
+
+    sigma_m: float
+    sigma_rad: float
+    weight: float = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class Matches:
+    """The best poses of J jobs, M modes each, best first.
+
+    Attributes:
+        scores: (J, M); -inf where no (further) pose scores above the least.
+        poses: (J, M, 3), in the grids' frame; NaN where there is none.
+    """
+
+    scores: Floats
+    poses: Floats
+
+    @property
+    def found(self) -> NDArray[np.bool_]:
+        """(J, M)."""
+        return np.isfinite(self.scores)
+
+
+def match(
+    grids: LikelihoodGrids,
+    points: Sequence[Floats],
+    centres: Floats,
+    half_m: Floats | float,
+    half_rad: Floats | float,
+    *,
+    grid_of: NDArray[np.intp] | None = None,
+    step_rad: float = np.radians(0.5),
+    least: Floats | float = 0.0,
+    pull: Pull | None = None,
+    modes: int = 1,
+    apart_m: float = 0.5,
+    apart_rad: float = np.radians(10.0),
+    strands: int = 1,
+    threads: int | None = None,
+) -> Matches:
+    """Match points to grids, J jobs at once.
+
+    Args:
+        grids: the likelihood grids.
+        points: for each job, points in the sensor's frame, shape (N, 2).
+        centres: middle of each job's window, a pose in the grid's frame, shape (J, 3).
+        half_m: half the window's width, metres: one number, or shape (J,) or (J, 2) for x and y.
+        half_rad: half the range of angles, one number or shape (J,); pi or more is the full circle.
+        grid_of: the grid of each job, shape (J,); by default job j's is grid j, or the only one.
+        step_rad: between angles.
+        least: scores must exceed this, one number or shape (J,). Searches that cannot end early.
+        pull: towards the centre; None looks at the grid alone.
+        modes: poses per job: each further one is the best that is more than ``apart_m`` (in x or in y) or
+            ``apart_rad`` away from all before it.
+        strands: threads that share one job; the result does not depend on it.
+
+    Raises:
+        BadInput: arrays that do not fit, or a window or step that is not positive.
+    """
+    from bayesmap.kernels.branch_and_bound import search
+
+    jobs = len(points)
+    centres = np.asarray(centres, np.float64).reshape(-1, 3)
+    if len(centres) != jobs:
+        raise BadInput(f"match: {jobs} sets of points but {len(centres)} windows")
+    if not (step_rad > 0 and modes >= 1 and strands >= 1):
+        raise BadInput(f"match: step_rad, modes and strands must be positive, got {step_rad}, {modes}, {strands}")
+    if not np.isfinite(centres).all():
+        raise BadInput("match: a window's centre is not finite")
+    if grid_of is None:
+        grid_of = np.zeros(jobs, np.intp) if len(grids) == 1 else np.arange(jobs)
+    if len(grid_of) != jobs or (jobs and (np.min(grid_of) < 0 or np.max(grid_of) >= len(grids))):
+        raise BadInput(f"match: grid_of must name one of {len(grids)} grids for each of {jobs} jobs")
+    half = np.asarray(half_m, np.float64)
+    half = np.broadcast_to(half[:, None] if half.ndim == 1 else half, (jobs, 2))
+    turns = np.broadcast_to(np.asarray(half_rad, np.float64), (jobs,))
+    if not ((half >= 0).all() and (turns >= 0).all()):
+        raise BadInput("match: half_m and half_rad must not be negative")
+    if jobs == 0:
+        return Matches(np.empty((0, modes)), np.empty((0, modes, 3)))
+    deviations = [_deviations(float(t), step_rad) for t in turns]
+    rows = np.concatenate([[0], np.cumsum([len(d) for d in deviations])]).astype(np.int32)
+    off = np.concatenate(deviations)
+    job_of_row = np.repeat(np.arange(jobs), np.diff(rows))
+    angles = centres[job_of_row, 2] + off
+    across, costs = 0.0, np.zeros(len(off))
+    if pull is not None:
+        across = pull.weight * grids.resolution**2 / (2.0 * pull.sigma_m**2)
+        costs = pull.weight * off**2 / (2.0 * pull.sigma_rad**2)
+    flat = np.concatenate([np.reshape(p, (-1, 2)) for p in points])
+    offsets = np.concatenate([[0], np.cumsum([len(p) for p in points])]).astype(np.int32)
+    cells = int(apart_m / grids.resolution + 1e-9)
+    apart = (int(apart_rad / step_rad + 1e-9), cells, cells)
+    scores, nodes = search(
+        grids.pyramid, grids.origins, grids.resolution, flat, offsets, np.asarray(grid_of, np.int32),
+        np.ascontiguousarray(centres[:, :2]), np.round(half / grids.resolution).astype(np.int32), angles, costs, rows,
+        np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))), np.full(jobs, across), modes, apart,
+        strands, grids.device, threads,
+    )  # fmt: skip
+    poses = np.full((jobs, modes, 3), np.nan)
+    job, mode = np.nonzero(nodes[..., 0] >= 0)
+    row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]
+    poses[job, mode, :2] = centres[job, :2] + shift * grids.resolution
+    poses[job, mode, 2] = wrap(angles[row])
+    return Matches(scores, poses)
+
+
+def score_at(grids: LikelihoodGrids, grid: int, points: Floats, poses: Floats) -> Floats:
+    """The score of points at given poses of one grid, shape (P,): the plain formula, without search or pull.
+
+    Args:
+        points: in the sensor's frame, shape (N, 2).
+        poses: in the grid's frame, shape (P, 3).
+    """
+    from bayesmap.poses.se2 import transform
+
+    poses = np.atleast_2d(poses)
+    values = grids.pyramid.numpy()[grid, 0]
+    cells = np.floor((transform(poses[:, None], points[None]) - grids.origins[grid]) / grids.resolution).astype(int)
+    inside = (cells >= 0).all(axis=-1) & (cells < values.shape).all(axis=-1)
+    cells = np.where(inside[..., None], cells, 0)
+    found = np.where(inside, values[cells[..., 0], cells[..., 1]], 0)
+    return np.asarray(found.sum(axis=1, dtype=np.int64) / (255.0 * max(1, len(points))))
+
+
+def _deviations(half_rad: float, step_rad: float) -> Floats:
+    """Angles off the centre: whole steps in the window, or once around."""
+    if half_rad >= np.pi:
+        count = int(np.ceil(2.0 * np.pi / step_rad))
+        return -np.pi + np.arange(count) * (2.0 * np.pi / count)
+    steps = int(half_rad / step_rad + 1e-9)
+    return np.arange(-steps, steps + 1) * step_rad

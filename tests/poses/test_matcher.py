@@ -1,0 +1,129 @@
+"""Correlative matching is exact, and finds what there is to find."""
+
+import numpy as np
+import pytest
+
+from bayesmap.errors import BadInput
+from bayesmap.poses.likelihood_grid import likelihood_grids
+from bayesmap.poses.matcher import Pull, match, score_at
+from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.se2 import between
+from bayesmap.space.scans import Scans
+
+ANGLES = np.linspace(-np.pi, np.pi, 120, endpoint=False)
+STEP = np.radians(3.0)
+
+
+def ranges_in_room(pose, width, depth, notch=0.0):
+    """Distances to the walls of a room centred on the origin, with one notch in a corner to break its symmetry."""
+    found = []
+    for angle in ANGLES + pose[2]:
+        u = np.array([np.cos(angle), np.sin(angle)])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = np.concatenate(
+                [(np.array([-width, width]) / 2 - pose[0]) / u[0], (np.array([-depth, depth]) / 2 - pose[1]) / u[1]]
+            )
+        hit = t[t > 0].min()
+        along = np.linspace(0, hit, 400)[:, None] * u + pose[:2]
+        inside = (along[:, 0] > width / 2 - notch) & (along[:, 1] > depth / 2 - notch)
+        found.append(hit if not inside.any() else np.linspace(0, hit, 400)[inside.argmax()])
+    return np.array(found)
+
+
+def room(poses, notch=0.0, noise_m=0.0, seed=1):
+    rng = np.random.default_rng(seed)
+    ranges = np.array([ranges_in_room(p, 4.0, 3.0, notch) for p in poses])
+    return Scans(np.array(poses), ANGLES, ranges + noise_m * rng.normal(size=ranges.shape), max_range_m=20.0)
+
+
+POSES = np.array([[0.0, 0.0, 0.0], [0.3, -0.2, 0.5], [-0.5, 0.4, -1.0]])
+SCANS = room(POSES, notch=0.8, noise_m=0.01)
+GEOMETRY = scan_geometry(SCANS)
+GRIDS = likelihood_grids(GEOMETRY, [[0, 1]], [POSES[:2]], [[0.0, 0.0]], 3.0, levels=4)
+
+
+def everywhere(grid, points, centre, half_m, half_rad, pull):
+    """The score of every shift and angle of a window, by the plain formula: (angles, x, y)."""
+    cells, steps = round(half_m / GRIDS.resolution), int(half_rad / STEP + 1e-9)
+    shifts = np.arange(-cells, cells + 1) * GRIDS.resolution
+    off = np.arange(-steps, steps + 1) * STEP
+    poses = np.stack(np.meshgrid(off, shifts, shifts, indexing="ij"), axis=-1)[..., [1, 2, 0]]
+    score = score_at(GRIDS, grid, points, (poses + centre).reshape(-1, 3)).reshape(poses.shape[:3])
+    if pull is not None:
+        score = score - pull.weight * (
+            (poses[..., 0] ** 2 + poses[..., 1] ** 2) / (2 * pull.sigma_m**2)
+            + poses[..., 2] ** 2 / (2 * pull.sigma_rad**2)
+        )
+    return score, poses + centre
+
+
+@pytest.mark.parametrize("pull", [None, Pull(0.2, 0.3, 0.05)], ids=["alone", "pulled"])
+@pytest.mark.parametrize("centre", [(0.1, 0.2, 0.3), (-0.4, 0.3, -0.9), (2.9, 2.9, 0.0)], ids=["a", "b", "border"])
+def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
+    points = GEOMETRY.points_of(2)
+    score, poses = everywhere(0, points, np.array(centre), 0.5, 0.5, pull)
+    found = match(GRIDS, [points], [centre], 0.5, 0.5, step_rad=STEP, least=-9.0, pull=pull)
+    assert found.scores[0, 0] == pytest.approx(score.max(), abs=1e-12)
+    first = np.unravel_index(np.argmax(score > score.max() - 1e-12), score.shape)
+    np.testing.assert_allclose(found.poses[0, 0], poses[first], atol=1e-9)
+
+
+def test_further_modes_are_the_best_that_lie_apart():
+    points = GEOMETRY.points_of(2)
+    centre = np.array([0.0, 0.0, 0.0])
+    score, poses = everywhere(0, points, centre, 1.0, 1.2, None)
+    found = match(GRIDS, [points], [centre], 1.0, 1.2, step_rad=STEP, modes=3, apart_m=0.3, apart_rad=0.32)
+    left = score.copy()
+    for m in range(3):
+        assert found.scores[0, m] == pytest.approx(left.max(), abs=1e-12)
+        off = np.abs(poses - found.poses[0, m])
+        left[(off[..., :2] <= 0.3 + 1e-9).all(axis=-1) & (off[..., 2] <= 6 * STEP + 1e-9)] = -1
+
+
+def test_the_result_does_not_depend_on_threads():
+    points = [GEOMETRY.points_of(k) for k in range(3)]
+    centres = POSES + np.array([0.15, -0.1, 0.1])
+    kwargs = {"step_rad": STEP, "modes": 2, "apart_m": 0.2}
+    one = match(GRIDS, points, centres, 0.6, np.pi, threads=1, strands=1, **kwargs)
+    for threads, strands in ((2, 1), (2, 3), (4, 8)):
+        other = match(GRIDS, points, centres, 0.6, np.pi, threads=threads, strands=strands, **kwargs)
+        np.testing.assert_array_equal(one.scores, other.scores)
+        np.testing.assert_array_equal(one.poses, other.poses)
+
+
+def test_scans_are_found_where_they_were_taken():
+    found = match(GRIDS, [GEOMETRY.points_of(2)], [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0))
+    off = between(POSES[2], found.poses[0, 0])
+    assert np.hypot(off[0], off[1]) < 0.06
+    assert abs(off[2]) < np.radians(1.5)
+
+
+def test_a_symmetrical_room_gives_both_poses():
+    scans = room(POSES)
+    geometry = scan_geometry(scans)
+    grids = likelihood_grids(geometry, [[0, 1]], [POSES[:2]], [[0.0, 0.0]], 3.0)
+    found = match(grids, [geometry.points_of(2)], [[0.0, 0.0, 0.0]], 1.5, np.pi, step_rad=np.radians(1.0), modes=2)
+    opposite = between(found.poses[0, 0], found.poses[0, 1])
+    assert abs(abs(opposite[2]) - np.pi) < np.radians(3.0)
+    np.testing.assert_allclose(found.poses[0, 0, :2], -found.poses[0, 1, :2], atol=0.11)
+    assert found.scores[0, 1] > 0.95 * found.scores[0, 0]
+
+
+def test_nothing_is_found_where_nothing_scores():
+    found = match(GRIDS, [GEOMETRY.points_of(2)], [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, least=0.1)
+    assert not found.found.any()
+    assert np.isnan(found.poses).all()
+
+
+def test_bad_input_is_refused():
+    points = [GEOMETRY.points_of(2)]
+    with pytest.raises(BadInput, match="1 sets of points but 2 windows"):
+        match(GRIDS, points, np.zeros((2, 3)), 0.5, 0.5)
+    with pytest.raises(BadInput, match="positive"):
+        match(GRIDS, points, np.zeros((1, 3)), 0.5, 0.5, step_rad=0.0)
+    with pytest.raises(BadInput, match="not be negative"):
+        match(GRIDS, points, np.zeros((1, 3)), -0.5, 0.5)
+    with pytest.raises(BadInput, match="grid_of"):
+        match(GRIDS, points, np.zeros((1, 3)), 0.5, 0.5, grid_of=np.array([3]))
+    with pytest.raises(BadInput, match="finite"):
+        match(GRIDS, points, np.full((1, 3), np.nan), 0.5, 0.5)
