@@ -201,7 +201,8 @@ def search_blocks(
                 if better:
                     mine = value
                     found = wp.vec3i(row, x0, y0)
-        XX
+                    if value > incumbent[j]:
+                        incumbent[j] = value
                 continue
             half = 1 << (level - 1)
             base = depth

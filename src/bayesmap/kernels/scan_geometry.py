@@ -125,7 +125,7 @@ def scan_normals(
                 break
             turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * h, a - c2)
             normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
-            if wp.dot(normal, here) > wp.float32(0.0):
+            if normal[0] * here[0] + normal[1] * here[1] > wp.float32(0.0):
                 normal = -normal  # towards the laser
             normals[s, b] = normal
             spread[s, b] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))

@@ -153,6 +153,6 @@ def _deviations(half_rad: float, step_rad: float) -> Floats:
     """Angles off the centre: whole steps in the window, or once around."""
     if half_rad >= np.pi:
         count = int(np.ceil(2.0 * np.pi / step_rad))
-        return -np.pi + np.arange(count) * (2.0 * np.pi / count)
+        return np.asarray(-np.pi + np.arange(count) * (2.0 * np.pi / count))
     steps = int(half_rad / step_rad + 1e-9)
-    return np.arange(-steps, steps + 1) * step_rad
+    return np.asarray(np.arange(-steps, steps + 1) * step_rad)

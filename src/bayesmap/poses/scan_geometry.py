@@ -76,7 +76,7 @@ class ScanGeometry:
 
     def points_of(self, scan: int, most: int | None = None) -> Floats:
         """The points of one scan, shape (N, 2): all, or about ``most`` of them, evenly spaced by beams."""
-        points = self.host_points[scan][self.host_kind[scan] > 0].astype(np.float64)
+        points: Floats = self.host_points[scan][self.host_kind[scan] > 0].astype(np.float64)
         return points if most is None or len(points) <= most else points[_evenly(len(points), most)]
 
 
