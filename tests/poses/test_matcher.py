@@ -7,7 +7,7 @@ from bayesmap.errors import BadInput
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import Pull, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.se2 import between
+from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
 
 ANGLES = np.linspace(-np.pi, np.pi, 120, endpoint=False)

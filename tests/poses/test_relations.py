@@ -7,7 +7,7 @@ import pytest
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.relations import Relations, read_relations, relation_errors
-from bayesmap.poses.se2 import between, compose
+from bayesmap.space.planar import between, compose
 
 STAMPS = np.arange(10.0)
 POSES = np.column_stack([STAMPS, np.sin(STAMPS), 0.3 * STAMPS])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.likelihood_grid import LikelihoodGrids
-from bayesmap.poses.se2 import wrap
+from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]
 
@@ -127,7 +127,7 @@ def match(
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]
     poses[job, mode, :2] = centres[job, :2] + shift * grids.resolution
-    poses[job, mode, 2] = wrap(angles[row])
+    poses[job, mode, 2] = wrapped(angles[row])
     return Matches(scores, poses)
 
 

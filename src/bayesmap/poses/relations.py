@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.se2 import between, compose, interpolate, inverse
+from bayesmap.poses.se2 import interpolate, inverse
+from bayesmap.space.planar import between, compose
 
 Floats = NDArray[np.float64]
 

@@ -1,6 +1,6 @@
-"""Rigid motions of the plane: arrays of poses (x, y, yaw) whose last axis has length 3, in metres and radians.
+"""Small changes of poses, and their derivatives; points and times: what estimation adds to `bayesmap.space.planar`.
 
-A pose is also the motion from its own frame to the frame in which it is given. A small change of a pose is written in
+Poses are arrays (x, y, yaw) whose last axis has length 3, metres and radians. A small change of a pose is written in
 the pose's *own* frame: ``retract(pose, step) = compose(pose, step)``, and Jacobians are with respect to such steps
 (Sola, Deray, Atchuthan 2018, "A micro Lie theory", for the conventions; the retraction is the plain one, not the
 exponential map).
@@ -11,20 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.space.planar import between, compose
+
 Floats = NDArray[np.float64]
-
-
-def wrap(angle_rad: Floats) -> Floats:
-    """Angles in [-pi, pi)."""
-    return np.asarray((angle_rad + np.pi) % (2.0 * np.pi) - np.pi)
-
-
-def compose(a: Floats, b: Floats) -> Floats:
-    """The pose b, given in the frame of a, in the frame in which a is given. Shapes (..., 3) broadcast."""
-    cosine, sine = np.cos(a[..., 2]), np.sin(a[..., 2])
-    x = a[..., 0] + cosine * b[..., 0] - sine * b[..., 1]
-    y = a[..., 1] + sine * b[..., 0] + cosine * b[..., 1]
-    return np.stack([x, y, wrap(a[..., 2] + b[..., 2])], axis=-1)
 
 
 def inverse(a: Floats) -> Floats:
@@ -33,11 +22,6 @@ def inverse(a: Floats) -> Floats:
     return np.stack(
         [-cosine * a[..., 0] - sine * a[..., 1], sine * a[..., 0] - cosine * a[..., 1], -a[..., 2]], axis=-1
     )
-
-
-def between(a: Floats, b: Floats) -> Floats:
-    """The pose b in the frame of a, both given in one frame."""
-    return compose(inverse(a), b)
 
 
 def retract(poses: Floats, steps: Floats) -> Floats:
