@@ -110,7 +110,7 @@ def relation_errors(
     relations: Relations,
     *,
     frame_in_pose: Floats | None = None,
-    slack_s: float = 0.002,
+    slack_s: float = 0.001,
     exact: bool = False,
 ) -> RelationErrors:
     """Errors of a trajectory by `Relations`.

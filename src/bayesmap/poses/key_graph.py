@@ -1,0 +1,110 @@
+"""The graph of key scans: the front end's chain, closed by loops in rounds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.poses.front_end import Track, grid_half_width
+from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
+from bayesmap.poses.loops import Closures, Search, find_closures
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.planar import between, compose, wrapped
+
+Floats = NDArray[np.float64]
+
+DEFLATION = 4.0
+"""Windows of the front end overlap: its links are as uncertain as those of a quarter of the beams."""
+
+LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
+"""Standard deviations that a link between key scans has at least."""
+
+ROUNDS = (Search(5.0, np.radians(45.0), 0.6, 4), Search(4.0, np.radians(30.0), 0.6, 4), Search(2.0, np.radians(10.0)))
+"""After each round windows shrink with the covariance; these are their limits."""
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedGraph:
+    """Key scans with loops closed.
+
+    Attributes:
+        poses: of the keys, (K, 3).
+        closures: those found in the last round.
+        weights: Geman and McClure's weight of each closure, from 0 to 1: near 0 where it was not believed.
+    """
+
+    poses: Floats
+    closures: Closures
+    weights: Floats
+
+
+def chain_of(track: Track) -> Factors:
+    """Links from each key scan to the next, with what laser and odometry together tell."""
+    keys = track.keys
+    relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
+    laser = track.information[keys[1:]] / DEFLATION
+    odometry = np.zeros_like(laser)
+    index = np.arange(3)
+    odometry[:, index, index] = 1.0 / np.maximum(track.odometry_variance[keys[1:]], 1e-8)
+    covariance = np.linalg.inv(laser + odometry)  # in the frame of the later key
+    cosine, sine = np.cos(relative[:, 2]), np.sin(relative[:, 2])
+    turn = np.zeros_like(covariance)
+    turn[:, 0, 0] = turn[:, 1, 1] = cosine
+    turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = -sine, sine, 1.0
+    covariance = turn @ covariance @ np.swapaxes(turn, 1, 2) + np.diag(LINK_FLOOR**2)
+    order = np.arange(len(keys) - 1)
+    return Factors(order, order + 1, relative, np.linalg.inv(covariance))
+
+
+def poses_between_keys(track_poses: Floats, keys: NDArray[np.intp], key_poses: Floats) -> Floats:
+    """All scans' poses, (S, 3), from new poses of the keys: each keeps its motion from the key before, and the rest of
+
+    the motion's change up to the next key is spread along the way.
+    """
+    count = len(track_poses)
+    before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
+    after = np.minimum(before + 1, len(keys) - 1)
+    relative = between(track_poses[keys[before]], track_poses)
+    result = compose(key_poses[before], relative)
+    # Where the next key would be if nothing had changed, seen from where it is.
+    expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
+    change = key_poses[after] - expected
+    change[:, 2] = wrapped(change[:, 2])
+    step = np.maximum(keys[after] - keys[before], 1)
+    share = (np.arange(count) - keys[before]) / step
+    result = result + change * np.where(after > before, share, 0.0)[:, None]
+    result[:, 2] = wrapped(result[:, 2])
+    return result
+
+
+def close_loops(
+    geometry: ScanGeometry,
+    track: Track,
+    *,
+    on_progress: Callable[[int], None] | None = None,
+    threads: int | None = None,
+) -> ClosedGraph:
+    """Find loop closures and solve the graph, in rounds: closing the sure ones shows where the others are.
+
+    Args:
+        geometry: of all scans.
+        track: what the front end found.
+        on_progress: called with the number of rounds that are done.
+    """
+    chain = chain_of(track)
+    poses = track.poses[track.keys]
+    half_width_m = grid_half_width(geometry)
+    closures, weights, loops = None, np.empty(0), NO_FACTORS
+    for number, search in enumerate(ROUNDS, start=1):
+        parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
+        _, solver = solve_step(len(poses), parts)
+        closures = find_closures(geometry, track.keys, poses, solver, half_width_m, search, threads)
+        loops = closures.factors()
+        poses, weights = optimise(poses, chain, loops)
+        if on_progress is not None:
+            on_progress(number)
+    assert closures is not None
+    return ClosedGraph(poses, closures, weights)
