@@ -170,3 +170,8 @@ def points_and_normals(
     geometry = [wp.float32(step_rad), int(full_circle), wp.float32(reach_m), wp.float32(noise_m)]
     launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
     return points, normals, kind, spread
+
+
+def selected(array: Any, scans: NDArray[np.intp]) -> Any:
+    """Rows of an array on a device, copied."""
+    return wp.array(np.ascontiguousarray(array.numpy()[scans]), dtype=array.dtype, device=array.device)

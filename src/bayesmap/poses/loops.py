@@ -22,7 +22,7 @@ from bayesmap.space.planar import between, compose, wrapped
 
 Floats = NDArray[np.float64]
 
-SPACING_M = 1.2
+SPACING_M = 0.8
 """A closure is sought from every key scan that lies so far along the path from the last one sought from."""
 
 AROUND_M = 2.0
@@ -160,13 +160,13 @@ def _candidates(
     sought = np.unique(np.searchsorted(along, np.arange(0.0, along[-1] + SPACING_M, SPACING_M)).clip(0, len(along) - 1))
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
     distance = np.hypot(*(poses[sought[earlier], :2] - poses[sought[later], :2]).T)
-    near = distance < search.most_m + 0.5 * half_width_m
+    near = distance < search.most_m + min(0.7 * half_width_m, 8.0)
     earlier, later, distance = sought[earlier[near]], sought[later[near]], distance[near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))
     covariance = relative_covariances(solver, poses, earlier, later)
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
-    reach = np.minimum(SIGMAS * sigma[:, :2].max(axis=1), search.most_m) + np.minimum(0.35 * half_width_m, 5.0)
+    reach = np.minimum(SIGMAS * sigma[:, :2].max(axis=1), search.most_m) + np.minimum(0.7 * half_width_m, 8.0)
     turned = np.abs(wrapped(poses[earlier, 2] - poses[later, 2]))
     chosen: list[int] = []
     order = np.lexsort((along[earlier], later))
@@ -174,7 +174,7 @@ def _candidates(
         near_group = group[distance[group] < reach[group]]
         if not len(near_group):
             continue
-        visits = np.split(near_group, np.nonzero(np.diff(along[earlier[near_group]]) > 3.0 * SPACING_M)[0] + 1)
+        visits = np.split(near_group, np.nonzero(np.diff(along[earlier[near_group]]) > 4.0)[0] + 1)
         cost = distance + 0.7 * turned  # those that look the same way share more of what they see
         best = sorted((float(cost[v].min()), int(v[np.argmin(cost[v])])) for v in visits)
         chosen += [k for _, k in best[: search.passes]]

@@ -74,6 +74,15 @@ class ScanGeometry:
         """(S, B) in main memory."""
         return np.asarray(self.kind.numpy())
 
+    def select(self, scans: NDArray[np.intp]) -> ScanGeometry:
+        """Some of the scans, copied."""
+        from bayesmap.kernels.scan_geometry import selected
+
+        arrays = (selected(array, scans) for array in (self.points, self.normals, self.kind, self.spread))
+        return ScanGeometry(
+            *arrays, self.beam_of_angle, self.step_rad, self.full_circle, self.farthest_m, self.device
+        )  # fmt: skip
+
     def points_of(self, scan: int, most: int | None = None) -> Floats:
         """The points of one scan, shape (N, 2): all, or about ``most`` of them, evenly spaced by beams."""
         points: Floats = self.host_points[scan][self.host_kind[scan] > 0].astype(np.float64)

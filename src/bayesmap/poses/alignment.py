@@ -1,0 +1,255 @@
+"""Every scan against all others that see the same walls, all at once.
+
+Each scan is paired with those that share most of its points. Point-to-line pairs of all of them are summed to one
+quadratic cost over relative poses, odometry is added, and the sparse system is solved; in eight to ten rounds the
+reach of the pairs shrinks from decimetres to the noise (bundle adjustment of Lu and Milios 1997, with lines).
+
+Two things keep the laser from claiming too much. A beam that is matched with m others counts 1 / (2 (m + 1)) in each
+pair: it is one measurement, not m. And what errors of normals add to the information along a corridor is taken off again
+(`bayesmap.kernels.line_pairs`, ``slack``), so that there odometry decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.kernels.line_pairs import match_counts, pair_sums
+from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.se2 import retract
+from bayesmap.space.planar import between, wrapped
+
+Floats = NDArray[np.float64]
+
+PARTNERS = 20
+"""Scans that each is paired with, at most."""
+
+TRIED = 64
+"""Of so many near it that look a similar way."""
+
+AT_ONCE = 10
+"""Partners within this many scans in the order of time share the drift; at least half are taken from elsewhere."""
+
+REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)
+"""From the first round to the middle one: how far paired points lie apart, and Geman and McClure's c."""
+
+ALIKE = 0.7
+LEAST_MATCHED = 0.2
+"""Of a scan's points, so many must match a partner."""
+
+SLIP = 25.0
+"""Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Which scans are compared: points of ``source`` with walls of ``target``; sorted by source, offsets (S + 1,)."""
+
+    source: NDArray[np.int32]
+    target: NDArray[np.int32]
+    offsets: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.source)
+
+
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """Poses of scans that were aligned together.
+
+    Attributes:
+        poses: (S, 3).
+        pairs: the scans that were compared.
+        sigma_m: standard deviation of a point, found from the residuals.
+        solver: the factorised matrix of the last step, in the poses' own frames: its inverse is their covariance.
+        matched: for each scan the mean share of its points that its partners' walls explain, (S,).
+    """
+
+    poses: Floats
+    pairs: Pairs
+    sigma_m: float
+    solver: Any
+    matched: Floats
+
+
+def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, threads: int | None = None) -> Pairs:
+    """The partners of each scan: those whose walls explain most of its points, near in time and from other visits.
+
+    Args:
+        geometry: S scans.
+        poses: (S, 3).
+        reach_m: how far apart the sensors of two scans may be.
+    """
+    from scipy.spatial import cKDTree
+
+    count = len(poses)
+    tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
+    # A heading that differs by half a turn is as far as 3 m.
+    distance, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
+    source = np.repeat(np.arange(count), near.shape[1])
+    target = near.ravel()
+    plain = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
+    kept = (source != target) & (plain < reach_m)
+    close_in_time = np.abs(source - target) <= AT_ONCE
+    # Of those near in time all, of the others the nearest.
+    rank = np.cumsum((kept & ~close_in_time).reshape(count, -1), axis=1).ravel()
+    kept &= close_in_time | (rank <= TRIED)
+    source, target = source[kept].astype(np.int32), target[kept].astype(np.int32)
+    stride = max(1, geometry.beams // 45)
+    relative = between(poses[target], poses[source])
+    _, _, _, totals = pair_sums(geometry, None, source, target, relative, 0.3, 0.15, ALIKE, stride, threads)
+    sampled = np.maximum((geometry.host_kind[:, ::stride] > 0).sum(axis=1), 1)
+    share = totals[:, 2] / sampled[source]
+    good = share > LEAST_MATCHED
+    source, target, share = source[good], target[good], share[good]
+    late = np.abs(source.astype(np.int64) - target) <= AT_ONCE
+    order = np.lexsort((-share, late, source))
+    source, target, late = source[order], target[order], late[order]
+    number_all = _number_within(source)
+    others = np.bincount(source[~late], minlength=count)
+    room = np.where(late, PARTNERS - np.minimum(others[source], PARTNERS // 2), PARTNERS // 2)
+    within = np.where(late, number_all - others[source], number_all)
+    # Where those near in time are few, others fill up.
+    few = np.bincount(source[late], minlength=count)
+    room = np.where(late, room, np.maximum(room, PARTNERS - few[source]))
+    kept = within < room
+    source, target = source[kept], target[kept]
+    return Pairs(source, target, np.searchsorted(source, np.arange(count + 1)).astype(np.int32))
+
+
+def align(
+    geometry: ScanGeometry,
+    poses: Floats,
+    odometry: Factors,
+    pairs: Pairs,
+    *,
+    rounds: int = 10,
+    reach_m: tuple[float, float] = REACH_M,
+    scale_m: tuple[float, float] = SCALE_M,
+    reselect: Callable[[Floats], Pairs] | None = None,
+    on_progress: Callable[[int], None] | None = None,
+    threads: int | None = None,
+) -> Alignment:
+    """Align scans with all their partners and with odometry.
+
+    Args:
+        geometry: S scans.
+        poses: to start from, (S, 3).
+        odometry: relative poses of scans by odometry, or none.
+        pairs: the scans to compare.
+        rounds: of Gauss-Newton.
+        reach_m, scale_m: at the first round, and from the middle one on.
+        reselect: chooses pairs anew from the poses in the middle of the rounds.
+        on_progress: called with the number of rounds that are done.
+    """
+    count, sigma = len(poses), 0.01
+    weights = np.ones((count, geometry.beams), np.float32)
+    solver, totals = None, np.zeros((len(pairs), 4))
+    for number in range(rounds):
+        share = min(1.0, number / max(1.0, 0.5 * rounds))
+        reach = reach_m[0] * (reach_m[1] / reach_m[0]) ** share
+        scale = scale_m[0] * (scale_m[1] / scale_m[0]) ** share
+        if reselect is not None and number == (rounds + 1) // 2:
+            pairs = reselect(poses)
+        if number in (0, (rounds + 1) // 2, rounds - 2):
+            seen = between(poses[pairs.target], poses[pairs.source])
+            counts = match_counts(geometry, pairs.offsets, pairs.target, seen, reach, scale, ALIKE, threads)
+            weights = (0.5 / (1.0 + counts)).astype(np.float32)
+        laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, threads)
+        squares = odometry.squares(poses)
+        step, solver = solve_step(count, [laser, quadratic(odometry, poses, 1.0 / (1.0 + squares / SLIP))])
+        poses = retract(poses, step)
+        sigma = float(np.sqrt(max(totals[:, 0].sum() / max(totals[:, 1].sum(), 1e-9), 1e-8) / 2.0))
+        sigma = float(np.clip(sigma, 0.002, 0.05))
+        if on_progress is not None:
+            on_progress(number + 1)
+        if share >= 1.0 and number > rounds // 2 + 1 and np.abs(step).max() < 2e-4:
+            break
+    matched = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
+    matched /= np.maximum(np.bincount(pairs.source, minlength=count), 1)
+    return Alignment(poses, pairs, sigma, solver, matched)
+
+
+def _laser(
+    geometry: ScanGeometry,
+    weights: NDArray[np.float32],
+    poses: Floats,
+    pairs: Pairs,
+    reach: float,
+    scale: float,
+    sigma: float,
+    threads: int | None,
+) -> tuple[Quadratic, Floats]:
+    """What the laser tells of the relative poses of pairs, and the sums' totals."""
+    relative = between(poses[pairs.target], poses[pairs.source])
+    second, slack, first, totals = pair_sums(
+        geometry, weights, pairs.source, pairs.target, relative, reach, scale, ALIKE, threads=threads
+    )
+    told, gradient = without_slack(second, slack, first, sigma)
+    scaled = 1.0 / sigma**2
+    return Quadratic(pairs.target, pairs.source, relative, told * scaled, gradient * scaled), totals
+
+
+def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
+    """Second derivatives without what errors of normals add, and first derivatives with the same minimum, (M, 3, 3), (M, 3).
+
+    The minimum of the quadratic stays where it was; along directions that only slack holds the cost becomes flat.
+    """
+    told = second - sigma_m**2 * slack
+    values, vectors = np.linalg.eigh(told)
+    told = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    size = np.trace(second, axis1=1, axis2=2)[:, None, None]
+    ridge = second + np.eye(3) * (1e-6 * size + 1e-12)
+    minimum = np.linalg.solve(ridge, first[..., None])
+    return told, (told @ minimum)[..., 0]
+
+
+def odometry_factors(
+    motions: Floats, variances: Floats, keys: NDArray[np.intp], rejected: NDArray[np.bool_] | None = None
+) -> Factors:
+    """Odometry from each key scan to the next, as factors: motions composed, variances added along the way.
+
+    Args:
+        motions: from scan to scan, corrected, (S - 1, 3).
+        variances: of x, y and yaw of each motion, (S - 1, 3).
+        keys: indices of the keys, (K,).
+        rejected: motions that no robot can have made: factors over them are left out.
+    """
+    from bayesmap.space.planar import compose
+
+    relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
+    longest = int(np.diff(keys).max(initial=1))
+    for k in range(longest):
+        at = keys[:-1] + k
+        active = np.nonzero(at < keys[1:])[0]
+        motion, variance = motions[at[active]], variances[at[active]]
+        yaw = relative[active, 2]
+        cosine, sine = np.cos(yaw), np.sin(yaw)
+        turn = np.zeros((len(active), 3, 3))
+        turn[:, 0, 0] = turn[:, 1, 1] = cosine
+        turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = -sine, sine, 1.0
+        lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error moves what comes after
+        lever[:, 0, 2] = -(sine * motion[:, 0] + cosine * motion[:, 1])
+        lever[:, 1, 2] = cosine * motion[:, 0] - sine * motion[:, 1]
+        covariance[active] = lever @ covariance[active] @ np.swapaxes(lever, 1, 2)
+        covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
+        relative[active] = compose(relative[active], motion)
+    relative[:, 2] = wrapped(relative[:, 2])
+    order = np.arange(len(keys) - 1)
+    factors = Factors(order, order + 1, relative, np.linalg.inv(covariance + np.eye(3) * 1e-9))
+    if rejected is None:
+        return factors
+    bad = np.concatenate([[0], np.cumsum(rejected)])
+    return factors.select(bad[keys[1:]] == bad[keys[:-1]])
+
+
+def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:
+    """Of entries sorted by group: their number within the group, from 0."""
+    begins = np.concatenate([[True], groups[1:] != groups[:-1]]) if len(groups) else np.empty(0, bool)
+    at = np.nonzero(begins)[0]
+    return np.arange(len(groups)) - np.repeat(at, np.diff(np.append(at, len(groups))))
