@@ -22,7 +22,10 @@ DEFLATION = 4.0
 LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 """Standard deviations that a link between key scans has at least."""
 
-ROUNDS = (Search(5.0, np.radians(45.0), 0.6, 4), Search(4.0, np.radians(30.0), 0.6, 4), Search(2.0, np.radians(10.0)))
+SETTLED_M = 0.3
+"""Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
+
+ROUNDS = (Search(5.0, np.radians(45.0), passes=2, spacing_m=2.0), Search(4.0, np.radians(30.0)), Search(2.0, np.radians(20.0)))
 """After each round windows shrink with the covariance; these are their limits."""
 
 
@@ -103,8 +106,11 @@ def close_loops(
         _, solver = solve_step(len(poses), parts)
         closures = find_closures(geometry, track.keys, poses, solver, half_width_m, search, threads)
         loops = closures.factors()
+        before = poses
         poses, weights = optimise(poses, chain, loops)
         if on_progress is not None:
             on_progress(number)
+        if number > 1 and np.hypot(*(poses - before)[:, :2].T).max() < SETTLED_M:
+            break
     assert closures is not None
     return ClosedGraph(poses, closures, weights)

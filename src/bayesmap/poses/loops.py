@@ -13,17 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.scan_refinement import refine_scans
+from bayesmap.kernels.view_agreement import view_counts
 from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import transform
+from bayesmap.poses.se2 import inverse, transform
 from bayesmap.space.planar import between, compose, wrapped
 
 Floats = NDArray[np.float64]
-
-SPACING_M = 0.8
-"""A closure is sought from every key scan that lies so far along the path from the last one sought from."""
 
 AROUND_M = 2.0
 """A submap holds the key scans within so much of the path."""
@@ -36,6 +34,13 @@ RESOLUTION_M, SIGMA_M, STEP_RAD = 0.1, 0.1, np.radians(1.0)
 POINTS = 350
 MODES = 2
 ALIKE = 0.7
+
+NEAR_M, CLEAR_M = 0.15, 0.4
+"""A point within the first of the other submap's is matched; one that stands so far before what others saw contradicts."""
+
+LEAST_MATCHED = 0.2
+MOST_AGAINST = 0.15
+"""Of the points of two submaps' middle scans, at least so many match; of those that say anything, at most so many contradict."""
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
 """Standard deviations that a closure has at least: submaps are bent."""
@@ -83,12 +88,14 @@ class Search:
         most_m, most_rad: windows are no larger.
         least_score: closures below are not kept.
         passes: earlier visits of a place that are tried for each submap, nearest first.
+        spacing_m: closures are sought from key scans that lie so far apart along the path.
     """
 
     most_m: float = 4.0
     most_rad: float = np.radians(45.0)
-    least_score: float = 0.6
+    least_score: float = 0.5
     passes: int = 4
+    spacing_m: float = 1.2
 
 
 def path_m(poses: Floats) -> Floats:
@@ -116,7 +123,7 @@ def find_closures(
         half_width_m: of submaps' grids.
     """
     along = path_m(poses)
-    first, second, sigma = _candidates(along, poses, solver, half_width_m, search)
+    first, second, sigma = _candidates(along, poses, _middles(geometry, keys, poses), solver, half_width_m, search)
     if not len(first):
         return _none()
     half_m = np.clip(SIGMAS * sigma[:, :2].max(axis=1), 0.4, search.most_m)
@@ -154,10 +161,14 @@ def find_closures(
 
 
 def _candidates(
-    along: Floats, poses: Floats, solver: object, half_width_m: float, search: Search
+    along: Floats, poses: Floats, middles: Floats, solver: object, half_width_m: float, search: Search
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3)."""
-    sought = np.unique(np.searchsorted(along, np.arange(0.0, along[-1] + SPACING_M, SPACING_M)).clip(0, len(along) - 1))
+    """Pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
+
+    Of each visit of a place two are tried: the one from the most similar pose, and the one that looks at the same
+    spot, which of a laser that sees half a circle may stand opposite.
+    """
+    sought = np.unique(np.searchsorted(along, np.arange(0.0, along[-1] + search.spacing_m, search.spacing_m)).clip(0, len(along) - 1))
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
     distance = np.hypot(*(poses[sought[earlier], :2] - poses[sought[later], :2]).T)
     near = distance < search.most_m + min(0.7 * half_width_m, 8.0)
@@ -168,6 +179,8 @@ def _candidates(
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
     reach = np.minimum(SIGMAS * sigma[:, :2].max(axis=1), search.most_m) + np.minimum(0.7 * half_width_m, 8.0)
     turned = np.abs(wrapped(poses[earlier, 2] - poses[later, 2]))
+    alike = distance + 0.7 * turned
+    looks_at = np.hypot(*(middles[earlier] - middles[later]).T)
     chosen: list[int] = []
     order = np.lexsort((along[earlier], later))
     for group in np.split(order, np.nonzero(np.diff(later[order]))[0] + 1):
@@ -175,11 +188,21 @@ def _candidates(
         if not len(near_group):
             continue
         visits = np.split(near_group, np.nonzero(np.diff(along[earlier[near_group]]) > 4.0)[0] + 1)
-        cost = distance + 0.7 * turned  # those that look the same way share more of what they see
-        best = sorted((float(cost[v].min()), int(v[np.argmin(cost[v])])) for v in visits)
-        chosen += [k for _, k in best[: search.passes]]
-    pick = np.array(sorted(chosen), dtype=np.intp)
+        for cost in (alike, looks_at):
+            best = sorted((float(cost[v].min()), int(v[np.argmin(cost[v])])) for v in visits)
+            chosen += [k for _, k in best[: search.passes]]
+    pick = np.unique(np.array(chosen, dtype=np.intp))
     return earlier[pick], later[pick], sigma[pick]
+
+
+def _middles(geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats) -> Floats:
+    """The median point of each key scan, in the world frame, (K, 2)."""
+    middle = np.zeros((len(keys), 2))
+    for k, scan in enumerate(keys):
+        points = geometry.points_of(int(scan), 60)
+        if len(points):
+            middle[k] = np.median(points, axis=0)
+    return transform(poses, middle)
 
 
 def _submap(along: Floats, key: int, around_m: float) -> NDArray[np.intp]:
@@ -226,7 +249,39 @@ def _refined(
     # Refining that ends far from where the search began has slid into something else.
     moved = between(start, found)
     kept = (np.hypot(moved[:, 0], moved[:, 1]) < 0.4) & (np.abs(moved[:, 2]) < np.radians(6.0))
+    kept &= _agrees(geometry, keys, poses, along, first, second, found, threads)
     return Closures(first, second, found, information, scores, np.zeros(len(first), np.intp)).select(kept)
+
+
+def _agrees(
+    geometry: ScanGeometry,
+    keys: NDArray[np.intp],
+    poses: Floats,
+    along: Floats,
+    first: NDArray[np.intp],
+    second: NDArray[np.intp],
+    relative: Floats,
+    threads: int | None,
+) -> NDArray[np.bool_]:
+    """Whether the scans about both ends see the same, as far as they see the same places, (M,)."""
+    one, two, job = [], [], []
+    for k in range(len(first)):
+        a, b = _submap(along, int(first[k]), 1.0)[::2], _submap(along, int(second[k]), 0.7)[::2]
+        one.append(np.repeat(a, len(b)))
+        two.append(np.tile(b, len(a)))
+        job.append(np.full(len(a) * len(b), k))
+    a, b, k = np.concatenate(one), np.concatenate(two), np.concatenate(job)
+    # The pose of b in the frame of a: by way of the closure.
+    across = compose(between(poses[a], poses[first[k]]), compose(relative[k], between(poses[second[k]], poses[b])))
+    stride = max(1, geometry.beams // 90)
+    counts = [
+        view_counts(geometry, keys[s].astype(np.int32), keys[t].astype(np.int32), z, NEAR_M, CLEAR_M, stride, threads)
+        for s, t, z in ((b, a, across), (a, b, inverse(across)))
+    ]
+    sums = np.array([np.bincount(k, weights=counts[0][:, c] + counts[1][:, c], minlength=len(first)) for c in range(3)])
+    matched, against, total = sums
+    decided = np.maximum(matched + against, 1.0)
+    return np.asarray((matched > LEAST_MATCHED * total) & (against < MOST_AGAINST * decided))
 
 
 def _supported(closures: Closures, poses: Floats, along: Floats) -> Closures:
@@ -242,8 +297,8 @@ def _supported(closures: Closures, poses: Floats, along: Floats) -> Closures:
     )
     off = between(closures.relative[one], implied)
     between_m = np.abs(along[a][one] - along[a][two]) + np.abs(along[b][one] - along[b][two])
-    agree = (np.hypot(off[:, 0], off[:, 1]) < 0.1 + 0.015 * between_m) & (
-        np.abs(off[:, 2]) < np.radians(1.5) + np.radians(0.3) * between_m
+    agree = (np.hypot(off[:, 0], off[:, 1]) < 0.15 + 0.02 * between_m) & (
+        np.abs(off[:, 2]) < np.radians(2.0) + np.radians(0.3) * between_m
     )
     support = np.bincount(one[agree & (b[one] != b[two])], minlength=len(closures))
     found = Closures(a, b, closures.relative, closures.information, closures.scores, support)

@@ -1,0 +1,101 @@
+"""Do two scans agree? Points of one that the other sees, and points that stand where the other saw through."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.line_pairs import Scene, nearest_point, scene_of
+from bayesmap.kernels.parallel import launch
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.func
+def beam_towards(scene: Scene, x: float, y: float) -> int:
+    """The beam that points towards (x, y); -1 where there is none."""
+    bins = scene.beam_of_angle.shape[0]
+    bin = int((wp.atan2(y, x) * 0.15915494309 + 0.5) * float(bins))
+    return scene.beam_of_angle[wp.clamp(bin, 0, bins - 1)]
+
+
+@wp.kernel
+def compare_views(
+    first: int,
+    scene: Scene,
+    source: wp.array(dtype=wp.int32),
+    target: wp.array(dtype=wp.int32),
+    relative: wp.array(dtype=wp.vec3d),
+    near: float,
+    clear: float,
+    counts: wp.array2d(dtype=wp.int32),
+):
+    """One thread a pair: points of the source that are matched, that contradict, and all of them.
+
+    A point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
+    """
+    p = first + wp.tid()
+    i = source[p]
+    j = target[p]
+    z = relative[p]
+    cosine = float(wp.cos(z[2]))
+    sine = float(wp.sin(z[2]))
+    beams = scene.kind.shape[1]
+    matched = int(0)
+    against = int(0)
+    total = int(0)
+    b = int(0)
+    while b < beams:
+        k = b
+        b += scene.stride
+        if scene.kind[i, k] == wp.uint8(0):
+            continue
+        total += 1
+        q = scene.points[i, k]
+        x = cosine * q[0] - sine * q[1] + float(z[0])
+        y = sine * q[0] + cosine * q[1] + float(z[1])
+        if nearest_point(scene, j, x, y, near) >= 0:
+            matched += 1
+            continue
+        middle = beam_towards(scene, x, y)
+        if middle < 0:
+            continue
+        away = wp.sqrt(x * x + y * y)
+        through = int(0)
+        for d in range(-1, 2):
+            c = middle + d
+            if scene.full_circle != 0:
+                c = (c + beams) % beams
+            if c >= 0 and c < beams:
+                if scene.kind[j, c] != wp.uint8(0):
+                    if wp.length(scene.points[j, c]) > away + clear:
+                        through += 1
+        if through == 3:
+            against += 1
+    counts[p, 0] = matched
+    counts[p, 1] = against
+    counts[p, 2] = total
+
+
+def view_counts(
+    geometry: Any,
+    source: NDArray[np.int32],
+    target: NDArray[np.int32],
+    relative: NDArray[np.float64],
+    near_m: float,
+    clear_m: float,
+    stride: int = 1,
+    threads: int | None = None,
+) -> NDArray[np.int32]:
+    """Of the points of each source: matched by the target, contradicting it, all; (P, 3).
+
+    ``relative`` are the poses of sources in the frames of targets, (P, 3).
+    """
+    device, count = geometry.device, len(source)
+    counts = wp.empty((count, 3), dtype=wp.int32, device=device)
+    inputs = [scene_of(geometry, stride), devices.to_device(source, wp.int32, device)]
+    inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
+    launch(compare_views, count, [*inputs, near_m, clear_m, counts], device, threads)
+    return np.asarray(counts.numpy())
