@@ -13,16 +13,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.line_pairs import match_counts, pair_sums
 from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
+from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.se2 import retract
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between
 
 Floats = NDArray[np.float64]
 
@@ -66,14 +66,14 @@ class Alignment:
         poses: (S, 3).
         pairs: the scans that were compared.
         sigma_m: standard deviation of a point, found from the residuals.
-        solver: the factorised matrix of the last step, in the poses' own frames: its inverse is their covariance.
+        gaussian: the curvature of the cost about the poses, for covariances.
         matched: for each scan the mean share of its points that its partners' walls explain, (S,).
     """
 
     poses: Floats
     pairs: Pairs
     sigma_m: float
-    solver: Any
+    gaussian: PoseGaussian
     matched: Floats
 
 
@@ -149,7 +149,7 @@ def align(
     """
     count, sigma = len(poses), 0.01
     weights = np.ones((count, geometry.beams), np.float32)
-    solver, totals = None, np.zeros((len(pairs), 4))
+    gaussian, totals = None, np.zeros((len(pairs), 4))
     for number in range(rounds):
         share = min(1.0, number / max(1.0, 0.5 * rounds))
         reach = reach_m[0] * (reach_m[1] / reach_m[0]) ** share
@@ -162,8 +162,10 @@ def align(
             weights = (0.5 / (1.0 + counts)).astype(np.float32)
         laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, threads)
         squares = odometry.squares(poses)
-        step, solver = solve_step(count, [laser, quadratic(odometry, poses, 1.0 / (1.0 + squares / SLIP))])
+        wheels = quadratic(odometry, poses, 1.0 / (1.0 + squares / SLIP))
+        step, _ = solve_step(count, [laser, wheels])
         poses = retract(poses, step)
+        gaussian = _gaussian(poses, laser, wheels)
         sigma = float(np.sqrt(max(totals[:, 0].sum() / max(totals[:, 1].sum(), 1e-9), 1e-8) / 2.0))
         sigma = float(np.clip(sigma, 0.002, 0.05))
         if on_progress is not None:
@@ -172,7 +174,14 @@ def align(
             break
     matched = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
     matched /= np.maximum(np.bincount(pairs.source, minlength=count), 1)
-    return Alignment(poses, pairs, sigma, solver, matched)
+    assert gaussian is not None
+    return Alignment(poses, pairs, sigma, gaussian, matched)
+
+
+def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussian:
+    first, second = np.concatenate([laser.first, wheels.first]), np.concatenate([laser.second, wheels.second])
+    curvature = np.concatenate([laser.curvature, wheels.curvature])
+    return PoseGaussian(poses, first, second, between(poses[first], poses[second]), curvature)
 
 
 def _laser(
@@ -207,45 +216,6 @@ def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) 
     ridge = second + np.eye(3) * (1e-6 * size + 1e-12)
     minimum = np.linalg.solve(ridge, first[..., None])
     return told, (told @ minimum)[..., 0]
-
-
-def odometry_factors(
-    motions: Floats, variances: Floats, keys: NDArray[np.intp], rejected: NDArray[np.bool_] | None = None
-) -> Factors:
-    """Odometry from each key scan to the next, as factors: motions composed, variances added along the way.
-
-    Args:
-        motions: from scan to scan, corrected, (S - 1, 3).
-        variances: of x, y and yaw of each motion, (S - 1, 3).
-        keys: indices of the keys, (K,).
-        rejected: motions that no robot can have made: factors over them are left out.
-    """
-    from bayesmap.space.planar import compose
-
-    relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
-    longest = int(np.diff(keys).max(initial=1))
-    for k in range(longest):
-        at = keys[:-1] + k
-        active = np.nonzero(at < keys[1:])[0]
-        motion, variance = motions[at[active]], variances[at[active]]
-        yaw = relative[active, 2]
-        cosine, sine = np.cos(yaw), np.sin(yaw)
-        turn = np.zeros((len(active), 3, 3))
-        turn[:, 0, 0] = turn[:, 1, 1] = cosine
-        turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = -sine, sine, 1.0
-        lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error moves what comes after
-        lever[:, 0, 2] = -(sine * motion[:, 0] + cosine * motion[:, 1])
-        lever[:, 1, 2] = cosine * motion[:, 0] - sine * motion[:, 1]
-        covariance[active] = lever @ covariance[active] @ np.swapaxes(lever, 1, 2)
-        covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
-        relative[active] = compose(relative[active], motion)
-    relative[:, 2] = wrapped(relative[:, 2])
-    order = np.arange(len(keys) - 1)
-    factors = Factors(order, order + 1, relative, np.linalg.inv(covariance + np.eye(3) * 1e-9))
-    if rejected is None:
-        return factors
-    bad = np.concatenate([[0], np.cumsum(rejected)])
-    return factors.select(bad[keys[1:]] == bad[keys[:-1]])
 
 
 def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:

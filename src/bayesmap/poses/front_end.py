@@ -40,6 +40,12 @@ BATCH = 12
 POOR_SCORE = 0.45
 """Below this a wider window is searched."""
 
+LOST_SCORE = 0.2
+"""A scan that even so is explained no better than this is somewhere else."""
+
+UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
+"""Standard deviations of a motion of which nothing is known."""
+
 WIDE_M, WIDE_RAD = 1.0, np.radians(45.0)
 
 POINT_SIGMA_M = 0.02
@@ -64,6 +70,7 @@ class Track:
         scores: how well the key scans explain each scan, from 0 to 1, (S,); 1 for the first.
         keys: indices of the key scans, ascending.
         slope: the systematic error of odometry that was found, (3, 3).
+        broken: scans whose motion from the one before nothing confirms, (S,).
         noise_ratios: how many times larger than an ordinary robot's odometry's noise is, position and heading, (2,).
     """
 
@@ -72,6 +79,7 @@ class Track:
     odometry_variance: Floats
     scores: Floats
     keys: NDArray[np.intp]
+    broken: NDArray[np.bool_]
     slope: Floats
     noise_ratios: Floats
 
@@ -80,6 +88,7 @@ def follow(
     geometry: ScanGeometry,
     motions: Floats | None,
     stamps_s: Floats | None,
+    impossible: NDArray[np.bool_] | None = None,
     *,
     on_progress: Callable[[int], None] | None = None,
     threads: int | None = None,
@@ -91,6 +100,7 @@ def follow(
         motions: odometry's, from scan to scan in the earlier one's frame, (S - 1, 3); None if there is none: then the
             robot is taken to go on as it did.
         stamps_s: (S,), needed where there is no odometry.
+        impossible: motions that no robot can have made, (S - 1,): they are taken to be unknown.
         on_progress: called with the number of scans that are done.
     """
     count = len(geometry)
@@ -99,6 +109,11 @@ def follow(
     spread, scores = np.zeros((count, 3)), np.ones(count)
     odometry = RunningOdometry()
     keys, grid, drawn = [0], None, -1
+    broken = np.zeros(count, np.bool_)
+    extra = np.zeros((max(count - 1, 0), 3))
+    if motions is not None and impossible is not None and impossible.any():
+        motions = np.where(impossible[:, None], 0.0, motions)
+        extra[impossible] = UNKNOWN**2
     since_key = np.zeros(3)
     i = 0
     while i < count - 1:
@@ -109,26 +124,30 @@ def follow(
         assert grid is not None
         batch = _batch(i, count, motions, poses[i], poses[keys[-1]])
         predicted, variance = _predict(poses, i, batch, motions, stamps_s, odometry)
+        variance = variance + np.cumsum(extra[i : i + len(batch)], axis=0)
         found, told, score = _place(geometry, grid, window, poses, batch, predicted, variance, threads)
         for k, scan in enumerate(batch):
             poses[scan], information[scan], scores[scan] = found[k], told[k], score[k]
             step = variance[k] - (variance[k - 1] if k else 0.0)
+            if score[k] < LOST_SCORE:
+                broken[scan], information[scan] = True, 0.0
+                step = step + UNKNOWN**2
             since_key = since_key + step
             spread[scan] = since_key
             if motions is not None:
                 left = np.diag(np.linalg.inv(told[k] + np.diag(1.0 / variance[k])))
-                if score[k] > KEY_SCORE:
+                if score[k] > KEY_SCORE and not extra[scan - 1].any():
                     odometry.learn(motions[scan - 1], between(poses[scan - 1], poses[scan]), left + 1e-5)
             i = int(scan)
             moved = between(poses[keys[-1]], poses[scan])
             far = np.hypot(moved[0], moved[1]) > KEY_DISTANCE_M or abs(moved[2]) > KEY_TURN_RAD
-            if far or (score[k] < KEY_SCORE and np.abs(moved).max() > 0.05):
+            if far or broken[scan] or (score[k] < KEY_SCORE and np.abs(moved).max() > 0.05):
                 keys.append(i)
                 since_key = np.zeros(3)
                 break
         if on_progress is not None:
             on_progress(i + 1)
-    return Track(poses, information, spread, scores, np.array(keys), odometry.slope, odometry.ratios)
+    return Track(poses, information, spread, scores, np.array(keys), broken, odometry.slope, odometry.ratios)
 
 
 def grid_half_width(geometry: ScanGeometry) -> float:

@@ -1,0 +1,203 @@
+"""What is wrong with odometry and with the laser's stated angles, as the scans themselves tell.
+
+Odometry: the motion that scan matching finds is, to first order,
+
+    found = stated + B stated + lag (v_end - v_begin),
+
+B the systematic error (`bayesmap.poses.odometry_motion`) and v the stated velocity where the motion begins and ends: if
+odometry's stamps are late by ``lag``, its motion is that of another interval. Both are fitted by robust least squares,
+and what is left is the noise. From B follow the laser's place on the robot and the scale of odometry.
+
+Angles: a scan with a wrong angle between its beams is stretched around the laser, and neighbouring scans no longer fit.
+The step is that of the lowest residual. The first beam's angle stays as stated: turning all beams is the same as turning
+the laser on the robot, which B tells.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.kernels.scan_refinement import refine_scans
+from bayesmap.poses.odometry_motion import COMMON
+from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.se2 import interpolate
+from bayesmap.space.planar import between, wrapped
+from bayesmap.space.scans import Scans
+
+Floats = NDArray[np.float64]
+
+VELOCITY_OVER_S = 0.4
+SLOPE_SIGMA = 0.15
+LAG_SIGMA_S = 0.2
+MOST_LAG_S = 0.5
+PAIRS = 240
+"""Of scans that are turned against each other, for the angle between beams."""
+
+
+@dataclass(frozen=True, eq=False)
+class OdometryFit:
+    """What odometry gets wrong.
+
+    Attributes:
+        slope: B, (3, 3).
+        slope_sigma: standard deviations of its entries, (3, 3).
+        lag_s: how late odometry's stamps are, seconds: the motion from t to t' is stated for t + lag to t' + lag.
+        lag_sigma_s: standard deviation of that.
+        ratios: how many times noisier than `odometry_motion.COMMON` it is: position and heading, (2,).
+    """
+
+    slope: Floats
+    slope_sigma: Floats
+    lag_s: float
+    lag_sigma_s: float
+    ratios: Floats
+
+    @property
+    def laser_on_robot(self) -> Floats:
+        """(x, y, yaw) of the laser in the frame that odometry follows, beyond what the log states, to first order.
+
+        Turning by a moves a laser at (x, y) by a (-y, x); a laser turned by yaw sees a motion ahead turned by -yaw.
+        """
+        return np.array([self.slope[1, 2], -self.slope[0, 2], -self.slope[1, 0]])
+
+
+def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
+    """Odometry's poses at the scans' stamps, if its own stamps are late by ``lag_s``, (S, 3)."""
+    if stamps_s is None or lag_s == 0.0:
+        return poses
+    return interpolate(stamps_s, poses, stamps_s + lag_s)
+
+
+def velocities(poses: Floats, stamps_s: Floats) -> Floats:
+    """Stated velocity at each scan, in its own frame, (S, 3), as the mean over 0.4 s."""
+    half = 0.5 * VELOCITY_OVER_S
+    begin, end = np.clip(stamps_s - half, *stamps_s[[0, -1]]), np.clip(stamps_s + half, *stamps_s[[0, -1]])
+    motion = between(interpolate(stamps_s, poses, begin), interpolate(stamps_s, poses, end))
+    return np.asarray(motion / np.maximum(end - begin, 1e-3)[:, None])
+
+
+def fit_odometry(
+    stated: Floats, stamps_s: Floats | None, found: Floats, scans: NDArray[np.intp], laser_variance: Floats
+) -> OdometryFit:
+    """Fit B, the lag and the noise to scans whose poses were found.
+
+    Args:
+        stated: odometry's pose of all scans, (S, 3).
+        stamps_s: (S,), or None: then there is no lag to be found.
+        found: poses of some scans, (K, 3).
+        scans: which these are, ascending, (K,).
+        laser_variance: of each motion between them as found, x, y and yaw, (K - 1, 3): large where the laser cannot
+            tell, as along corridors.
+    """
+    motion = between(stated[scans[:-1]], stated[scans[1:]])
+    error = between(found[:-1], found[1:]) - motion
+    error[:, 2] = wrapped(error[:, 2])
+    timed = stamps_s is not None and np.ptp(stamps_s) > 0
+    change = np.zeros_like(motion)
+    if timed and stamps_s is not None:
+        speed = velocities(stated, stamps_s)
+        change = speed[scans[1:]] - speed[scans[:-1]]
+    base = COMMON.sigmas(motion) ** 2
+    ratio = np.array([1.0, 1.0])
+    coefficients = np.zeros(10)
+    covariance = np.eye(10)
+    for _ in range(6):
+        variance = base * (ratio[[0, 0, 1]] ** 2) + laser_variance
+        normal = np.diag(np.append(np.full(9, SLOPE_SIGMA**-2.0), LAG_SIGMA_S**-2.0))
+        moment = np.zeros(10)
+        rest = _left(error, motion, change, coefficients)
+        weight = 1.0 / variance / (1.0 + (rest**2 / variance).sum(axis=1, keepdims=True) / 9.0)
+        for axis in range(3):
+            design = np.zeros((len(motion), 10))
+            design[:, 3 * axis : 3 * axis + 3] = motion
+            design[:, 9] = change[:, axis]
+            normal += design.T @ (design * weight[:, axis : axis + 1])
+            moment += design.T @ (error[:, axis] * weight[:, axis])
+        coefficients = np.linalg.solve(normal, moment)
+        coefficients[9] = np.clip(coefficients[9], -MOST_LAG_S, MOST_LAG_S)
+        covariance = np.linalg.inv(normal)
+        rest = _left(error, motion, change, coefficients)
+        ratio = np.array([_ratio(rest[:, :2], base[:, :2], laser_variance[:, :2]), _ratio(rest[:, 2:], base[:, 2:], laser_variance[:, 2:])])
+    deviation = np.sqrt(np.diag(covariance))
+    return OdometryFit(
+        coefficients[:9].reshape(3, 3), deviation[:9].reshape(3, 3), float(coefficients[9]) if timed else 0.0,
+        float(deviation[9]), ratio,
+    )  # fmt: skip
+
+
+def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:
+    rest = error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change
+    rest[:, 2] = wrapped(rest[:, 2])
+    return rest
+
+
+def _ratio(rest: Floats, base: Floats, laser: Floats) -> float:
+    """The noise's size in units of the common one: robust, by the median of squares less what the laser adds."""
+    good = laser < 0.5 * base
+    if good.sum() < 20:
+        return 1.0
+    squared = np.maximum(rest[good] ** 2 - laser[good], 0.0) / base[good]
+    clipped = np.minimum(squared, 20.0 * np.median(squared) + 1e-3)
+    return float(np.clip(np.sqrt(clipped.mean()), 0.3, 30.0))
+
+
+def angle_step_ratio(
+    scans: Scans,
+    poses: Floats,
+    source: NDArray[np.integer],
+    target: NDArray[np.integer],
+    *,
+    farthest_m: float | None = None,
+    threads: int | None = None,
+) -> float:
+    """By what factor the angle between beams differs from the stated one, by the lowest residual of pairs of scans.
+
+    Stretched scans still fit each other as long as they look the same way; so pairs are compared of which one is turned
+    against the other.
+
+    Args:
+        scans: S scans.
+        poses: (S, 3).
+        source, target: pairs of scans that overlap.
+        farthest_m: hits beyond are left out.
+
+    Returns:
+        The factor; 1 where no scans are turned against each other.
+    """
+    turned = np.abs(wrapped(poses[source, 2] - poses[target, 2]))
+    useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
+    if len(useful) < 20:
+        return 1.0
+    useful = useful[np.arange(min(len(useful), PAIRS)) * len(useful) // min(len(useful), PAIRS)]
+    needed, at = np.unique(np.concatenate([source[useful], target[useful]]), return_inverse=True)
+    one, other = at[: len(useful)].astype(np.int32), at[len(useful) :].astype(np.int32)
+    some, place = scans.select(needed), poses[needed]
+    weak = np.tile(np.diag([25.0, 25.0, 100.0]), (len(useful), 1, 1))
+    each = np.arange(len(useful) + 1, dtype=np.int32)
+
+    def residual(factor: float) -> float:
+        angles = scans.angles_rad[0] + factor * (scans.angles_rad - scans.angles_rad[0])
+        geometry = scan_geometry(some, farthest_m=farthest_m, angles_rad=angles, threads=threads)
+        # Turning a scan about its first beam turns its pose; the middle beam shall stay where it was.
+        start = place.copy()
+        start[:, 2] -= 0.5 * (factor - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
+        _, _, totals = refine_scans(
+            geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 12, (0.2, 0.15),
+            (0.05, 0.05), 0.7, threads=threads,
+        )  # fmt: skip
+        unexplained = 1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)
+        return float(np.median(unexplained))
+
+    best, step = 1.0, 0.01
+    for _ in range(3):
+        tried = best + step * np.arange(-2, 3)
+        values = np.array([residual(float(f)) for f in tried])
+        k = int(np.clip(np.argmin(values), 1, 3))
+        below, here, above = values[k - 1 : k + 2]
+        bend = below - 2.0 * here + above
+        best = float(tried[k] + step * np.clip(0.5 * (below - above) / bend if bend > 0 else 0.0, -1.0, 1.0))
+        step /= 3.0
+    return best

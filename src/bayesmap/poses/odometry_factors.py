@@ -1,0 +1,92 @@
+"""Factors between key scans from odometry, or, where there is none, from the front end alone."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.poses.calibration import OdometryFit, stated_at
+from bayesmap.poses.front_end import Track
+from bayesmap.poses.graph import Factors
+from bayesmap.poses.odometry_motion import COMMON
+from bayesmap.poses.prior import Odometry
+from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.scans import Scans
+
+Floats = NDArray[np.float64]
+
+STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
+"""How firmly, without odometry, the front end's own links hold."""
+
+
+def chain_factors(track: Track) -> Factors:
+    """Weak links from key scan to key scan as the front end found them."""
+    keys = track.keys
+    order = np.arange(len(keys) - 1)
+    relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
+    return Factors(order, order + 1, relative, np.tile(STEADY, (len(order), 1, 1)))
+
+
+def corrected_factors(
+    scans: Scans,
+    motions: Floats,
+    impossible: NDArray[np.bool_],
+    keys: NDArray[np.intp],
+    slope: Floats,
+    ratios: Floats,
+    lag_s: float = 0.0,
+) -> Factors:
+    """Odometry from key scan to key scan, corrected for its systematic error and its lag."""
+    if lag_s != 0.0:
+        late = stated_at(scans.poses, scans.stamps_s, lag_s)
+        motions = between(late[:-1], late[1:])
+    corrected = motions + motions @ slope.T
+    corrected[:, 2] = wrapped(corrected[:, 2])
+    variances = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
+    return composed(corrected, variances, keys, impossible)
+
+
+def noise_of(fit: OdometryFit) -> Odometry:
+    """The noise that was found, as the prior's parameters."""
+    xy, yaw = float(fit.ratios[0]), float(fit.ratios[1])
+    return Odometry(
+        COMMON.m_per_m * xy, COMMON.m_per_rad * xy, COMMON.rad_per_m * yaw, COMMON.rad_per_rad * yaw,
+        COMMON.still_m * xy, COMMON.still_rad * yaw,
+    )  # fmt: skip
+
+
+def composed(
+    motions: Floats, variances: Floats, keys: NDArray[np.intp], rejected: NDArray[np.bool_] | None = None
+) -> Factors:
+    """Motions from scan to scan composed to factors from each key scan to the next; variances add up along the way.
+
+    Args:
+        motions: from scan to scan, corrected, (S - 1, 3).
+        variances: of x, y and yaw of each motion, (S - 1, 3).
+        keys: indices of the keys, (K,).
+        rejected: motions that no robot can have made: factors over them are left out.
+    """
+    relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
+    longest = int(np.diff(keys).max(initial=1))
+    for k in range(longest):
+        at = keys[:-1] + k
+        active = np.nonzero(at < keys[1:])[0]
+        motion, variance = motions[at[active]], variances[at[active]]
+        yaw = relative[active, 2]
+        cosine, sine = np.cos(yaw), np.sin(yaw)
+        turn = np.zeros((len(active), 3, 3))
+        turn[:, 0, 0] = turn[:, 1, 1] = cosine
+        turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = -sine, sine, 1.0
+        lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error moves what comes after
+        lever[:, 0, 2] = -(sine * motion[:, 0] + cosine * motion[:, 1])
+        lever[:, 1, 2] = cosine * motion[:, 0] - sine * motion[:, 1]
+        covariance[active] = lever @ covariance[active] @ np.swapaxes(lever, 1, 2)
+        covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
+        relative[active] = compose(relative[active], motion)
+    relative[:, 2] = wrapped(relative[:, 2])
+    order = np.arange(len(keys) - 1)
+    factors = Factors(order, order + 1, relative, np.linalg.inv(covariance + np.eye(3) * 1e-9))
+    if rejected is None:
+        return factors
+    bad = np.concatenate([[0], np.cumsum(rejected)])
+    return factors.select(bad[keys[1:]] == bad[keys[:-1]])

@@ -1,0 +1,76 @@
+"""The Gaussian approximation of the posterior over poses: covariances of relative poses, and draws of trajectories."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.poses.graph import ANCHOR, RIDGE, Quadratic, factorised, normal_equations, relative_covariances
+from bayesmap.poses.se2 import retract
+
+Floats = NDArray[np.float64]
+
+DEGREES_OF_FREEDOM = 4.0
+"""Of Student's t: what is wrong with the model (curved walls, people, scans bent by motion) has heavy tails."""
+
+
+@dataclass(frozen=True, eq=False)
+class PoseGaussian:
+    """Poses with the curvature of their cost: the log posterior density to second order.
+
+    Attributes:
+        poses: the most probable ones, (K, 3).
+        first, second: indices of the poses that a part of the cost ties together, (M,).
+        relative: the second's pose in the frame of the first, (M, 3).
+        curvature: second derivatives of the cost by it, (M, 3, 3).
+    """
+
+    poses: Floats
+    first: NDArray[np.intp]
+    second: NDArray[np.intp]
+    relative: Floats
+    curvature: Floats
+
+    @cached_property
+    def solver(self) -> Any:
+        """The factorised precision matrix of steps in the poses' own frames, (3 K, 3 K)."""
+        return factorised(normal_equations(len(self.poses), [self._part])[0])
+
+    @property
+    def _part(self) -> Quadratic:
+        return Quadratic(self.first, self.second, self.relative, self.curvature, np.zeros_like(self.relative))
+
+    def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
+        """Covariance (scale matrix of Student's t) of between(first, second), in the first's frame, (N, 3, 3)."""
+        return relative_covariances(self.solver, self.poses, np.asarray(first), np.asarray(second))
+
+    def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
+        """Draw whole trajectories, (count, K, 3), from the multivariate t with 4 degrees of freedom.
+
+        Draw number n depends on (seed, n) alone. A draw solves H x = sum_k J_k^T C_k e_k, where C_k C_k^T is the curvature of
+        part k and e_k standard normal: then x has covariance H^-1.
+        """
+        from bayesmap.poses.se2 import between_jacobians
+
+        values, vectors = np.linalg.eigh(self.curvature)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+        by_first, by_second = between_jacobians(self.relative)
+        to_first, to_second = np.swapaxes(by_first, 1, 2) @ root, np.swapaxes(by_second, 1, 2) @ root
+        poses = len(self.poses)
+        draws = np.empty((count, poses, 3))
+        for n in range(count):
+            rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n]))
+            noise = rng.standard_normal((len(self.first), 3))
+            own = rng.standard_normal((poses, 3)) * np.sqrt(RIDGE)
+            own[0] = rng.standard_normal(3) * np.sqrt(ANCHOR + RIDGE)
+            for ends, to in ((self.first, to_first), (self.second, to_second)):
+                force = np.einsum("mij,mj->mi", to, noise)
+                for axis in range(3):
+                    own[:, axis] += np.bincount(ends, force[:, axis], poses)
+            stretch = np.sqrt(DEGREES_OF_FREEDOM / rng.chisquare(DEGREES_OF_FREEDOM))
+            draws[n] = retract(self.poses, stretch * self.solver.solve(own.ravel()).reshape(poses, 3))
+        return draws

@@ -1,0 +1,255 @@
+"""From scans and raw odometry to a trajectory with covariances: the stages, one after the other."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
+from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odometry
+from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
+from bayesmap.poses.explain import flag_unexplained
+from bayesmap.poses.front_end import Track, follow, grid_half_width
+from bayesmap.poses.graph import Factors
+from bayesmap.poses.key_graph import close_loops, poses_between_keys
+from bayesmap.poses.odometry_factors import chain_factors, corrected_factors, noise_of
+from bayesmap.poses.odometry_motion import stated_motions
+from bayesmap.poses.placement import place_scans
+from bayesmap.poses.rematch import rematch
+from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
+from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
+from bayesmap.space.planar import compose
+from bayesmap.space.scans import Scans
+
+Floats = NDArray[np.float64]
+Progress = Callable[[str, int, int], None]
+
+FARTHEST_M = 30.0
+"""Hits beyond are not matched: beams are then half a metre apart and more."""
+
+ANGLE_TOLERANCE = 0.0015
+"""A relative error of the angle between beams below this is not corrected: over half a circle it turns by 0.1 degrees."""
+
+MATCH_REACH = 0.8
+"""Scans are compared if their sensors are no further apart than this share of the grids' half width."""
+
+
+def infer_trajectory(
+    scans: Scans,
+    *,
+    no_odometry: bool = False,
+    calibrate_angles: bool = True,
+    seed: int = 0,
+    threads: int | None = None,
+    device: str = "cpu",
+    checkpoint: str | os.PathLike[str] | None = None,
+    on_progress: Progress | None = None,
+) -> Trajectory:
+    """Infer where a robot was from its scans and its raw odometry.
+
+    Args:
+        scans: S scans whose poses are raw odometry (of the laser). Stamps may come in bursts or out of order: scans are
+            taken in the order of time.
+        no_odometry: do not look at the poses; the scans must come at 5 Hz or so.
+        calibrate_angles: find the angle between beams, too, rather than to believe what the log states.
+        seed: of whatever is random; the result is the same for any number of threads.
+        threads: to compute with; by default all cores.
+        device: "cpu" or a CUDA device.
+        checkpoint: a folder for finished stages: a run that is interrupted and started again with the same scans goes on.
+        on_progress: called as (stage, done, of).
+
+    Raises:
+        BadInput: fewer than two scans, scans without a single hit, or no odometry and no stamps or too few scans a second.
+    """
+    _check(scans, no_odometry)
+    order = np.arange(len(scans))
+    if scans.stamps_s is not None:
+        order = np.argsort(scans.stamps_s, kind="stable")
+        scans = scans.select(order)
+    stages = Stages(
+        checkpoint,
+        fingerprint(
+            scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s,
+            settings=f"1 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
+        ),
+    )  # fmt: skip
+    run = _Run(scans, no_odometry, threads, device, stages, on_progress or (lambda stage, done, of: None))
+    return run.trajectory(order, calibrate_angles)
+
+
+class _Run:
+    """One run: what its stages share."""
+
+    def __init__(
+        self,
+        scans: Scans,
+        no_odometry: bool,
+        threads: int | None,
+        device: str,
+        stages: Stages,
+        progress: Progress,
+    ) -> None:
+        self.scans, self.threads, self.device = scans, threads, device
+        self.stages, self.progress = stages, progress
+        self.motions, self.impossible = stated_motions(scans.poses, scans.stamps_s)
+        self.no_odometry = no_odometry
+
+    def geometry(self, angles_rad: Floats) -> ScanGeometry:
+        return scan_geometry(
+            self.scans, farthest_m=FARTHEST_M, angles_rad=angles_rad, device=self.device, threads=self.threads
+        )
+
+    def trajectory(self, order: NDArray[np.intp], calibrate_angles: bool) -> Trajectory:
+        scans, threads = self.scans, self.threads
+        angles, ratio = scans.angles_rad, 1.0
+        geometry = self.geometry(angles)
+        track = self.front_end(geometry)
+        keys = track.keys
+        closed = self.stages.get("loops", lambda: self.loops(geometry, track))
+        half_width_m = grid_half_width(geometry)
+        reach_m = MATCH_REACH * half_width_m
+        key_geometry = geometry.select(keys)
+        poses = closed["poses"]
+        first = self.align("aligned", key_geometry, poses, self.first_factors(track), reach_m, 8, wide=True)
+        poses = first.poses
+        if calibrate_angles:
+            found = angle_step_ratio(
+                scans.select(keys), poses, first.pairs.source, first.pairs.target, farthest_m=FARTHEST_M, threads=threads
+            )
+            if abs(found - 1.0) > ANGLE_TOLERANCE:
+                ratio, poses = found, poses.copy()
+                angles = scans.angles_rad[0] + ratio * (scans.angles_rad - scans.angles_rad[0])
+                poses[:, 2] -= 0.5 * (ratio - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
+                geometry = self.geometry(angles)
+                key_geometry = geometry.select(keys)
+        fit, factors = self.odometry(first, keys, track)
+        second = self.align("aligned-again", key_geometry, poses, factors, reach_m, 8, wide=ratio != 1.0)
+        final, scores = self.improve(key_geometry, second, factors, reach_m, min(half_width_m, 14.0))
+        start = poses_between_keys(track.poses, keys, final.poses)
+        placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, threads=threads)
+        self.progress("placing", len(scans), len(scans))
+        residuals = Factors(closed["first"], closed["second"], closed["relative"], np.zeros((len(closed["first"]), 3, 3)))
+        closures = LoopClosures(
+            keys[closed["first"]], keys[closed["second"]], closed["relative"], residuals.errors(final.poses),
+            closed["weights"],
+        )  # fmt: skip
+        explained = placed.matched.copy()
+        explained[keys] = scores
+        nearest = _nearest(keys, len(scans))
+        breaks = np.nonzero(track.broken)[0]
+        origin = scans.poses[0] if not self.no_odometry else np.zeros(3)
+        gaussian = replace(final.gaussian, poses=compose(origin, final.poses))
+        noise = None if fit is None else noise_of(fit)
+        return Trajectory(
+            compose(origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys), explained,
+            flag_unexplained(explained, keys), breaks, closures,
+            Calibration(ratio, angles, fit, noise, final.sigma_m), order,
+        )  # fmt: skip
+
+    def front_end(self, geometry: ScanGeometry) -> Track:
+        motions = None if self.no_odometry else self.motions
+        count = len(self.scans)
+
+        def compute() -> Arrays:
+            track = follow(
+                geometry, motions, self.scans.stamps_s, self.impossible,
+                on_progress=lambda done: self.progress("front end", done, count), threads=self.threads,
+            )  # fmt: skip
+            return dict(track.__dict__)
+
+        return Track(**self.stages.get("front-end", compute))  # type: ignore[arg-type]
+
+    def loops(self, geometry: ScanGeometry, track: Track) -> Arrays:
+        closed = close_loops(
+            geometry, track, on_progress=lambda done: self.progress("loops", done, 3), threads=self.threads
+        )
+        return {
+            "poses": closed.poses, "first": closed.closures.first, "second": closed.closures.second,
+            "relative": closed.closures.relative, "weights": closed.weights,
+        }  # fmt: skip
+
+    def first_factors(self, track: Track) -> Factors:
+        if self.no_odometry:
+            return chain_factors(track)
+        return corrected_factors(self.scans, self.motions, self.impossible, track.keys, track.slope, track.noise_ratios)
+
+    def odometry(self, aligned: Alignment, keys: NDArray[np.intp], track: Track) -> tuple[OdometryFit | None, Factors]:
+        if self.no_odometry:
+            return None, chain_factors(track)
+        order = np.arange(len(keys) - 1)
+        covariance = aligned.gaussian.relative_covariances(order, order + 1)
+        variance = np.diagonal(covariance, axis1=1, axis2=2)
+        fit = fit_odometry(self.scans.poses, self.scans.stamps_s, aligned.poses, keys, variance)
+        return fit, corrected_factors(
+            self.scans, self.motions, self.impossible, keys, fit.slope, fit.ratios, lag_s=fit.lag_s
+        )
+
+    def align(
+        self,
+        name: str,
+        geometry: ScanGeometry,
+        poses: Floats,
+        factors: Factors,
+        reach_m: float,
+        rounds: int,
+        *,
+        wide: bool,
+    ) -> Alignment:
+        threads = self.threads
+        pairs = overlapping_pairs(geometry, poses, reach_m, threads)
+
+        def again(at: Floats) -> Pairs:
+            return overlapping_pairs(geometry, at, reach_m, threads)
+
+        spans = {} if wide else {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
+        return align(
+            geometry, poses, factors, pairs, rounds=rounds, reselect=again, threads=threads,
+            on_progress=lambda done: self.progress(name, done, rounds), **spans,
+        )  # type: ignore[arg-type]  # fmt: skip
+
+    def improve(
+        self, geometry: ScanGeometry, aligned: Alignment, factors: Factors, reach_m: float, half_width_m: float
+    ) -> tuple[Alignment, Floats]:
+        """Match scans anew, each without itself; where that moves some, align again; put back those that got worse."""
+        poor = 0.0
+        scores = np.zeros(len(aligned.poses))
+        for number in range(2):
+            again = rematch(
+                geometry, aligned.poses, aligned.pairs, half_width_m, poor_score=poor, threads=self.threads
+            )
+            self.progress("rematch", number + 1, 2)
+            scores = again.scores
+            poor = 0.6 * float(np.median(again.best_scores))
+            if not again.moved.any():
+                break
+            poses = np.where(again.moved[:, None], again.best_poses, aligned.poses)
+            aligned = self.align("aligned-rematched", geometry, poses, factors, reach_m, 6, wide=False)
+        return aligned, scores
+
+
+def _check(scans: Scans, no_odometry: bool) -> None:
+    if len(scans) < 2:
+        raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")
+    if not np.isfinite(scans.ranges_m).any():
+        raise BadInput("slam: no scan has a single hit: there is nothing to match")
+    if no_odometry and scans.stamps_s is not None and np.ptp(scans.stamps_s) > 0:
+        gap = float(np.median(np.diff(np.sort(scans.stamps_s))))
+        if gap > 0.5:
+            raise BadInput(
+                f"slam: without odometry scans must come at 5 Hz or so, these come every {gap:.2f} s; "
+                "give the log's odometry, or all of its scans"
+            )
+
+
+def _nearest(keys: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """Position of the key nearest in the order of time to each scan."""
+    scans = np.arange(count)
+    after = np.clip(np.searchsorted(keys, scans), 1, max(1, len(keys) - 1))
+    after = np.minimum(after, len(keys) - 1)
+    before = np.maximum(after - 1, 0)
+    return np.where(np.abs(scans - keys[before]) <= np.abs(keys[after] - scans), before, after)

@@ -1,0 +1,143 @@
+"""What inference of a trajectory gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.poses.calibration import OdometryFit
+from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.poses.prior import Odometry
+from bayesmap.poses.se2 import between_jacobians, retract
+from bayesmap.space.planar import between, compose
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LoopClosures:
+    """Places that the robot came back to.
+
+    Attributes:
+        first, second: indices of the scans, (M,).
+        relative: the second's pose in the first's frame, as matched, (M, 3).
+        residuals: what the final poses differ from that, x, y, yaw, (M, 3).
+        weights: how far each was believed, from 0 to 1.
+    """
+
+    first: NDArray[np.intp]
+    second: NDArray[np.intp]
+    relative: Floats
+    residuals: Floats
+    weights: Floats
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """What was found out about laser and odometry.
+
+    Attributes:
+        angle_step_ratio: the angle between beams, by the stated one.
+        angles_rad: the beam angles that were used, (A,).
+        odometry: systematic error, lag and noise of odometry; None where there was none.
+        noise: the same noise as parameters of the prior `Odometry`; None where there was none.
+        point_sigma_m: standard deviation of a point of a scan about its wall.
+    """
+
+    angle_step_ratio: float
+    angles_rad: Floats
+    odometry: OdometryFit | None
+    noise: Odometry | None
+    point_sigma_m: float
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Poses of all scans with their uncertainty.
+
+    The uncertainty is that of a Gaussian (Student's t with 4 degrees of freedom) over the poses of key scans, in which the
+    scans between them move with the key scan nearest in time, plus their own.
+
+    Attributes:
+        poses: of the laser, in the map's frame: the first scan's pose is the origin unless odometry stated another; (S, 3).
+        stamps_s: (S,), ascending, or None.
+        keys: indices of the key scans, (K,).
+        gaussian: over the poses of the key scans.
+        nearest_key: position among the keys of each scan's, (S,).
+        own_covariance: of each scan about that, in its own frame, (S, 3, 3); zero for key scans.
+        explained: share of each scan's points that other scans explain, from 0 to 1, (S,).
+        flagged: scans that stay badly explained: their poses are not to be trusted, (S,).
+        breaks: scans before which the motion is unlike any that odometry or the laser can confirm: the robot was
+            carried, or data are missing; indices.
+        closures: loop closures.
+        calibration: of laser and odometry.
+        order: for each scan its index in the log, where that was not in order of time.
+    """
+
+    poses: Floats
+    stamps_s: Floats | None
+    keys: NDArray[np.intp]
+    gaussian: PoseGaussian
+    nearest_key: NDArray[np.intp]
+    own_covariance: Floats
+    explained: Floats
+    flagged: NDArray[np.bool_]
+    breaks: NDArray[np.intp]
+    closures: LoopClosures
+    calibration: Calibration
+    order: NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
+        """Scale matrices of the relative poses of pairs of scans, in the first's frame, (N, 3, 3).
+
+        Those of a Student's t with 4 degrees of freedom: the covariance is twice as large.
+        """
+        first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)
+        a, b = self.nearest_key[first], self.nearest_key[second]
+        keys = self.gaussian.relative_covariances(a, b)
+        in_a = between(self.gaussian.poses[a], self.poses[first])
+        in_b = between(self.gaussian.poses[b], self.poses[second])
+        # between(first, second) = in_a^-1 * between(a, b) * in_b
+        cosine, sine = np.cos(in_a[:, 2]), np.sin(in_a[:, 2])
+        turn = np.zeros((len(first), 3, 3))
+        turn[:, 0, 0] = turn[:, 1, 1] = cosine
+        turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = sine, -sine, 1.0
+        yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
+        lever = np.tile(np.eye(3), (len(first), 1, 1))
+        lever[:, 0, 2] = -(np.sin(yaw) * in_b[:, 0] + np.cos(yaw) * in_b[:, 1])
+        lever[:, 1, 2] = np.cos(yaw) * in_b[:, 0] - np.sin(yaw) * in_b[:, 1]
+        chain = turn @ lever
+        result = chain @ keys @ np.swapaxes(chain, 1, 2)
+        by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
+        for jacobian, scans in ((by_first, first), (by_second, second)):
+            result += jacobian @ self.own_covariance[scans] @ np.swapaxes(jacobian, 1, 2)
+        return np.asarray(result)
+
+    def covariances(self) -> Floats:
+        """Covariance of each pose given the first, in the world's axes, (S, 3, 3): twice the scale of Student's t."""
+        scans = np.arange(len(self))
+        relative = self.relative_covariances(np.zeros(len(self), np.intp), scans)
+        cosine, sine = np.cos(self.poses[0, 2]), np.sin(self.poses[0, 2])
+        turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        return np.asarray(2.0 * turn @ relative @ turn.T)
+
+    def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
+        """Draw trajectories of all scans, (count, S, 3); draw n depends on (seed, n) alone."""
+        keys = self.gaussian.draw(count, seed, first_draw)
+        relative = between(self.gaussian.poses[self.nearest_key], self.poses)
+        values, vectors = np.linalg.eigh(self.own_covariance)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+        draws = np.empty((count, len(self), 3))
+        for n in range(count):
+            rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n + (1 << 32)]))
+            own = np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
+            draws[n] = retract(compose(keys[n][self.nearest_key], relative), own)
+        return draws
