@@ -9,7 +9,7 @@ BIN := .venv/bin
 INSTALL := PIP_CONSTRAINT=constraints.txt $(BIN)/python -m pip install --quiet
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: demo test lint bench clean
+.PHONY: demo test lint docs bench clean
 .DEFAULT_GOAL := demo
 
 .venv/core: pyproject.toml constraints.txt
@@ -20,6 +20,10 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .venv/dev: .venv/core
 	$(INSTALL) --editable '.[dev]'
+	@touch $@
+
+.venv/docs: .venv/core
+	$(INSTALL) --editable '.[docs]'
 	@touch $@
 
 demo: .venv/core          ## infer the tutorial's map; pictures, the saved run and the JSON land in runs/demo
@@ -35,6 +39,9 @@ lint: .venv/dev           ## style and types; the page's too where there is npm
 	@if ! command -v npm >/dev/null; then echo "skipped: the page's types, for want of npm"; \
 	elif ! $(MAKE) --no-print-directory tools/node_modules; then echo "skipped: the page's types, npm cannot install TypeScript"; \
 	else tools/node_modules/.bin/tsc --project tools; fi
+
+docs: .venv/docs          ## the site, in build/site; it works without a network
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 
 tools/node_modules: tools/package-lock.json
 	npm --prefix tools ci --silent

@@ -1,0 +1,95 @@
+"""What the site has beside the files of docs/ (a hook of MkDocs, see mkdocs.yml).
+
+README.md and CONTRIBUTING.md become its pages, with their links turned; the tutorial is given the live page's static
+export, a run over the tutorial's map that can be looked through in the browser.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File, Files
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md"}
+TUTORIAL, LIVE = "tutorial/README.md", "tutorial/live.html"
+FRAME = """
+<figure markdown="0" style="width: 100%">
+<iframe src="live.html" title="The tutorial's posterior: draws, mean and beams" loading="lazy"
+  style="width: 100%; height: 860px; border: 1px solid var(--md-default-fg-color--lightest)"></iframe>
+<figcaption>The posterior over the tutorial's map, as <code>bayesmap app</code> shows and exports it: step through its
+draws, look at single beams. Run the command for one that answers to the pen.</figcaption>
+</figure>
+"""
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages that are not in docs/, and the static export."""
+    for source, target in PAGES.items():
+        text = site_links((ROOT / source).read_text(encoding="utf-8"))
+        files.append(File.generated(config, target, content=text))
+    files.append(File.generated(config, LIVE, content=static_export()))
+    return files
+
+
+def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
+    """Turn links to README and CONTRIBUTING, and put the export into the tutorial, after its introduction."""
+    source = page.file.src_uri
+    up = "../" * source.count("/")
+    for name, target in PAGES.items():
+        markdown = markdown.replace(f"]({up}../{name}", f"]({up}{target}")
+    if source == TUTORIAL:
+        before, code, after = markdown.partition("\n```python")
+        markdown = before + FRAME + code + after
+    return markdown
+
+
+def on_post_build(config: MkDocsConfig) -> None:
+    """The site works without a network.
+
+    Raises:
+        PluginError: a page or a style sheet loads something from elsewhere.
+    """
+    site = Path(config.site_dir)
+    found = {
+        f"{path.relative_to(site)}: {address}"
+        for path in (*site.rglob("*.html"), *site.rglob("*.css"))
+        for address in loaded_from_elsewhere(path.read_text(encoding="utf-8"))
+    }
+    if found:
+        raise PluginError("loaded from the internet: " + "; ".join(sorted(found)))
+
+
+def loaded_from_elsewhere(text: str) -> list[str]:
+    """Addresses of scripts, pictures, fonts, styles and frames of other hosts; what a reader may follow is no such."""
+    tags = re.findall(r"<(?:script|img|iframe|source|link|object|embed)\b[^>]*>", text)
+    loads = [tag for tag in tags if not re.search(r'rel="?(?:canonical|next|prev|alternate)', tag)]
+    found = [a for tag in loads for a in re.findall(r'\b(?:src|href|data)="?((?:https?:)?//[^">\s]+)', tag)]
+    return found + re.findall(r"(?:url\(|@import\s)[\s\"']*((?:https?:)?//[^\"')\s]+)", text)
+
+
+def site_links(markdown: str) -> str:
+    """Links of a file beside docs/, as they are inside it."""
+    markdown = re.sub(r"\]\(docs/tutorial\)", f"]({TUTORIAL})", markdown)
+    for source, target in PAGES.items():
+        markdown = markdown.replace(f"]({source}", f"]({target}")
+    return markdown.replace("](docs/", "](")
+
+
+def static_export() -> str:
+    """Two chains over the tutorial's map, as one HTML file that needs no server."""
+    import numpy as np
+
+    import bayesmap as bm
+    from bayesmap.app.recording import run_to_html
+
+    walls, pose = bm.worlds.tutorial()
+    grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
+    angles_rad = np.arange(100) / 100 * 2 * np.pi
+    scans = bm.simulate(walls, grid, pose, angles_rad, sensor=sensor, max_range_m=42.0, seed=0)
+    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=sensor, order="radial", chains=2, draws=200, seed=0)
+    return run_to_html(run, "the tutorial's map")
