@@ -1,7 +1,7 @@
 """What the site has beside the files of docs/ (a hook of MkDocs, see mkdocs.yml).
 
-README.md and CONTRIBUTING.md become its pages, with their links turned; the tutorial is given the live page's static
-export, a run over the tutorial's map that can be looked through in the browser.
+README.md and CONTRIBUTING.md become its pages, with their links turned; the tutorial's first page shows the live page's
+static export, which `docs/tutorial/interactive.py` makes.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from mkdocs.structure.files import File, Files
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md"}
-TUTORIAL, LIVE = "tutorial/README.md", "tutorial/live.html"
+TUTORIAL = "tutorial/README.md"
 FRAME = """
 <figure markdown="0" style="width: 100%">
-<iframe src="live.html" title="The tutorial's posterior: draws, mean and beams" loading="lazy"
+<iframe src="interactive.html" title="The tutorial's posterior: draws, mean and beams" loading="lazy"
   style="width: 100%; height: 860px; border: 1px solid var(--md-default-fg-color--lightest)"></iframe>
 <figcaption>The posterior over the tutorial's map, as <code>bayesmap app</code> shows and exports it: step through its
 draws, look at single beams. Run the command for one that answers to the pen.</figcaption>
@@ -28,24 +28,22 @@ draws, look at single beams. Run the command for one that answers to the pen.</f
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Add the pages that are not in docs/, and the static export."""
+    """Add the pages that are not in docs/."""
     for source, target in PAGES.items():
         text = site_links((ROOT / source).read_text(encoding="utf-8"))
         files.append(File.generated(config, target, content=text))
-    files.append(File.generated(config, LIVE, content=static_export()))
     return files
 
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
-    """Turn links to README and CONTRIBUTING, and put the export into the tutorial, after its introduction."""
+    """Turn links to README and CONTRIBUTING, show the export in the tutorial, and render what is folded away."""
     source = page.file.src_uri
     up = "../" * source.count("/")
     for name, target in PAGES.items():
         markdown = markdown.replace(f"]({up}../{name}", f"]({up}{target}")
     if source == TUTORIAL:
-        before, code, after = markdown.partition("\n```python")
-        markdown = before + FRAME + code + after
-    return markdown
+        markdown += FRAME
+    return markdown.replace("<details>", '<details markdown="1">')
 
 
 def on_post_build(config: MkDocsConfig) -> None:
@@ -78,18 +76,3 @@ def site_links(markdown: str) -> str:
     for source, target in PAGES.items():
         markdown = markdown.replace(f"]({source}", f"]({target}")
     return markdown.replace("](docs/", "](")
-
-
-def static_export() -> str:
-    """Two chains over the tutorial's map, as one HTML file that needs no server."""
-    import numpy as np
-
-    import bayesmap as bm
-    from bayesmap.app.recording import run_to_html
-
-    walls, pose = bm.worlds.tutorial()
-    grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
-    angles_rad = np.arange(100) / 100 * 2 * np.pi
-    scans = bm.simulate(walls, grid, pose, angles_rad, sensor=sensor, max_range_m=42.0, seed=0)
-    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=sensor, order="radial", chains=2, draws=200, seed=0)
-    return run_to_html(run, "the tutorial's map")

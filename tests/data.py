@@ -5,12 +5,13 @@ from pathlib import Path
 
 import pytest
 
-SHARED = Path(__file__).resolve().parents[2] / "shared" / "data"
+FOLDER = Path(os.environ.get("BAYESMAP_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
+"""Where they are looked for."""
 
 
 def intel_log(name: str) -> Path:
     """A file of the Intel Research Lab recording, from $BAYESMAP_DATA or ../shared/data."""
-    path = Path(os.environ.get("BAYESMAP_DATA", SHARED)) / name
+    path = FOLDER / name
     if not path.exists():
         pytest.skip(f"{path} is absent; set BAYESMAP_DATA to the folder of the recordings")
     return path

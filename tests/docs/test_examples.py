@@ -1,0 +1,196 @@
+"""The examples of README, CONTRIBUTING and docs/ run, and what they ask of the command line exists."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from data import FOLDER
+from examples import PAGES, ROOT, TUTORIAL, Example, python_examples, shell_words
+
+import bayesmap as bm
+from bayesmap.cli.group import COMMANDS, cli
+
+LIMIT_S = 300
+"""For all examples of a page."""
+
+RUN = """
+import json, sys
+names = {"__name__": "__main__"}
+for line, text in json.load(sys.stdin):
+    exec(compile("\\n" * (line - 1) + text, sys.argv[1], "exec"), names)
+"""
+
+
+def name(page):
+    return str(page.relative_to(ROOT))
+
+
+EXAMPLES = {page: python_examples(page.read_text(encoding="utf-8")) for page in PAGES}
+README = ROOT / "README.md"
+RUNNABLE = [page for page in PAGES if page.parent != TUTORIAL and EXAMPLES[page]]
+MARKED = [(page, e) for page in RUNNABLE for e in EXAMPLES[page] if e.needs or e.not_run]
+SHELL = [(page, *found) for page in PAGES for found in shell_words(page.read_text(encoding="utf-8"))]
+
+
+def why_not(example):
+    """Why an example cannot run here; "" if it can."""
+    missing = example.needs and not (FOLDER / example.needs).exists()
+    return example.not_run or (f"{FOLDER / example.needs} is not there (set BAYESMAP_DATA)" if missing else "")
+
+
+def execute(page, examples, folder):
+    """Run examples in order in one namespace in a process of its own; tracebacks name the lines of the page."""
+    import json
+
+    for example in examples:
+        if example.needs:
+            (folder / example.needs).symlink_to((FOLDER / example.needs).resolve())
+    path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
+    return subprocess.run(
+        [sys.executable, "-c", RUN, str(page)],
+        input=json.dumps([(e.line, e.text) for e in examples]),
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": path, "MPLBACKEND": "agg"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=LIMIT_S,
+    )
+
+
+# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below.
+@pytest.mark.parametrize("page", [page for page in RUNNABLE if page != README], ids=name)
+def test_the_examples_of_a_page_run(page, tmp_path):
+    done = execute(page, [e for e in EXAMPLES[page] if not why_not(e)], tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(("page", "example"), MARKED, ids=[f"{name(page)}:{e.line}" for page, e in MARKED])
+def test_examples_that_cannot_run_here_say_why(page, example):
+    compile(example.text, str(page), "exec")
+    if reason := why_not(example):
+        pytest.skip(reason)
+
+
+def test_the_readme_s_examples_run_and_give_what_they_say(tmp_path):
+    shapes = Example(1, "assert run.occupancy.shape == (21, 21)\nassert run.draws.shape == (4, 1000, 21, 21)\n")
+    done = execute(README, [*EXAMPLES[README], shapes], tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "rhat" in done.stdout
+    assert bm.load(tmp_path / "run.nc").finished
+
+
+@pytest.mark.parametrize(("page", "line", "words"), SHELL, ids=[f"{name(p)}:{line}" for p, line, _ in SHELL])
+def test_a_line_for_the_shell_can_be_understood(page, line, words):
+    if words[0] == "make":
+        targets = re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE)
+        assert words[1] in targets
+    else:
+        understood(words[1:])
+
+
+def understood(words):
+    """Raise click's error if the command line has no such command, option or value; files need not be there."""
+    command = cli.get_command(click.Context(cli), words[0])
+    context = click.Context(command, info_name=words[0])
+    given, rest, _ = command.make_parser(context).parse_args(list(words[1:]))
+    assert rest == [], f"too many arguments: {rest}"
+    for parameter in command.params:
+        value = given.get(parameter.name)
+        if value is not None and not isinstance(parameter.type, click.Path | click.File):
+            parameter.type_cast_value(context, value)
+
+
+def test_every_command_is_shown_somewhere():
+    shown = {words[1] for _, _, words in SHELL}  # `make demo` is one
+    assert set(COMMANDS) - shown == set()
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "infr LOG",
+        "infer LOG --max-rnge 20",
+        "infer LOG --cells glass",
+        "infer LOG --chains none",
+        "infer LOG --holdout",
+        "app a.nc b.nc",
+    ],
+)
+def test_a_line_that_would_be_refused_is_noticed(line):
+    with pytest.raises((click.UsageError, AssertionError)):
+        understood(line.split())
+
+
+PAGE = """# Title
+
+```python
+x = 1
+```
+
+Text with `bayesmap info FILE`, and `bayesmap` alone.
+
+    bayesmap infer LOG -o "a b"   # a comment
+    BENCH="x y" make bench
+
+<!-- example: needs some.log -->
+```python
+y = open("some.log")
+```
+
+<!-- example: not run, because it asks for a robot -->
+
+```python
+drive()
+```
+
+```sh
+.venv/bin/bayesmap app
+other program
+```
+"""
+
+
+def test_examples_are_found_with_their_lines_and_marks():
+    assert python_examples(PAGE) == [
+        Example(4, "x = 1\n"),
+        Example(14, 'y = open("some.log")\n', needs="some.log"),
+        Example(20, "drive()\n", not_run="it asks for a robot"),
+    ]
+    assert shell_words(PAGE) == [
+        (7, ["bayesmap", "info", "FILE"]),
+        (9, ["bayesmap", "infer", "LOG", "-o", "a b"]),
+        (10, ["make", "bench"]),
+        (24, ["bayesmap", "app"]),
+    ]
+
+
+@pytest.mark.parametrize("mark", ["example: not run", "example needs a.log", "example: needs"])
+def test_a_mark_that_says_nothing_is_refused(mark):
+    with pytest.raises(ValueError, match="line 1"):
+        python_examples(f"<!-- {mark} -->\n```python\nx = 1\n```\n")
+
+
+def test_a_mark_above_nothing_is_refused():
+    with pytest.raises(ValueError, match="line 1"):
+        python_examples("<!-- example: needs a.log -->\nText.\n")
+
+
+def test_a_failing_example_names_the_line_of_its_page(tmp_path):
+    page = "# Title\n\n```python\nx = 1\n```\n\n```python\nassert x == 2\n```\n"
+    done = execute(Path("page.md"), python_examples(page), tmp_path)
+    assert done.returncode != 0
+    assert 'File "page.md", line 8' in done.stderr
+
+
+NAMED = re.compile(r"`((?:src|tests|docs|benchmarks|tools)/[\w./-]+)`")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_files_and_folders_that_a_page_names_are_there(page):
+    named = NAMED.findall(page.read_text(encoding="utf-8"))
+    assert [path for path in named if not (ROOT / path).exists()] == []
