@@ -8,7 +8,6 @@ from examples import PAGES, ROOT, python_examples
 import bayesmap as bm
 
 
-
 def test_links_between_documents_lead_somewhere():
     links = [
         (document, target)
