@@ -100,6 +100,109 @@ def test_every_room_is_known():
     assert {home(path) for path in FILES} - {""} <= set(LEVEL)
 
 
+MODULES = {".".join(("bayesmap", *path.relative_to(SOURCE).with_suffix("").parts)): path for path in FILES}
+MODULES = {name.removesuffix(".__init__"): path for name, path in MODULES.items()}
+
+# Circles that are there today, each a set of modules. They are on their way out: nothing may be added, and an entry
+# that is no longer a circle is to be deleted here.
+KNOWN_CIRCLES = [
+    {"cells.binary", "cells.draws", "cells.kind", "cells.kinds", "cells.reflectivity", "cells.surface"},
+    {"gen.builder", "gen.choice_map", "gen.closure", "gen.fluent", "gen.generative_function", "gen.pretty"},
+    {"io.saved", "io.saved_field"},
+]
+
+
+def imported_modules(source, modules):
+    """The package's modules that a source names in imports: at its top, inside functions, and for types alone.
+
+    The last are not run, but a module whose types name another's cannot be read, or moved, without it. That importing
+    `a.b` runs `a/__init__.py`, which may gather names from all its modules, is no import of it.
+    """
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            inner = [f"{node.module}.{alias.name}" for alias in node.names]
+            names = [name if name in modules else node.module for name in inner]
+        else:
+            continue
+        yield from (name for name in names if name in modules)
+
+
+def circles(graph):
+    """Sets of modules each of which leads to all others of its set; the graph leads from a module to its imports."""
+    reach = {}
+    for start in graph:
+        reach[start], waiting = set(), [start]
+        while waiting:
+            new = set(graph[waiting.pop()]) - reach[start]
+            reach[start] |= new
+            waiting += new
+    together = {frozenset({a, *(b for b in reach[a] if a in reach[b])}) for a in graph if a in reach[a]}
+    return sorted(map(set, together), key=sorted)
+
+
+def test_no_modules_import_one_another():
+    graph = {name: set(imported_modules(path.read_text(), MODULES)) for name, path in MODULES.items()}
+    del graph["bayesmap"]  # the public face reaches everywhere, on first use
+    graph = {name: {other for other in others if other in graph} for name, others in graph.items()}
+    found = [{name.removeprefix("bayesmap.") for name in circle} for circle in circles(graph)]
+    assert [circle for circle in found if circle not in KNOWN_CIRCLES] == [], "a new circle"
+    assert [circle for circle in KNOWN_CIRCLES if circle not in found] == [], "gone: delete it from KNOWN_CIRCLES"
+
+
+def test_circles_are_found():
+    graph = {"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": {"e"}, "e": {"d"}, "f": {"a"}, "g": {"g"}}
+    assert circles(graph) == [{"a", "b", "c"}, {"d", "e"}, {"g"}]
+    assert circles({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
+
+
+def test_imports_are_found_wherever_they_stand():
+    source = """
+import bayesmap.a
+from bayesmap import b
+from bayesmap.c import name
+if TYPE_CHECKING:
+    from bayesmap.d import Name
+def f():
+    from bayesmap.e import name
+import numpy
+"""
+    modules = {"bayesmap", *(f"bayesmap.{letter}" for letter in "abcdef")}
+    assert sorted(imported_modules(source, modules)) == [f"bayesmap.{letter}" for letter in "abcde"]
+
+
+SCRIPTS = [
+    path
+    for folder in (SOURCE, SOURCE.parents[1] / "page")
+    for ending in ("js", "mjs", "ts")
+    for path in sorted(folder.rglob(f"*.{ending}"))
+    if "node_modules" not in path.parts
+]
+KNOWN_LONG = {"mapview.js"}
+"""As above: on its way out, to be deleted here when it is short, or built of short ones."""
+
+
+def too_long(path):
+    """Whether a script has more lines than fit one idea; one that is built of others says so in its first line."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return len(lines) > 350 and not lines[0].startswith("// Built by ")
+
+
+def test_scripts_of_the_page_are_short():
+    assert {path.name for path in SCRIPTS if too_long(path)} == KNOWN_LONG
+
+
+def test_a_long_script_is_noticed(tmp_path):
+    script = tmp_path / "a.ts"
+    script.write_text("let x;\n" * 351)
+    assert too_long(script)
+    script.write_text("// Built by `make page` from page/src: edit there.\n" + "let x;\n" * 351)
+    assert not too_long(script)
+    script.write_text("let x;\n" * 350)
+    assert not too_long(script)
+
+
 @pytest.mark.parametrize("path", FILES, ids=NAMES)
 def test_files_are_short_and_named_for_what_they_do(path):
     assert len(path.read_text().splitlines()) <= 350
