@@ -107,7 +107,8 @@ def laid_out(revision: str) -> Path:
     if not folder.exists():
         archive = subprocess.run(["git", "archive", found.stdout.strip()], cwd=ROOT, capture_output=True, check=True)
         with tarfile.open(fileobj=io.BytesIO(archive.stdout)) as files:
-            files.extractall(folder, filter="data")
+            files.extractall(partial := folder.with_suffix(".partial"), filter="data")
+        partial.rename(folder)
     return folder
 
 

@@ -13,6 +13,8 @@ from benchmarks import yardstick
 
 Sample = TypeVar("Sample")
 
+LONGEST_YARDSTICK_S = 2.0
+
 Seconds = Callable[[], float]
 """Does a repeat of some work and returns the seconds that one unit of it took."""
 
@@ -50,7 +52,7 @@ class Figure:
 
 
 def repeated(take: Callable[[], Sample], make: Callable[[list[Sample]], Figure], repeats: int) -> Figure:
-    """A figure made of samples, taken in turn with the yardstick.
+    """A figure made of samples, taken in turn with the yardstick, which lasts as long as they do.
 
     Args:
         take: takes one sample.
@@ -62,9 +64,9 @@ def repeated(take: Callable[[], Sample], make: Callable[[list[Sample]], Figure],
 
     def more() -> Figure:
         for _ in range(repeats):
-            yardsticks.append(yardstick.seconds())
+            began = time.perf_counter()
             samples.append(take())
-            yardsticks.append(yardstick.seconds())
+            yardsticks.append(yardstick.seconds(min(time.perf_counter() - began, LONGEST_YARDSTICK_S)))
         return replace(make(samples), yardstick_s=min(yardsticks), again=more)
 
     return more()

@@ -1,6 +1,7 @@
 """A figure is the best of its repeats, and repeats of what is compared are taken in turn."""
 
 import itertools
+import time
 
 import pytest
 
@@ -12,7 +13,7 @@ from benchmarks.figure import Figure, derived, ratio, repeated, timed
 def quick_yardstick(monkeypatch):
     """The yardstick takes 3, 2, 1, 1, ... seconds."""
     times = itertools.chain([3.0, 2.0], itertools.repeat(1.0))
-    monkeypatch.setattr(yardstick, "seconds", lambda: next(times))
+    monkeypatch.setattr(yardstick, "seconds", lambda for_s: next(times))
 
 
 def test_the_best_repeat_counts_and_more_can_be_taken():
@@ -75,3 +76,18 @@ def test_json_says_everything_but_how_to_measure_again():
         "yardstick_s": None,
         "gated": True,
     }
+
+
+def test_the_yardstick_lasts_as_long_as_what_it_is_held_against(monkeypatch):
+    asked = []
+    monkeypatch.setattr(yardstick, "seconds", lambda for_s: asked.append(for_s) or 1.0)
+    timed("t", lambda: time.sleep(0.05) or 1, unit="s", scale=1.0, repeats=2)
+    assert len(asked) == 2
+    assert min(asked) >= 0.05
+
+
+def test_the_yardstick_is_the_mean_of_its_runs(monkeypatch):
+    monkeypatch.undo()
+    ticks = iter([0.0, 1.0, 2.0, 3.0, 3.0])
+    monkeypatch.setattr(yardstick.time, "perf_counter", lambda: next(ticks))
+    assert yardstick.seconds(2.5) == 1.0

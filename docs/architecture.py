@@ -1,0 +1,161 @@
+"""Draws docs/images/architecture.svg, the way of one beam through the source: `python docs/architecture.py`.
+
+Each step below is a row of the picture: what the beam is before it, what is done, where, and what else comes in. The
+tests hold that all files and folders named here exist and that the committed picture is the one that this draws.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from pathlib import Path
+from typing import NamedTuple
+
+PICTURE = Path(__file__).with_name("images") / "architecture.svg"
+
+
+class Step(NamedTuple):
+    """A row of the picture.
+
+    Attributes:
+        is_: what the beam is when it gets here: a name, and an example or its arrays, one entry a line.
+        does: what is done with it, one entry a line.
+        where: files and folders of src/bayesmap that do it.
+        joins: what comes in from the side, and where it is from; empty if nothing does.
+    """
+
+    is_: tuple[str, ...]
+    does: tuple[str, ...]
+    where: tuple[str, ...]
+    joins: tuple[str, ...] = ()
+
+
+STEPS = (
+    Step(
+        ("a line of a log", "FLASER 181 4.02 3.18 ... 1.20 0.40 0.31"),
+        ("Recognise the file, read its lines or messages,", "type each reading: hit, no return, too close, invalid"),
+        ("io/logs.py", "io/carmen.py"),
+        ("a recording", "ROS bags, MCAP, g2o, CSV", "io/recording.py"),
+    ),
+    Step(
+        ("a reading of Scans", "ranges_m[s, a] = 3.18", "angles_rad[a], poses[s] = (x, y, yaw)"),
+        ("Check the arguments, choose defaults, build the problem",),
+        ("api.py", "cells/defaults.py"),
+        ("the map's grid", "shape, resolution, origin", "space/grid.py"),
+    ),
+    Step(
+        ("a beam in the world", "start, direction, range_m = 3.18"),
+        ("Trace it through the grid:", "which cells it crosses, and for how long"),
+        ("beams/", "kernels/walk.py"),
+        ("poses of the scans", "known, uncertain, or from odometry", "poses/"),
+    ),
+    Step(
+        ("its crossings", "cells k = 1, 2, ..., entry_m, exit_m"),
+        (
+            "Weigh where it may have stopped:",
+            "p(z) = sum over k of T_k a_k p(z | stop k),  T_k = prod over j < k of (1 - a_j)",
+        ),
+        ("kernels/stop_law.py", "kernels/likelihood.py"),
+        ("stop probabilities a_k", "cells/", "law of a reading p(z | stop)", "sensors/"),
+    ),
+    Step(
+        ("its weight at every crossing", "log p(z | stop k) + log T_k a_k"),
+        ("Draw new cells given all beams, sweep after sweep;", "fit the sensor"),
+        ("samplers/", "kernels/"),
+        ("random numbers", "from (seed, chain, sweep, site) alone", "kernels/random.py"),
+    ),
+    Step(
+        ("its part in a state of a chain", "cells it passed, the cell where it stopped"),
+        ("Run chains on threads; keep draws;", "report progress, write checkpoints, stop on Ctrl-C"),
+        ("run/", "io/saved.py"),
+    ),
+    Step(
+        ("its trace in the draws", "run.draws[chain, draw, x, y]"),
+        ("Means, intervals, R-hat; the density of held-out beams"),
+        ("posterior/", "result.py"),
+        ("held-out beams", "scores, calibration, residuals", "posterior/scoring.py"),
+    ),
+    Step(
+        ("a number for each cell it crossed", "mean[x, y] = 0.97"),
+        ("Choose the colours and draw"),
+        ("viz/maps.py", "app/"),
+        ("maps for robots", "map_server, OccupancyGrid, GeoTIFF", "io/exports.py"),
+    ),
+)
+END = ("a pixel", "dark: this cell stops beams")
+
+WIDTH, ROW, TOP = 1180, 118, 56
+COLUMNS = ((20, 350), (430, 430), (920, 240))
+"""Left edge and width: what the beam is; what is done; what joins."""
+
+
+def svg() -> str:
+    """The picture as SVG: text stays text, nothing is loaded, the background is its own."""
+    height = TOP + ROW * len(STEPS) + 84
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" font-family="sans-serif" font-size="14">',
+        "<title>The way of one beam, from a line of a log to a pixel</title>",
+        '<defs><marker id="head" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto">'
+        '<path d="M0 0 L8 4 L0 8 z" fill="#445"/></marker></defs>',
+        f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
+    ]
+    for (left, _), heading in zip(COLUMNS, ("The beam is", "What is done, and where", "What joins"), strict=True):
+        parts.append(_text(left, 32, heading, size=17, bold=True))
+    for number, step in enumerate(STEPS):
+        top = TOP + number * ROW
+        parts += _box(COLUMNS[0], top, step.is_, "#e8f0fb", code=step.is_[1:])
+        parts += _box(
+            COLUMNS[1], top, (*_lines(step.does), "  ".join(step.where)), "#f3f1ea", code=("  ".join(step.where),)
+        )
+        parts.append(_arrow(f"M{_right(0)} {top + 44} H{COLUMNS[1][0] - 2}"))
+        down = top + 88
+        parts.append(_arrow(f"M{COLUMNS[1][0] + 30} {down} V{down + 15} H{COLUMNS[0][0] + 175} V{top + ROW - 2}"))
+        if step.joins:
+            code = tuple(line for line in step.joins if "/" in line and " " not in line)
+            parts += _box(COLUMNS[2], top, step.joins, "#eaf5ec", code=code)
+            parts.append(_arrow(f"M{COLUMNS[2][0]} {top + 44} H{_right(1) + 2}"))
+    parts += _box(COLUMNS[0], TOP + len(STEPS) * ROW, END, "#1d2b4f", ink="#ffffff", height=58)
+    return "\n".join([*parts, "</svg>"]) + "\n"
+
+
+def _lines(text: str | tuple[str, ...]) -> tuple[str, ...]:
+    return (text,) if isinstance(text, str) else text
+
+
+def _right(column: int) -> int:
+    left, width = COLUMNS[column]
+    return left + width
+
+
+def _box(
+    column: tuple[int, int],
+    top: int,
+    lines: tuple[str, ...],
+    fill: str,
+    code: tuple[str, ...] = (),
+    ink: str = "#1c2333",
+    height: int = 88,
+) -> list[str]:
+    """A box with its lines; the first is a title, those of ``code`` stand in a fixed width."""
+    left, width = column
+    found = [f'<rect x="{left}" y="{top}" width="{width}" height="{height}" rx="6" fill="{fill}" stroke="#9aa3b5"/>']
+    first = top + height / 2 - 9 * (len(lines) - 1) + 5
+    for number, line in enumerate(lines):
+        style = {"bold": number == 0, "mono": line in code, "ink": ink}
+        found.append(_text(left + 12, first + 18 * number, line, **style))
+    return found
+
+
+def _text(
+    x: float, y: float, text: str, size: int = 0, bold: bool = False, mono: bool = False, ink: str = "#1c2333"
+) -> str:
+    style = (f' font-size="{size}"' if size else "") + (' font-weight="bold"' if bold else "")
+    style += ' font-family="monospace" font-size="13"' if mono else ""
+    return f'<text x="{x:g}" y="{y:g}" fill="{ink}"{style}>{escape(text)}</text>'
+
+
+def _arrow(path: str) -> str:
+    return f'<path d="{path}" fill="none" stroke="#445" stroke-width="1.5" marker-end="url(#head)"/>'
+
+
+if __name__ == "__main__":
+    PICTURE.write_text(svg(), encoding="utf-8")
