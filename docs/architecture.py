@@ -20,105 +20,116 @@ class Step(NamedTuple):
         is_: what the beam is when it gets here: a name, and an example or its arrays, one entry a line.
         does: what is done with it, one entry a line.
         where: files and folders of src/bayesmap that do it.
-        joins: what comes in from the side, and where it is from; empty if nothing does.
+        beside: what else comes in, and the files and folders that it is from.
+        leaves: whether it goes out instead.
     """
 
     is_: tuple[str, ...]
     does: tuple[str, ...]
     where: tuple[str, ...]
-    joins: tuple[str, ...] = ()
+    beside: tuple[str, ...]
+    leaves: bool = False
 
 
 STEPS = (
     Step(
         ("a line of a log", "FLASER 181 4.02 3.18 ... 1.20 0.40 0.31"),
-        ("Recognise the file, read its lines or messages,", "type each reading: hit, no return, too close, invalid"),
+        ("Read it", "recognise the file; type each reading: hit, no return,", "too close, invalid"),
         ("io/logs.py", "io/carmen.py"),
-        ("a recording", "ROS bags, MCAP, g2o, CSV", "io/recording.py"),
+        ("recordings", "ROS bags, MCAP, g2o, CSV", "io/recording.py"),
     ),
     Step(
-        ("a reading of Scans", "ranges_m[s, a] = 3.18", "angles_rad[a], poses[s] = (x, y, yaw)"),
-        ("Check the arguments, choose defaults, build the problem",),
-        ("api.py", "cells/defaults.py"),
-        ("the map's grid", "shape, resolution, origin", "space/grid.py"),
+        ("a reading of Scans", "ranges_m[s, a] = 3.18, angles_rad[a],", "poses[s] = (x, y, yaw)"),
+        ("State the problem", "check the arguments, choose what was left open"),
+        ("api.py", "space/scans.py", "cells/defaults.py"),
+        ("grid", "shape, resolution, origin", "space/grid.py"),
     ),
     Step(
         ("a beam in the world", "start, direction, range_m = 3.18"),
-        ("Trace it through the grid:", "which cells it crosses, and for how long"),
+        ("Trace it through the grid", "which cells it crosses, where it enters and leaves them"),
         ("beams/", "kernels/walk.py"),
-        ("poses of the scans", "known, uncertain, or from odometry", "poses/"),
+        ("poses of the scans", "known, uncertain, odometry", "poses/"),
     ),
     Step(
-        ("its crossings", "cells k = 1, 2, ..., entry_m, exit_m"),
+        ("its crossings", "cell k = 1, 2, ..., entry_m, exit_m"),
         (
-            "Weigh where it may have stopped:",
-            "p(z) = sum over k of T_k a_k p(z | stop k),  T_k = prod over j < k of (1 - a_j)",
+            "Weigh where it stopped",
+            "p(z) = Σ Tₖ aₖ p(z | stop k) over its cells k,",
+            "Tₖ = Π (1 - aⱼ) over the cells j before k",
         ),
         ("kernels/stop_law.py", "kernels/likelihood.py"),
-        ("stop probabilities a_k", "cells/", "law of a reading p(z | stop)", "sensors/"),
+        ("aₖ and p(z | stop k)", "kinds of cells, sensor models", "cells/", "sensors/"),
     ),
     Step(
-        ("its weight at every crossing", "log p(z | stop k) + log T_k a_k"),
-        ("Draw new cells given all beams, sweep after sweep;", "fit the sensor"),
+        ("a weight for every cell on its way", "how likely it stopped there"),
+        ("Draw new cells given all beams", "sweep after sweep; fit the sensor while warming up"),
         ("samplers/", "kernels/"),
-        ("random numbers", "from (seed, chain, sweep, site) alone", "kernels/random.py"),
+        ("random numbers", "of (seed, chain, sweep, site)", "kernels/random.py"),
     ),
     Step(
-        ("its part in a state of a chain", "cells it passed, the cell where it stopped"),
-        ("Run chains on threads; keep draws;", "report progress, write checkpoints, stop on Ctrl-C"),
+        ("its part of a chain's state", "cells passed, the cell that stopped it"),
+        ("Run the chains", "on threads; keep draws, report progress, write", "checkpoints, stop on Ctrl-C and resume"),
         ("run/", "io/saved.py"),
+        ("run.nc", "one netCDF file", "io/saved.py"),
+        leaves=True,
     ),
     Step(
-        ("its trace in the draws", "run.draws[chain, draw, x, y]"),
-        ("Means, intervals, R-hat; the density of held-out beams"),
+        ("its trace in the draws", "draws[chain, draw, x, y]"),
+        ("Sum them up", "mean, intervals, R-hat; the density of beams that were", "held out"),
         ("posterior/", "result.py"),
-        ("held-out beams", "scores, calibration, residuals", "posterior/scoring.py"),
+        ("scores", "held-out beams, calibration", "posterior/scoring.py"),
+        leaves=True,
     ),
     Step(
-        ("a number for each cell it crossed", "mean[x, y] = 0.97"),
-        ("Choose the colours and draw"),
+        ("a number for every cell that it crossed", "mean[x, y] = 0.97"),
+        ("Draw the map", "the same colours in figures and in the live page"),
         ("viz/maps.py", "app/"),
-        ("maps for robots", "map_server, OccupancyGrid, GeoTIFF", "io/exports.py"),
+        ("maps for robots", "map_server, OccupancyGrid, ...", "io/exports.py"),
+        leaves=True,
     ),
 )
 END = ("a pixel", "dark: this cell stops beams")
 
-WIDTH, ROW, TOP = 1180, 118, 56
-COLUMNS = ((20, 350), (430, 430), (920, 240))
-"""Left edge and width: what the beam is; what is done; what joins."""
+WIDTH, ROW, TOP = 1200, 118, 56
+COLUMNS = ((20, 340), (410, 430), (890, 290))
+"""Left edge and width: what the beam is; what is done; what is beside."""
 
 
 def svg() -> str:
     """The picture as SVG: text stays text, nothing is loaded, the background is its own."""
     height = TOP + ROW * len(STEPS) + 84
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" font-family="sans-serif" font-size="14">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" '
+        'font-family="sans-serif" font-size="14">',
         "<title>The way of one beam, from a line of a log to a pixel</title>",
         '<defs><marker id="head" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto">'
         '<path d="M0 0 L8 4 L0 8 z" fill="#445"/></marker></defs>',
         f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
     ]
-    for (left, _), heading in zip(COLUMNS, ("The beam is", "What is done, and where", "What joins"), strict=True):
+    for (left, _), heading in zip(
+        COLUMNS, ("The beam is", "What is done, and where", "What comes in, or goes out"), strict=True
+    ):
         parts.append(_text(left, 32, heading, size=17, bold=True))
     for number, step in enumerate(STEPS):
         top = TOP + number * ROW
-        parts += _box(COLUMNS[0], top, step.is_, "#e8f0fb", code=step.is_[1:])
         parts += _box(
-            COLUMNS[1], top, (*_lines(step.does), "  ".join(step.where)), "#f3f1ea", code=("  ".join(step.where),)
+            COLUMNS[0],
+            top,
+            step.is_,
+            "#e8f0fb",
+            code=tuple(line for line in step.is_ if set(line) & set("[_=") or "FLASER" in line),
         )
+        where = "   ".join(step.where)
+        parts += _box(COLUMNS[1], top, (*step.does, where), "#f3f1ea", code=(where,))
         parts.append(_arrow(f"M{_right(0)} {top + 44} H{COLUMNS[1][0] - 2}"))
         down = top + 88
         parts.append(_arrow(f"M{COLUMNS[1][0] + 30} {down} V{down + 15} H{COLUMNS[0][0] + 175} V{top + ROW - 2}"))
-        if step.joins:
-            code = tuple(line for line in step.joins if "/" in line and " " not in line)
-            parts += _box(COLUMNS[2], top, step.joins, "#eaf5ec", code=code)
-            parts.append(_arrow(f"M{COLUMNS[2][0]} {top + 44} H{_right(1) + 2}"))
+        code = tuple(line for line in step.beside if line.endswith((".py", "/")))
+        parts += _box(COLUMNS[2], top, step.beside, "#eaf5ec", code=code)
+        between = (_right(1), COLUMNS[2][0] - 2) if step.leaves else (COLUMNS[2][0], _right(1) + 2)
+        parts.append(_arrow(f"M{between[0]} {top + 44} H{between[1]}"))
     parts += _box(COLUMNS[0], TOP + len(STEPS) * ROW, END, "#1d2b4f", ink="#ffffff", height=58)
     return "\n".join([*parts, "</svg>"]) + "\n"
-
-
-def _lines(text: str | tuple[str, ...]) -> tuple[str, ...]:
-    return (text,) if isinstance(text, str) else text
 
 
 def _right(column: int) -> int:
