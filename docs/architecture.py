@@ -47,17 +47,17 @@ STEPS = (
     Step(
         ("a beam in the world", "start, direction, range_m = 3.18"),
         ("Trace it through the grid", "which cells it crosses, where it enters and leaves them"),
-        ("beams/", "kernels/walk.py"),
+        ("beams/rays.py", "kernels/walk.py"),
         ("poses of the scans", "known, uncertain, odometry", "poses/"),
     ),
     Step(
         ("its crossings", "cell k = 1, 2, ..., entry_m, exit_m"),
         (
             "Weigh where it stopped",
-            "p(z) = Σ Tₖ aₖ p(z | stop k) over its cells k,",
-            "Tₖ = Π (1 - aⱼ) over the cells j before k",
+            "p(z) = Σ Tₖ aₖ p(z | stop k) + T p(z | no stop), Tₖ being",
+            "Π (1 - aⱼ) over the cells j before k, T over all",
         ),
-        ("kernels/stop_law.py", "kernels/likelihood.py"),
+        ("model.py", "beams/stop_law.py", "kernels/stop_law.py"),
         ("aₖ and p(z | stop k)", "kinds of cells, sensor models", "cells/", "sensors/"),
     ),
     Step(
