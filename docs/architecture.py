@@ -54,8 +54,8 @@ STEPS = (
         ("its crossings", "cell k = 1, 2, ..., entry_m, exit_m"),
         (
             "Weigh where it stopped",
-            "p(z) = Σ Tₖ aₖ p(z | stop k) + T p(z | no stop), Tₖ being",
-            "Π (1 - aⱼ) over the cells j before k, T over all",
+            "p(z) = Σ Tₖ aₖ p(z | stop k) + T p(z | no stop),",
+            "Tₖ = Π (1 - aⱼ) over the cells before k, T over all",
         ),
         ("model.py", "beams/stop_law.py", "kernels/stop_law.py"),
         ("aₖ and p(z | stop k)", "kinds of cells, sensor models", "cells/", "sensors/"),

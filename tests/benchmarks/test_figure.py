@@ -1,12 +1,12 @@
 """A figure is the best of its repeats, and repeats of what is compared are taken in turn."""
 
 import itertools
-import time
+from types import SimpleNamespace
 
 import pytest
 
-from benchmarks import yardstick
-from benchmarks.figure import Figure, derived, ratio, repeated, timed
+from benchmarks import figure, yardstick
+from benchmarks.figure import Figure, derived, mean_for, ratio, repeated, timed
 
 
 @pytest.fixture(autouse=True)
@@ -24,7 +24,8 @@ def test_the_best_repeat_counts_and_more_can_be_taken():
     assert first.again().value == 2.0
 
 
-def test_a_ratio_is_of_the_fastest_of_each_measured_in_turn():
+def test_a_ratio_is_of_the_fastest_of_each_measured_in_turn(monkeypatch):
+    monkeypatch.setattr(figure, "LONGEST_S", 0.0)
     calls, theirs, ours = [], iter([30.0, 20.0, 90.0]), iter([9.0, 3.0, 2.0])
 
     def slower():
@@ -50,9 +51,9 @@ def test_timed_work_is_divided_by_its_units_after_a_run_that_does_not_count():
         calls.append(1)
         return 10**9
 
-    figure = timed("t", work, unit="s", scale=1.0, repeats=2)
+    found = timed("t", work, unit="s", scale=1.0, repeats=2)
     assert len(calls) == 3
-    assert 0 < figure.value < 1e-6
+    assert 0 < found.value < 1e-6
 
 
 def test_a_derived_figure_measures_its_sources_again():
@@ -65,8 +66,8 @@ def test_a_derived_figure_measures_its_sources_again():
 
 
 def test_json_says_everything_but_how_to_measure_again():
-    figure = Figure("a", 1.0, "s", spread=(1.0, 2.0), again=lambda: None)
-    assert figure.to_json() == {
+    found = Figure("a", 1.0, "s", spread=(1.0, 2.0), again=lambda: None)
+    assert found.to_json() == {
         "name": "a",
         "value": 1.0,
         "unit": "s",
@@ -79,15 +80,46 @@ def test_json_says_everything_but_how_to_measure_again():
 
 
 def test_the_yardstick_lasts_as_long_as_what_it_is_held_against(monkeypatch):
-    asked = []
+    clock, asked = Clock(), []
+    monkeypatch.setattr(figure, "time", clock)
     monkeypatch.setattr(yardstick, "seconds", lambda for_s: asked.append(for_s) or 1.0)
-    timed("t", lambda: time.sleep(0.05) or 1, unit="s", scale=1.0, repeats=2)
-    assert len(asked) == 2
-    assert min(asked) >= 0.05
+    timed("t", clock.work(0.5, lambda: 1), unit="s", scale=1.0, repeats=2)
+    assert asked == [0.5, 0.5]
 
 
 def test_the_yardstick_is_the_mean_of_its_runs(monkeypatch):
     monkeypatch.undo()
     ticks = iter([0.0, 1.0, 2.0, 3.0, 3.0])
-    monkeypatch.setattr(yardstick.time, "perf_counter", lambda: next(ticks))
+    monkeypatch.setattr(yardstick, "time", SimpleNamespace(perf_counter=lambda: next(ticks)))
     assert yardstick.seconds(2.5) == 1.0
+
+
+class Clock:
+    """Stands still but when work is done."""
+
+    def __init__(self):
+        self.now_s = 0.0
+
+    def perf_counter(self):
+        return self.now_s
+
+    def work(self, lasts_s, says):
+        def seconds():
+            self.now_s += lasts_s
+            return says()
+
+        return seconds
+
+
+def test_the_shorter_of_two_is_repeated_for_as_long_as_the_longer(monkeypatch):
+    clock, ours = Clock(), iter([1.0, 3.0, 2.0, 2.0, 99.0])
+    monkeypatch.setattr(figure, "time", clock)
+    found = ratio("r", clock.work(1.0, lambda: 8.0), clock.work(0.25, lambda: next(ours)), repeats=1)
+    assert found.value == 4.0
+    assert next(ours) == 99.0
+
+
+def test_the_longer_of_two_is_done_once(monkeypatch):
+    clock, ours = Clock(), iter([1.0, 99.0])
+    monkeypatch.setattr(figure, "time", clock)
+    assert mean_for(clock.work(5.0, lambda: next(ours)), 2.0) == 1.0
