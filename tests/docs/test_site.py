@@ -24,6 +24,7 @@ def site():
 
 
 def test_every_public_name_is_in_the_reference():
+    """A new name needs a line `::: bayesmap.NAME` on the page of docs/reference/ where one would look for it."""
     public = [f"bayesmap.{name}" for name in bm.__all__ if name != "__version__"]
     public += [f"bayesmap.gen.{name}" for name in gen.__all__]
     assert sorted(set(public) - set(NAMED)) == []
@@ -35,6 +36,7 @@ def test_the_reference_names_nothing_twice_and_nothing_else():
 
 
 def test_every_page_is_in_the_contents():
+    """A new page needs a line in mkdocs.yml."""
     contents = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
     pages = [str(path.relative_to(ROOT / "docs")) for path in (ROOT / "docs").rglob("*.md")]
     assert [page for page in pages if not re.search(rf"[ :]{re.escape(page)}$", contents, re.MULTILINE)] == []
