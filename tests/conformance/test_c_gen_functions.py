@@ -41,10 +41,15 @@ def test_a_closure_puts_its_arguments_first():
     assert trace.get_retval() == nested.simulate(KEY, (1.0, 2.0)).get_retval()
 
 
-def test_a_combinator_comes_before_the_arguments():
-    """C.11: what bad use gets."""
-    with pytest.raises(TypeError, match="apply repeat before the arguments"):
-        nested(1.0).repeat(n=3)
+def test_a_combinator_may_come_after_the_arguments():
+    """C.11: it works on the function of the arguments that are still to come."""
+    np.testing.assert_array_equal(nested(1.0, 2.0).repeat(n=3)()(KEY), nested.repeat(n=3)(1.0, 2.0)(KEY))
+    trace = nested(1.0).vmap()(jnp.array([1.0, 2.0])).simulate(KEY, ())
+    expected = nested.vmap(in_axes=(None, 0)).simulate(KEY, (1.0, jnp.array([1.0, 2.0])))
+    np.testing.assert_array_equal(trace.get_retval(), expected.get_retval())
+    new, weight, _, _ = trace.edit(KEY, genjax.Regenerate(genjax.Selection.all()))
+    assert weight == 0.0
+    np.testing.assert_allclose(new.get_score(), expected.gen_fn.assess(new.get_choices(), expected.get_args())[0])
 
 
 def test_keyword_arguments_reach_the_body():

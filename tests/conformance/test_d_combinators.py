@@ -108,13 +108,24 @@ def test_assess_with_some_elements_missing_raises():
         genjax.normal.repeat(n=4).assess(C[1].set(0.5), (0.0, 1.0))
 
 
-def test_values_are_cast_to_the_sites_dtype():
-    """D.20: GenJAX raises TypeError for a float into a bool site."""
-    model = genjax.flip.repeat(n=3)
-    for constraint in (C.v(jnp.array([1.0, 0.0, 1.0])), C[0].set(1.0)):
-        trace, _ = model.importance(KEY, constraint, (0.5,))
-        assert trace.get_retval().dtype == bool
-        assert trace.get_retval()[0]
+def test_values_keep_the_dtype_in_which_they_are_given():
+    """D.20: as in GenJAX; among drawn elements they are cast, where GenJAX raises."""
+    model, given = genjax.flip.repeat(n=3), jnp.array([1.0, 0.0, 1.0])
+    assert model.assess(C.v(given), (0.5,))[1].dtype == jnp.float32
+    trace, _ = model.importance(KEY, C.v(given), (0.5,))
+    assert trace.get_retval().dtype == trace.get_choices()[()].dtype == jnp.float32
+    assert genjax.normal.assess(C.v(1), (0.0, 1.0))[1].dtype == jnp.float32, "a real choice can be moved"
+    trace, _ = model.importance(KEY, C[0].set(1.0), (0.5,))
+    assert trace.get_retval().dtype == bool
+    assert trace.get_retval()[0]
+
+
+@pytest.mark.parametrize("dtype", [bool, jnp.int32, jnp.float32])
+def test_an_edit_keeps_the_dtype_of_the_trace(dtype):
+    """E.29: whatever the new value's, so that old and new trace can be branches of `lax.cond`."""
+    trace, _ = genjax.flip.repeat(n=3).importance(KEY, C.v(jnp.array([1, 0, 1], dtype)), (0.5,))
+    for value in (jnp.zeros(3), jnp.zeros(3, bool)):
+        assert trace.update(KEY, C.v(value))[0].get_retval().dtype == dtype
 
 
 def test_vmap_errors_are_those_of_jax():
@@ -178,7 +189,8 @@ def test_a_mask_that_is_true_means_that_the_choices_score():
     on, off = (draw.mask().simulate(KEY, (flag, 0.0)) for flag in (True, False))
     np.testing.assert_allclose(on.get_score(), draw.simulate(KEY, (0.0,)).get_score(), rtol=1e-6)
     assert off.get_score() == 0.0
-    assert "v" not in off.get_choices()
+    assert not off.get_choices()["v"].flag
+    assert draw.mask().assess(off.get_choices(), off.get_args())[0] == 0.0
     assert bool(on.get_retval().flag)
     assert not bool(off.get_retval().flag)
 

@@ -196,7 +196,7 @@ def wide(loc):
 def test_switching_branches_discounts_fresh_draws(request_of):
     """The weight is that of what was given on the new branch, less the old score; the way back undoes it."""
     both = narrow.switch(wide)
-    trace = both.simulate(KEY, (0, (0.0,), (0.0,)))
+    trace = both.simulate(KEY, (jnp.array(0), (0.0,), (0.0,)))
     diffs = (Diff.unknown_change(1), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
     new, weight, _, back = jax.jit(lambda r: trace.edit(KEY, r, diffs))(request_of())
     given = 0.0
@@ -204,7 +204,7 @@ def test_switching_branches_discounts_fresh_draws(request_of):
         u = new.get_choices()["u"].unmask()
         given = st.norm.logpdf(0.25, u, 1.0)
     np.testing.assert_allclose(weight, given - trace.get_score(), rtol=1e-5)
-    returning = (Diff.unknown_change(0), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
+    returning = (Diff.unknown_change(jnp.array(0)), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
     old = new.edit(KEY, back, returning)[0]
     assert old.get_choices()["v"].unmask() == trace.get_choices()["v"].unmask()
     np.testing.assert_allclose(old.get_score(), trace.get_score(), rtol=1e-6)
@@ -212,8 +212,8 @@ def test_switching_branches_discounts_fresh_draws(request_of):
 
 def test_a_switch_whose_index_stays_is_edited_in_place():
     both = narrow.switch(wide)
-    trace = both.simulate(KEY, (1, (0.0,), (0.0,)))
-    diffs = (Diff.unknown_change(1), Diff.no_change((0.0,)), Diff.unknown_change((1.0,)))
+    trace = both.simulate(KEY, (jnp.array(1), (0.0,), (0.0,)))
+    diffs = (Diff.unknown_change(jnp.array(1)), Diff.no_change((0.0,)), Diff.unknown_change((1.0,)))
     new, weight, _, _ = trace.edit(KEY, genjax.EmptyRequest(), diffs)
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
     for name in "uv":

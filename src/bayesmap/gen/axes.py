@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.mask import is_concrete
+from bayesmap.gen.flags import is_concrete
 from bayesmap.gen.typing import InAxes
 
 

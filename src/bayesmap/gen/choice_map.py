@@ -3,42 +3,36 @@
 An address is a name, an index, or a tuple of them. Below a vectorised model the values are stored as
 whole arrays, so `chm["v"]` is `chm[:, "v"]` and `chm[0, "v"]` its first element. Names select submaps;
 an index selects from the leading axis of everything below it.
+
+Flags that are arrays (a mask's, a comparison of array indices) never decide which addresses a map has: the value is
+there, as a Mask.
 """
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from functools import reduce
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 
+from bayesmap.gen.builder import Builder, FromMappings, components
 from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, show
-from bayesmap.gen.mask import Mask, is_concrete, where
+from bayesmap.gen.flags import same_index, where
+from bayesmap.gen.mask import Mask, overlay
+from bayesmap.gen.outline import Outlined, leaf_text
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 
-_is_mask: Callable[[Any], bool] = lambda leaf: isinstance(leaf, Mask)  # noqa: E731
-
-
-def components(address: Any) -> tuple[Any, ...]:
-    """An address as a tuple."""
-    return address if isinstance(address, tuple) else (address,)
-
 
 def _index(tree: Any, at: Any) -> Any:
-    return jax.tree.map(lambda leaf: leaf[at], tree, is_leaf=_is_mask)
+    return jax.tree.map(lambda leaf: leaf[at], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
 
 
-class ChoiceMap(Pytree):
+class ChoiceMap(Outlined, FromMappings, Pytree):
     """Base of choice maps; make one with `ChoiceMapBuilder`, conventionally called `C`."""
 
-    def __repr__(self) -> str:
-        from bayesmap.gen.pretty import render
-
-        return render(self)
-
-    # What a kind of node implements ---------------------------------------------------------------
+    # What a kind of node implements, with `outline` -----------------------------------------------
 
     def get_value(self) -> Any:
         """The value at the empty address, or None; a Mask when its presence is decided at run time."""
@@ -57,7 +51,7 @@ class ChoiceMap(Pytree):
         raise NotImplementedError
 
     def static_is_empty(self) -> bool:
-        """Is it known, whatever the flags, that nothing is here?"""
+        """Is it known, whatever the arrays hold, that nothing is here?"""
         return False
 
     # Asking ---------------------------------------------------------------------------------------
@@ -67,8 +61,7 @@ class ChoiceMap(Pytree):
         path = [c for address in addresses for c in components(address)]
         return reduce(lambda chm, component: chm.get_inner_map(component), path, self)
 
-    def __call__(self, *addresses: Any) -> "ChoiceMap":
-        return self.get_submap(*addresses)
+    __call__ = get_submap
 
     def __getitem__(self, address: Any) -> Any:
         value = self.get_submap(address).get_value()
@@ -80,7 +73,6 @@ class ChoiceMap(Pytree):
         return self.get_submap(address).has_value()
 
     def has_value(self) -> bool:
-        """Is there a value at the empty address?"""
         return self.get_value() is not None
 
     def get_selection(self) -> Selection:
@@ -92,21 +84,21 @@ class ChoiceMap(Pytree):
 
     def invalid_subset(self, gen_fn: Any, args: tuple[Any, ...]) -> "ChoiceMap | None":
         """The choices that `gen_fn`, run on `args`, would never make; None if there are none."""
-        shape = jax.eval_shape(gen_fn.simulate, jax.random.key(0), args).get_choices()
+        shape = jax.eval_shape(lambda: gen_fn.simulate(jax.random.key(0), args).get_choices())
         rest = self.filter(~shape.get_selection())
         return None if rest.static_is_empty() else rest
+
+    def simplify(self) -> "ChoiceMap":
+        """This map: filters are applied where they are asked for, so there is nothing to simplify."""
+        return self
 
     # Combining ------------------------------------------------------------------------------------
 
     def __or__(self, other: "ChoiceMap") -> "ChoiceMap":
-        return merge(self, other)
-
-    __add__ = __or__
-    __xor__ = __or__
-
-    def merge(self, other: "ChoiceMap") -> "ChoiceMap":
         """Everything in either; where both have a value, this one's."""
-        return merge(self, other)
+        return join(self, other)
+
+    __add__ = __xor__ = merge = __or__
 
     def __and__(self, other: "ChoiceMap") -> "ChoiceMap":
         return other.filter(self.get_selection())
@@ -116,87 +108,75 @@ class ChoiceMap(Pytree):
         return self.filter(flag)
 
     def extend(self, *address: Any) -> "ChoiceMap":
-        """This map moved below `address`."""
+        """This map moved below `address`.
+
+        Raises:
+            ValueError: a partial slice, or a second array of indices, in the address.
+        """
         acc = self
         for component in reversed(address):
             if isinstance(component, str):
                 acc = Static.build({component: acc})
             elif not isinstance(component, slice):
-                acc = acc if acc.static_is_empty() else Indexed(acc, component)
+                acc = acc if acc.static_is_empty() else Indexed.build(acc, component)
             elif component != slice(None):
                 raise ValueError(f"Only the full slice `:` can stand in an address, not {component}")
         return acc
 
     @property
-    def at(self) -> Any:
+    def at(self) -> Builder:
         """`chm.at["x"].set(v)`: this map with the value at "x" replaced."""
-        from bayesmap.gen.builder import Builder
+        return Builder(ChoiceMap, self, ())
 
-        return Builder(self, ())
-
-    # Making ---------------------------------------------------------------------------------------
-
+    # Making: also `FromMappings` --------------------------------------------------------------------
     @staticmethod
     def empty() -> "ChoiceMap":
-        """The map without values."""
         return Static({})
 
     @staticmethod
     def choice(value: Any) -> "ChoiceMap":
-        """A bare value, at the empty address."""
+        """A bare value, at the empty address; an array without elements, or what is masked away, is none."""
         if isinstance(value, Mask):
             value = value.flatten()
-        return Static({}) if value is None else Choice(value)
+        return Static({}) if value is None or (_is_array(value) and 0 in value.shape) else Choice(value)
+
+    value = choice
 
     @staticmethod
-    def entry(value: Any, *address: Any) -> "ChoiceMap":
-        """A value, dict or map at an address."""
-        if not isinstance(value, ChoiceMap):
-            value = ChoiceMap.d(value) if isinstance(value, dict) else ChoiceMap.choice(value)
-        return value.extend(*address)  # type: ignore[no-any-return]
+    def switch(idx: Any, chms: Iterable["ChoiceMap"]) -> "ChoiceMap":
+        """The map numbered `idx`; with an index array, all of them, masked."""
+        chms = list(chms)
+        if isinstance(idx, int):
+            return chms[idx]
+        return Switch(idx, tuple(chm.mask(idx == k) for k, chm in enumerate(chms)))
 
-    @staticmethod
-    def from_mapping(pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
-        """A map from (address, value) pairs."""
-        entries = [ChoiceMap.entry(value, *components(address)) for address, value in pairs]
-        return reduce(merge, entries, ChoiceMap.empty())
 
-    @staticmethod
-    def d(mapping: dict[Any, Any]) -> "ChoiceMap":
-        """A map from a dict, nested dicts included."""
-        return ChoiceMap.from_mapping(mapping.items())
-
-    @staticmethod
-    def kw(**values: Any) -> "ChoiceMap":
-        """A map from keyword arguments."""
-        return ChoiceMap.d(values)
-
-    @staticmethod
-    def switch(index: Any, maps: Iterable["ChoiceMap"]) -> "ChoiceMap":
-        """The map numbered `index`; with a traced index, all of them, masked."""
-        maps = list(maps)
-        return maps[index] if isinstance(index, int) else Switch(index, tuple(maps))
+def _is_array(value: Any) -> bool:
+    return hasattr(value, "shape") and hasattr(value, "dtype")
 
 
 @dataclass
 class Choice(ChoiceMap):
     """A bare value: an array, or a Mask of one."""
 
-    value: Any
+    v: Any
 
     def get_value(self) -> Any:
-        return self.value
+        return self.v
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
-        return Static({}) if isinstance(component, str) else Choice(_index(self.value, component))
+        return Static({}) if isinstance(component, str) else Choice(_index(self.v, component))
 
     def filter(self, selection: Any) -> ChoiceMap:
         if isinstance(selection, Selection):
             return self if selection.check() else Static({})
-        return ChoiceMap.choice(Mask.build(self.value, selection))
+        return ChoiceMap.choice(Mask.build(self.v, selection))
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
         yield ()
+
+    def outline(self, label: str = "") -> list[str]:
+        return [f"{label or '()'}: {leaf_text(self.v)}"]
 
 
 @dataclass
@@ -228,83 +208,103 @@ class Static(ChoiceMap):
     def static_is_empty(self) -> bool:
         return not self.mapping
 
+    def outline(self, label: str = "") -> list[str]:
+        if not self.mapping:
+            return [f"{label}: (empty)" if label else "(empty)"]
+        below = [line for name, sub in self.mapping.items() for line in sub.outline(repr(name))]
+        return [f"{label}:", *("  " + line for line in below)] if label else below
+
 
 @dataclass
 class Indexed(ChoiceMap):
-    """A map for one element, `index` a scalar; or for several, `index` (k,) and every value (k, ...)."""
+    """A map for one element, `addr` an int or scalar array; or for several, `addr` (k,) and every value (k, ...)."""
 
-    inner: ChoiceMap
-    index: Any
+    c: ChoiceMap
+    addr: Any
+
+    @staticmethod
+    def build(chm: ChoiceMap, addr: Any) -> ChoiceMap:
+        """Refuses a second array of indices."""
+        if jnp.ndim(addr) > 0 and any(jnp.ndim(c) > 0 for path in chm.paths() for c in path if not isinstance(c, str)):
+            raise ValueError("An address can hold one array of indices, and single indices before it")
+        return Indexed(chm, addr)
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
         if isinstance(component, str):
             return Static({})
         if isinstance(component, slice):
-            raise ValueError(f"The choice map has values at index {self.index} only; it cannot be sliced")
-        if jnp.ndim(self.index) == 0:
-            same = self.index == component
-            return self.inner.filter(bool(same) if is_concrete(same) else same)
-        hits = self.index == component
+            raise ValueError(
+                f"Slices are not allowed against array-shaped dynamic addresses: there is {self.addr} only"
+            )
+        hits = same_index(self.addr, component)
+        if jnp.ndim(self.addr) == 0:
+            return self.c.filter(hits)
         first = jnp.argmax(hits)
-        return _index(self.inner, first).filter(hits[first])  # type: ignore[no-any-return]
+        return _index(self.c, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
 
     def filter(self, selection: Any) -> ChoiceMap:
-        return self.inner.filter(selection).extend(self.index)
+        return self.c.filter(selection).extend(self.addr)
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield from ((self.index, *path) for path in self.inner.paths())
+        yield from ((self.addr, *path) for path in self.c.paths())
+
+    def outline(self, label: str = "") -> list[str]:
+        return self.c.outline(f"{label}[{leaf_text(self.addr)}]")
 
 
 @dataclass
 class Or(ChoiceMap):
     """Both maps, the left one first: what `|` gives when it cannot be worked out at once."""
 
-    left: ChoiceMap
-    right: ChoiceMap
+    c1: ChoiceMap
+    c2: ChoiceMap
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
-        return self.left.get_inner_map(component) | self.right.get_inner_map(component)
+        return self.c1.get_inner_map(component) | self.c2.get_inner_map(component)
 
     def filter(self, selection: Any) -> ChoiceMap:
-        return self.left.filter(selection) | self.right.filter(selection)
+        return self.c1.filter(selection) | self.c2.filter(selection)
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield from self.left.paths()
-        yield from self.right.paths()
+        yield from self.c1.paths()
+        yield from self.c2.paths()
+
+    def outline(self, label: str = "") -> list[str]:
+        return [*self.c1.outline(label), *self.c2.outline(label)]
 
 
 @dataclass
 class Switch(ChoiceMap):
-    """The map numbered by the integer array `index`, the others masked out."""
+    """Several maps, each masked by whether it is the one numbered by the integer array `idx`."""
 
-    index: Any
-    maps: tuple[ChoiceMap, ...]
-
-    def branches(self) -> list[ChoiceMap]:
-        """The maps, each masked by whether it is the chosen one."""
-        return [chm.filter(self.index == k) for k, chm in enumerate(self.maps)]
+    idx: Any
+    chms: tuple[ChoiceMap, ...]
 
     def get_value(self) -> Any:
-        values = [chm.get_value() for chm in self.branches()]
+        values = [chm.get_value() for chm in self.chms]
         present = [Mask.build(v) for v in values if v is not None]
-        return reduce(lambda a, b: a | b, present) if present else None
+        return Mask.or_n(*present) if present else None
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
-        index = self.index if isinstance(component, str) or jnp.ndim(self.index) == 0 else self.index[component]
-        maps = tuple(chm.get_inner_map(component) for chm in self.maps)
-        return Static({}) if all(chm.static_is_empty() for chm in maps) else Switch(index, maps)
+        idx = self.idx if isinstance(component, str) or jnp.ndim(self.idx) == 0 else self.idx[component]
+        chms = tuple(chm.get_inner_map(component) for chm in self.chms)
+        return Static({}) if all(chm.static_is_empty() for chm in chms) else Switch(idx, chms)
 
     def filter(self, selection: Any) -> ChoiceMap:
-        return Switch(self.index, tuple(chm.filter(selection) for chm in self.maps))
+        return Switch(self.idx, tuple(chm.filter(selection) for chm in self.chms))
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield from dict.fromkeys(path for chm in self.maps for path in chm.paths())
+        yield from dict.fromkeys(path for chm in self.chms for path in chm.paths())
 
     def static_is_empty(self) -> bool:
-        return all(chm.static_is_empty() for chm in self.maps)
+        return all(chm.static_is_empty() for chm in self.chms)
+
+    def outline(self, label: str = "") -> list[str]:
+        head = f"{label or 'switch'}: branch {leaf_text(self.idx)} of"
+        return [head, *("  " + line for k, m in enumerate(self.chms) for line in m.outline(f"[{k}]"))]
 
 
-def merge(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
+def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
     """Everything in either map, the left one's value where both have one.
 
     Raises:
@@ -314,28 +314,37 @@ def merge(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
         return right if left.static_is_empty() else left
     match left, right:
         case Static(a), Static(b):
-            both = {k: merge(a[k], b[k]) if k in a and k in b else a.get(k, b.get(k)) for k in [*a, *b]}
+            both = {k: join(a[k], b[k]) if k in a and k in b else a.get(k, b.get(k)) for k in [*a, *b]}
             return Static.build(both)  # type: ignore[arg-type]
         case Choice(Mask() as a), Choice(b):
-            combined = a | Mask.build(b)
+            combined = overlay(a, Mask.build(b))
             return Choice(combined if isinstance(b, Mask) else combined.value)
         case Choice(), Choice() | Indexed():
             return left
         case Indexed(), Choice(value) if not isinstance(value, Mask):
-            return Choice(overlay(left, jnp.asarray(value)))
+            return Choice(overwrite(left, jnp.asarray(value)))
+        case (Switch(idx, chms), other) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
+            return Switch(idx, tuple(chm | other.mask(idx == k) for k, chm in enumerate(chms)))
+        case (other, Switch(idx, chms)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
+            return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(chms)))
         case (Choice(), Static()) | (Static(), Choice()):
             names = next(path for chm in (left, right) for path in chm.paths() if path)
-            raise ValueError(f"One choice map has a bare value where the other has a choice {show(names)}")
+            problem = f"one has a bare value where the other has a choice {show(names)}"
+            raise ValueError(f"Choice and non-Choice in Or: {problem}")
     return Or(left, right)
 
 
-def overlay(chm: ChoiceMap, array: Any) -> Any:
+def overwrite(chm: ChoiceMap, array: Any) -> Any:
     """`array` with the elements that `chm` has indices for replaced."""
     match chm:
         case Indexed(inner, index):
-            return array.at[index].set(overlay(inner, array[index]))
+            return array.at[index].set(overwrite(inner, array[index]))
         case Choice(Mask(value, flag)):
             return where(flag, value, array)
         case Choice(value):
             return value
     raise ValueError(f"Names below an index cannot replace elements of an array of shape {array.shape}")
+
+
+ChoiceMapBuilder = Builder(ChoiceMap, None, ())
+ChoiceMap.builder = ChoiceMapBuilder  # type: ignore[attr-defined]

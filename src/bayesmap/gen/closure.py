@@ -6,55 +6,117 @@ from typing import Any
 from bayesmap.gen import handler
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Trace
+from bayesmap.gen.fluent import method
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass
+from bayesmap.gen.requests import Edited, EditRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
 @dataclass
-class Closure(GenerativeFunction):
+class GenerativeFunctionClosure(GenerativeFunction):
     """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments.
 
-    Its traces are those of `m`, and their arguments include the ones held here.
+    Its traces are those of `m`, and their arguments include the ones held here. Where some are given by name, they
+    have the form that `m.handle_kwargs()` takes.
     """
 
     gen_fn: GenerativeFunction
     args: tuple[Any, ...]
-    keywords: tuple[Any, ...] = ()
+    kwargs: dict[str, Any]
 
-    @staticmethod
-    def of(gen_fn: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> "Closure":
-        """Apply `gen_fn`; keyword arguments become its last positional ones."""
-        if kwargs:
-            gen_fn = gen_fn.keyworded(tuple(kwargs))
-        return Closure(gen_fn, args, tuple(kwargs.values()))
-
-    def _full(self, rest: tuple[Any, ...]) -> tuple[Any, ...]:
-        return (*self.args, *rest, *self.keywords)
-
-    def check_open(self, name: str) -> None:
-        raise TypeError(f"apply {name} before the arguments: m.{name}(...)(x), not m(x).{name}(...)")
+    def _full(self, rest: tuple[Any, ...], by_name: dict[str, Any] | None = None) -> tuple[Any, Arguments]:
+        """(The function to run, all of its arguments)."""
+        args, kwargs = (*self.args, *rest), {**self.kwargs, **(by_name or {})}
+        return (self.gen_fn.handle_kwargs(), (args, kwargs)) if kwargs else (self.gen_fn, args)
 
     def __matmul__(self, address: Any) -> Any:
-        return handler.visit(address, self.gen_fn, self._full(()))
+        return handler.visit(address, *self._full(()))
 
-    def __call__(self, key: PRNGKey, *rest: Any) -> Any:
+    def __call__(self, key: PRNGKey, *rest: Any, **by_name: Any) -> Any:
         """Simulate, and keep the return value alone."""
-        return self.gen_fn.simulate(key, self._full(rest)).get_retval()
+        gen_fn, args = self._full(rest, by_name)
+        return gen_fn.simulate(key, args).get_retval()
+
+    def handle_kwargs(self) -> GenerativeFunction:
+        """This closure: it takes arguments by name when it is called."""
+        return self
+
+    def as_part(self) -> GenerativeFunction:
+        return Applied(self)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
-        return self.gen_fn.simulate(key, self._full(args))
+        gen_fn, full = self._full(args)
+        return gen_fn.simulate(key, full)  # type: ignore[no-any-return]
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        return self.gen_fn.assess(choices, self._full(args))
+        gen_fn, full = self._full(args)
+        return gen_fn.assess(choices, full)  # type: ignore[no-any-return]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        return self.gen_fn.generate(key, constraint, self._full(args))
+        gen_fn, full = self._full(args)
+        return gen_fn.generate(key, constraint, full)  # type: ignore[no-any-return]
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        held = (Diff.unknown_change(self.args), Diff.unknown_change(self.keywords))
-        return request.edit(key, trace, (*held[0], *argdiffs, *held[1]))
+        held = Diff.unknown_change(self.args)
+        return request.edit(key, trace, _in_form((*held, *argdiffs), Diff.unknown_change(self.kwargs)))
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return self.gen_fn.project(key, trace, selection)
+        return trace.project(key, selection)  # type: ignore[no-any-return]
+
+
+def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
+    return (args, kwargs) if kwargs else args
+
+
+@dataclass
+class AppliedTrace(Trace):
+    """The trace of the function within a closure; its arguments are those that the closure lacked."""
+
+    gen_fn: Any
+    args: Any
+    inner: Trace
+
+    def get_retval(self) -> Any:
+        return self.inner.get_retval()
+
+    def get_score(self) -> Score:
+        return self.inner.get_score()
+
+    def get_choices(self) -> ChoiceMap:
+        return self.inner.get_choices()
+
+    def get_inner_trace(self, address: Any) -> Trace:
+        return self.inner.get_inner_trace(address)
+
+
+@dataclass
+class Applied(GenerativeFunction):
+    """A closure as a part of a combinator, whose traces know the closure and not only the function in it."""
+
+    closure: GenerativeFunctionClosure
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> AppliedTrace:
+        return AppliedTrace(self, args, self.closure.simulate(key, args))
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        return self.closure.assess(choices, args)
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[AppliedTrace, Weight]:
+        inner, weight = self.closure.generate(key, constraint, args)
+        return AppliedTrace(self, args, inner), weight
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        held = Diff.no_change((self.closure.args, self.closure.kwargs))
+        inner, weight, retdiff, back = request.edit(key, trace.inner, _in_form((*held[0], *argdiffs), held[1]))
+        return AppliedTrace(self, Diff.tree_primal(argdiffs), inner), weight, retdiff, back
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return trace.inner.project(key, selection)  # type: ignore[no-any-return]
+
+
+@method
+def apply(gen_fn: GenerativeFunction, args: tuple[Any, ...], kwargs: dict[str, Any]) -> GenerativeFunctionClosure:
+    """`gen_fn(*args, **kwargs)`."""
+    return GenerativeFunctionClosure(gen_fn, args, kwargs)

@@ -7,7 +7,8 @@ import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import Choice, ChoiceMap, Indexed, Or, Static, Switch
 from bayesmap.gen.errors import ShapeMismatch, UnknownAddress
-from bayesmap.gen.mask import Mask, is_concrete
+from bayesmap.gen.flags import is_concrete
+from bayesmap.gen.mask import Mask, overlay
 
 
 def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
@@ -40,9 +41,9 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             present = True if given is None else given
             return _put(value, index, shape[0]), jnp.zeros(shape, bool).at[index].set(present)
         case Or() | Switch():
-            parts = [chm.left, chm.right] if isinstance(chm, Or) else chm.branches()
+            parts = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms
             found = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))]
-            joined = reduce(lambda a, b: a | b, found)
+            joined = reduce(overlay, found)
             return joined.value, jnp.broadcast_to(joined.flag, shape)
     raise UnknownAddress(next(chm.paths()), "the model has a bare value or an array there")
 

@@ -5,6 +5,7 @@ independent values, and the log density elementwise.
 """
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
+import inspect
 import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -17,7 +18,9 @@ from jax.nn import log_sigmoid, log_softmax
 from jax.scipy.special import gammaln, xlog1py, xlogy
 
 from bayesmap.gen.distribution import ExactDensity
-from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.errors import BadArguments
+from bayesmap.gen.generative_function import GenerativeFunction
+from bayesmap.gen.pytree import Const, dataclass, static
 from bayesmap.gen.typing import PRNGKey
 
 Params = tuple[Any, ...]
@@ -35,51 +38,60 @@ class Family(NamedTuple):
 
 @dataclass
 class Named(ExactDensity):
-    """One of the families below; with `keywords`, its last arguments go by these names."""
+    """One of the families below; `by_name`, its arguments are `((positional, ...), {"name": value})`."""
 
     name: str = static()
-    keywords: tuple[str, ...] = static(default=())
+    by_name: bool = static(default=False)
 
-    def _parameters(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Params:
-        split = len(args) - len(self.keywords)
-        named = dict(zip(self.keywords, args[split:], strict=True))
-        found = _FAMILIES[self.name].parameters(*args[:split], **named, **kwargs)
-        return tuple(jnp.asarray(p, jnp.result_type(float)) for p in found)
+    def handle_kwargs(self) -> GenerativeFunction:
+        return Named(self.name, by_name=True)
+
+    def _parameters(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[tuple[int, ...], Params]:
+        """(Shape of independent draws, parameters)."""
+        if self.by_name:
+            args, kwargs = args[0], {**args[1], **kwargs}
+        kwargs = dict(kwargs)
+        shape = Const.unwrap(kwargs.pop("sample_shape", ()))
+        read = _FAMILIES[self.name].parameters
+        try:
+            inspect.signature(read).bind(*args, **kwargs)
+        except TypeError as error:
+            raise BadArguments(f"{self.name}{inspect.signature(read)}: {error}") from None
+        return shape, tuple(jnp.asarray(p, jnp.result_type(float)) for p in read(*args, **kwargs))
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
-        sample_shape = kwargs.pop("sample_shape", ())
-        family, params = _FAMILIES[self.name], self._parameters(args, kwargs)
-        return family.draw(key, (*sample_shape, *family.batch(*params)), *params)
+        family, (shape, params) = _FAMILIES[self.name], self._parameters(args, kwargs)
+        return family.draw(key, (*shape, *family.batch(*params)), *params)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        return _FAMILIES[self.name].logpdf(value, *self._parameters(args, kwargs))
+        return _FAMILIES[self.name].logpdf(value, *self._parameters(args, kwargs)[1])
 
     def in_support(self, value: Any) -> Any:
         return _FAMILIES[self.name].support(value)
 
-    def keyworded(self, names: tuple[str, ...]) -> "Named":
-        return Named(self.name, names)
 
-
-def _odds(name: str) -> Callable[..., Params]:
+def _event(logits: Any = None, probs: Any = None) -> Params:
     """Parameters of an event's probability: (p, log p, log(1 - p))."""
-
-    def parameters(implicit: Any = None, *, logits: Any = None, probs: Any = None) -> Params:
-        if sum(x is not None for x in (implicit, logits, probs)) != 1:
-            raise TypeError(f"{name} takes exactly one of logits= and probs=")
-        if implicit is not None:
-            _warn_implicit(name)
-        if probs is not None:
-            return _chance(probs)
-        logits = jnp.asarray(implicit if logits is None else logits, jnp.result_type(float))
-        return jax.nn.sigmoid(logits), log_sigmoid(logits), log_sigmoid(-logits)
-
-    return parameters
+    if (logits is None) == (probs is None):
+        raise BadArguments("a probability is given by exactly one of logits= and probs=")
+    if probs is not None:
+        return _chance(probs)
+    logits = jnp.asarray(logits, jnp.result_type(float))
+    return jax.nn.sigmoid(logits), log_sigmoid(logits), log_sigmoid(-logits)
 
 
-def _warn_implicit(name: str) -> None:
-    text = f"{name} takes its positional argument as logits; say logits= or probs="
-    warnings.warn(text, DeprecationWarning, stacklevel=4)
+def _bernoulli(implicit: Any = None, *, logits: Any = None, probs: Any = None) -> Params:
+    return _event(_explicit("bernoulli", implicit, logits, probs), probs)
+
+
+def _explicit(name: str, implicit: Any, logits: Any, probs: Any) -> Any:
+    """The logits; a positional argument counts as such, with a warning, for it is easily mistaken."""
+    if sum(x is not None for x in (implicit, logits, probs)) != 1:
+        raise BadArguments(f"{name} takes exactly one of logits= and probs=")
+    if implicit is not None:
+        text = f"a bare argument to {name} means logits; say logits= or probs="
+        warnings.warn(text, DeprecationWarning, stacklevel=4)
+    return implicit if logits is None else logits
 
 
 def _chance(p: Any) -> Params:
@@ -88,11 +100,8 @@ def _chance(p: Any) -> Params:
 
 
 def _class_logits(implicit: Any = None, *, logits: Any = None, probs: Any = None) -> Params:
-    if sum(x is not None for x in (implicit, logits, probs)) != 1:
-        raise TypeError("categorical takes exactly one of logits= and probs=")
-    if implicit is not None:
-        _warn_implicit("categorical")
-    return (jnp.log(jnp.asarray(probs)),) if probs is not None else (implicit if logits is None else logits,)
+    logits = _explicit("categorical", implicit, logits, probs)
+    return (jnp.log(jnp.asarray(probs)) if logits is None else logits,)
 
 
 def _categorical_logpdf(value: Any, logits: Any) -> Any:
@@ -100,7 +109,7 @@ def _categorical_logpdf(value: Any, logits: Any) -> Any:
     k = table.shape[-1]
     shape = jnp.broadcast_shapes(jnp.shape(value), table.shape[:-1])
     table = jnp.broadcast_to(table, (*shape, k))
-    index = jnp.broadcast_to(jnp.clip(value, 0, k - 1), shape)[..., None]
+    index = jnp.broadcast_to(jnp.clip(value, 0, k - 1), shape).astype(jnp.int32)[..., None]
     return jnp.where((value >= 0) & (value < k), jnp.take_along_axis(table, index, axis=-1)[..., 0], -jnp.inf)
 
 
@@ -128,12 +137,21 @@ def _weibull_logpdf(value: Any, k: Any, scale: Any) -> Any:
     return jnp.where(value > 0, jnp.log(k / scale) + (k - 1) * jnp.log(z) - z**k, -jnp.inf)
 
 
-def _two(loc: Any, scale: Any) -> Params:
+def _loc_scale(loc: Any, scale: Any) -> Params:
     return loc, scale
 
 
+def _binomial(total_count: Any, logits: Any = None, probs: Any = None) -> Params:
+    return total_count, *_event(logits, probs)[:1]
+
+
 def _counts(value: Any) -> Any:
-    return value >= 0
+    return (value >= 0) & (value == jnp.floor(value))
+
+
+def _real(draw: Callable[..., Any]) -> Callable[..., Any]:
+    """Counts as real numbers, as TensorFlow Probability draws them."""
+    return lambda *args: draw(*args).astype(jnp.result_type(float))
 
 
 def _event_batch(concentration: Any) -> tuple[int, ...]:
@@ -147,7 +165,7 @@ _FAMILIES: dict[str, Family] = {
         lambda v, p, yes, no: jnp.where(v, yes, no),
     ),
     "bernoulli": Family(
-        _odds("bernoulli"),
+        _bernoulli,
         lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
         lambda v, p, yes, no: jnp.where(v == 1, yes, jnp.where(v == 0, no, -jnp.inf)),
         support=lambda v: (v == 0) | (v == 1),
@@ -159,7 +177,7 @@ _FAMILIES: dict[str, Family] = {
         support=_counts,
         batch=_event_batch,
     ),
-    "normal": Family(_two, lambda key, shape, loc, scale: loc + scale * jr.normal(key, shape), st.norm.logpdf),
+    "normal": Family(_loc_scale, lambda key, shape, loc, scale: loc + scale * jr.normal(key, shape), st.norm.logpdf),
     "uniform": Family(
         lambda low, high: (low, high),
         lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
@@ -187,29 +205,26 @@ _FAMILIES: dict[str, Family] = {
     ),
     "poisson": Family(
         lambda rate: (rate,),
-        lambda key, shape, rate: jr.poisson(key, rate, shape),
+        _real(lambda key, shape, rate: jr.poisson(key, rate, shape)),
         lambda v, rate: _positive(v, xlogy(v, rate) - rate - gammaln(v + 1.0)),
         support=_counts,
     ),
     "geometric": Family(
-        _odds("geometric"),
-        lambda key, shape, p, *_: jr.geometric(key, p, shape) - 1,
+        _event,
+        _real(lambda key, shape, p, *_: jr.geometric(key, p, shape) - 1),
         lambda v, p, yes, no: _positive(v, yes + xlog1py(v, -p)),
         support=_counts,
     ),
     "binomial": Family(
-        lambda total_count, *, logits=None, probs=None: (
-            total_count,
-            *_odds("binomial")(logits=logits, probs=probs)[:1],
-        ),
-        lambda key, shape, n, p: jr.binomial(key, n, p, shape).astype(jnp.int32),
+        _binomial,
+        _real(lambda key, shape, n, p: jr.binomial(key, n, p, shape)),
         st.binom.logpmf,
         support=_counts,
     ),
-    "laplace": Family(_two, lambda key, shape, m, s: m + s * jr.laplace(key, shape), st.laplace.logpdf),
-    "cauchy": Family(_two, lambda key, shape, m, s: m + s * jr.cauchy(key, shape), st.cauchy.logpdf),
+    "laplace": Family(_loc_scale, lambda key, shape, m, s: m + s * jr.laplace(key, shape), st.laplace.logpdf),
+    "cauchy": Family(_loc_scale, lambda key, shape, m, s: m + s * jr.cauchy(key, shape), st.cauchy.logpdf),
     "gumbel": Family(
-        _two,
+        _loc_scale,
         lambda key, shape, m, s: m + s * jr.gumbel(key, shape),
         lambda v, m, s: -(v - m) / s - jnp.exp(-(v - m) / s) - jnp.log(s),
     ),
@@ -218,14 +233,16 @@ _FAMILIES: dict[str, Family] = {
         lambda key, shape, df, m, s: m + s * jr.t(key, df, shape),
         st.t.logpdf,
     ),
-    "log_normal": Family(_two, lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)), _log_normal_logpdf),
+    "log_normal": Family(
+        _loc_scale, lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)), _log_normal_logpdf
+    ),
     "half_normal": Family(
         lambda scale: (scale,),
         lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
         lambda v, s: _positive(v, st.norm.logpdf(v, 0.0, s) + jnp.log(2.0)),
     ),
     "half_cauchy": Family(
-        _two,
+        _loc_scale,
         lambda key, shape, m, s: m + s * jnp.abs(jr.cauchy(key, shape)),
         lambda v, m, s: _positive(v - m, st.cauchy.logpdf(v, m, s) + jnp.log(2.0)),
     ),
@@ -253,10 +270,10 @@ _FAMILIES: dict[str, Family] = {
         batch=lambda m, cov: jnp.shape(m)[:-1],
     ),
     "mv_normal_diag": Family(
-        lambda loc, scale_diag: (loc, scale_diag),
-        lambda key, shape, m, s: m + s * jr.normal(key, (*shape, jnp.shape(m)[-1])),
+        lambda loc, scale_diag=1.0: (loc, scale_diag),
+        lambda key, shape, m, s: m + s * jr.normal(key, (*shape, jnp.broadcast_shapes(jnp.shape(m), jnp.shape(s))[-1])),
         lambda v, m, s: jnp.sum(st.norm.logpdf(v, m, s), axis=-1),
-        batch=lambda m, s: jnp.shape(m)[:-1],
+        batch=lambda m, s: jnp.broadcast_shapes(jnp.shape(m), jnp.shape(s))[:-1],
     ),
 }
 

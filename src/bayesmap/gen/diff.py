@@ -48,6 +48,39 @@ class Diff(Pytree):
     primal: Any
     tangent: Change
 
+    def get_primal(self) -> Any:
+        """The value."""
+        return self.primal
+
+    def get_tangent(self) -> Change:
+        """What is known of its change."""
+        return self.tangent
+
+    @staticmethod
+    def tree_diff(value: Any, tangents: Any) -> Any:
+        """`value`, each leaf marked by the leaf of `tangents` in the same place."""
+        return jax.tree.map(Diff, value, tangents)
+
+    @staticmethod
+    def tree_tangent(value: Any) -> Any:
+        """The marks in place of the leaves; an unmarked leaf counts as unchanged."""
+        return jax.tree.map(lambda leaf: leaf.tangent if _is_diff(leaf) else NoChange, value, is_leaf=_is_diff)
+
+    @staticmethod
+    def is_diff(value: Any) -> bool:
+        """Is it a `Diff`?"""
+        return _is_diff(value)
+
+    @staticmethod
+    def is_change_tangent(value: Any) -> bool:
+        """Is it a mark?"""
+        return isinstance(value, Change)
+
+    @staticmethod
+    def static_check_tree_diff(value: Any) -> bool:
+        """Is every leaf marked?"""
+        return all(_is_diff(leaf) for leaf in jax.tree.leaves(value, is_leaf=_is_diff))
+
     @staticmethod
     def tree(value: Any, tangent: Change) -> Any:
         """`value` with every leaf marked by `tangent`; marks that it has already are replaced."""

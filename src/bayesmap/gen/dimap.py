@@ -8,8 +8,10 @@ from typing import Any
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dataflow import dataflow
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Trace
+from bayesmap.gen.fluent import decorator_method
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.requests import Edited, EditRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -30,7 +32,8 @@ class DimapTrace(Trace):
         return self.inner.get_choices()
 
     def get_inner_trace(self, address: Any) -> Trace:
-        return self.inner.get_inner_trace(address)
+        inner_args = None if self.args is None else self.gen_fn.pre(*self.args)
+        return self.inner.with_args(inner_args).get_inner_trace(address)
 
 
 def _changes(fn: Callable[..., Any], *inputs: Any) -> Any:
@@ -104,6 +107,7 @@ class _OfRetval:
         return self.f(retval)
 
 
+@decorator_method
 def dimap(
     *, pre: Callable[..., Any] = _same_args, post: Callable[..., Any] = _same_retval
 ) -> Callable[[GenerativeFunction], Dimap]:
@@ -116,14 +120,16 @@ def dimap(
     Raises, when it runs:
         TypeError: `pre` does not return a tuple.
     """
-    return lambda gen_fn: Dimap(gen_fn, pre, post)
+    return lambda gen_fn: Dimap(gen_fn.as_part(), pre, post)
 
 
+@decorator_method
 def map(f: Callable[[Any], Any]) -> Callable[[GenerativeFunction], Dimap]:
     """A decorator: apply `f` to the return value."""
     return dimap(post=_OfRetval(f))
 
 
+@decorator_method
 def contramap(f: Callable[..., Any]) -> Callable[[GenerativeFunction], Dimap]:
     """A decorator: the arguments go through `f`, which returns a tuple."""
     return dimap(pre=f)

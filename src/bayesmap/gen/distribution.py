@@ -1,4 +1,4 @@
-"""Distributions with a known density, as generative functions with one choice at the empty address."""
+"""Distributions as generative functions with one choice at the empty address."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
@@ -7,20 +7,16 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
+from bayesmap.gen.checks import check, in_optional_part
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dense import dense
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    GenerativeFunction,
-    Regenerate,
-    Trace,
-    Update,
-)
-from bayesmap.gen.mask import Mask, is_concrete, where
+from bayesmap.gen.flags import is_concrete, where
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.mask import Mask
 from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.requests import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -41,8 +37,101 @@ class DistributionTrace(Trace):
         return ChoiceMap.choice(self.value)
 
 
-class ExactDensity(GenerativeFunction):
-    """Base of distributions: implement `sample` and `logpdf`.
+class Distribution(GenerativeFunction):
+    """Base of distributions whose density may be an estimate: implement `random_weighted` and `estimate_logpdf`.
+
+    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023): 1 / exp(score) of
+    the first is an unbiased estimate of 1 / density at its draw, exp of the second one of the density.
+    """
+
+    def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
+        """(Log density, draw)."""
+        raise NotImplementedError
+
+    def estimate_logpdf(self, key: PRNGKey, value: Any, *args: Any) -> Score:
+        """The log density at `value`, shape ()."""
+        raise NotImplementedError
+
+    # How a constraint is read and scored; exact densities refine these ------------------------------
+
+    def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
+        """(Value or None, flag of what was given or None for all, 0 or -inf if impossible)."""
+        value = choices.get_value()
+        return (value.value, value.flag, 0.0) if isinstance(value, Mask) else (value, None, 0.0)
+
+    def like(self, value: Any, old: Any) -> Any:
+        """A new value in the dtypes of the one that it replaces, so that both can be branches of `lax.cond`."""
+        return jax.tree.map(lambda v, o: jnp.asarray(v, jnp.result_type(o)), value, old)
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> DistributionTrace:
+        _check_tuple(args)
+        score, value = self.random_weighted(key, *args)
+        return DistributionTrace(self, args, value, score)
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        value, given, penalty = self.read(choices, args)
+        if value is None:
+            raise MissingAddress(())
+        score = self.estimate_logpdf(jax.random.key(0), value, *args) + penalty
+        if given is not None:
+            if is_concrete(given) and not in_optional_part() and not bool(jnp.all(given)):
+                raise MissingAddress((), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}")
+            check(jnp.logical_or(given, in_optional_part()), "assess: a choice is masked, and its flag is False")
+            score = jnp.where(jnp.all(given), score, jnp.nan)
+        return score, value
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
+        value, given, penalty = self.read(constraint, args)
+        if value is None:
+            return self.simulate(key, args), jnp.zeros(())
+        if given is not None:
+            drawn_score, drawn = self.random_weighted(key, *args)
+            given_score = self.estimate_logpdf(key, value, *args) + penalty
+            new = DistributionTrace(self, args, where(given, value, drawn), jnp.where(given, given_score, drawn_score))
+            return new, jnp.where(given, given_score, 0.0)
+        score = self.estimate_logpdf(key, value, *args) + penalty
+        return DistributionTrace(self, args, value, score), score
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        args, old = Diff.tree_primal(argdiffs), trace.value
+        match request:
+            case Update(constraint):
+                value, given, penalty = self.read(constraint, args)
+                if value is None:
+                    return self._rescore(key, trace, argdiffs)
+                value = self.like(value, old)
+                value = value if given is None else where(given, value, old)
+                new = DistributionTrace(self, args, value, self.estimate_logpdf(key, value, *args) + penalty)
+                discard = ChoiceMap.choice(old if given is None else Mask(old, given))
+                return new, new.score - trace.score, Diff.unknown_change(value), Update(discard)
+            case Regenerate(selection) if selection.check():
+                new = self.simulate(key, args)
+                new = new.replace(value=self.like(new.value, old))
+                return new, jnp.zeros(()), Diff.unknown_change(new.value), Update(ChoiceMap.choice(old))
+            case Regenerate():
+                return self._rescore(key, trace, argdiffs)
+        raise NotSupportedEditRequest(self, request)
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return trace.score if selection.check() else jnp.zeros_like(trace.score)
+
+    def _rescore(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
+        """The same value under new arguments."""
+        unchanged, nothing = Diff.no_change(trace.value), Update(ChoiceMap.empty())
+        if Diff.static_check_no_change(argdiffs):
+            return trace, jnp.zeros(()), unchanged, nothing
+        args = Diff.tree_primal(argdiffs)
+        new = DistributionTrace(self, args, trace.value, self.estimate_logpdf(key, trace.value, *args))
+        return new, new.score - trace.score, unchanged, nothing
+
+
+def _check_tuple(args: Any) -> None:
+    if not isinstance(args, tuple):
+        raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
+
+
+class ExactDensity(Distribution):
+    """Base of distributions with a known density: implement `sample` and `logpdf`.
 
     With array parameters the draws are independent and the score is their sum, of shape ().
     """
@@ -55,14 +144,14 @@ class ExactDensity(GenerativeFunction):
         """The log density at `value`; its shape is that of the independent draws."""
         raise NotImplementedError
 
+    def draw(self, key: PRNGKey, args: Arguments) -> Any:
+        """A draw for a trace."""
+        return self.sample(key, *args)
+
     def score(self, value: Any, args: Arguments, given: Any = None) -> Score:
         """The total log density, shape (); with a flag `given`, 0 where it does not hold."""
         total = jnp.sum(jnp.asarray(self.logpdf(value, *args))).astype(jnp.result_type(float))
         return total if given is None else jnp.where(given, total, 0.0)
-
-    def draw(self, key: PRNGKey, args: Arguments) -> Any:
-        """A draw for a trace."""
-        return self.sample(key, *args)
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
         """The leading axes that an index in a constraint selects from: none, unless vectorised."""
@@ -72,93 +161,63 @@ class ExactDensity(GenerativeFunction):
         """Elementwise: could some parameter give this value? Asked of discrete distributions."""
         return True
 
-    def simulate(self, key: PRNGKey, args: Arguments) -> DistributionTrace:
-        if not isinstance(args, tuple):
-            raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
+    def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
         value = self.draw(key, args)
-        return DistributionTrace(self, args, value, self.score(value, args))
+        return self.score(value, args), value
 
-    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        value, given, penalty = self._read(choices, args)
-        if value is None:
-            raise MissingAddress(())
-        if given is None:
-            return self.score(value, args) + penalty, value
-        if is_concrete(given) and not bool(jnp.all(given)):
-            raise MissingAddress((), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}")
-        return jnp.where(jnp.all(given), self.score(value, args) + penalty, jnp.nan), value
+    def estimate_logpdf(self, key: PRNGKey, value: Any, *args: Any) -> Score:
+        return self.score(value, args)
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        value, given, penalty = self._read(constraint, args)
-        if value is None:
-            return self.simulate(key, args), jnp.zeros(())
-        if given is None:
-            score = self.score(value, args) + penalty
-            return DistributionTrace(self, args, value, score), score
-        value = where(given, value, self.draw(key, args))
+        value, given, penalty = self.read(constraint, args)
+        if value is None or given is None:
+            return super().generate(key, constraint, args)
+        drawn = self.draw(key, args)
+        value = where(given, self.like(value, drawn), drawn)
         new = DistributionTrace(self, args, value, self.score(value, args) + penalty)
         return new, self.score(value, args, given) + penalty
 
-    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        args, old = Diff.tree_primal(argdiffs), trace.value
-        match request:
-            case Update(constraint):
-                value, given, penalty = self._read(constraint, args)
-                if value is None:
-                    return self._rescore(trace, argdiffs)
-                value = value if given is None else where(given, value, old)
-                new = DistributionTrace(self, args, value, self.score(value, args) + penalty)
-                discard = ChoiceMap.choice(old if given is None else Mask(old, given))
-                return new, new.score - trace.score, Diff.unknown_change(value), Update(discard)
-            case Regenerate(selection) if selection.check():
-                new = self.simulate(key, args)
-                return new, jnp.zeros(()), Diff.unknown_change(new.value), Update(ChoiceMap.choice(old))
-            case Regenerate():
-                return self._rescore(trace, argdiffs)
-        raise NotSupportedEditRequest(self, request)
+    def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
+        """(Value in the shape of a draw, flag of what was given or None for all, 0 or -inf if impossible).
 
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return trace.score if selection.check() else jnp.zeros_like(trace.score)
-
-    def _rescore(self, trace: Any, argdiffs: Any) -> Edited:
-        """The same value under new arguments."""
-        unchanged, nothing = Diff.no_change(trace.value), Update(ChoiceMap.empty())
-        if Diff.static_check_no_change(argdiffs):
-            return trace, jnp.zeros(()), unchanged, nothing
-        args = Diff.tree_primal(argdiffs)
-        new = DistributionTrace(self, args, trace.value, self.score(trace.value, args))
-        return new, new.score - trace.score, unchanged, nothing
-
-    def _read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
-        """(Value in the shape and dtype of a draw, flag of what was given, 0 or -inf if impossible).
-
-        The value is None if nothing was given.
+        The value keeps the dtype that it has, but for integers where draws are real: later edits, which keep a trace's
+        dtypes, could not move them. It is None if nothing was given.
 
         Raises:
             ShapeMismatch: the shape is not a draw's.
             OutsideSupport: the value is known, and a discrete distribution never draws it.
         """
         found = dense(choices, self.index_shape(args))
-        if found is None:
-            return None, None, 0.0
-        value, given = found
         expected = jax.eval_shape(self.draw, jax.random.key(0), args)
+        if found is None:
+            # What has no elements is in no choice map, and needs no value.
+            return (jnp.zeros(expected.shape, expected.dtype) if 0 in expected.shape else None), None, 0.0
+        value, given = found
         if jnp.shape(value) != expected.shape:
             raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {expected.shape}")
         value = jnp.asarray(value)
+        real, exact = (jnp.issubdtype(dtype, jnp.floating) for dtype in (expected.dtype, value.dtype))
         # A copy, so that no two sites share one array: traces tell values apart by identity.
-        cast = jnp.array(value, expected.dtype, copy=True)
-        if jnp.issubdtype(expected.dtype, jnp.floating) or value.dtype == jnp.bool_:
-            return cast, given, 0.0
-        possible = jnp.logical_and(cast == value, self.in_support(cast))
+        kept = jnp.array(value, expected.dtype if real and not exact else value.dtype, copy=True)
+        if value.dtype == jnp.bool_:
+            return kept, given, 0.0
+        possible = self.in_support(kept)
+        if not real:
+            possible = jnp.logical_and(value.astype(expected.dtype) == value, possible)
+        return kept, given, self._penalty(value, given, possible, expected.dtype)
+
+    def _penalty(self, value: Any, given: Any, possible: Any, dtype: Any) -> Any:
+        """0 where the value is possible, else -inf, or an error if that is known."""
+        if possible is True:
+            return 0.0
         if given is not None:
             possible = where(given, possible, jnp.ones_like(possible))
         if not is_concrete(possible):
-            return cast, given, jnp.where(jnp.all(possible), 0.0, -jnp.inf)
+            return jnp.where(jnp.all(possible), 0.0, -jnp.inf)
         if not bool(jnp.all(possible)):
             bad = value[jnp.logical_not(possible)].ravel()[0]
-            raise OutsideSupport((), f"found {bad}, which a choice of dtype {expected.dtype} here never is")
-        return cast, given, 0.0
+            raise OutsideSupport((), f"found {bad}, which a choice of dtype {dtype} here never is")
+        return 0.0
 
 
 @dataclass
@@ -168,14 +227,23 @@ class CustomDensity(ExactDensity):
     sampler: Callable[..., Any] = static()
     log_density: Callable[..., Any] = static()
     name: str = static()
+    by_name: bool = static(default=False)
+
+    def handle_kwargs(self) -> GenerativeFunction:
+        return self.replace(by_name=True)
+
+    def _arguments(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        return (args[0], {**args[1], **kwargs}) if self.by_name else (args, kwargs)
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
+        args, kwargs = self._arguments(args, kwargs)
         return self.sampler(key, *args, **kwargs)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
+        args, kwargs = self._arguments(args, kwargs)
         return self.log_density(value, *args, **kwargs)
 
 
-def exact_density(sample: Callable[..., Any], logpdf: Callable[..., Any], name: str) -> CustomDensity:
+def exact_density(sample: Callable[..., Any], logpdf: Callable[..., Any], name: str = "unnamed") -> CustomDensity:
     """A distribution from `sample(key, *args)` and `logpdf(value, *args)`."""
     return CustomDensity(sample, logpdf, name)

@@ -15,12 +15,18 @@ def show(address: tuple[Any, ...]) -> str:
 
 
 class AddressError(BadInput):
-    """Something is wrong at `address`; an enclosing model prefixes its own part with `under`."""
+    """Something is wrong at `address`; an enclosing model prefixes its own part with `under`.
+
+    `args` holds the address alone, as its user would write it.
+    """
 
     def __init__(self, address: Any, detail: str = "") -> None:
         self.address: tuple[Any, ...] = address if isinstance(address, tuple) else (address,)
         self.detail = detail
-        super().__init__(address, detail)
+        super().__init__(self.address[0] if len(self.address) == 1 else self.address)
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.address, self.detail)
 
     def under(self, prefix: tuple[Any, ...]) -> Self:
         """The same error as seen from a model that holds this one at `prefix`."""
@@ -32,6 +38,10 @@ class AddressError(BadInput):
     def headline(self) -> str:
         """The first words of the message."""
         return "Bad use of address"
+
+
+class NotAnAddress(AddressError, TypeError):
+    """A site's address is not made of strings."""
 
 
 class AddressReuse(AddressError):
@@ -74,6 +84,14 @@ class ChoiceMapNoValueAtAddress(AddressError, KeyError):
 
     def headline(self) -> str:
         return "The choice map holds no value at address"
+
+
+class MissingExtra(BadInput, ImportError):
+    """An optional library is not installed."""
+
+
+class BadArguments(BadInput, TypeError):
+    """A distribution or function was given arguments that it cannot take."""
 
 
 class NotSupportedEditRequest(TypeError):

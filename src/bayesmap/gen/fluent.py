@@ -1,52 +1,48 @@
-"""Combinators as methods, `model.vmap(in_axes=0)`: looked up when they are called."""
+"""Combinators as methods: `model.vmap(in_axes=0)`.
 
-import importlib
+Combinators are made of generative functions, so `GenerativeFunction` cannot name them. Each offers itself here
+instead, when its own file is imported, and the methods look it up.
+"""
+
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
+
+_OFFERED: dict[str, Callable[..., Any]] = {}
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 
-def _decorator(name: str) -> Callable[..., Any]:
-    """A method `m.name(**options)` that is `name(**options)(m)`."""
-
-    def method(self: Any, *args: Any, **options: Any) -> Any:
-        self.check_open(name)
-        return getattr(importlib.import_module("bayesmap.gen"), name)(*args, **options)(self)
-
-    method.__name__, method.__doc__ = name, f"See `bayesmap.gen.{name}`."
-    return method
+def method(combinator: F) -> F:
+    """Offer `combinator(m, *others)` as `m.combinator(*others)`."""
+    _OFFERED[combinator.__name__] = combinator
+    return combinator
 
 
-def _function(name: str) -> Callable[..., Any]:
-    """A method `m.name(*others)` that is `name(m, *others)`."""
+def decorator_method(combinator: F) -> F:
+    """Offer `combinator(**options)(m)` as `m.combinator(**options)`."""
+    _OFFERED[combinator.__name__] = lambda m, *args, **options: combinator(*args, **options)(m)
+    return combinator
 
-    def method(self: Any, *others: Any) -> Any:
-        self.check_open(name)
-        return getattr(importlib.import_module("bayesmap.gen"), name)(self, *others)
 
-    method.__name__, method.__doc__ = name, f"See `bayesmap.gen.{name}`."
-    return method
+def _lookup(name: str) -> Callable[..., Any]:
+    def call(self: Any, *args: Any, **options: Any) -> Any:
+        return _OFFERED[name](self, *args, **options)
+
+    call.__name__, call.__doc__ = name, f"See `bayesmap.gen.{name}`."
+    return call
 
 
 class Fluent:
     """The methods that build larger generative functions."""
 
-    vmap, repeat, scan = _decorator("vmap"), _decorator("repeat"), _decorator("scan")
-    iterate, iterate_final = _decorator("iterate"), _decorator("iterate_final")
-    accumulate, reduce = _decorator("accumulate"), _decorator("reduce")
-    dimap, map, contramap = _decorator("dimap"), _decorator("map"), _decorator("contramap")
-    marginal = _decorator("marginal")
-    mask, or_else, switch, mix = (
-        _function("mask"),
-        _function("or_else"),
-        _function("switch"),
-        _function("mix"),
-    )
-
-    def check_open(self, name: str) -> None:
-        """Raise TypeError if the function has been applied to arguments already."""
+    vmap, repeat, scan = _lookup("vmap"), _lookup("repeat"), _lookup("scan")
+    iterate, iterate_final = _lookup("iterate"), _lookup("iterate_final")
+    masked_iterate, masked_iterate_final = _lookup("masked_iterate"), _lookup("masked_iterate_final")
+    accumulate, reduce = _lookup("accumulate"), _lookup("reduce")
+    dimap, map, contramap = _lookup("dimap"), _lookup("map"), _lookup("contramap")
+    mask, or_else, switch, mix = _lookup("mask"), _lookup("or_else"), _lookup("switch"), _lookup("mix")
+    marginal = _lookup("marginal")
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
         """The function applied to arguments: trace it with `@ "address"`, draw from it with `(key)`."""
-        from bayesmap.gen.closure import Closure
-
-        return Closure.of(self, args, kwargs)
+        return _OFFERED["apply"](self, args, kwargs)

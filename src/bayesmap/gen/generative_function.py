@@ -19,6 +19,7 @@ dataclasses and implement
 
 from typing import Any, Self
 
+import jax
 import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
@@ -26,15 +27,14 @@ from bayesmap.gen.chunked import in_chunks
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import AddressError
 from bayesmap.gen.fluent import Fluent
-from bayesmap.gen.pytree import Pytree, dataclass
+from bayesmap.gen.outline import Outlined, leaf_text
+from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.requests import Edited, EditRequest, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
-Edited = tuple["Trace", Weight, Any, "EditRequest"]
-"""(new trace, weight, return value as a tree of `Diff`, the request that would undo the edit)."""
 
-
-class Trace(Pytree):
+class Trace(Outlined, Pytree):
     """A record of one run: arguments, choices, return value, score.
 
     Fields hold arrays, so a batch of traces (from `jax.vmap`) is a trace whose every leaf has a leading
@@ -45,10 +45,10 @@ class Trace(Pytree):
     gen_fn: Any
     args: Any
 
-    def __repr__(self) -> str:
-        from bayesmap.gen.pretty import render
-
-        return render(self)
+    def outline(self, label: str = "") -> list[str]:
+        """The trace in lines: what made it, its score, its choices."""
+        head = f"{type(self).__name__} of {type(self.get_gen_fn()).__name__}, score {leaf_text(self.get_score())}"
+        return [label + head, *("  " + line for line in self.get_choices().outline())]
 
     def get_gen_fn(self) -> "GenerativeFunction":
         """The generative function that made the trace."""
@@ -70,6 +70,10 @@ class Trace(Pytree):
         """The choices by address."""
         raise NotImplementedError
 
+    def get_sample(self) -> ChoiceMap:
+        """The same as `get_choices`."""
+        return self.get_choices()
+
     def get_subtrace(self, *addresses: Any) -> "Trace":
         """The trace of the call made at an address."""
         trace = self
@@ -90,7 +94,7 @@ class Trace(Pytree):
         """
         return self.replace(args=args)
 
-    def edit(self, key: PRNGKey, request: "EditRequest", argdiffs: Any = None) -> Edited:
+    def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> Edited:
         """Carry out a request; `argdiffs` None means that the arguments stay the same.
 
         Returns:
@@ -110,6 +114,13 @@ class Trace(Pytree):
     def project(self, key: PRNGKey, selection: Selection) -> Weight:
         """The selected choices' part of the score."""
         return self.get_gen_fn().project(key, self, selection)
+
+
+def in_dtypes_of(old: Any, new: Any) -> Any:
+    """A trace in the dtypes of the one that it replaces, so that both can be branches of `lax.cond`."""
+    leaves, treedef = jax.tree.flatten(new)
+    dtypes = map(jnp.result_type, jax.tree.leaves(old))
+    return treedef.unflatten([jnp.asarray(x, dtype) for x, dtype in zip(leaves, dtypes, strict=True)])
 
 
 class GenerativeFunction(Fluent, Pytree):
@@ -132,7 +143,7 @@ class GenerativeFunction(Fluent, Pytree):
         """Run with some choices given: (trace, log importance weight)."""
         raise NotImplementedError
 
-    def edit(self, key: PRNGKey, trace: Any, request: "EditRequest", argdiffs: Any) -> Edited:
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Carry out a primitive request on `trace`, whose new arguments are `argdiffs`."""
         raise NotImplementedError
 
@@ -140,9 +151,25 @@ class GenerativeFunction(Fluent, Pytree):
         """The selected choices' part of the trace's score."""
         raise NotImplementedError
 
-    def keyworded(self, names: tuple[str, ...]) -> "GenerativeFunction":
-        """The same function taking its last `len(names)` arguments by these names."""
-        raise TypeError(f"{type(self).__name__} takes no keyword arguments; it was given {', '.join(names)}")
+    def handle_kwargs(self) -> "GenerativeFunction":
+        """The same function with arguments in the form `((positional, ...), {"name": value, ...})`.
+
+        Raises:
+            TypeError: the function takes no arguments by name.
+        """
+        raise TypeError(f"a {type(self).__name__} takes no arguments by name")
+
+    def as_part(self) -> "GenerativeFunction":
+        """What a combinator over this function works on: something whose traces it edits through itself."""
+        return self
+
+    def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
+        """Raise BadArguments if inference cannot be given just these choices. Most functions take any."""
+
+    def get_zero_trace(self, *args: Any) -> Trace:
+        """A trace of the right structure, shapes and dtypes whose every number is zero; nothing is run."""
+        shapes = jax.eval_shape(lambda: self.simulate(jax.random.key(0), args).with_args(None))
+        return jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes).with_args(args)  # type: ignore[no-any-return]
 
     def importance(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
         """The same as `generate`; a large batch of it under `jax.vmap` runs in chunks, see `in_chunks`."""
@@ -156,66 +183,3 @@ class GenerativeFunction(Fluent, Pytree):
     def update(self, key: PRNGKey, trace: Trace, constraint: ChoiceMap, argdiffs: Any) -> tuple[Any, Weight, Any, Any]:
         """The same as `trace.update(key, constraint, argdiffs)`."""
         return trace.update(key, constraint, argdiffs)
-
-
-class EditRequest(Pytree):
-    """A change to make to a trace."""
-
-    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
-        """Carry the change out. Unless overridden, the trace's generative function does."""
-        return trace.get_gen_fn().edit(key, trace, self, argdiffs)
-
-
-@dataclass
-class Update(EditRequest):
-    """Give the choices in `constraint` new values, keep the rest. Weight: new score - old score."""
-
-    constraint: ChoiceMap
-
-
-@dataclass
-class EmptyRequest(EditRequest):
-    """Keep all choices. Weight: 0 if no argument changed, else new score - old score."""
-
-    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
-        """Nothing to do unless an argument changed."""
-        if Diff.static_check_no_change(argdiffs):
-            return trace, jnp.zeros(()), Diff.no_change(trace.get_retval()), EmptyRequest()
-        return Update(ChoiceMap.empty()).edit(key, trace, argdiffs)
-
-
-@dataclass
-class Regenerate(EditRequest):
-    """Draw the selected choices afresh from the model, keep the rest.
-
-    The weight is the log Metropolis-Hastings ratio of that proposal: what the kept choices' density
-    changed by. The selected choices' own densities cancel against those of their proposal.
-    """
-
-    selection: Selection
-
-
-@dataclass
-class StaticRequest(EditRequest):
-    """One request per address of a `@gen` function; addresses left out keep their choices."""
-
-    addressed: dict[Any, EditRequest]
-
-    def __post_init__(self) -> None:
-        paths = {a if isinstance(a, tuple) else (a,): request for a, request in self.addressed.items()}
-        object.__setattr__(self, "addressed", paths)
-
-
-@dataclass
-class IndexRequest(EditRequest):
-    """A request for the element `idx`, an int or a scalar integer array, of a vectorised model."""
-
-    idx: Any
-    request: EditRequest
-
-
-@dataclass
-class VectorRequest(EditRequest):
-    """One request for every element of a vectorised model: the leaves of `request` have a leading axis."""
-
-    request: EditRequest

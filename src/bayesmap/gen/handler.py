@@ -7,7 +7,7 @@ from typing import Any
 
 from jax.extend.core import get_opaque_trace_state
 
-from bayesmap.gen.errors import AddressError, AddressReuse
+from bayesmap.gen.errors import AddressError, AddressReuse, NotAnAddress
 from bayesmap.gen.typing import StaticAddress
 
 _local = threading.local()
@@ -17,11 +17,11 @@ def as_path(address: Any) -> StaticAddress:
     """An address of names as a tuple.
 
     Raises:
-        AddressError: some component is not a string.
+        NotAnAddress: some component is not a string.
     """
     path = address if isinstance(address, tuple) else (address,)
     if not all(isinstance(component, str) for component in path):
-        raise AddressError(path, "the address of a site is a string or a tuple of strings")
+        raise NotAnAddress(path, "the address of a site is a string or a tuple of strings")
     return path
 
 

@@ -13,18 +13,11 @@ from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.dimap import dimap, map
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    IndexRequest,
-    Regenerate,
-    Trace,
-    Update,
-    VectorRequest,
-)
+from bayesmap.gen.fluent import decorator_method
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.masking import mask
 from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -57,10 +50,12 @@ class Scan(GenerativeFunction):
     def _length(self, args: Arguments) -> int:
         if len(args) != 2:
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
-        leaves = jax.tree.leaves(args[1])
-        if self.n is None and not leaves:
+        sizes = dict.fromkeys(jnp.shape(leaf)[0] for leaf in jax.tree.leaves(args[1]))
+        if len(sizes) > 1:
+            raise ValueError(f"scan got values with different leading axis sizes: {', '.join(map(str, sizes))}.")
+        if self.n is None and not sizes:
             raise TypeError("scan needs n= where there are no inputs")
-        return self.n if self.n is not None else int(jnp.shape(leaves[0])[0])
+        return self.n if self.n is not None else next(iter(sizes))
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
         """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, with chained keys."""
@@ -170,6 +165,7 @@ class Scan(GenerativeFunction):
         return result, before + change, Diff.unknown_change(result.retval), IndexRequest(t, back)
 
 
+@decorator_method
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
     """A decorator: from `(state, x) -> (state, y)` make `(state, xs) -> (last state, ys)`.
 
@@ -178,7 +174,7 @@ def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
 
     Step t uses the key `fold_in(key of step t - 1, t)`, and its choices' addresses begin with t.
     """
-    return lambda gen_fn: Scan(gen_fn, n)
+    return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
 
 def _pair(state: Any) -> tuple[Any, Any]:
@@ -201,21 +197,53 @@ def _drop_input(state: Any, x: Any) -> tuple[Any]:
     return (state,)
 
 
+@decorator_method
 def accumulate() -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `(state, x) -> state` make `(state, xs) -> ` all n + 1 states."""
     return lambda gen_fn: dimap(post=_all)(scan()(map(_pair)(gen_fn)))
 
 
+@decorator_method
 def reduce() -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `(state, x) -> state` make `(state, xs) -> ` the last state."""
     return lambda gen_fn: dimap(post=_last)(scan()(map(_pair)(gen_fn)))
 
 
+@decorator_method
 def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `state -> state` make `state -> ` all n + 1 states."""
     return lambda gen_fn: dimap(pre=_first_only, post=_all)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))
 
 
+@decorator_method
+def masked_iterate() -> Callable[[GenerativeFunction], Any]:
+    """A decorator: from `state -> state` make `(state, flags) -> ` all n + 1 states.
+
+    Where a step's flag is False its choices do not count; the state goes through the step all the same.
+    """
+    return lambda gen_fn: dimap(post=_all)(scan()(map(_pair)(_flagged(gen_fn))))
+
+
+@decorator_method
+def masked_iterate_final() -> Callable[[GenerativeFunction], Any]:
+    """A decorator: from `state -> state` make `(state, flags) -> ` the last state; see `masked_iterate`."""
+    return lambda gen_fn: dimap(post=_last)(scan()(map(_pair)(_flagged(gen_fn))))
+
+
+def _flagged(gen_fn: GenerativeFunction) -> Any:
+    """From `state -> state` make `(state, flag) -> state`."""
+    return dimap(pre=_flag_first, post=_unmasked)(mask(gen_fn))
+
+
+def _flag_first(state: Any, flag: Any) -> tuple[Any, Any]:
+    return flag, state
+
+
+def _unmasked(args: Any, inner_args: Any, retval: Any) -> Any:
+    return retval.value
+
+
+@decorator_method
 def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: from `state -> state` make `state -> ` the last of n states."""
     return lambda gen_fn: dimap(pre=_first_only, post=_last)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))

@@ -41,7 +41,7 @@ class Selection(Pytree):
         """Is the empty address, the value right here, selected?"""
         raise NotImplementedError
 
-    def below(self, component: Any) -> "Selection":
+    def get_subselection(self, component: Any) -> "Selection":
         """What is selected below one component."""
         raise NotImplementedError
 
@@ -78,7 +78,9 @@ class Selection(Pytree):
     def __call__(self, address: Any) -> "Selection":
         acc = self
         for component in address if isinstance(address, tuple) else (address,):
-            acc = acc.below(component)
+            if component is ...:
+                raise TypeError("`...` stands in a selection, not in an address that is asked for")
+            acc = acc.get_subselection(component)
         return acc
 
     def __getitem__(self, address: Any) -> bool:
@@ -113,7 +115,7 @@ class _All(Selection):
     def check(self) -> bool:
         return True
 
-    def below(self, component: Any) -> Selection:
+    def get_subselection(self, component: Any) -> Selection:
         return self
 
 
@@ -122,7 +124,7 @@ class _None(Selection):
     def check(self) -> bool:
         return False
 
-    def below(self, component: Any) -> Selection:
+    def get_subselection(self, component: Any) -> Selection:
         return self
 
 
@@ -131,7 +133,7 @@ class _Leaf(Selection):
     def check(self) -> bool:
         return True
 
-    def below(self, component: Any) -> Selection:
+    def get_subselection(self, component: Any) -> Selection:
         return _None()
 
 
@@ -143,7 +145,7 @@ class _At(Selection):
     def check(self) -> bool:
         return False
 
-    def below(self, component: Any) -> Selection:
+    def get_subselection(self, component: Any) -> Selection:
         return self.inner if self.component is ... or component == self.component else _None()
 
 
@@ -154,8 +156,8 @@ class _Not(Selection):
     def check(self) -> bool:
         return not self.inner.check()
 
-    def below(self, component: Any) -> Selection:
-        return ~self.inner.below(component)
+    def get_subselection(self, component: Any) -> Selection:
+        return ~self.inner.get_subselection(component)
 
 
 @dataclass
@@ -166,8 +168,8 @@ class _Or(Selection):
     def check(self) -> bool:
         return self.left.check() or self.right.check()
 
-    def below(self, component: Any) -> Selection:
-        return self.left.below(component) | self.right.below(component)
+    def get_subselection(self, component: Any) -> Selection:
+        return self.left.get_subselection(component) | self.right.get_subselection(component)
 
 
 @dataclass
@@ -178,8 +180,8 @@ class _And(Selection):
     def check(self) -> bool:
         return self.left.check() and self.right.check()
 
-    def below(self, component: Any) -> Selection:
-        return self.left.below(component) & self.right.below(component)
+    def get_subselection(self, component: Any) -> Selection:
+        return self.left.get_subselection(component) & self.right.get_subselection(component)
 
 
 SelectionBuilder = SelectionBuilderType()

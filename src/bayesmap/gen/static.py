@@ -14,18 +14,10 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dataflow import Dataflow, dataflow
 from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange
 from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, show
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    Regenerate,
-    StaticRequest,
-    Trace,
-    Update,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.handler import Handler, running
 from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.static_trace import Replay, StaticTrace
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
@@ -137,7 +129,11 @@ def _flow_of_body(old: StaticTrace, args: Arguments) -> Dataflow | None:
 
 
 def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
-    """Edit the trace of a function that the body defined anew, and that may differ: score all of it."""
+    """Edit the trace of a function that the body defined anew, and that may differ: score all of it.
+
+    Requests that know only addresses are answered by `generate`. Any other is made of a trace of the new function
+    with the old choices; the weights of the two steps add up, as they do for new arguments.
+    """
     choices = old.get_choices()
     match request:
         case Update(constraint):
@@ -147,8 +143,11 @@ def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args
         case Regenerate(selection):
             kept, removed = choices.filter(~selection), old.project(key, ~selection)
         case _:
-            raise NotSupportedEditRequest(gen_fn, request)
+            trace, weight, _, _ = _edit_anew(key, old, gen_fn, EmptyRequest(), args)
+            trace, gain, retdiff, backward = request.edit(key, trace, Diff.no_change(args))
+            return trace, weight + gain, Diff.unknown_change(Diff.tree_primal(retdiff)), backward
     trace, weight = gen_fn.generate(key, kept, args)
+    trace = in_dtypes_of(old, trace.with_args(None)).with_args(args)
     return trace, weight - removed, Diff.unknown_change(trace.get_retval()), Update(choices)
 
 
@@ -163,24 +162,29 @@ def _located(path: StaticAddress) -> Iterator[None]:
 
 def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
     """Raise UnknownAddress for a path that lies at or below no site."""
+    sites = ", ".join(map(show, visited)) or "none"
     for path in paths:
+        if path == () and () not in visited:
+            raise UnknownAddress((), f"there is a function with the sites {sites}, so a bare value cannot stand for it")
         if not any(path[: len(site)] == site for site in visited):
-            raise UnknownAddress(path, f"its sites are {', '.join(map(show, visited)) or 'none'}")
+            raise UnknownAddress(path, f"its sites are {sites}")
 
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """What `@gen` makes of a function; `partial_args` come before its arguments."""
+    """What `@gen` makes of a function; `partial_args` come before its arguments.
+
+    `by_name`, the arguments are `((positional, ...), {"name": value})`.
+    """
 
     partial_args: tuple[Any, ...]
     source: Callable[..., Any] = static()
-    keywords: tuple[str, ...] = static(default=())
+    by_name: bool = static(default=False)
 
     def call(self, args: Arguments) -> Any:
         """Run the body."""
-        split = len(args) - len(self.keywords)
-        named = dict(zip(self.keywords, args[split:], strict=True))
-        return self.source(*self.partial_args, *args[:split], **named)
+        positional, named = args if self.by_name else (args, {})
+        return self.source(*self.partial_args, *positional, **named)
 
     def inline(self, *args: Any) -> Any:
         """Run the body as if it were written where it is called: its sites become the caller's."""
@@ -190,8 +194,8 @@ class StaticGenerativeFunction(GenerativeFunction):
         """The function with its first arguments given; they are not among its traces' arguments."""
         return self.replace(partial_args=(*self.partial_args, *args))
 
-    def keyworded(self, names: tuple[str, ...]) -> "StaticGenerativeFunction":
-        return self.replace(keywords=names)
+    def handle_kwargs(self) -> "StaticGenerativeFunction":
+        return self.replace(by_name=True)
 
     def __get__(self, instance: Any, owner: Any = None) -> "StaticGenerativeFunction":
         return self if instance is None else self.partial_apply(instance)
@@ -199,9 +203,9 @@ class StaticGenerativeFunction(GenerativeFunction):
     def __reduce__(self) -> Any:
         # The module's name for the source is this object, so pickle finds the source through it.
         if "<" in self.source.__qualname__:
-            return StaticGenerativeFunction, (self.partial_args, self.source, self.keywords)
+            return StaticGenerativeFunction, (self.partial_args, self.source, self.by_name)
         where = (self.source.__module__, self.source.__qualname__)
-        return _unpickle, (*where, self.partial_args, self.keywords)
+        return _unpickle, (*where, self.partial_args, self.by_name)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> StaticTrace:
         return _Run(key).run(self, args)
@@ -255,10 +259,10 @@ def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> E
     return StaticRequest(dict(backward))
 
 
-def _unpickle(module: str, name: str, partial_args: Any, keywords: Any) -> StaticGenerativeFunction:
+def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> StaticGenerativeFunction:
     found: Any = functools.reduce(getattr, name.split("."), importlib.import_module(module))
     source = found.source if isinstance(found, StaticGenerativeFunction) else found
-    return StaticGenerativeFunction(partial_args, source, keywords)
+    return StaticGenerativeFunction(partial_args, source, by_name)
 
 
 def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
@@ -271,4 +275,8 @@ def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
         AddressReuse: two calls have the same address.
         MissingAddress, UnknownAddress: choices that were given do not match the addresses.
     """
-    return StaticGenerativeFunction((), source)
+    made = StaticGenerativeFunction((), source)
+    for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):
+        value = source if name == "__wrapped__" else getattr(source, name, None)
+        object.__setattr__(made, name, value)
+    return made

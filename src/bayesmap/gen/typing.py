@@ -1,12 +1,17 @@
-"""Names for the kinds of values that cross the generative function interface."""
+"""Names for the kinds of values that cross the generative function interface, for annotations.
 
-from collections.abc import Callable, Iterable, Sequence
+Nothing checks them at run time; a type checker sees arrays.
+"""
+
+from collections.abc import Callable, Generator, Iterable, Sequence
 from types import EllipsisType
-from typing import Any, TypeAlias
+from typing import Annotated, Any, Final, Generic, Literal, ParamSpec, Self, TypeAlias, TypeVar
 
 import jax
+import jax.numpy as jnp
 
 Array: TypeAlias = jax.Array
+ArrayLike: TypeAlias = jax.typing.ArrayLike
 IntArray: TypeAlias = jax.Array
 FloatArray: TypeAlias = jax.Array
 BoolArray: TypeAlias = jax.Array
@@ -23,24 +28,53 @@ AddressComponent: TypeAlias = str | int | slice | IntArray
 Address: TypeAlias = AddressComponent | tuple[AddressComponent, ...]
 StaticAddress: TypeAlias = tuple[str, ...]
 
+
+class Is:
+    """`Annotated[T, Is[condition]]`: a T of which `condition` holds, as in beartype.vale."""
+
+    def __init__(self, condition: Callable[[Any], bool]) -> None:
+        self.condition = condition
+
+    def __class_getitem__(cls, condition: Callable[[Any], bool]) -> "Is":
+        return cls(condition)
+
+
+ScalarShaped = Is[lambda value: jnp.shape(value) == ()]  # type: ignore[valid-type, name-defined]
+ScalarFlag: TypeAlias = Annotated[Flag, ScalarShaped]
+ScalarInt: TypeAlias = Annotated[IntArray, ScalarShaped]
+
 __all__ = [
     "Address",
     "AddressComponent",
+    "Annotated",
     "Any",
     "Arguments",
     "Array",
+    "ArrayLike",
     "BoolArray",
     "Callable",
     "EllipsisType",
+    "Final",
     "Flag",
     "FloatArray",
+    "Generator",
+    "Generic",
     "InAxes",
     "IntArray",
+    "Is",
     "Iterable",
+    "Literal",
     "PRNGKey",
+    "ParamSpec",
+    "ScalarFlag",
+    "ScalarInt",
+    "ScalarShaped",
     "Score",
+    "Self",
     "Sequence",
     "StaticAddress",
     "StaticComponent",
+    "TypeAlias",
+    "TypeVar",
     "Weight",
 ]

@@ -13,19 +13,11 @@ from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
 from bayesmap.gen.distribution import ExactDensity
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    IndexRequest,
-    Regenerate,
-    Trace,
-    Update,
-    VectorRequest,
-)
+from bayesmap.gen.fluent import decorator_method
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.product import Product
 from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
@@ -157,6 +149,7 @@ def _at(i: Any, tangent: Change) -> Change:
     return IndexChange((i, *(tangent.index if isinstance(tangent, IndexChange) else ())))
 
 
+@decorator_method
 def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
     """A decorator: map a generative function over axes of its arguments.
 
@@ -174,16 +167,17 @@ def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
 
     def decorate(gen_fn: GenerativeFunction) -> Any:
         kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
-        return kind(gen_fn, tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
+        return kind(gen_fn.as_part(), tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
 
     return decorate
 
 
+@decorator_method
 def repeat(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """A decorator: call a generative function `n` times with the same arguments; see `vmap`."""
 
     def decorate(gen_fn: GenerativeFunction) -> Any:
         kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
-        return kind(gen_fn, None, n)
+        return kind(gen_fn.as_part(), None, n)
 
     return decorate

@@ -10,16 +10,12 @@ from jax.scipy.special import logsumexp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    GenerativeFunction,
-    Regenerate,
-    Trace,
-    Update,
-)
-from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.errors import BadArguments, NotSupportedEditRequest
+from bayesmap.gen.fluent import decorator_method
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.inference.target import Algorithm, SampleDistribution, Target
+from bayesmap.gen.pytree import dataclass, nth, static
+from bayesmap.gen.requests import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -39,21 +35,43 @@ class MarginalTrace(Trace):
 
 
 @dataclass
-class Marginal(GenerativeFunction):
+class Marginal(SampleDistribution):
     """See `marginal`."""
 
-    inner: GenerativeFunction
+    gen_fn: GenerativeFunction
     selection: Selection
+    algorithm: Algorithm | None = None
     particles: int = static(default=1)
+
+    def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:
+        trace = self.simulate(key, args)
+        return trace.score, trace.choices
+
+    def estimate_logpdf(self, key: PRNGKey, value: ChoiceMap, *args: Any) -> Score:
+        return self.generate(key, value, args)[1]
+
+    def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
+        """Refuse to leave shown choices open: importance sampling would need their density, not an estimate of it."""
+        shown = jax.eval_shape(lambda: self.gen_fn.simulate(jax.random.key(0), args).get_choices())
+        missing = [path for path in shown.filter(self.selection).paths() if not constraint.get_selection()[path]]
+        if missing:
+            raise BadArguments(f"Target: a marginal needs values for all of its choices; missing: {missing}")
 
     def _estimate(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
         """`n` runs that agree with `shown`, and their weights."""
-        return jax.vmap(lambda k: self.inner.generate(k, shown, args))(jax.random.split(key, n))
+        return jax.vmap(lambda k: self.gen_fn.generate(k, shown, args))(jax.random.split(key, n))
 
     def simulate(self, key: PRNGKey, args: Arguments) -> MarginalTrace:
         simulate_key, estimate_key = jax.random.split(key)
-        trace = self.inner.simulate(simulate_key, args)
-        shown = trace.get_choices().filter(self.selection)
+        trace = self.gen_fn.simulate(simulate_key, args)
+        choices = trace.get_choices()
+        shown = choices.filter(self.selection)
+        if self.algorithm is not None:
+            hidden, target = choices.filter(~self.selection), Target(self.gen_fn, args, shown)
+            score = self.algorithm.estimate_reciprocal_normalizing_constant(
+                estimate_key, target, hidden, trace.get_score()
+            )
+            return MarginalTrace(self, args, shown, trace.get_retval(), score)
         # This run is one of the particles, or 1 / density would be biased: conditional importance sampling.
         weights = trace.project(simulate_key, self.selection)[None]
         if self.particles > 1:
@@ -65,19 +83,22 @@ class Marginal(GenerativeFunction):
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[MarginalTrace, Weight]:
         if constraint.static_is_empty():
             return self.simulate(key, args), jnp.zeros(())
-        traces, weights = self._estimate(key, constraint, args, self.particles)
-        trace = jax.tree.map(lambda x: x[0], traces)
+        if self.algorithm is None:
+            traces, weights = self._estimate(key, constraint, args, self.particles)
+            trace, score = nth(traces, 0), logsumexp(weights) - jnp.log(self.particles)
+        else:
+            trace, _ = self.gen_fn.generate(key, constraint, args)
+            score = self.algorithm.estimate_normalizing_constant(key, Target(self.gen_fn, args, constraint))
         shown = trace.get_choices().filter(self.selection)
         missing = shown.filter(~constraint.get_selection())
         if not missing.static_is_empty():
             raise NotImplementedError(f"a marginal needs all its choices or none; missing: {list(missing.paths())}")
-        score = logsumexp(weights) - jnp.log(self.particles)
         return MarginalTrace(self, args, shown, trace.get_retval(), score), score
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         trace, score = self.generate(jax.random.key(0), choices, args)
-        hidden = jax.eval_shape(self.inner.simulate, jax.random.key(0), args).get_choices().filter(~self.selection)
-        if not hidden.static_is_empty():
+        hidden = jax.eval_shape(lambda: self.gen_fn.simulate(jax.random.key(0), args).get_choices())
+        if not hidden.filter(~self.selection).static_is_empty():
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
         return score, trace.get_retval()
 
@@ -103,10 +124,14 @@ class Marginal(GenerativeFunction):
         return trace.score  # type: ignore[no-any-return]
 
 
-def marginal(*, selection: Selection | None = None, particles: int = 1) -> Callable[[GenerativeFunction], Marginal]:
+@decorator_method
+def marginal(
+    *, selection: Selection | None = None, algorithm: Algorithm | None = None, particles: int = 1
+) -> Callable[[GenerativeFunction], Marginal]:
     """A decorator: keep the selected choices, and sum the others out.
 
     The score is exact where nothing is summed out; else it is estimated by importance sampling with
-    `particles` runs, so that `generate` gives unbiased weights.
+    `particles` runs, or by an algorithm, so that `generate` gives unbiased weights.
     """
-    return lambda gen_fn: Marginal(gen_fn, Selection.all() if selection is None else selection, particles)
+    shown = Selection.all() if selection is None else selection
+    return lambda gen_fn: Marginal(gen_fn.as_part(), shown, algorithm, particles)

@@ -9,16 +9,10 @@ import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.errors import show
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    Trace,
-    Update,
-)
+from bayesmap.gen.errors import BadArguments, show
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.requests import DiffAnnotate, Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import PRNGKey
 
@@ -96,3 +90,18 @@ def _kinetic(momentum: Any) -> Any:
 def mala(selection: Selection, eps: Any) -> HMC:
     """Metropolis-adjusted Langevin: one leapfrog step, which drifts by eps^2 / 2 times the gradient."""
     return HMC(selection, eps, 1)
+
+
+def SafeHMC(selection: Selection, eps: Any, L: int = 10) -> DiffAnnotate:
+    """`HMC` that refuses to change the return value.
+
+    Raises, when it runs:
+        BadArguments: the return value depends on a selected choice.
+    """
+    return HMC(selection, eps, L).map(_unchanged)
+
+
+def _unchanged(retdiff: Any) -> Any:
+    if not Diff.static_check_no_change(retdiff):
+        raise BadArguments("SafeHMC: the return value depends on a selected choice")
+    return retdiff
