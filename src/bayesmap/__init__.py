@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from bayesmap.cells.reflectivity import Beta as Beta
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
-    from bayesmap.field_result import FieldRun as FieldRun
     from bayesmap.io.logs import read_log as read_log
-    from bayesmap.loading import load as load
     from bayesmap.programs.mapping import mapping_model as mapping_model
+    from bayesmap.result import Run as FieldRun
     from bayesmap.result import Run as Run
+    from bayesmap.result import load as load
     from bayesmap.result import score as score
     from bayesmap.sensors.mixture import BeamMixture as BeamMixture
     from bayesmap.sensors.model import SensorModel as SensorModel
@@ -41,7 +41,7 @@ _HOME = {
     "BadInput": "bayesmap.errors",
     "Beta": "bayesmap.cells.reflectivity",
     "BeamMixture": "bayesmap.sensors.mixture",
-    "FieldRun": "bayesmap.field_result",
+    "FieldRun": "bayesmap.result",
     "Gaussian": "bayesmap.sensors.noise",
     "Grid": "bayesmap.space.grid",
     "Independent": "bayesmap.cells.binary",
@@ -53,7 +53,7 @@ _HOME = {
     "StudentT": "bayesmap.sensors.noise",
     "Surface": "bayesmap.cells.surface",
     "infer": "bayesmap.api",
-    "load": "bayesmap.loading",
+    "load": "bayesmap.result",
     "mapping_model": "bayesmap.programs.mapping",
     "ranges": "bayesmap.sim.forward",
     "read_log": "bayesmap.io.logs",
@@ -69,7 +69,9 @@ def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'bayesmap' has no attribute {name!r}")
     module = importlib.import_module(_HOME[name])
-    return module if name == "worlds" else getattr(module, name)
+    if name == "worlds":
+        return module
+    return getattr(module, "Run" if name == "FieldRun" else name)  # what runs of two kinds of cells were once called
 
 
 def __dir__() -> list[str]:

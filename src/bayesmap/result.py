@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import unpack
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.score import log_score
@@ -22,12 +21,15 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.figure import Figure
 
+Floats = NDArray[np.float64]
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Run:
-    """The posterior over walls that a call of `bayesmap.infer` found."""
+    """The posterior over a map that a call of `bayesmap.infer` found, whatever its kind of cells."""
 
     posterior: Posterior
 
@@ -42,41 +44,75 @@ class Run:
         return self.posterior.finished
 
     @property
-    def occupancy(self) -> NDArray[np.float64]:
-        """Posterior wall probability of every cell, (nx, ny)."""
+    def occupancy(self) -> Floats:
+        """Posterior mean of the probability that a cell stops a beam, (nx, ny): of a wall, or of the reflectivity.
+
+        Reflectivities are the mean of what the draws expect: the mean of ``draws`` has the same limit and more noise.
+        """
         return self.posterior.occupancy
 
     @property
-    def entropy(self) -> NDArray[np.float64]:
-        """Entropy of every cell's marginal in bits, (nx, ny)."""
+    def entropy(self) -> Floats:
+        """Entropy in bits of whether a cell stops the next beam that meets what is in it, (nx, ny)."""
         return entropy_bits(self.posterior.occupancy)
 
     @property
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that a beam reaches in at least half of the draws, (nx, ny): elsewhere the prior speaks."""
+        """Cells of which some beam says something in at least half of the draws, (nx, ny): elsewhere the prior speaks."""
         return self.posterior.observed
 
     @cached_property
-    def draws(self) -> NDArray[np.bool_]:
-        """All kept maps, (chain, draw, nx, ny); unpacked on first use, one byte a cell."""
-        return unpack(self.posterior.packed, self.posterior.grid.shape)
+    def draws(self) -> NDArray[Any]:
+        """All kept maps, (chain, draw, nx, ny): walls, or reflectivities with the prior's mean where no beam comes.
+
+        Made on first use: a byte or four for each cell of each draw.
+        """
+        draws = self.posterior.draws
+        out: NDArray[Any] | None = None
+        for chain, draw in draws.numbers():
+            one = self.map_of(chain, draw)
+            if out is None:
+                out = np.empty((draws.chains, draws.count, *one.shape), np.bool_ if one.dtype == bool else np.float32)
+            out[chain, draw] = one
+        return np.zeros((draws.chains, draws.count, *self.grid.shape), dtype=np.bool_) if out is None else out
 
     @property
     def n_draws(self) -> int:
         """Draws of each chain."""
-        return int(self.posterior.packed.shape[1])
+        return self.posterior.draws.count
 
-    def map_of(self, chain: int, draw: int) -> NDArray[np.bool_]:
-        """One draw, (nx, ny); chain and draw are counted from 0, negative ones from the end."""
-        return unpack(self.posterior.packed[chain, draw], self.posterior.grid.shape)
+    def map_of(self, chain: int, draw: int) -> NDArray[Any]:
+        """One draw, (nx, ny): walls or reflectivities; chain and draw are counted from 0, negative ones from the end."""
+        return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
+
+    def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
+        """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each.
+
+        Raises:
+            BadInput: a level outside (0, 1), a run that was stopped before its first draw, or binary walls, which have
+                no interval.
+        """
+        if not 0 < level < 1:
+            raise BadInput(f"interval: level must lie inside (0, 1), got {level!r}")
+        self._need_marginals()
+        return self.posterior.prior.interval(self.posterior.draws, level)
+
+    def surfaces(self) -> tuple[Floats, Floats, Floats]:
+        """Mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
+
+        Raises:
+            BadInput: a run without surfaces or without draws.
+        """
+        self._need_marginals()
+        return self.posterior.prior.surfaces(self.posterior.draws)
 
     @property
-    def log_joint(self) -> NDArray[np.float64]:
-        """Log p(walls, readings) of every draw, (chain, draw)."""
-        return self.posterior.log_likelihood + self.posterior.log_prior
+    def log_joint(self) -> Floats:
+        """Log p(cells, readings) of every draw, (chain, draw)."""
+        return self.posterior.log_joint
 
     @property
-    def log_weights(self) -> NDArray[np.float64]:
+    def log_weights(self) -> Floats:
         """Normalised log weights of all particles of importance sampling, (particles,).
 
         Raises:
@@ -102,11 +138,28 @@ class Run:
     ) -> float:
         """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
 
-        ``on_progress`` is told how many of how many draws have been looked at.
+        Args:
+            heldout_scans: scans that had no part in the run.
+            sensor: another law of the readings; needed only for a loaded run whose sensor model is of your own making.
+            on_progress: told how many of how many draws have been looked at.
 
-        ``sensor`` is needed only for a loaded run whose sensor model is of your own making.
+        Raises:
+            BadInput: no draws, no valid reading, or a sensor that cannot score this run.
         """
         return log_score(self.posterior, heldout_scans, sensor, on_progress)
+
+    def dataset(self) -> xarray.Dataset:
+        """The draws as an xarray dataset: the arrays of the kind of cells, log densities and marginals, by named dimensions.
+
+        ``chain`` and ``draw`` count from 0, ``x`` and ``y`` are the cells' centres in the world frame, metres; arrays of
+        some cells only have their indices as ``cell_x`` and ``cell_y``.
+
+        Raises:
+            BadInput: xarray is not installed.
+        """
+        from bayesmap.posterior.dataset import dataset_of
+
+        return dataset_of(self.posterior)
 
     def save(
         self,
@@ -119,7 +172,9 @@ class Run:
         save(self.posterior, path, on_progress)
 
     def plot(self, **options: Any) -> Figure:
-        """A figure of mean, entropy and one draw; options as in `bayesmap.viz.figure.posterior_figure`.
+        """A figure of the mean map, how sure it is, the readings and one draw, with surfaces where they can be seen.
+
+        Options are those of `bayesmap.viz.figure.posterior_figure`.
 
         Raises:
             BadInput: a run that was stopped before its first draw.
@@ -127,17 +182,25 @@ class Run:
         from bayesmap.viz.figure import posterior_figure
 
         self._need_marginals()
-        posterior = self.posterior
+        prior = self.posterior.prior
         if self.n_draws and "draw" not in options:
             options["draw"] = self.map_of(0, -1)
-        options.setdefault("scans", posterior.scans)
-        return posterior_figure(posterior.grid, posterior.occupancy, posterior.observed, **options)
+        options.setdefault("scans", self.posterior.scans)
+        options.setdefault("label", prior.words.value if prior.has_interval else prior.words.mean)
+        if prior.has_interval and self.n_draws and "width" not in options:
+            lower, upper = self.interval(0.9)
+            options["width"] = upper - lower
+        if prior.has_surfaces:
+            options.setdefault("surfaces", self.surfaces())
+        return posterior_figure(self.grid, self.occupancy, self.observed, **options)
 
     def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, ...]:
         """Write the map, or the trajectory, for other programs; the path's ending chooses the format.
 
         A map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun, TUM; options as in
-        `bayesmap.io.exports.export_run`.
+        `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells take the thresholds of the kind of
+        cells unless some are given: a wall's probability must be over one half to say that it is likely there; a cell
+        that stops three beams in ten for certain is no place for a robot.
 
         Returns:
             The paths of what was written.
@@ -145,14 +208,47 @@ class Run:
         Raises:
             BadInput: a run that was stopped before its first draw, an unknown ending, or a file that cannot be written.
         """
-        from bayesmap.io.exports import export_run
+        from bayesmap.io.exports import export_run, format_of
 
         self._need_marginals()
+        thresholds, mode = self.posterior.prior.thresholds, options.get("mode")
+        if thresholds is not None:
+            if mode is None and format_of(path, options.get("format")) == "map-server":
+                mode = "trinary"
+            if mode == "trinary":
+                for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):
+                    options[name] = value if options.get(name) is None else options[name]
         return export_run(path, self, self.posterior.scans, **options)
+
+    def __repr__(self) -> str:
+        """Five lines: what was inferred, from what, how, how well, and how long it took."""
+        from bayesmap.posterior.overview import overview
+
+        title, rows = overview(self.posterior)
+        return "\n".join([title, *(f"  {name}: {value}" for name, value in rows)])
+
+    def _repr_html_(self) -> str:
+        """A small picture of the mean map beside the same five lines, for notebooks."""
+        from bayesmap.posterior.overview import overview
+        from bayesmap.viz.thumbnail import thumbnail_html
+
+        title, rows = overview(self.posterior)
+        return thumbnail_html(self.occupancy, self.observed, title, rows)
 
     def _need_marginals(self) -> None:
         if np.isnan(self.posterior.occupancy).any():
             raise BadInput("run: stopped before its first draw, there is no posterior yet; resume it")
+
+
+def load(path: str | os.PathLike[str]) -> Run:
+    """Read a saved run.
+
+    Raises:
+        BadInput: no such file, or one that is damaged or not a run of bayesmap's.
+    """
+    from bayesmap.io.saved import load_posterior
+
+    return Run(load_posterior(path))
 
 
 def score(

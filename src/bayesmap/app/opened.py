@@ -14,7 +14,7 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
-from bayesmap.loading import load
+from bayesmap.result import load
 from bayesmap.result import Run
 from bayesmap.samplers.problem import Problem
 from bayesmap.sensors.noise import Gaussian

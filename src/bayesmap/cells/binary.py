@@ -39,7 +39,7 @@ class Independent(CellPrior):
         "exact": "exact",
     }  # fmt: skip
     hit_depth: ClassVar[float] = 0.25
-    interval_reason: ClassVar[str] = "a wall is there or not, and has no interval"
+    has_interval: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         p = np.asarray(self.p_wall, dtype=np.float64)
@@ -100,13 +100,19 @@ class Independent(CellPrior):
         Raises:
             BadInput: always.
         """
-        raise BadInput(f"interval: {self.interval_reason}; the entropy of its probability shows how sure it is")
+        raise BadInput("interval: a wall is there or not, and has no interval; the entropy of its probability shows how sure it is")
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Some cells in all draws, (chains, draws, n)."""
         bytes_read, place = np.unique(cells // 8, return_inverse=True)
         bits = np.unpackbits(draws.arrays["walls"][:, :, bytes_read], axis=-1)
         return bits[:, :, place * 8 + cells % 8].view(np.bool_)
+
+    def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Cells with one value in all draws of each chain, and in all draws of all chains, (N,) each."""
+        walls = np.stack([count_walls(chain, draws.grid.n_cells) for chain in draws.arrays["walls"]])
+        constant = ((walls == 0) | (walls == draws.count)).all(axis=0)
+        return constant, constant & (walls == walls[0]).all(axis=0)
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Stop probabilities 0 and 1 of each draw, (draws, n), some draws at a time."""
@@ -116,6 +122,11 @@ class Independent(CellPrior):
             some = packed[i : i + at_once]
             flat = unpack(some, draws.grid.shape).reshape(len(some), -1)
             yield (flat if wanted is None else flat[:, wanted]).astype(np.float32)
+
+    def parameters(self) -> Mapping[str, NDArray[Any]]:
+        """The probabilities, if each cell has its own."""
+        p = np.asarray(self.p_wall, dtype=np.float64)
+        return {"p_wall": p} if p.ndim else {}
 
     def describe(self) -> dict[str, Any]:
         """The prior as plain JSON values."""

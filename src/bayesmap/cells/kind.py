@@ -102,7 +102,8 @@ class CellPrior(ABC):
             `bayesmap.samplers.methods`).
         hit_depth: where in a cell a beam stops unless the caller says otherwise, as a fraction of the beam's chord.
         sensor_is_fitted: whether the command line fits the sensor unless one is given.
-        interval_reason: why `Run.interval` is refused; empty if it is not.
+        has_interval: whether a cell's state is a number with an interval.
+        has_surfaces: whether cells have surfaces.
         thresholds: mean stop probabilities above and below which a robot's map of occupied, free and unknown cells
             calls a cell so; None leaves it to the format.
     """
@@ -112,7 +113,8 @@ class CellPrior(ABC):
     methods: ClassVar[Mapping[str, str]] = {"metropolis": "metropolis"}
     hit_depth: ClassVar[float] = 0.5
     sensor_is_fitted: ClassVar[bool] = False
-    interval_reason: ClassVar[str] = ""
+    has_interval: ClassVar[bool] = True
+    has_surfaces: ClassVar[bool] = False
     thresholds: ClassVar[tuple[float, float] | None] = None
 
     def __init_subclass__(cls, **options: Any) -> None:
@@ -196,6 +198,13 @@ class CellPrior(ABC):
         out = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
         return np.reshape(out, (draws.chains, draws.count, len(cells)))
 
+    def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
+        """Which cells have one value in all draws of each chain, and which in all draws of all chains, (N,) each.
+
+        None for both where a state is a number, which no two draws share.
+        """
+        return None, None
+
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
         """Mean surfaces, for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
 
@@ -222,11 +231,19 @@ class CellPrior(ABC):
         if batch:
             yield np.stack(batch)
 
+    def default_draws(self, beams: int, cells: int, chains: int) -> int:
+        """Draws of each chain where none are asked for."""
+        return 1000
+
     # Files
 
     @abstractmethod
     def describe(self) -> dict[str, Any]:
         """The prior as plain JSON values; "kind" is its name."""
+
+    def parameters(self) -> Mapping[str, NDArray[Any]]:
+        """Parameters that are arrays, which a description cannot hold: saved runs keep them beside it."""
+        return {}
 
     @classmethod
     def from_description(cls, values: Mapping[str, Any]) -> CellPrior:

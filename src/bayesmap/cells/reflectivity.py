@@ -24,6 +24,12 @@ LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
 
 CELLS_AT_ONCE = 8192
 
+FEWEST_DRAWS, MOST_DRAWS = 50, 200
+BEAMS_OF_FEWEST = 100_000
+MOST_DRAW_BYTES = 1 << 30
+"""Of all chains' draws, if beams were to touch every cell of the grid."""
+BYTES_A_CELL = 4
+
 REFLECTIVITY = ArraySpec("reflectivity", ("cell",), "float32", "half", "chance that the cell stops a beam")
 EXPECTED = ArraySpec(
     "expected", ("cell",), "float32", "half", "mean of the reflectivity given the draw's surfaces and stops"
@@ -47,7 +53,6 @@ class Reflective(CellPrior):
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True
     thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # three beams in ten stopped is no place for a robot
-    has_surfaces: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         for which, value in (("a", self.a), ("b", self.b)):
@@ -85,6 +90,16 @@ class Reflective(CellPrior):
     def mean_stop(self, grid: Grid) -> Floats:
         """The prior's mean everywhere, (nx, ny)."""
         return np.full(grid.shape, self.mean)
+
+    def default_draws(self, beams: int, cells: int, chains: int) -> int:
+        """As many as take the time of 50 with 100 000 beams, up to 200.
+
+        The fewer the beams, the less certain the map and the more draws its predictions need (docs/defaults.md); and
+        the sooner a sweep is over. Never fewer than 50, and no more of large grids than fit in 1 GiB.
+        """
+        affordable = BEAMS_OF_FEWEST * FEWEST_DRAWS // max(beams, 1)
+        fitting = MOST_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
+        return max(FEWEST_DRAWS, min(affordable, fitting, MOST_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> tuple[float, float, float, float, float, float]:
         """The prior as the kernels of `bayesmap.kernels.cell_draws` take it, lengths in metres: a, b, and a surface's

@@ -155,7 +155,7 @@ class Surface(Reflective):
         parts = [np.ravel(cells[f"surface_{part}"]) for part in PARTS]
         out = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
         out[:, 1:] *= grid.resolution
-        out[:, 1:3] += centres_m(np.arange(grid.n_cells), grid)
+        out[:, 1:3] += grid.cell_centres_m(np.arange(grid.n_cells))
         return out
 
     def kernel_numbers(self, edge_m: float) -> tuple[float, float, float, float, float, float]:
@@ -183,7 +183,7 @@ class Surface(Reflective):
         second[:, 1, 0] = second[:, 0, 1]
         n = max(draws.size, 1)
         reflectivity = self.mean_map(draws).ravel()[held]
-        return centres_m(held, draws.grid) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
+        return draws.grid.cell_centres_m(held) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Expected reflectivities and the draw's surfaces, (draws, n, 6), some draws at a time.
@@ -196,7 +196,7 @@ class Surface(Reflective):
         surface_place, with_surface = places_among(draws.index["surface_cell"], cells)
         place, surface_place = place[known], surface_place[with_surface]
         edge = draws.grid.resolution
-        centre = centres_m(cells, draws.grid)
+        centre = draws.grid.cell_centres_m(cells)
         rng = np.random.default_rng(0)
         # Surfaces are drawn once and passed on from cell to cell: each draw of the map takes them up from another
         # place, and what a cell gets does not depend on which others are asked for.
@@ -222,9 +222,3 @@ class Surface(Reflective):
             "kind": "surface", "a": self.a, "b": self.b, "mean_scale": self.mean_scale, "spread": self.spread,
             "dof": self.dof, "size_scale": self.size_scale,
         }  # fmt: skip
-
-
-def centres_m(cells: NDArray[Any], grid: Grid) -> Floats:
-    """Centres of some cells by flat index, metres from the grid's lower left corner, (n, 2)."""
-    ny = grid.shape[1]
-    return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * grid.resolution

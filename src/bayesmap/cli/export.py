@@ -34,7 +34,7 @@ def command(call: Call, run_file: str, output: str | None, force: bool) -> None:
     import numpy as np
 
     from bayesmap.io.exports import existing
-    from bayesmap.loading import load
+    from bayesmap.result import load
 
     values = call.values()
     values["format"] = None if values["format"] == "auto" else values["format"]

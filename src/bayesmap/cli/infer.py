@@ -106,7 +106,7 @@ def _settings_of(folder: Folder) -> Settings:
 
 def _saved(folder: Folder) -> Run | None:
     """The run to go on with; None if it had not come to its first checkpoint."""
-    from bayesmap.loading import load
+    from bayesmap.result import load
 
     if not folder.run.exists():
         folder.talk.say(f"{folder.run}: no run to resume; starting from the beginning")

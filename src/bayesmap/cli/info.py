@@ -50,7 +50,7 @@ def _is_saved_run(file: str) -> bool:
 def _saved_run(file: str) -> dict[str, Any]:
     from bayesmap.cli.document import run_document
     from bayesmap.io.contents import scans_summary
-    from bayesmap.loading import load
+    from bayesmap.result import load
 
     run = load(file)
     told = run_document(run)

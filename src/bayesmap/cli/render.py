@@ -49,7 +49,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     LOG is read as it was for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
     """
     from bayesmap.cli import pictures
-    from bayesmap.loading import load
+    from bayesmap.result import load
     from bayesmap.viz.figure import write_figure
 
     values = call.values()

@@ -43,7 +43,7 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
     their central 50, 80 and 95 % intervals; median width of the 80 % interval; distance of the probability integral
     transform from uniform; and Brier score and log loss of first hits. docs/scoring.md has the formulas.
     """
-    from bayesmap.loading import load
+    from bayesmap.result import load
     from bayesmap.result import score
 
     values = call.values()

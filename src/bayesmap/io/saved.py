@@ -1,16 +1,19 @@
 """The saved posterior: one netCDF-4 file in the arviz layout, that opens in arviz and xarray anywhere.
 
-Groups: ``posterior`` (walls by chain, draw, x, y), ``sample_stats`` (log joint and its parts), ``observed_data``
-(ranges), ``constant_data`` (poses, angles, marginals, where the chains stand), ``warmup_sample_stats``. Settings, grid
-and timings are attributes of the root, as JSON. Draws are stored as deflated bytes, 0 or 1, so that any reader sees
-plain arrays; a checksum over all of it tells a damaged file from a whole one.
+Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sample_stats`` (log joint and its parts),
+``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (where the chains stand),
+``warmup_sample_stats``. Settings, grid, prior, sensor and timings are attributes of the root, as JSON. Arrays that count
+some cells only have these cells' indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as deflated bytes,
+half precision as 32-bit floats, so that any reader sees plain arrays; a checksum over all of it tells a damaged file from
+a whole one.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -18,20 +21,21 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import pack, unpack
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import ArraySpec, CellPrior, prior_from
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
-from bayesmap.posterior.field import FieldPosterior
+from bayesmap.io.saved_arrays import read_draws, write_arrays, write_draws
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.sensors.describe import from_description
+from bayesmap.samplers.sampler import Snapshot
+from bayesmap.sensors.describe import describe, from_description
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = 3  # 2 has fields too, 3 their expected reflectivities; walls are written as in 1
-CHUNK_BYTES = 16 << 20  # of draws that are unpacked, and compressed, at a time
+FORMAT_VERSION = 4  # one layout for all kinds of cells; older ones are read by `bayesmap.io.saved_before`
 
 
 def save(
@@ -44,7 +48,7 @@ def save(
     Args:
         posterior: what to write.
         path: where.
-        on_progress: told how many of all draws have been written.
+        on_progress: told how many of all numbers of the draws have been written.
 
     Raises:
         BadInput: the folder cannot be written to.
@@ -54,13 +58,13 @@ def save(
 
 
 def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], None]) -> None:
-    grid, scans = posterior.grid, posterior.scans
-    chains, draws, _ = posterior.packed.shape
-    nx, ny = grid.shape
-    x, y = grid.centers_m()
+    grid, scans, draws = posterior.grid, posterior.scans, posterior.draws
     header = {
+        "cells": posterior.kind,
         "settings": posterior.settings,
-        "grid": {"shape": grid.shape, "resolution": grid.resolution, "origin": grid.origin},
+        "sensor": None if posterior.sensor is None else describe(posterior.sensor),
+        "prior": posterior.prior.describe(),
+        "grid": asdict(grid),
         "limits": [scans.min_range_m, scans.max_range_m],
         "seconds": posterior.seconds,
         "counts": posterior.counts,
@@ -80,44 +84,45 @@ def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], No
         }
     )
     group = file.createGroup("posterior")
-    sizes = {"chain": chains, "draw": draws, "x": nx, "y": ny}
-    for name, size in sizes.items():
-        group.createDimension(name, size)
-    for name, values in (("chain", np.arange(chains)), ("draw", np.arange(draws)), ("x", x), ("y", y)):
-        group.createVariable(name, values.dtype, (name,))[:] = values
-    at_once = _draws_at_once(grid)
-    walls = group.createVariable(
-        "walls", "i1", tuple(sizes), zlib=True, complevel=1, shuffle=False,
-        chunksizes=(1, max(1, min(draws, at_once)), nx, ny),
-    )  # fmt: skip
-    walls.setncatts({"dtype": "bool", "long_name": "wall in this cell"})
-    for chain in range(chains):
-        for i in range(0, draws, at_once):
-            walls[chain, i : i + at_once] = unpack(posterior.packed[chain, i : i + at_once], grid.shape).view(np.int8)
-            on_progress(chain * draws + min(i + at_once, draws), chains * draws)
-
+    x, y = grid.centers_m()
+    for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
+        write_arrays(group, (name,), compressed=False, **{name: values})
+    for dimension, cells in draws.index.items():
+        places = {f"{dimension}_x": cells // grid.shape[1], f"{dimension}_y": cells % grid.shape[1]}
+        write_arrays(group, (dimension,), **places)
+    sizes = {spec.name: draws.size * int(np.prod(draws.shape_of(spec))) for spec in draws.specs}
+    done = 0
+    for spec in draws.specs:
+        before = done
+        write_draws(
+            group, spec, draws.arrays[spec.name], draws.shape_of(spec),
+            lambda count, before=before: on_progress(before + count, sum(sizes.values())),
+        )  # fmt: skip
+        done += sizes[spec.name]
     write_arrays(
-        file.createGroup("sample_stats"),
-        ("chain", "draw"),
-        lp=posterior.log_likelihood + posterior.log_prior,
-        log_likelihood=posterior.log_likelihood,
-        log_prior=posterior.log_prior,
-    )
+        file.createGroup("sample_stats"), ("chain", "draw"), lp=posterior.log_joint,
+        log_likelihood=posterior.log_likelihood, log_prior=posterior.log_prior,
+    )  # fmt: skip
     write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
-    constant = write_scans(file, scans)
+    constant = _write_scans(file, scans)
     write_arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
-    write_arrays(constant, ("chain", "cell"), state=posterior.walls)
-    if posterior.log_weights is not None:
-        write_arrays(constant, ("particle",), log_weight=posterior.log_weights)
-    if posterior.belief_changes is not None:
-        write_arrays(constant, ("round",), belief_change=posterior.belief_changes)
+    for name, values in _by_name(posterior).items():
+        write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), **{name: values})
+    state = file.createGroup("chain_state")
+    for name, values in posterior.snapshot.arrays.items():
+        # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
+        dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
+        write_arrays(state, dimensions, compressed=values.dtype == np.uint8, **{name: values})
 
 
-def _draws_at_once(grid: Grid) -> int:
-    return max(1, CHUNK_BYTES // grid.n_cells)
+def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
+    """Arrays that only some posteriors have."""
+    out = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
+    out |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
+    return out if posterior.log_weights is None else {**out, "log_weight": posterior.log_weights}
 
 
-def write_scans(file: Any, scans: Scans) -> Any:
+def _write_scans(file: Any, scans: Scans) -> Any:
     """Write what was conditioned on; the group of constants, for more of them."""
     write_arrays(file.createGroup("observed_data"), ("scan", "beam"), range_m=scans.ranges_m)
     constant = file.createGroup("constant_data")
@@ -130,16 +135,7 @@ def write_scans(file: Any, scans: Scans) -> Any:
     return constant
 
 
-def write_arrays(group: Any, dimensions: tuple[str, ...], compressed: bool = True, **arrays: NDArray[Any]) -> None:
-    """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
-    for name, values in arrays.items():
-        for dimension, size in zip(dimensions, values.shape, strict=True):
-            if dimension not in group.dimensions:
-                group.createDimension(dimension, size)
-        group.createVariable(name, values.dtype, dimensions, zlib=compressed, complevel=1)[:] = values
-
-
-def load_posterior(path: str | os.PathLike[str]) -> Posterior | FieldPosterior:
+def load_posterior(path: str | os.PathLike[str]) -> Posterior:
     """Read a posterior back.
 
     Raises:
@@ -147,34 +143,27 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior | FieldPosterior:
     """
     path = Path(path)
     if not path.is_file():
-        raise BadInput(f"{path}: a folder; give the run.nc in it" if Path(path).is_dir() else f"{path}: no such file")
-    posterior: Posterior | FieldPosterior
+        raise BadInput(f"{path}: a folder; give the run.nc in it" if path.is_dir() else f"{path}: no such file")
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
-            stranger = _stranger(attributes)
-            if stranger is None:
-                header = json.loads(attributes["bayesmap"])
-                if "cells" in header:
-                    from bayesmap.io import saved_field
-
-                    field = saved_field.read_field(file, header)
-                    posterior, found = field, saved_field.checksum(field, header)
-                else:
-                    posterior = walls = _read(file, header)
-                    found = _checksum(walls, header)
+            reason = _not_ours(attributes)
+            if reason is None:
+                posterior, found = _read(file, json.loads(attributes["bayesmap"]), int(attributes["format_version"]))
                 whole = found == attributes["checksum"]
+    except BadInput as problem:
+        raise BadInput(f"{path}: {problem}") from None
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
         raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error})") from None
-    if stranger is not None:
-        raise BadInput(f"{path}: {stranger}")
+    if reason is not None:
+        raise BadInput(f"{path}: {reason}")
     if not whole:
         raise BadInput(f"{path}: the saved run is damaged (its checksum does not match); use a backup or run again")
     return posterior
 
 
-def _stranger(attributes: dict[str, Any]) -> str | None:
+def _not_ours(attributes: dict[str, Any]) -> str | None:
     """Why a sound netCDF file is not one that we can read, or None."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"
@@ -187,66 +176,97 @@ def _stranger(attributes: dict[str, Any]) -> str | None:
     )
 
 
-def _read(file: Any, header: dict[str, Any]) -> Posterior:
+def _read(file: Any, header: dict[str, Any], version: int) -> tuple[Posterior, str]:
+    """The posterior of an open file, and its checksum."""
+    if version < FORMAT_VERSION:
+        from bayesmap.io import saved_before
+
+        return saved_before.read(file, header)
+    constant = file["constant_data"]
+
+    def named(prefix: str) -> dict[str, NDArray[Any]]:
+        return {name.removeprefix(prefix): constant[name][:] for name in constant.variables if name.startswith(prefix)}
+
+    prior = prior_from(header["prior"] | named("prior_"))
+    snapshot = Snapshot(header["sweep"], {name: v[:] for name, v in file["chain_state"].variables.items()})
+    posterior = assemble(file, header, prior, snapshot, statistics=named("statistic_"))
+    return posterior, _checksum(posterior, header)
+
+
+def assemble(
+    file: Any,
+    header: dict[str, Any],
+    prior: CellPrior,
+    snapshot: Snapshot,
+    *,
+    specs: tuple[ArraySpec, ...] | None = None,
+    index: Mapping[str, NDArray[np.int32]] | None = None,
+    statistics: Mapping[str, NDArray[np.float64]],
+) -> Posterior:
+    """The posterior of an open file of any format, but for what formats keep in different places."""
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
-    walls = file["posterior"]["walls"]
-    chains, draws = walls.shape[:2]
-    at_once = _draws_at_once(grid)
-    packed = np.zeros((chains, draws, (grid.n_cells + 7) // 8), dtype=np.uint8)
-    for chain in range(chains):
-        for i in range(0, draws, at_once):
-            packed[chain, i : i + at_once] = pack(walls[chain, i : i + at_once] != 0)
-    stats, constant = file["sample_stats"], file["constant_data"]
-
-    def optional(name: str) -> NDArray[np.float64] | None:
-        return constant[name][:] if name in constant.variables else None
-
+    draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
+    specs = prior.arrays if specs is None else specs
+    if index is None:
+        some = {dim for spec in specs for dim in spec.dims} - {"x", "y"}
+        index = {dim: flat_index(draws[f"{dim}_x"][:], draws[f"{dim}_y"][:], grid) for dim in sorted(some)}
+    empty = Draws(grid, specs, {}, index)
+    arrays = {spec.name: read_draws(draws[spec.name], spec, empty.shape_of(spec)) for spec in specs}
+    described = header["settings"]["sensor"] if header.get("sensor") is None else header["sensor"]
     return Posterior(
-        grid=grid,
-        scans=scans_from(file, header),
-        sensor=from_description(header["settings"]["sensor"]),
+        scans=_scans_from(file, header),
+        sensor=from_description(described),
+        prior=prior,
         settings=header["settings"],
+        draws=Draws(grid, specs, arrays, index),
         occupancy=constant["occupancy"][:],
         observed=constant["observed"][:] != 0,
-        packed=packed,
         log_likelihood=stats["log_likelihood"][:],
         log_prior=stats["log_prior"][:],
         warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
-        walls=constant["state"][:],
-        sweep=header["sweep"],
+        snapshot=snapshot,
         finished=header["finished"],
         seconds=header["seconds"],
         counts=header["counts"],
-        log_weights=optional("log_weight"),
-        belief_changes=optional("belief_change"),
-        log_evidence=header["log_evidence"],
+        log_weights=_optional(constant, "log_weight"),
+        statistics=statistics,
+        log_evidence=header.get("log_evidence"),
         notes=tuple(header["notes"]),
     )
 
 
-def scans_from(file: Any, header: dict[str, Any]) -> Scans:
+def flat_index(x: NDArray[Any], y: NDArray[Any], grid: Grid) -> NDArray[np.int32]:
+    """Flat indices of cells."""
+    return np.asarray(x * grid.shape[1] + y, dtype=np.int32)
+
+
+def _optional(constant: Any, name: str) -> NDArray[np.float64] | None:
+    return constant[name][:] if name in constant.variables else None
+
+
+def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
     """What was conditioned on."""
     constant = file["constant_data"]
-
-    def optional(name: str) -> NDArray[np.float64] | None:
-        return constant[name][:] if name in constant.variables else None
-
     return Scans(
         poses=constant["pose_world"][:],
         angles_rad=constant["angle_rad"][:],
         ranges_m=file["observed_data"]["range_m"][:],
         min_range_m=header["limits"][0],
         max_range_m=header["limits"][1],
-        stamps_s=optional("stamp_s"),
-        beam_poses=optional("beam_pose_world"),
+        stamps_s=_optional(constant, "stamp_s"),
+        beam_poses=_optional(constant, "beam_pose_world"),
     )
 
 
 def _checksum(posterior: Posterior, header: dict[str, Any]) -> str:
-    scans = posterior.scans
+    scans, draws = posterior.scans, posterior.draws
+    named = {f"draws {name}": values for name, values in draws.arrays.items()}
+    named |= {f"index {name}": values for name, values in draws.index.items()}
+    named |= {f"state {name}": values for name, values in posterior.snapshot.arrays.items()}
+    named |= {f"constant {name}": values for name, values in _by_name(posterior).items()}
     arrays = (
-        posterior.packed, posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.walls,
-        posterior.occupancy, posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m,
-        posterior.log_weights, posterior.belief_changes, scans.stamps_s, scans.beam_poses,
+        posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.occupancy,
+        posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s, scans.beam_poses,
     )  # fmt: skip
-    return checksum_of(json.dumps(header, sort_keys=True), arrays)
+    names = sorted(named)
+    return checksum_of(json.dumps([header, names], sort_keys=True), [*(named[name] for name in names), *arrays])

@@ -16,7 +16,7 @@ GPU_PARTS = 256
 class Beliefs:
     """Messages and beliefs of one problem. Memory: 12 bytes for each incidence of the table."""
 
-    def __init__(self, table: BeamTable, logit: NDArray[np.float64], device: str) -> None:
+    def __init__(self, table: BeamTable, logit: NDArray[np.float64], device: str, beta: float = 1.0) -> None:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
         parts = min(CPU_PARTS if device == "cpu" else GPU_PARTS, max(1, beams))
         bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
@@ -34,7 +34,7 @@ class Beliefs:
         self._received = wp.zeros((parts, cells), dtype=wp.float32, device=device)
         self._odds = wp.empty(cells, dtype=wp.float32, device=device)
         self._belief = wp.empty(cells, dtype=wp.float32, device=device)
-        inputs = [self._offsets]
+        inputs: list[object] = [wp.float32(beta), self._offsets]
         inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
         launch(relative_likelihood, beams, [*inputs, self._relative, self._no_hit], device)
         self._gather()

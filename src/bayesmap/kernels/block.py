@@ -28,6 +28,7 @@ from bayesmap.kernels.state import (
     chain_of,
     draw_from_prior,
     entry_loglik,
+    keep_walls,
     log_likelihood,
     log_prior,
     put_wall,
@@ -264,13 +265,15 @@ def block_sweeps(
     blocks: Blocks,
     prior: Prior,
     log_all_free: wp.float64,
+    beta: wp.float64,
     keys: wp.array(dtype=wp.uint64),
     order: wp.array(dtype=wp.int32),
     shuffle_bits: wp.uint32,
     sweep_0: int,
     sweeps: int,
     chains: Chains,
-    thin: int,
+    first_kept: int,
+    every: int,
     draws: wp.array3d(dtype=wp.uint8),
     log_likelihoods: wp.array2d(dtype=wp.float64),
     log_priors: wp.array2d(dtype=wp.float64),
@@ -294,7 +297,7 @@ def block_sweeps(
             if beams_reaching(blocks, chain.reached, x, y) == 0:
                 draw_block_from_prior(blocks, prior, chain.walls, x, y, keys[n], counter)
             else:
-                weights = block_weights(t, blocks, chain, block, x, y)
+                weights = beta * block_weights(t, blocks, chain, block, x, y)
                 weights = weights + prior_weights(blocks, prior, x, y)
                 state = draw_state(weights, to_uniform(random_bits(keys[n], counter)))
                 for j in range(4):
@@ -304,9 +307,8 @@ def block_sweeps(
                             put_wall(t, chain, c)
                         if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
                             remove_wall(t, chain, c)
-        log_likelihoods[n, s] = log_likelihood(chain.current)
+        log_likelihoods[n, s] = beta * log_likelihood(chain.current)
         log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
-        if draws.shape[1] > 0 and (s + 1) % thin == 0:
-            kept = draws[n, s // thin]
-            for c in range(kept.shape[0]):
-                kept[c] = chain.walls[c]
+        past = sweep + 1 - first_kept
+        if draws.shape[1] > 0 and past >= 0 and past % every == 0:
+            keep_walls(chain.walls, draws[n, past // every])

@@ -1,6 +1,6 @@
 r"""The other half of a sweep: the cells, given where the beams stopped.
 
-Cells in which readings end have a kernel of their own (`bayesmap.kernels.busy`). Of the others, one that tries no
+Cells in which readings end have a kernel of their own (`bayesmap.kernels.endpoint_cells`). Of the others, one that tries no
 candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
 surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of
 the ratio (`bayesmap.kernels.stops`).
@@ -18,8 +18,8 @@ the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11
 import warp as wp
 
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
-from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.stops import AWAKE, GAIN_UNITS, IN_A_ROW, Field
+from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
+from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, LEARNS, StopState, groups_of
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
 
 wp.set_module_options({"enable_backward": False})
@@ -29,13 +29,26 @@ HIDDEN = wp.constant(wp.float32(0.0))
 FRESH = wp.constant(wp.float32(1.0))
 AT_TURN = wp.constant(4)
 """In a round of sweeps a cell in which no reading ends draws its reflectivity twice, tries a candidate once, at this
-turn, and rests."""
+turn, and learns nothing in the others."""
 
 # Counters of one cell in one sweep.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT = wp.constant(wp.uint64(0))
 AT_BETA = wp.constant(wp.uint64(32))
 AT_FRESH = wp.constant(wp.uint64(256))
+
+
+@wp.struct
+class ActiveCells:
+    """The cells that a sweep visits, those that beams touch, ascending, and the length of each one's round.
+
+    A round is 0 for cells in which readings end. ``ny`` and ``edge_m`` are the grid's.
+    """
+
+    cell: wp.array(dtype=wp.int32)
+    round: wp.array(dtype=wp.uint8)
+    ny: int
+    edge_m: wp.float64
 
 
 @wp.struct
@@ -52,7 +65,7 @@ class CellPrior:
 
 @wp.func
 def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """The cell with a surface drawn from the prior, but for `log_temper`, which the acceptance makes good.
+    """The cell with a surface drawn from the prior, but for `log_size_penalty`, which the acceptance makes good.
 
     Sigma^-1 = A A' / psi with Bartlett's lower triangular A; its inverse has the upper factor A^-T sqrt(psi), which
     turns into a lower one when x and y are exchanged, and the law does not care.
@@ -85,17 +98,25 @@ def log_surface_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float
     trace = one / (l11 * l11) + one / (l22 * l22) + q * q
     half = wp.float64(0.5)
     shape = -prior.nu * wp.log(l11) - (prior.nu + one) * wp.log(l22) - half * prior.psi_m2 * trace
-    shape += log_temper(prior, cell)
+    shape += log_size_penalty(prior, cell)
     return shape - half * (x * x + y * y) / (prior.tau_m * prior.tau_m)
 
 
 @wp.func
-def log_temper(prior: CellPrior, cell: Cell) -> wp.float64:
+def log_size_penalty(prior: CellPrior, cell: Cell) -> wp.float64:
     """The factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
     l11 = wp.float64(cell[L11])
     l21 = wp.float64(cell[L21])
     l22 = wp.float64(cell[L22])
     return wp.float64(-0.5) * (l11 * l11 + l21 * l21 + l22 * l22) / (prior.kappa_m * prior.kappa_m)
+
+
+@wp.func
+def centre_of(c: int, ny: int, edge_m: wp.float64) -> wp.vec2:
+    """Centre of a cell, metres from the grid's lower left corner."""
+    half = wp.float64(0.5)
+    x = wp.float32((wp.float64(c // ny) + half) * edge_m)
+    return wp.vec2(x, wp.float32((wp.float64(c % ny) + half) * edge_m))
 
 
 @wp.func
@@ -106,89 +127,117 @@ def log_reflectivity_prior(prior: CellPrior, m: wp.float32) -> wp.float32:
 
 
 @wp.kernel
-def propose(
+def begin_sweep(
     first: int,
+    sweep: int,
     plain: int,
     prior: CellPrior,
     prior_moved: int,
-    centre_m: wp.array(dtype=wp.vec2),
-    pace: wp.array(dtype=wp.int32),
-    field: Field,
+    active: ActiveCells,
+    state: StopState,
     keys: wp.array(dtype=wp.uint64),
-    sweep: int,
     log_prior: wp.array(dtype=wp.float32),
 ):
-    """One thread a cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
+    """One thread a chain's cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
 
-    ``pace`` is the length of a cell's round, 0 for cells in which readings end. ``log_prior`` is that of the cells as
-    they are, and is computed anew where the last sweep can have changed it.
+    ``log_prior`` is that of the cells as they are, and is computed anew where the last sweep can have changed it.
     """
-    c = first + wp.tid()
-    for part in range(field.met.shape[0]):
-        field.met[part, c] = 0
-        field.hits[part, c] = 0
-        field.gain[part, c] = wp.int64(0)
-    cell = field.cells[c]
+    i = first + wp.tid()
+    chain = i // active.cell.shape[0]
+    a = i - chain * active.cell.shape[0]
+    c = active.cell[a]
+    here = chain * state.n_cells + c
+    for part in range(state.parts):
+        row = chain * state.parts + part
+        state.met[row, c] = 0
+        state.hits[row, c] = 0
+        state.gain[row, c] = wp.int64(0)
+    cell = state.cells[here]
     cell[TRYING] = HIDDEN
-    turns = pace[c]
-    if prior_moved != 0 or turns == 0 or field.glance[c] == AWAKE:
+    turns = int(active.round[a])
+    centre = centre_of(c, active.ny, active.edge_m)
+    if prior_moved != 0 or turns == 0 or state.fixed_m[here] == LEARNS:
         density = log_reflectivity_prior(prior, cell[REFLECTIVITY])
         if plain == 0:
-            density += wp.float32(log_surface_prior(prior, centre_m[c], cell))
-        log_prior[c] = density
-    key = keys[1]
-    at = wp.uint64(c) * PER_CELL
-    glance = AWAKE
+            density += wp.float32(log_surface_prior(prior, centre, cell))
+        log_prior[i] = density
+    fixed_m = LEARNS
     if turns == 0:
         if plain == 0:
-            glance = cell[REFLECTIVITY]
+            fixed_m = cell[REFLECTIVITY]
     else:
         turn = (sweep + c) % turns
         if plain == 0 and turn == AT_TURN:
             cell[TRYING] = FRESH
-            field.candidates[c // IN_A_ROW] = fresh_surface(prior, centre_m[c], cell, key, at + AT_FRESH)
+            key = sweep_key(keys[chain], sweep, 1)
+            at = wp.uint64(c) * PER_CELL + AT_FRESH
+            state.candidates[chain * groups_of(state) + c // IN_A_ROW] = fresh_surface(prior, centre, cell, key, at)
         elif turn % (turns // 2) != 0:
-            glance = cell[REFLECTIVITY]
-    field.glance[c] = glance
-    field.cells[c] = cell
+            fixed_m = cell[REFLECTIVITY]
+    state.fixed_m[here] = fixed_m
+    state.cells[here] = cell
 
 
 @wp.kernel
-def settle(
+def update_free_cells(
     first: int,
+    sweep: int,
     prior: CellPrior,
-    field: Field,
+    active: ActiveCells,
+    state: StopState,
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
 ):
-    """One thread a cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or rest.
+    """One thread a chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
+    neither.
 
     ``hits`` and ``met`` keep the counts behind the cell's last reflectivity.
     """
-    c = first + wp.tid()
-    if field.glance[c] != AWAKE:
+    i = first + wp.tid()
+    chain = i // active.cell.shape[0]
+    c = active.cell[i - chain * active.cell.shape[0]]
+    here = chain * state.n_cells + c
+    if state.fixed_m[here] != LEARNS:
         return
-    key = keys[1]
+    key = sweep_key(keys[chain], sweep, 1)
     at = wp.uint64(c) * PER_CELL
-    cell = field.cells[c]
+    cell = state.cells[here]
     n_hits = int(0)
     n_met = int(0)
     gain = wp.int64(0)
-    for part in range(field.met.shape[0]):
-        n_hits += field.hits[part, c]
-        n_met += field.met[part, c]
-        gain += field.gain[part, c]
+    for part in range(state.parts):
+        row = chain * state.parts + part
+        n_hits += state.hits[row, c]
+        n_met += state.met[row, c]
+        gain += state.gain[row, c]
     if cell[TRYING] == HIDDEN:
         a = prior.a + wp.float64(n_hits)
         b = prior.b + wp.float64(n_met)
         cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
-        hits[c] = n_hits
-        met[c] = n_met
+        hits[here] = n_hits
+        met[here] = n_met
     else:
-        candidate = field.candidates[c // IN_A_ROW]
-        log_ratio = wp.float64(gain) * FROM_UNITS + log_temper(prior, candidate) - log_temper(prior, cell)
+        candidate = state.candidates[chain * groups_of(state) + c // IN_A_ROW]
+        log_ratio = wp.float64(gain) * FROM_UNITS + log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
         if wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
             cell = candidate
     cell[TRYING] = HIDDEN
-    field.cells[c] = cell
+    state.cells[here] = cell
+
+
+@wp.kernel
+def count_informed(
+    first: int,
+    active: ActiveCells,
+    n_cells: int,
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+    informed: wp.array(dtype=wp.vec2i),
+):
+    """One thread a chain's cell, after a sweep: has it counted beams yet, and did any beam come into the count?"""
+    i = first + wp.tid()
+    chain = i // active.cell.shape[0]
+    here = chain * n_cells + active.cell[i - chain * active.cell.shape[0]]
+    if met[here] >= 0:
+        informed[here] = informed[here] + wp.vec2i(wp.where(hits[here] + met[here] > 0, 1, 0), 1)

@@ -52,25 +52,39 @@ def run_sweeps(
     shuffle: bool,
     chains: WallChains,
     *,
-    sweep_0: int,
+    first: int,
     sweeps: int,
-    thin: int,
-    keep: bool,
+    kept: range,
+    beta: float = 1.0,
     threads: int | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
     """Advance the chains in place by some sweeps of a kernel, one chain a thread.
 
+    Args:
+        kernel: of the sweep.
+        tables: that it takes first.
+        prior: of the walls, on the device.
+        log_all_free: log prior of the map with no wall but those that the prior fixes.
+        order: of the sites.
+        shuffle: whether it is shuffled in each sweep.
+        chains: to advance.
+        first: number of the first sweep, from 0.
+        sweeps: how many.
+        kept: numbers, from 1, of those whose maps are kept.
+        beta: inverse temperature.
+        threads: of the CPU; all cores if None.
+
     Returns:
-        log-likelihoods and log priors after each sweep, (chains, sweeps), and the maps after every ``thin``-th sweep
-        where ``keep``, (chains, kept, N).
+        log-likelihoods and log priors after each sweep, (chains, sweeps), and the kept maps, packed, (chains, kept,
+        ceil(N / 8)).
     """
     n, cells = chains.shape
     device = chains.device
     log_likelihoods, log_priors = (wp.empty((n, sweeps), dtype=wp.float64, device=device) for _ in range(2))
-    draws = wp.empty((n, sweeps // thin if keep else 0, cells), dtype=wp.uint8, device=device)
+    draws = wp.empty((n, len(kept), (cells + 7) // 8), dtype=wp.uint8, device=device)
     bits = cipher_bits(len(order)) if shuffle else 0
-    inputs = [*tables, prior, wp.float64(log_all_free), chains.keys]
-    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(bits), sweep_0, sweeps]
-    inputs += [chains.states, thin, draws, log_likelihoods, log_priors]
+    inputs = [*tables, prior, wp.float64(log_all_free), wp.float64(beta), chains.keys]
+    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(bits), first, sweeps]
+    inputs += [chains.states, kept.start, kept.step, draws, log_likelihoods, log_priors]
     launch(kernel, n, inputs, device, threads=threads)
     return log_likelihoods.numpy(), log_priors.numpy(), draws.numpy()

@@ -6,8 +6,9 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.beam_rays import BeamRays
-from bayesmap.kernels.field import as_cells, put_rays
+from bayesmap.beams.rays import Rays as BeamRays
+from bayesmap.kernels.rays import stop_distances
+from bayesmap.kernels.stop_chains import as_cells, put_rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.meeting import Cell, ray_from
 from bayesmap.kernels.parallel import launch
@@ -54,10 +55,13 @@ def add_density(
 class FieldScore:
     """Sum of predictive densities, draw by draw."""
 
-    def __init__(self, rays: BeamRays, sensor: KernelParameters, *, plain: bool, device: str = "cpu") -> None:
+    def __init__(
+        self, rays: BeamRays, sensor: KernelParameters, hit_depth: float, *, plain: bool, device: str = "cpu"
+    ) -> None:
         self.device, self.draws = device, 0
         self._beams = rays.n_beams
-        self._rays = put_rays(rays, plain, device)
+        distance_m = stop_distances(rays, hit_depth, device) if plain else None
+        self._rays = put_rays(rays, distance_m, device, rays.columns)
         self._sensor = sensor_parameters(sensor, rays.limits)
         self._total: Any = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
 

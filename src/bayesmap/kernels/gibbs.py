@@ -23,6 +23,7 @@ from bayesmap.kernels.state import (
     chain_of,
     draw_from_prior,
     draw_wall,
+    keep_walls,
     entry_loglik,
     log_likelihood,
     log_prior,
@@ -70,22 +71,22 @@ def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
 
 
 @wp.func
-def draw_free_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) -> bool:
-    """Whether a free cell that beams reach becomes a wall."""
+def draw_free_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+    """Whether a free cell that beams reach becomes a wall, at an inverse temperature."""
     logit = prior.logit[c]
     if chain.known[c] == UNKNOWN:
-        sum_gain(t, chain, c, -CERTAIN - logit)
-    if not draw_wall(logit + wp.float64(chain.gain[c]), u):
+        sum_gain(t, chain, c, (-CERTAIN - logit) / beta)
+    if not draw_wall(logit + beta * wp.float64(chain.gain[c]), u):
         return False
     if chain.known[c] == EXACT:
         return True
     sum_gain(t, chain, c, NO_BOUND)
-    return draw_wall(logit + wp.float64(chain.gain[c]), u)
+    return draw_wall(logit + beta * wp.float64(chain.gain[c]), u)
 
 
 @wp.func
-def draw_wall_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) -> bool:
-    """Whether a wall that beams reach stays one."""
+def draw_wall_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+    """Whether a wall that beams reach stays one, at an inverse temperature."""
     logit = prior.logit[c]
     if chain.known[c] == UNKNOWN:
         least = wp.float64(0.0)
@@ -95,10 +96,10 @@ def draw_wall_cell(t: Table, prior: Prior, chain: Chain, c: int, u: wp.float64) 
         chain.gain[c] = wp.float32(least)
         chain.known[c] = BOUND
     if chain.known[c] == BOUND:
-        least = logit + wp.float64(chain.gain[c])
+        least = logit + beta * wp.float64(chain.gain[c])
         if least > CERTAIN and draw_wall(least, u):
             return True
-    return draw_wall(logit + wall_gain(t, chain, c), u)
+    return draw_wall(logit + beta * wall_gain(t, chain, c), u)
 
 
 @wp.kernel
@@ -107,21 +108,23 @@ def gibbs_sweeps(
     t: Table,
     prior: Prior,
     log_all_free: wp.float64,
+    beta: wp.float64,
     keys: wp.array(dtype=wp.uint64),
     order: wp.array(dtype=wp.int32),
     shuffle_bits: wp.uint32,
     sweep_0: int,
     sweeps: int,
     chains: Chains,
-    thin: int,
+    first_kept: int,
+    every: int,
     draws: wp.array3d(dtype=wp.uint8),
     log_likelihoods: wp.array2d(dtype=wp.float64),
     log_priors: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a chain: several sweeps, each over all cells in the given order.
+    """One thread a chain: several sweeps, each over all cells in the given order, at an inverse temperature.
 
-    With ``shuffle_bits`` positive the order is shuffled afresh in every sweep. Every ``thin``-th sweep is copied to
-    ``draws`` if that has room.
+    With ``shuffle_bits`` positive the order is shuffled afresh in every sweep. The maps after the sweeps of numbers
+    ``first_kept``, ``first_kept + every``, ..., counted from 1, are packed into ``draws`` as far as that has room.
     """
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
@@ -139,13 +142,12 @@ def gibbs_sweeps(
             if chain.reached[c] == 0:
                 chain.walls[c] = wp.uint8(draw_from_prior(prior, c, bits))
             elif chain.walls[c] != wp.uint8(0):
-                if not draw_wall_cell(t, prior, chain, c, to_uniform(bits)):
+                if not draw_wall_cell(t, prior, chain, beta, c, to_uniform(bits)):
                     remove_wall(t, chain, c)
-            elif draw_free_cell(t, prior, chain, c, to_uniform(bits)):
+            elif draw_free_cell(t, prior, chain, beta, c, to_uniform(bits)):
                 put_wall(t, chain, c)
-        log_likelihoods[n, s] = log_likelihood(chain.current)
+        log_likelihoods[n, s] = beta * log_likelihood(chain.current)
         log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
-        if draws.shape[1] > 0 and (s + 1) % thin == 0:
-            kept = draws[n, s // thin]
-            for c in range(kept.shape[0]):
-                kept[c] = chain.walls[c]
+        past = sweep + 1 - first_kept
+        if draws.shape[1] > 0 and past >= 0 and past % every == 0:
+            keep_walls(chain.walls, draws[n, past // every])

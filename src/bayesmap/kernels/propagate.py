@@ -28,13 +28,14 @@ LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
 @wp.kernel
 def relative_likelihood(
     first: int,
+    beta: wp.float32,
     offsets: wp.array(dtype=wp.int32),
     loglik: wp.array(dtype=wp.float32),
     no_hit: wp.array(dtype=wp.float32),
     relative: wp.array(dtype=wp.float32),
     relative_no_hit: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: likelihoods relative to the beam's largest."""
+    """One thread a beam: likelihoods relative to the beam's largest, at an inverse temperature."""
     b = first + wp.tid()
     most = no_hit[b]
     for k in range(offsets[b], offsets[b + 1]):
@@ -42,12 +43,12 @@ def relative_likelihood(
     last = wp.float32(1.0)
     value = wp.float32(1.0)
     for k in range(offsets[b], offsets[b + 1]):
-        now = loglik[k] - most
+        now = beta * (loglik[k] - most)
         if now != last:  # long stretches of a beam share one value
             value = wp.max(wp.exp(now), TINY)
             last = now
         relative[k] = value
-    relative_no_hit[b] = wp.max(wp.exp(no_hit[b] - most), TINY)
+    relative_no_hit[b] = wp.max(wp.exp(beta * (no_hit[b] - most)), TINY)
 
 
 @wp.kernel

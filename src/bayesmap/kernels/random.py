@@ -30,6 +30,12 @@ def to_uniform(bits: wp.uint64) -> wp.float64:
     return (wp.float64(bits >> wp.uint64(11)) + wp.float64(0.5)) * TO_UNIT
 
 
+@wp.func
+def sweep_key(key: wp.uint64, sweep: int, part: int) -> wp.uint64:
+    """A key of its own for each of the two parts of a chain's sweep: of beams (0), and of cells (1)."""
+    return random_bits(key, wp.uint64(2) * wp.uint64(sweep) + wp.uint64(part))
+
+
 def mix(*words: int) -> int:
     """A 64-bit key from whole numbers, such as (seed, chain, stream): on the host, once per chain."""
     state = 0

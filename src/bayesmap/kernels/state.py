@@ -185,6 +185,16 @@ def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
 
 
 @wp.func
+def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)):
+    """Pack a map, eight cells to a byte, the first in its highest bit: as `numpy.packbits` does."""
+    for j in range(packed.shape[0]):
+        bits = int(0)
+        for c in range(8 * j, wp.min(8 * j + 8, walls.shape[0])):
+            bits = bits | (wp.where(walls[c] != wp.uint8(0), 128, 0) >> (c - 8 * j))
+        packed[j] = wp.uint8(bits)
+
+
+@wp.func
 def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8), log_all_free: wp.float64) -> wp.float64:
     """Log p(walls)."""
     total = wp.float64(log_all_free)

@@ -10,15 +10,18 @@ stopped), which given that it passed has probability g (1 - m) / (1 - a); met an
 Beta. In sweeps in which a candidate for its surface is tried: log (1 - m g') / (1 - m g), the beam's part of the
 Metropolis ratio. Both are added up in whole numbers, so that the result does not depend on the order of beams.
 
-Most cells are free, and are told that by many beams in every sweep; they *rest* in most sweeps, learning nothing. What
-a resting cell with a reflectivity under single precision does to T is nothing, and it is passed at a glance.
+Most cells are free, and hundreds of beams say so in every sweep: in most sweeps they learn nothing. Where such a cell
+has a reflectivity under single precision it does nothing to T, either, and is passed without a look at its surface.
+
+At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not tempered.
+For walls, 0 or 1, that is the likelihood to the power of beta.
 """
 
 import warp as wp
 
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet, ray_from
-from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.stop_law import Law, fading, law_of, no_stop_law, stop_law
 
 wp.set_module_options({"enable_backward": False})
@@ -31,7 +34,7 @@ TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
 IN_A_ROW = wp.constant(16)
 """Of so many cells in a row at most one tries a candidate in a sweep: rounds are multiples of it."""
 FAR = wp.constant(-1)  # a stop before the near entries
-AWAKE = wp.constant(wp.float32(-1.0))
+LEARNS = wp.constant(wp.float32(-1.0))
 CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
 CLEAREST = wp.constant(wp.float32(1.0e-15))  # nor is a stop here worth weighing, whatever its density
 
@@ -53,26 +56,43 @@ class Rays:
     start_m: wp.array(dtype=wp.vec2)
     direction: wp.array(dtype=wp.vec2)
     range_m: wp.array(dtype=wp.float32)
+    decay: wp.array(dtype=wp.float32)  # see `decay_of_readings`
 
 
 @wp.struct
-class Field:
-    """One chain: cells, a glance at each (its reflectivity if it rests, else AWAKE), and a candidate for each
-    `IN_A_ROW` of them; what the beams told each cell in this sweep, a row for each part of the beams; and for each beam
-    `fading` of its reading, the entry at which it stopped (its end if nowhere), the distance and variance of that stop,
-    and the log-likelihood of its reading, summed over all stops.
+class StopState:
+    """All chains: their cells, what beams told these in this sweep, and where the beams stopped.
+
+    Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the grid.
     """
 
+    n_cells: int
+    n_beams: int
+    parts: int  # of the beams, each counted by itself
+    beta: wp.float32  # inverse temperature
     cells: wp.array(dtype=Cell)
-    glance: wp.array(dtype=wp.float32)
-    candidates: wp.array(dtype=Cell)
-    met: wp.array2d(dtype=wp.int32)
-    hits: wp.array2d(dtype=wp.int32)
-    gain: wp.array2d(dtype=wp.int64)
-    faded: wp.array(dtype=wp.float32)
-    stop: wp.array(dtype=wp.int32)
-    where: wp.array(dtype=wp.vec2)
-    log_likelihood: wp.array(dtype=wp.float32)
+    fixed_m: wp.array(dtype=wp.float32)  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
+    candidates: wp.array(dtype=Cell)  # one for `IN_A_ROW` cells of a chain
+    met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed
+    hits: wp.array2d(dtype=wp.int32)  # beams that stopped
+    gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate
+    stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
+    where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
+    log_likelihood: wp.array(dtype=wp.float32)  # of the beam's reading, summed over all stops
+
+
+@wp.func
+def groups_of(state: StopState) -> int:
+    """Groups of `IN_A_ROW` cells in a chain."""
+    return (state.n_cells + IN_A_ROW - 1) // IN_A_ROW
+
+
+@wp.func
+def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
+    """A density at an inverse temperature."""
+    if beta == wp.float32(1.0):
+        return p
+    return wp.pow(p, beta)
 
 
 @wp.func
@@ -94,18 +114,21 @@ def in_units(log_ratio: wp.float32) -> wp.int64:
 
 
 @wp.func
-def pass_by(field: Field, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int, sign: int):
+def pass_by(
+    state: StopState, chain: int, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int, sign: int
+):
     """Tell a cell that a beam passed it; with sign -1 take that back."""
     one = wp.float32(1.0)
     m = cell[0]
+    row = chain * state.parts + part
     if cell[TRYING] != wp.float32(0.0):
-        other = gate(field.candidates[c // IN_A_ROW], ray)
+        other = gate(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
         ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
-        wp.atomic_add(field.gain, part, c, wp.int64(sign) * in_units(ratio))
+        wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
         return
     u = wp.float32(random_bits(key, wp.uint64(k)) >> wp.uint64(40)) * TO_UNIT_24
     if u * (one - m * g) < g * (one - m):
-        wp.atomic_add(field.met, part, c, sign)
+        wp.atomic_add(state.met, row, c, sign)
 
 
 @wp.func
@@ -117,65 +140,70 @@ def chance_at(rays: Rays, cell: Cell, ray: Ray) -> wp.float32:
 
 
 @wp.kernel
-def draw_stops(
-    first: int,
-    part: int,
-    sensor: SensorParameters,
-    rays: Rays,
-    field: Field,
-    keys: wp.array(dtype=wp.uint64),
-):
-    """One thread a beam: draw where it stops, and tell the cells."""
+def decay_of_readings(first: int, sensor: SensorParameters, rays: Rays):
+    """One thread a beam: `fading` of its reading, the same for all chains and sweeps."""
     b = first + wp.tid()
+    rays.decay[b] = fading(law_of(sensor), rays.range_m[b])
+
+
+@wp.kernel
+def draw_stops(
+    first: int, part: int, sweep: int, sensor: SensorParameters, rays: Rays, state: StopState, keys: wp.array(dtype=wp.uint64)
+):
+    """One thread a chain's beam: draw where it stops, and tell the cells."""
+    i = first + wp.tid()
+    chain = i // state.n_beams
+    b = i - chain * state.n_beams
+    cell_0 = chain * state.n_cells
     law = law_of(sensor)
-    key = keys[0]
+    key = sweep_key(keys[chain], sweep, 0)
     one = wp.float32(1.0)
     reading = rays.range_m[b]
     begin = rays.offsets[b]
     end = rays.offsets[b + 1]
     near = rays.near[b]
+    decay = rays.decay[b]
     if begin == end or wp.isnan(reading):
-        field.stop[b] = end
-        field.log_likelihood[b] = wp.float32(0.0)
+        state.stop[i] = end
+        state.log_likelihood[i] = wp.float32(0.0)
         if not wp.isnan(reading):
-            field.log_likelihood[b] = wp.log(no_stop_law(law, reading, fading(law, reading)))
+            state.log_likelihood[i] = wp.log(tempered(no_stop_law(law, reading, decay), state.beta))
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
 
-    faded = fading(law, reading)
-    field.faded[b] = faded
     free = wp.float32(1.0)
     for k in range(begin, near):
         c = rays.cells[k]
-        glance = field.glance[c]
-        if glance < wp.float32(0.0) or glance > CLEAR:
-            cell = field.cells[c]
+        m_fixed = state.fixed_m[cell_0 + c]
+        if m_fixed < wp.float32(0.0) or m_fixed > CLEAR:
+            cell = state.cells[cell_0 + c]
             g = chance_at(rays, cell, ray)
             free = free * (one - cell[0] * g)
-            if glance < wp.float32(0.0):
-                pass_by(field, part, c, cell, g, ray, key, k, 1)
+            if m_fixed < wp.float32(0.0):
+                pass_by(state, chain, part, c, cell, g, ray, key, k, 1)
     stopped_far = one - free
-    total = wp.float64(law.floor) * wp.float64(stopped_far)
+    total = wp.float64(tempered(law.floor, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
     for k in range(near, end):
         c = rays.cells[k]
-        glance = field.glance[c]
-        if glance < wp.float32(0.0) or glance > CLEAREST:
-            cell = field.cells[c]
+        m_fixed = state.fixed_m[cell_0 + c]
+        if m_fixed < wp.float32(0.0) or m_fixed > CLEAREST:
+            cell = state.cells[cell_0 + c]
             m = plain_or_meet(rays, k, cell, ray)
             a = cell[0] * m.chance
-            weight = wp.float64(free * a * stop_law(law, reading, faded, m.distance_m, m.variance))
+            p = tempered(stop_law(law, reading, decay, m.distance_m, m.variance), state.beta)
+            weight = wp.float64(free * a * p)
             total += weight
             u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
             if u * total < weight:
                 choice = k
             free = free * (one - a)
-    weight = wp.float64(free * no_stop_law(law, reading, faded))
+    weight = wp.float64(free * tempered(no_stop_law(law, reading, decay), state.beta))
     total += weight
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:
         choice = end
-    field.log_likelihood[b] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
+    state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
 
     if choice == FAR:
         # Rare. Find the cell, and take back what those from it on were told.
@@ -183,37 +211,40 @@ def draw_stops(
         free = wp.float32(1.0)
         for k in range(begin, near):
             c = rays.cells[k]
-            cell = field.cells[c]
+            cell = state.cells[cell_0 + c]
             g = chance_at(rays, cell, ray)
             free = free * (one - cell[0] * g)
             if choice == FAR and (one - free >= target or k == near - 1):
                 choice = k
-            if choice != FAR and field.glance[c] < wp.float32(0.0):
-                pass_by(field, part, c, cell, g, ray, key, k, -1)
+            if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
+                pass_by(state, chain, part, c, cell, g, ray, key, k, -1)
     for k in range(near, wp.min(choice, end)):
         c = rays.cells[k]
-        if field.glance[c] < wp.float32(0.0):
-            cell = field.cells[c]
-            pass_by(field, part, c, cell, chance_at(rays, cell, ray), ray, key, k, 1)
+        if state.fixed_m[cell_0 + c] < wp.float32(0.0):
+            cell = state.cells[cell_0 + c]
+            pass_by(state, chain, part, c, cell, chance_at(rays, cell, ray), ray, key, k, 1)
 
-    field.stop[b] = choice
+    state.stop[i] = choice
     if choice < end:
         c = rays.cells[choice]
-        cell = field.cells[c]
+        cell = state.cells[cell_0 + c]
         stopped = plain_or_meet(rays, choice, cell, ray)
-        field.where[b] = wp.vec2(stopped.distance_m, stopped.variance)
-        wp.atomic_add(field.hits, part, c, 1)
+        state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
+        row = chain * state.parts + part
+        wp.atomic_add(state.hits, row, c, 1)
         if cell[TRYING] != wp.float32(0.0):
             old = meet(cell, ray)
-            new = meet(field.candidates[c // IN_A_ROW], ray)
-            after = wp.max(new.chance * hit_law(law, choice, near, reading, faded, new), LEAST)
-            before = wp.max(old.chance * hit_law(law, choice, near, reading, faded, old), LEAST)
-            wp.atomic_add(field.gain, part, c, in_units(wp.log(after / before)))
+            new = meet(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
+            after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
+            before = wp.max(old.chance * hit_law(law, state.beta, choice, near, reading, decay, old), LEAST)
+            wp.atomic_add(state.gain, row, c, in_units(wp.log(after / before)))
 
 
 @wp.func
-def hit_law(law: Law, k: int, near: int, reading: wp.float32, faded: wp.float32, m: Meeting) -> wp.float32:
-    """p(z | stop) at entry k: that of a random reading at entries that are not near."""
+def hit_law(
+    law: Law, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, m: Meeting
+) -> wp.float32:
+    """p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
     if k < near:
-        return law.floor
-    return stop_law(law, reading, faded, m.distance_m, m.variance)
+        return tempered(law.floor, beta)
+    return tempered(stop_law(law, reading, decay, m.distance_m, m.variance), beta)

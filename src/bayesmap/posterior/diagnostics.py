@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells.packing import count_walls
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
 
 Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 4096
@@ -109,49 +110,43 @@ class CellDiagnostics:
     """Convergence over all cells of a map.
 
     Attributes:
-        rhat_max: largest split R-hat of any cell that changed in some chain; NaN if none did.
+        rhat_max: largest split R-hat of any judged cell that changed in some chain; NaN if none did.
         ess_min: smallest effective sample size of such a cell (for a 0/1 quantity bulk and tail are the same).
-        unchanged: cells with the same value in every draw of every chain: they have no R-hat.
+        unchanged: cells with the same value in every draw of every chain: they have no R-hat. None, as the next, where
+            a cell's state is a number, which no two draws share.
         disagreeing: cells constant in each chain, but not the same in all: chains that never met.
         high: cells with an R-hat over `RHAT_LIMIT`, those that disagree included.
     """
 
     rhat_max: float
     ess_min: float
-    unchanged: int
-    disagreeing: int
+    unchanged: int | None
+    disagreeing: int | None
     high: int
 
 
-def diagnose_cells(
-    packed: NDArray[np.uint8], shape: tuple[int, int], among: NDArray[np.bool_] | None = None
-) -> CellDiagnostics:
-    """Diagnose the cells of packed draws, (chains, draws, bytes).
+def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> CellDiagnostics:
+    """Diagnose the cells of a run: R-hat and effective sample size of what their maps show, not rank-normalised.
 
-    Everything but ``unchanged`` is the worst ``among`` some cells, (nx, ny); all if None. Pass the observed ones:
-    the others are independent prior draws, and the worst of a hundred thousand of those is bad by chance.
+    Everything but ``unchanged`` is the worst ``among`` some cells, (nx, ny): pass the observed ones. The others are
+    independent prior draws, and the worst of a hundred thousand of those is bad by chance.
     """
-    draws = packed.shape[1]
-    cells = shape[0] * shape[1]
-    if draws == 0:
-        return CellDiagnostics(float("nan"), float("nan"), cells, 0, 0)
-    walls = np.stack([count_walls(chain, cells) for chain in packed])  # (chains, N)
-    constant = ((walls == 0) | (walls == draws)).all(axis=0)
-    unchanged = constant & (walls == walls[0]).all(axis=0)
-    judged = np.ones(cells, dtype=np.bool_) if among is None else among.ravel()
-    changed = np.nonzero(~constant & judged)[0]
-    worst_rhat, least_ess = float("nan"), float("nan")
-    disagreeing = int((constant & ~unchanged & judged).sum())
-    high = disagreeing
-    if draws >= 4:
+    constant, agreed = prior.constant_cells(draws)
+    discrete = constant is not None and agreed is not None
+    changed, disagreeing = np.flatnonzero(among.ravel()), 0
+    if constant is not None and agreed is not None:
+        disagreeing = int((constant & ~agreed & among.ravel()).sum())
+        changed = np.flatnonzero(among.ravel() & ~constant)
+    worst, least, high = float("nan"), float("nan"), disagreeing
+    if draws.count >= 4:
         for i in range(0, len(changed), CELLS_AT_ONCE):
-            some = changed[i : i + CELLS_AT_ONCE]
-            columns = packed[:, :, np.unique(some // 8)]
-            bits = np.unpackbits(columns, axis=-1)
-            place = np.searchsorted(np.unique(some // 8), some // 8) * 8 + some % 8
-            halves = split_chains(bits[:, :, place].astype(np.float64))
-            rhats = plain_rhat(halves)
+            halves = split_chains(prior.traces(draws, changed[i : i + CELLS_AT_ONCE]).astype(np.float64))
+            varied = np.ptp(halves.reshape(-1, halves.shape[-1]), axis=0) > 0
+            if not varied.any():
+                continue
+            rhats = plain_rhat(halves[..., varied])
             high += int((rhats > RHAT_LIMIT).sum())
-            worst_rhat = float(np.fmax(worst_rhat, np.fmax.reduce(rhats)))
-            least_ess = float(np.fmin(least_ess, np.fmin.reduce(plain_ess(halves))))
-    return CellDiagnostics(worst_rhat, least_ess, int(unchanged.sum()), disagreeing, high)
+            worst = float(np.fmax(worst, np.fmax.reduce(rhats)))
+            least = float(np.fmin(least, np.fmin.reduce(plain_ess(halves[..., varied]))))
+    unchanged = int(np.sum(agreed)) if discrete else None
+    return CellDiagnostics(worst, least, unchanged, disagreeing if discrete else None, high)

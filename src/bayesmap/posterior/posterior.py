@@ -2,75 +2,101 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import count_walls
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
+from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
+Floats = NDArray[np.float64]
+
+WITHOUT_CHAINS = ("exact", "importance", "propagate")
+"""Methods whose draws are independent: they have neither sweeps nor diagnostics of chains."""
+
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    """Binary walls given scans, as draws and marginals.
+    """Cells given scans, as draws and marginals.
 
     Attributes:
-        grid: where the cells are.
         scans: what was conditioned on.
-        sensor: the model that was used; None in a loaded run whose model is not one of ours.
+        sensor: the model that was used for the draws, fitted, if it was to be; None in a loaded run whose model is not
+            one of ours.
+        prior: of the cells, likewise: it also says what kind of cells they are.
         settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
-        occupancy: posterior wall probability of every cell, (nx, ny): the mean of the draws, or the method's own
-            marginals where it computes them ("exact", "importance", "propagate").
-        observed: cells that a beam reaches, with no wall before them, in at least half of the draws, (nx, ny); in the
-            others the posterior is the prior, or little more.
-        packed: draws, eight cells to a byte, (chains, draws, ceil(N / 8)).
+        draws: the kept maps.
+        occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's own
+            marginals where it computes them ("exact", "importance", "propagate"). Of binary walls it is the probability
+            of a wall.
+        observed: cells of which some beam says something in at least half of the draws, (nx, ny); in the others the
+            posterior is the prior, or little more.
         log_likelihood, log_prior: of every draw, (chains, draws).
         warmup_log_joint: (chains, warm-up sweeps).
-        walls: where the chains stand, (chains, N), 0/1: with ``sweep`` all that is needed to go on.
-        sweep: sweeps made by each chain.
+        snapshot: where the chains stand: all that is needed to go on.
         finished: false if the run was stopped early.
-        seconds: {"trace", "warm_start", "sampling", "total"}.
+        seconds: {"trace", "warm_start", "sampling", "total", "fit"}.
         counts: {"scans", "beams", "incidences", ...}.
         log_weights: normalised log weights of all particles, for "importance".
-        belief_changes: largest change of any cell's probability in each round of belief propagation.
+        statistics: other numbers by name, such as "belief_changes": the largest change of any cell's probability in each
+            round of belief propagation.
         log_evidence: log p(readings), exact or estimated, where the method gives it.
+        notes: what a user should know.
     """
 
-    grid: Grid
     scans: Scans
     sensor: SensorModel | None
+    prior: CellPrior
     settings: dict[str, Any]
-    occupancy: NDArray[np.float64]
+    draws: Draws
+    occupancy: Floats
     observed: NDArray[np.bool_]
-    packed: NDArray[np.uint8]
-    log_likelihood: NDArray[np.float64]
-    log_prior: NDArray[np.float64]
-    warmup_log_joint: NDArray[np.float64]
-    walls: NDArray[np.uint8]
-    sweep: int
+    log_likelihood: Floats
+    log_prior: Floats
+    warmup_log_joint: Floats
+    snapshot: Snapshot
     finished: bool
     seconds: dict[str, float]
     counts: dict[str, int]
-    log_weights: NDArray[np.float64] | None = None
-    belief_changes: NDArray[np.float64] | None = None
+    log_weights: Floats | None = None
+    statistics: Mapping[str, Floats] = field(default_factory=dict)
     log_evidence: float | None = None
     notes: tuple[str, ...] = field(default=())
 
+    @property
+    def grid(self) -> Grid:
+        """Where the cells are."""
+        return self.draws.grid
 
-def mean_of_draws(packed: NDArray[np.uint8], grid: Grid) -> NDArray[np.float64]:
-    """Fraction of all draws in which each cell is a wall, (nx, ny); NaN where there is no draw."""
-    chains, draws, size = packed.shape
-    if chains * draws == 0:
-        return np.full(grid.shape, np.nan)
-    counts = count_walls(packed.reshape(-1, size), grid.n_cells)
-    return np.asarray((counts / (chains * draws)).reshape(grid.shape))
+    @property
+    def kind(self) -> str:
+        """What a cell's state is: "binary", "reflectivity", "surface", or the word of a kind of your own."""
+        return self.prior.words.kind
+
+    @property
+    def sweep(self) -> int:
+        """Sweeps made by each chain."""
+        return self.snapshot.sweep
+
+    @property
+    def log_joint(self) -> Floats:
+        """Log p(cells, readings) of every draw, (chains, draws)."""
+        return self.log_likelihood + self.log_prior
+
+    @property
+    def has_chains(self) -> bool:
+        """Whether the draws are those of Markov chains."""
+        return self.settings["method"] not in WITHOUT_CHAINS
 
 
-def entropy_bits(occupancy: NDArray[np.float64]) -> NDArray[np.float64]:
+def entropy_bits(occupancy: Floats) -> Floats:
     """Entropy of every cell's marginal in bits: 0 where the posterior is sure, 1 where it knows nothing."""
     from scipy import special
 

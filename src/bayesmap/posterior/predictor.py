@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import unpack
 from bayesmap.errors import BadInput
-from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 
 Maps = NDArray[np.float32]
-
-BATCH_BYTES = 32 << 20
-"""Of maps that are held at a time."""
-
 
 class Batches(Protocol):
     """Gives the draws of a map."""
@@ -61,7 +55,7 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
     return batches
 
 
-def predictor_of(posterior: Posterior | FieldPosterior, sensor: SensorModel | None = None) -> Predictor:
+def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
     """The posterior's draws, as a prediction under the run's own sensor model unless another is given.
 
     Raises:
@@ -73,53 +67,13 @@ def predictor_of(posterior: Posterior | FieldPosterior, sensor: SensorModel | No
             f"score: the sensor model of this run, {posterior.settings['sensor'].get('kind')!r}, is not one of "
             "bayesmap's; pass sensor="
         )
-    batches = _of_field(posterior, sensor) if isinstance(posterior, FieldPosterior) else _of_walls(posterior)
-    return Predictor(
-        posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]), posterior.log_likelihood.size
-    )
-
-
-def _of_walls(posterior: Posterior) -> Batches:
-    _need_draws(posterior.packed.shape[0] * posterior.packed.shape[1])
-    packed = posterior.packed.reshape(-1, posterior.packed.shape[-1])
-    at_once = max(1, BATCH_BYTES // (4 * posterior.grid.n_cells))
-
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
-        for i in range(0, len(packed), at_once):
-            walls = unpack(packed[i : i + at_once], posterior.grid.shape)
-            flat = walls.reshape(len(walls), -1)
-            yield (flat if cells is None else flat[:, cells]).astype(np.float32)
-
-    return batches
-
-
-def _of_field(posterior: FieldPosterior, sensor: SensorModel) -> Batches:
-    _need_draws(posterior.reflectivity.shape[0] * posterior.n_draws)
-    if not isinstance(sensor, BeamMixture):
-        raise BadInput(f"score: this run's map is scored by a BeamMixture, not by a {type(sensor).__name__}")
-    plain = posterior.kind == "reflectivity"
-
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
-        wanted = np.arange(posterior.grid.n_cells, dtype=np.int32) if cells is None else cells
-        states = posterior.cells_for(wanted)
-        at_once = max(1, BATCH_BYTES // (32 * max(len(wanted), 1)))
-        return grouped((state[:, 0] if plain else state for state in states), at_once)
-
-    return batches
-
-
-def grouped(states: Iterable[Maps], at_once: int) -> Iterator[Maps]:
-    """Draws, some at a time."""
-    some: list[Maps] = []
-    for state in states:
-        some.append(state)
-        if len(some) == at_once:
-            yield np.stack(some)
-            some = []
-    if some:
-        yield np.stack(some)
-
-
-def _need_draws(count: int) -> None:
-    if count == 0:
+    if posterior.draws.size == 0:
         raise BadInput("score: the run has no draws yet; let it finish its warm-up")
+    if posterior.prior.sensor_is_fitted and not isinstance(sensor, BeamMixture):
+        raise BadInput(f"score: this run's map is scored by a BeamMixture, not by a {type(sensor).__name__}")
+
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
+        return posterior.prior.predictive_stops(posterior.draws, cells)
+
+    hit_depth = float(posterior.settings["hit_depth"])
+    return Predictor(posterior.grid, batches, sensor, hit_depth, posterior.draws.size)

@@ -19,7 +19,6 @@ from bayesmap.posterior.calibration import (
     randomised_pit,
     reliability,
 )
-from bayesmap.posterior.field import FieldPosterior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
 from bayesmap.posterior.shares import Tell, nobody, parts, watched
@@ -200,7 +199,7 @@ def score_prediction(
 
 
 def score_posterior(
-    posterior: Posterior | FieldPosterior,
+    posterior: Posterior,
     scans: Scans,
     sensor: SensorModel | None = None,
     *,

@@ -85,13 +85,12 @@ class Summary:
 def summarise(posterior: Posterior) -> Summary:
     """Compute the diagnostics of a run."""
     nan = float("nan")
-    markov = posterior.settings["method"] in ("gibbs", "block")
-    log_joint = posterior.log_likelihood + posterior.log_prior
-    draws = log_joint.shape[1]
+    markov, log_joint = posterior.has_chains, posterior.log_joint
+    chains, draws = log_joint.shape
     enough = markov and draws >= 4
-    cells = diagnose_cells(posterior.packed, posterior.grid.shape, posterior.observed) if markov else None
+    cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed) if markov else None
     weights = posterior.log_weights
-    sweeps = posterior.sweep * max(1, posterior.packed.shape[0])
+    sweeps = posterior.sweep * max(1, chains)
     threads = int(posterior.settings.get("threads_used", 1))
     return Summary(
         rhat_log_joint=rhat(log_joint) if enough else nan,

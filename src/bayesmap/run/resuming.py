@@ -2,12 +2,41 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from typing import Any
 
-from bayesmap.errors import BadInput
+import numpy as np
+from numpy.typing import NDArray
 
-FOUND_ON_THE_WAY = ("fingerprint", "threads_used", "fitted")
-"""Entries of a run's settings that nobody asked for."""
+from bayesmap.errors import BadInput
+from bayesmap.model import Model
+from bayesmap.sensors.model import RangeLimits
+
+RANDOM_STREAMS = 2
+"""Version of how random numbers are dealt out: chains that were begun under another cannot go on."""
+
+NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")
+"""Entries of a run's settings that are not arguments."""
+
+PROBES = 64
+"""Readings, and distances, at which a sensor model is looked at to tell it from another of the same name."""
+
+
+def fingerprint(settings: dict[str, Any], model: Model, start: NDArray[np.bool_] | None) -> str:
+    """What a run is determined by: settings, data, prior, sensor and start."""
+    scans, grid = model.scans, model.grid
+    digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
+    digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
+    arrays = [scans.poses, scans.angles_rad, scans.ranges_m, scans.beam_poses, *model.cells.parameters().values()]
+    # A model of the user's own making is described by its name alone: what it says of some readings stands for it.
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    readings = scans.ranges_m.ravel()[:: max(1, scans.n_beams // PROBES)][:PROBES, None]
+    arrays.append(model.sensor.log_likelihood(readings, np.linspace(0.0, limits.max_m, PROBES), limits))
+    for array in (*arrays, start):
+        if array is not None:
+            digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()[:16]
 
 
 def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
@@ -20,13 +49,22 @@ def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
     Raises:
         BadInput: they differ; the message says in what.
     """
-    if saved["fingerprint"] != wanted["fingerprint"]:
-        raise BadInput(f"resume: the saved run was made with other {difference(saved, wanted)}")
+    if saved["fingerprint"] == wanted["fingerprint"]:
+        return
+    different = difference(saved, wanted)
+    if different is None and saved.get("streams") != wanted["streams"]:
+        raise BadInput(
+            "resume: the saved run was made by a version of bayesmap with other random numbers; it can be looked at "
+            "and scored, but not gone on with: start again"
+        )
+    raise BadInput(
+        f"resume: the saved run was made with other {different or 'scans or on another grid, or with another sensor'}"
+    )
 
 
-def difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str:
+def difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str | None:
     """Which settings differ, in words."""
-    names = [name for name in wanted if name not in FOUND_ON_THE_WAY and saved.get(name) != wanted[name]]
-    if not names:
-        return "scans or on another grid, or with another sensor"
-    return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names)
+    names = [
+        name for name in wanted if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != wanted[name]
+    ]
+    return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names) or None

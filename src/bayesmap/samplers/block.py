@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.samplers.sampler import WallSampler, radial_distance
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_sampler import WallSampler, radial_distance
 
 
+@dataclass(frozen=True, eq=False)
 class BlockGibbs(WallSampler):
     """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
 
@@ -19,24 +21,19 @@ class BlockGibbs(WallSampler):
     wall there is none. A block takes the wall away and puts another beside or behind it in one step.
     """
 
-    def ordered_sites(self) -> NDArray[np.int32]:
+    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
         """Block numbers ``x * rows + y`` of all positions of the lower-left cell."""
-        nx, ny = self.problem.table.grid.shape
+        nx, ny = problem.grid.shape
         columns, rows = max(1, nx - 1), max(1, ny - 1)
         if self.order == "radial":
-            distance = radial_distance(self.problem)[:columns, :rows]
+            distance = radial_distance(problem)[:columns, :rows]
             return np.argsort(distance.ravel(), kind="stable").astype(np.int32)
         return np.arange(columns * rows, dtype=np.int32)
 
-    def kernel(self) -> tuple[Any, list[Any]]:
+    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
         """The block kernel reads the table, and its own list of beams by block."""
-        return self._kernel
-
-    @cached_property
-    def _kernel(self) -> tuple[Any, list[Any]]:
         from bayesmap.kernels.block import block_sweeps, list_blocks
         from bayesmap.kernels.device import load_kernels
 
-        load_kernels(block_sweeps, self.problem.device)
-        blocks = list_blocks(self.problem.table, self.problem.device)
-        return block_sweeps, [self.problem.device_table, blocks]
+        load_kernels(block_sweeps, problem.device)
+        return block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 
 MAX_UNKNOWN = 16
 
@@ -29,7 +29,7 @@ class Enumeration:
     unknown: NDArray[np.intp]
     log_posterior: NDArray[np.float64]
     log_evidence: float
-    problem: Problem
+    problem: WallProblem
 
     def states(self) -> NDArray[np.bool_]:
         """The enumerated cells in each state, shape (2^n, n)."""
@@ -56,7 +56,7 @@ class Enumeration:
         return walls.reshape(count, *shape)
 
 
-def enumerate_maps(problem: Problem) -> Enumeration:
+def enumerate_maps(problem: WallProblem) -> Enumeration:
     """Compute p(map | readings) for every map, in plain NumPy.
 
     Raises:

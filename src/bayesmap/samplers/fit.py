@@ -1,9 +1,12 @@
-"""Fitting the sensor and the prior while chains warm up: stochastic expectation maximisation.
+"""Fitting the sensor and the prior, by a pilot: stochastic expectation maximisation along a chain of its own.
 
 After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell; the
 expectation step splits readings into those of walls, passing objects and chance, the maximisation step is in closed
-form but for the noise and the Beta. Parameters move a shrinking part of the way (Delyon, Lavielle and Moulines, 1999),
-and stand still once draws are kept. With 10^5 beams their posterior is a point beside everything else that is unknown.
+form but for the noise and the Beta. Parameters move a shrinking part of the way (Delyon, Lavielle and Moulines, 1999).
+With 10^5 beams their posterior is a point beside everything else that is unknown.
+
+The pilot is a short chain whose number no other chain has. It is over before the chains begin, which run under what it
+found: so what is fitted depends on the seed and on how many sweeps the pilot makes, and not on how many chains follow.
 
 Only the scans that the map is inferred from are looked at.
 """
@@ -12,17 +15,31 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, special
 
-from bayesmap.cells.reflectivity import Reflective
+from bayesmap.cells.kind import CellPrior, prior_from
+from bayesmap.cells.reflectivity import Beta, Reflective
+from bayesmap.model import Model
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import PILOT
+from bayesmap.samplers.stop_gibbs import StopGibbs, StopProblem, StopState, trace_stops
+from bayesmap.sensors.describe import describe, from_description
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.sensors.noise import Gaussian
 
 BEAMS_LOOKED_AT = 40_000
+PILOT_SWEEPS = 40
+"""Of the pilot of reflectivities and surfaces, if their chains warm up as long."""
+SENSOR_SWEEPS = 30
+"""Of the pilot that fits a sensor alone."""
+SPREAD_WITHOUT_SURFACE = 0.3
+"""Where in a cell without a surface a beam stops is not known to better than this part of its edge: noise that a fit
+starts from."""
 FIRST_SWEEP = 3
 PRIOR_EVERY = 5
 LEAST_SIGMA_M = 1e-3
@@ -40,6 +57,18 @@ class Parameters:
     sensor: BeamMixture
     prior: Reflective
 
+    def describe(self) -> dict[str, Any]:
+        """Both as plain JSON values."""
+        return {"sensor": describe(self.sensor), "prior": self.prior.describe()}
+
+    @classmethod
+    def from_description(cls, values: dict[str, Any]) -> Parameters:
+        """The parameters of a description."""
+        sensor, prior = from_description(values["sensor"]), prior_from(values["prior"])
+        assert isinstance(sensor, BeamMixture)
+        assert isinstance(prior, Reflective)
+        return cls(sensor, prior)
+
 
 @dataclass(frozen=True, eq=False)
 class Stops:
@@ -49,6 +78,71 @@ class Stops:
     stopped: NDArray[np.bool_]
     distance_m: NDArray[np.float64]
     variance: NDArray[np.float64]
+
+
+def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
+    """Where a fit starts: a laser with few outliers."""
+    sigma_m = 0.02 if prior.has_surfaces else math.hypot(0.02, SPREAD_WITHOUT_SURFACE * resolution_m)
+    return BeamMixture(Gaussian(sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
+
+
+def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:
+    """Fit sensor and prior to the scans of a problem, from its own sensor and prior on.
+
+    Args:
+        problem: rays, and where to begin.
+        seed: of the pilot.
+        sweeps: of the pilot; without any, nothing moves.
+        watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
+    """
+    sampler = StopGibbs()
+    now = Parameters(problem.sensor, problem.prior)
+    if sweeps == 0:
+        return now
+    state = sampler.init(problem, [PILOT], seed)
+    every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
+    some = slice(every // 2, None, every)
+    for sweep in range(sweeps):
+        if watch.should_stop():
+            break
+        state, info = sampler.step(state, 1)
+        if sweep >= FIRST_SWEEP:
+            step, sensor, prior = gain(sweep), now.sensor, now.prior
+            sensor = refit_sensor(sensor, stops_of(state, some), problem.rays.limits, step)
+            if sweep % PRIOR_EVERY == 0:
+                touched = problem.estimate.touched
+                hits, met = (count[touched] for count in state.chains.counted(0))
+                prior = refit_prior(prior, hits, met, prior_gain(sweep))
+            now = Parameters(sensor, prior)
+            state = replace(state, problem=problem.under(sensor, prior))
+        watch.report("fit", sweep + 1, sweeps, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
+    return now
+
+
+def fit_sensor(model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT) -> BeamMixture:
+    """The sensor that explains the model's scans best, whatever its kind of cells: from a pilot over reflectivities.
+
+    Raises:
+        BadInput: too many incidences for the grid.
+    """
+    prior = Beta()
+    sensor = first_sensor(prior, model.grid.resolution)
+    problem = trace_stops(
+        model.scans, model.grid, prior, sensor, hit_depth=model.hit_depth, device=device, threads=threads
+    )
+    return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
+
+
+def stops_of(state: StopState, some: slice) -> Stops:
+    """Stops of the last sweep, of some of the beams, all chains together."""
+    rays, chains = state.problem.rays, range(state.chains.n_chains)
+    parts = [state.chains.stops(chain) for chain in chains]
+    return Stops(
+        range_m=np.tile(rays.range_m[some], len(parts)),
+        stopped=np.concatenate([stopped[some] for stopped, _, _ in parts]),
+        distance_m=np.concatenate([distance[some] for _, distance, _ in parts]).astype(np.float64),
+        variance=np.concatenate([variance[some] for _, _, variance in parts]).astype(np.float64),
+    )
 
 
 def gain(sweep: int) -> float:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.samplers.sampler import WallSampler, radial_distance
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_sampler import WallSampler, radial_distance
 
 
+@dataclass(frozen=True, eq=False)
 class Gibbs(WallSampler):
     """Every sweep draws each cell once from its conditional.
 
@@ -18,20 +20,16 @@ class Gibbs(WallSampler):
     drawn after it in the same sweep; "random", another permutation each sweep.
     """
 
-    def ordered_sites(self) -> NDArray[np.int32]:
+    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
         """Flat indices of all cells."""
         if self.order == "radial":
-            return np.argsort(radial_distance(self.problem).ravel(), kind="stable").astype(np.int32)
-        return np.arange(self.problem.table.grid.n_cells, dtype=np.int32)
+            return np.argsort(radial_distance(problem).ravel(), kind="stable").astype(np.int32)
+        return np.arange(problem.grid.n_cells, dtype=np.int32)
 
-    def kernel(self) -> tuple[Any, list[Any]]:
+    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
         """The single-site kernel reads the table alone."""
-        return self._kernel
-
-    @cached_property
-    def _kernel(self) -> tuple[Any, list[Any]]:
         from bayesmap.kernels.device import load_kernels
         from bayesmap.kernels.gibbs import gibbs_sweeps
 
-        load_kernels(gibbs_sweeps, self.problem.device)
-        return gibbs_sweeps, [self.problem.device_table]
+        load_kernels(gibbs_sweeps, problem.device)
+        return gibbs_sweeps, [problem.device_table]

@@ -7,7 +7,6 @@ particle is just its number: a million of them take 8 MB for their log weights, 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +14,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import check_count
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import STREAM_PARTICLES
 
 BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
@@ -36,7 +36,7 @@ class Particles:
 
     log_weights: NDArray[np.float64]
     log_evidence: float
-    problem: Problem
+    problem: WallProblem
     key: int
     seconds: float
     finished: bool
@@ -71,14 +71,14 @@ class Particles:
 
 
 def sample_importance(
-    problem: Problem,
+    problem: WallProblem,
     particles: int,
     seed: int,
     *,
-    on_progress: Callable[[int, int], None] | None = None,
-    should_stop: Callable[[], bool] = lambda: False,
+    beta: float = 1.0,
+    watch: Watch = SILENT,
 ) -> Particles:
-    """Draw maps from the prior and weigh them by the likelihood.
+    """Draw maps from the prior and weigh them by the likelihood, at an inverse temperature.
 
     Raises:
         BadInput: no particles.
@@ -91,15 +91,15 @@ def sample_importance(
     batches: list[NDArray[np.float64]] = []
     began = time.perf_counter()
     size, done = 256, 0
-    while done < particles and not (batches and should_stop()):
+    watch.report("particles", 0, particles)  # of a large map the first particles take a while
+    while done < particles and not (batches and watch.should_stop()):
         now = min(size, particles - done)
         batches.append(weigh(problem.device_table, problem.device_prior, key, done, now, problem.device))
         done += now
         elapsed = time.perf_counter() - began
         size = int(np.clip(0.25 * done / max(elapsed, 1e-9), 256, 1 << 20))
-        if on_progress is not None:
-            on_progress(done, particles)
-    log_weights = np.concatenate(batches)
+        watch.report("particles", done, particles)
+    log_weights = beta * np.concatenate(batches)
     log_total = float(special.logsumexp(log_weights))
     return Particles(
         log_weights=log_weights - log_total,

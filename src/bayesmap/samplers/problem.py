@@ -1,8 +1,9 @@
-"""What every method is given: the beam table of some scans, and the prior."""
+"""What every method on binary walls is given: the beam table of some scans, and the prior."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,13 +12,15 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.cells.binary import Independent
+from bayesmap.model import Model
+from bayesmap.space.grid import Grid
 
 LOG_ODDS_OF_FIXED = 1e15
 """Stands for infinite log-odds where the prior fixes a cell: more than any scan could outweigh."""
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class WallProblem:
     """Binary walls under a prior, seen through a beam table.
 
     Attributes:
@@ -25,12 +28,36 @@ class Problem:
         prior: of the walls.
         poses: where the sensor stood, (S, 3) in the world frame: for orders that go outwards from it.
         device: where kernels run.
+        threads: of the CPU; all cores if None.
     """
 
     table: BeamTable
     prior: Independent
     poses: NDArray[np.float64]
     device: str = "cpu"
+    threads: int | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+        return self.table.grid
+
+    @property
+    def n_incidences(self) -> int:
+        """How many cells all beams cross together."""
+        return self.table.n_incidences
+
+    @property
+    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
+        """Draws cover the grid."""
+        return {}
+
+    def under(self, prior: Independent) -> WallProblem:
+        """The same table, and its index if there is one, under another prior."""
+        other = replace(self, prior=prior)
+        shared = {name: self.__dict__[name] for name in ("index", "device_table") if name in self.__dict__}
+        other.__dict__.update(shared)
+        return other
 
     @cached_property
     def index(self) -> CellIndex:
@@ -83,3 +110,19 @@ class Problem:
         self.table.check_walls(walls)
         p = self.p_wall.reshape(self.table.grid.shape)
         return np.where(p == 0, False, np.where(p == 1, True, np.asarray(walls) != 0))
+
+
+def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:
+    """Trace the beam table of a model of binary walls.
+
+    Raises:
+        BadInput: a prior of another shape than the grid, a device that is not there, or too many incidences.
+    """
+    from bayesmap.kernels.device import resolve
+    from bayesmap.kernels.trace import trace
+
+    assert isinstance(model.cells, Independent)
+    device = resolve(device)
+    model.cells.probabilities(model.grid)  # shapes are checked before the long work
+    table = trace(model.scans, model.grid, model.sensor, hit_depth=model.hit_depth, device=device)
+    return WallProblem(table, model.cells, model.scans.poses, device, threads)

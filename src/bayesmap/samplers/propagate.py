@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +10,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput, check_count
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.progress import SILENT, Watch
 
 DAMPING = 0.5
 ROUNDS = 20
@@ -39,14 +39,13 @@ class Marginals:
 
 
 def propagate(
-    problem: Problem,
+    problem: WallProblem,
     *,
     rounds: int = ROUNDS,
     damping: float = DAMPING,
     tolerance: float = 1e-3,
-    threads: int | None = None,
-    on_round: Callable[[int, int, float], None] | None = None,
-    should_stop: Callable[[], bool] = lambda: False,
+    beta: float = 1.0,
+    watch: Watch = SILENT,
 ) -> Marginals:
     """Flood messages between beams and cells until beliefs settle, or for a number of rounds.
 
@@ -58,9 +57,8 @@ def propagate(
         rounds: at most this many.
         damping: weight of the old message in the new one, geometrically, in [0, 1).
         tolerance: stop when no probability changed by more.
-        threads: as many as there are cores if None; the result does not depend on it.
-        on_round: told (round, rounds, largest change).
-        should_stop: asked between rounds.
+        beta: inverse temperature of the likelihood.
+        watch: told of each round, and asked whether to stop.
 
     Raises:
         BadInput: rounds or damping out of range.
@@ -71,19 +69,18 @@ def propagate(
     if not 0 <= damping < 1:
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
     began = time.perf_counter()
-    beliefs = Beliefs(problem.table, problem.logit, problem.device)
+    beliefs = Beliefs(problem.table, problem.logit, problem.device, beta)
     observed = problem.table.observed().ravel()
     p_wall = special.expit(beliefs.log_odds().astype(np.float64))
     changes, mean_changes = [], []
     for number in range(rounds):
-        beliefs.round(damping, threads)
+        beliefs.round(damping, problem.threads)
         before, p_wall = p_wall, special.expit(beliefs.log_odds().astype(np.float64))
         change = np.abs(p_wall - before)
         changes.append(float(change.max()))
         mean_changes.append(float(change[observed].mean()) if observed.any() else 0.0)
-        if on_round is not None:
-            on_round(number + 1, rounds, changes[-1])
-        if changes[-1] < tolerance or should_stop():
+        watch.report("propagate", number + 1, rounds)
+        if changes[-1] < tolerance or watch.should_stop():
             break
     fixed = (problem.p_wall == 0) | (problem.p_wall == 1)
     p_wall = np.where(fixed, problem.p_wall, p_wall)

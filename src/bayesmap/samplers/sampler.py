@@ -1,118 +1,164 @@
-"""The contract of all Markov chain samplers on binary walls."""
+"""The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
+
+A sampler is a value: it holds options and no state. What all its chains in one process share, such as traced beams, is
+made once by `prepare`. Chains have numbers of their own, the same wherever they run: every draw depends on (seed, number
+of the chain, sweep, site) alone, and neither on which other chains run beside it, nor on threads, nor on how sweeps are
+cut into steps, nor on stops and resumptions.
+"""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
-from bayesmap.samplers.problem import Problem
+from bayesmap.model import Model
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.space.grid import Grid
 
-if TYPE_CHECKING:
-    from bayesmap.kernels.chains import WallChains
-
-Order = Literal["raster", "radial", "random"]
+Floats = NDArray[np.float64]
 
 STREAM_SWEEPS = 1
 STREAM_START = 2
 STREAM_PARTICLES = 3
 """Streams of random numbers: with the seed and the chain, each makes a key of its own."""
 
+PILOT = 1 << 32
+"""Number of the chain to which a sensor is fitted: none that is kept has it."""
 
-@dataclass(frozen=True, eq=False)
-class State:
-    """Several chains between two sweeps: what is on the device (advanced in place), and how many sweeps are done."""
 
-    chains: WallChains
-    sweep: int
+@dataclass(frozen=True)
+class Keep:
+    """Which draws are kept: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1.
 
-    def walls(self) -> NDArray[np.uint8]:
-        """The chains' maps, shape (chains, N): all that is needed to make this state again."""
-        return self.chains.host_walls()
+    Attributes:
+        after: sweeps of which none is kept.
+        every: sweeps from one kept draw to the next; 0 keeps none.
+        arrays: names of the arrays that are kept of a draw; all that the kind of cells declares if None.
+    """
+
+    after: int = 0
+    every: int = 0
+    arrays: tuple[str, ...] | None = None
+
+    def sweeps(self, begin: int, end: int) -> range:
+        """The sweeps that are kept among those after ``begin`` and up to ``end``."""
+        if self.every == 0:
+            return range(0)
+        past = max(0, begin - self.after)
+        first = self.after + (past // self.every + 1) * self.every
+        return range(first, end + 1, self.every)
+
+    def wants(self, array: str) -> bool:
+        """Whether an array is kept."""
+        return self.arrays is None or array in self.arrays
+
+
+NOTHING = Keep()
 
 
 @dataclass(frozen=True, eq=False)
 class Info:
-    """What a step reports.
+    """What some sweeps report.
 
     Attributes:
-        log_likelihood, log_prior: the two parts of log p(walls, readings) after each sweep, (chains, sweeps).
-        draws: the kept maps, (chains, kept, N), uint8.
+        log_likelihood, log_prior: of each sweep, (chains, sweeps): of the map that its draw shows. At an inverse
+            temperature the likelihood is the tempered one.
+        draws: the kept draws, (chains, kept, ...), by the names of the arrays of the kind of cells and as these are
+            stored.
     """
 
-    log_likelihood: NDArray[np.float64]
-    log_prior: NDArray[np.float64]
-    draws: NDArray[np.uint8]
+    log_likelihood: Floats
+    log_prior: Floats
+    draws: Mapping[str, NDArray[Any]]
 
 
-class WallSampler(ABC):
-    """A sampler: `init` makes the chains' state, `step` runs some sweeps of all of them.
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """Where chains stand: all that is needed to go on with them.
 
-    A step depends on (seed, chain, sweep, cell) alone: neither how the sweeps are cut into steps nor how the chains
-    are spread over threads changes a bit of the result.
+    Attributes:
+        sweep: sweeps that each has made.
+        arrays: by name, (chains, ...).
     """
 
-    def __init__(self, problem: Problem, order: Order) -> None:
-        if order not in get_args(Order):
-            raise BadInput(f"infer: order must be one of {', '.join(get_args(Order))}, got {order!r}")
-        self.problem = problem
-        self.order = order
-        self.sites = self.ordered_sites()
-
-    @abstractmethod
-    def ordered_sites(self) -> NDArray[np.int32]:
-        """What a sweep visits, in order (an order of "random" shuffles it afresh every sweep)."""
-
-    @abstractmethod
-    def kernel(self) -> tuple[Any, list[Any]]:
-        """The sweep kernel, and the tables that it takes first."""
-
-    def init(self, walls: NDArray[np.bool_], seed: int, sweep: int = 0) -> State:
-        """Chains at the given maps, shape (chains, nx, ny), that have already made ``sweep`` sweeps."""
-        from bayesmap.kernels.chains import WallChains
-        from bayesmap.kernels.random import mix
-
-        self.kernel()  # whatever is built on first use is built now, not in the first sweep
-        problem = self.problem
-        maps = np.stack([problem.admit(w) for w in walls]).reshape(len(walls), -1)
-        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in range(len(walls))]
-        chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
-        return State(chains, sweep)
-
-    def step(
-        self, state: State, sweeps: int, *, thin: int = 1, keep: bool = True, threads: int | None = None
-    ) -> tuple[State, Info]:
-        """Advance all chains by some sweeps; ``keep`` every ``thin``-th map (``sweeps`` is a multiple of it)."""
-        from bayesmap.kernels.chains import run_sweeps
-
-        kernel, tables = self.kernel()
-        log_likelihood, log_prior, draws = run_sweeps(
-            kernel,
-            tables,
-            self.problem.device_prior,
-            self.problem.log_all_free,
-            self.sites,
-            self.order == "random",
-            state.chains,
-            sweep_0=state.sweep,
-            sweeps=sweeps,
-            thin=thin,
-            keep=keep,
-            threads=threads,
-        )
-        return State(state.chains, state.sweep + sweeps), Info(log_likelihood, log_prior, draws)
+    sweep: int
+    arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)
 
 
-def radial_distance(problem: Problem) -> NDArray[np.int64]:
-    """L1 distance in cells of every cell from the nearest sensor, shape (nx, ny): the tutorial's diamonds."""
-    from scipy import ndimage
+class Problem(Protocol):
+    """What `Sampler.prepare` makes: a model where a sampler's kernels can read it."""
 
-    nx, ny = problem.table.grid.shape
-    cells = np.floor(problem.table.grid.to_cells(problem.poses[:, :2])).astype(np.int64)
-    away = np.ones((nx, ny), dtype=np.uint8)
-    away[np.clip(cells[:, 0], 0, nx - 1), np.clip(cells[:, 1], 0, ny - 1)] = 0
-    return np.asarray(ndimage.distance_transform_cdt(away, metric="taxicab"), dtype=np.int64)
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+
+    @property
+    def n_incidences(self) -> int:
+        """How many cells all beams cross together: the work of a sweep."""
+
+    @property
+    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
+        """Of the dimensions of draws that count some cells only: which (see `bayesmap.cells.draws.Draws`)."""
+
+
+class ChainState(Protocol):
+    """Several chains between two sweeps. What is on the device is advanced in place: do not use a state twice."""
+
+    @property
+    def sweep(self) -> int:
+        """Sweeps that each chain has made."""
+
+    @property
+    def problem(self) -> Problem:
+        """What is sampled."""
+
+    @property
+    def statistics(self) -> Mapping[str, NDArray[np.float64]]:
+        """What the start has to say beside the chains, by name: such as the changes of belief propagation."""
+
+
+P = TypeVar("P", bound=Problem)
+S = TypeVar("S", bound=ChainState)
+
+
+class Sampler(Protocol[P, S]):
+    """A Markov chain sampler."""
+
+    def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
+        """Trace the model's beams, and make all else that chains share.
+
+        Args:
+            model: what is sampled.
+            device: where kernels run.
+            threads: of the CPU; all cores if None. Nothing depends on it but time.
+            watch: told how far it is.
+
+        Raises:
+            BadInput: a model that this sampler cannot sample.
+        """
+
+    def init(
+        self, problem: P, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None, watch: Watch = SILENT
+    ) -> S:
+        """Chains with these numbers at their start, or where a snapshot of the same chains left them."""
+
+    def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[S, Info]:
+        """Some sweeps of all chains.
+
+        Args:
+            state: not to be used afterwards.
+            sweeps: how many.
+            beta: inverse temperature: p(reading | stop) to this power, so that 0 samples the prior and 1 the posterior.
+                For binary walls that is the likelihood to this power.
+            keep: which draws are kept.
+        """
+
+    def snapshot(self, state: S) -> Snapshot:
+        """Copies of what is needed to go on."""
+
+    def informed(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+        """In how many maps some beam says something of each cell, and in how many was looked, of all chains, (2, nx, ny)."""

@@ -74,6 +74,11 @@ class Grid:
             np.asarray(y0 + self.resolution * (np.arange(ny) + 0.5), dtype=np.float64),
         )
 
+    def cell_centres_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
+        """Centres of cells by flat index ``x * ny + y``, metres from the grid's lower left corner, (n, 2)."""
+        ny = self.shape[1]
+        return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * self.resolution
+
     def to_cells(self, points_world: NDArray[np.float64]) -> NDArray[np.float64]:
         """Positions in units of cells, from the origin: world ``(..., 2)`` in metres to ``(..., 2)``."""
         points = np.asarray(points_world, dtype=np.float64)

@@ -1,11 +1,11 @@
 """Cells in which readings end: all of a sweep's work on such a cell in one place.
 
-A busy cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, and
+Such a cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, and
 draws its reflectivity; then reflectivity and surface move together by a few Metropolis steps that no longer know who
 met what. With g the chance of meeting,
 
     log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
-                                        + sum over stopped beams log(m g p(reading | stop)).
+                                        + sum over stopped beams log(m g p(reading | stop)^beta).
 
 The steps have sizes that are fixed beforehand: one that looked at where this chain's beams stopped would depend on what
 the acceptance conditions on.
@@ -15,21 +15,23 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.beam_rays import BeamRays
+from bayesmap.beams.rays import Rays as BeamRays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import (
     AT_ACCEPT,
     AT_BETA,
     PER_CELL,
+    ActiveCells,
     CellPrior,
+    centre_of,
     log_reflectivity_prior,
     log_surface_prior,
 )
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, gate_at, meet, ray_from
-from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.stop_law import Law, law_of
-from bayesmap.kernels.stops import LEAST, Field, Rays, hit_law
+from bayesmap.kernels.stops import LEAST, Rays, StopState, hit_law
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
 
@@ -42,10 +44,11 @@ STREAM_MET = wp.constant(wp.uint64(4 << 32))
 
 
 @wp.struct
-class Busy:
-    """Incidences of the busy cells: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``.
+class EndpointCells:
+    """Incidences of the cells in which readings end: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``.
 
-    For each its table entry, its beam, and how the beam passes the cell's centre: offset and direction.
+    For each its entry in the rays, its beam, and how the beam passes the cell's centre: offset and direction; and for
+    each cell the frame and sizes of its steps (`bayesmap.kernels.surface_steps`).
     """
 
     cell: wp.array(dtype=wp.int32)
@@ -53,25 +56,28 @@ class Busy:
     entry: wp.array(dtype=wp.int32)
     beam: wp.array(dtype=wp.int32)
     passing: wp.array(dtype=wp.vec3)
+    step: wp.array(dtype=Cell)
 
 
-def busy_index(rays: BeamRays, busy: NDArray[np.bool_], device: str) -> Busy:
-    """List the incidences of the busy cells."""
-    entry = np.nonzero(busy[rays.cells])[0]
-    cells = rays.cells[entry]
-    order = np.argsort(cells, kind="stable")
-    entry, cells = entry[order], cells[order]
+def endpoint_cells(rays: BeamRays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str) -> EndpointCells:
+    """List the incidences of some cells, by flat index, ascending, (U,); ``steps`` are these cells', (U, 8)."""
+    wanted = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+    wanted[cells] = True
+    entry = np.nonzero(wanted[rays.cells])[0].astype(np.int32)
+    entry = entry[np.argsort(rays.cells[entry], kind="stable")]
+    of_entry = rays.cells[entry]
     beam = np.searchsorted(rays.offsets, entry, side="right") - 1
-    away = rays.centres_m()[cells] - rays.start_m[beam]
+    away = rays.grid.cell_centres_m(of_entry) - rays.start_m[beam]
     ux, uy = rays.direction[beam].astype(np.float64).T
     passing = np.stack([ux * away[:, 1] - uy * away[:, 0], ux, uy], axis=-1)
-    which = np.nonzero(busy)[0]
-    there = Busy()
-    there.cell = devices.to_device(which, wp.int32, device)
-    there.offsets = devices.to_device(np.concatenate([np.searchsorted(cells, which), [len(cells)]]), wp.int32, device)
+    there = EndpointCells()
+    there.cell = devices.to_device(cells, wp.int32, device)
+    bounds = np.concatenate([np.searchsorted(of_entry, cells), [len(entry)]])
+    there.offsets = devices.to_device(bounds, wp.int32, device)
     there.entry = devices.to_device(entry, wp.int32, device)
     there.beam = devices.to_device(beam, wp.int32, device)
     there.passing = wp.array(passing.astype(np.float32), dtype=wp.vec3, device=device)
+    there.step = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
     return there
 
 
@@ -87,16 +93,16 @@ def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.
 @wp.func
 def log_stops(
     law: Law,
+    beta: wp.float32,
     rays: Rays,
-    faded: wp.array(dtype=wp.float32),
-    busy: Busy,
-    concerned: wp.array(dtype=wp.int32),
+    endpoints: EndpointCells,
+    listed: wp.array(dtype=wp.int32),
     span: wp.vec4i,
     centre: wp.vec2,
     cell: Cell,
 ) -> wp.float64:
-    """The formula at the top, for one surface: passing beams' incidences are concerned[span[0]:span[1]], those of
-    stopped beams concerned[span[2]:span[3]].
+    """The formula at the top, for one surface: passing beams' incidences are listed[span[0]:span[1]], those of stopped
+    beams listed[span[2]:span[3]].
     """
     one = wp.float32(1.0)
     total = wp.float64(0.0)
@@ -105,15 +111,15 @@ def log_stops(
     dy = cell[MEAN_Y] - centre[1]
     m = cell[REFLECTIVITY]
     for i in range(span[0], span[1]):
-        product = product * wp.max(one - m * gate_of(busy.passing[concerned[i]], dx, dy, cell), LEAST)
+        product = product * wp.max(one - m * gate_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
         if product < FEWEST:
             total += wp.log(wp.float64(product))
             product = one
     for i in range(span[2], span[3]):
-        e = concerned[i]
-        b = busy.beam[e]
+        e = listed[i]
+        b = endpoints.beam[e]
         met = meet(cell, ray_from(rays.start_m[b], rays.direction[b]))
-        p = hit_law(law, busy.entry[e], rays.near[b], rays.range_m[b], faded[b], met)
+        p = hit_law(law, beta, endpoints.entry[e], rays.near[b], rays.range_m[b], rays.decay[b], met)
         product = product * wp.max(m * met.chance * p, LEAST)
         if product < FEWEST or product > one / FEWEST:
             total += wp.log(wp.float64(product))
@@ -129,65 +135,73 @@ def log_cell_prior(prior: CellPrior, cell: Cell) -> wp.float64:
 
 
 @wp.kernel
-def update_busy(
+def update_endpoint_cells(
     first: int,
+    sweep: int,
     sensor: SensorParameters,
     prior: CellPrior,
     rays: Rays,
-    busy: Busy,
-    centre_m: wp.array(dtype=wp.vec2),
-    step: wp.array(dtype=Cell),
-    field: Field,
-    concerned: wp.array(dtype=wp.int32),
+    endpoints: EndpointCells,
+    active: ActiveCells,
+    state: StopState,
+    lists: wp.array2d(dtype=wp.int32),
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
 ):
-    """One thread a busy cell: its reflectivity, then its surface."""
-    u = first + wp.tid()
-    c = busy.cell[u]
+    """One thread a chain's cell in which readings end: its reflectivity, then its surface.
+
+    ``lists`` is room for a chain's incidences, a row each.
+    """
+    i_cell = first + wp.tid()
+    chain = i_cell // endpoints.cell.shape[0]
+    u = i_cell - chain * endpoints.cell.shape[0]
+    c = endpoints.cell[u]
+    here = chain * state.n_cells + c
+    beam_0 = chain * state.n_beams
+    listed = lists[chain]
     one = wp.float32(1.0)
     law = law_of(sensor)
-    key = keys[1]
+    key = sweep_key(keys[chain], sweep, 1)
     at = wp.uint64(c) * PER_CELL
-    cell = field.cells[c]
-    centre = centre_m[c]
+    cell = state.cells[here]
+    centre = centre_of(c, active.ny, active.edge_m)
     m = cell[REFLECTIVITY]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
-    span = wp.vec4i(busy.offsets[u], busy.offsets[u], busy.offsets[u + 1], busy.offsets[u + 1])
+    span = wp.vec4i(endpoints.offsets[u], endpoints.offsets[u], endpoints.offsets[u + 1], endpoints.offsets[u + 1])
     for e in range(span[0], span[3]):
-        k = busy.entry[e]
-        stop = field.stop[busy.beam[e]]
+        k = endpoints.entry[e]
+        stop = state.stop[beam_0 + endpoints.beam[e]]
         if k < stop:
-            concerned[span[1]] = e
+            listed[span[1]] = e
             span[1] = span[1] + 1
         elif k == stop:
             span[2] = span[2] - 1
-            concerned[span[2]] = e
+            listed[span[2]] = e
     n_hits = span[3] - span[2]
     n_met = int(0)
     for i in range(span[0], span[1]):
-        e = concerned[i]
-        g = gate_of(busy.passing[e], dx, dy, cell)
+        e = listed[i]
+        g = gate_of(endpoints.passing[e], dx, dy, cell)
         x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
-    hits[c] = n_hits
-    met[c] = n_met
+    hits[here] = n_hits
+    met[here] = n_met
     a = prior.a + wp.float64(n_hits)
     b = prior.b + wp.float64(n_met)
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
 
-    framed = into_frame(cell, step[c], centre)
-    present = log_stops(law, rays, field.faded, busy, concerned, span, centre, cell) + log_cell_prior(prior, framed)
+    step = endpoints.step[u]
+    framed = into_frame(cell, step, centre)
+    present = log_stops(law, state.beta, rays, endpoints, listed, span, centre, cell) + log_cell_prior(prior, framed)
     for i in range(STEPS):
-        here = at + wp.uint64(256 + 32 * i)
-        candidate = stepped(framed, step[c], key, here + wp.uint64(1), i)
-        value = log_stops(
-            law, rays, field.faded, busy, concerned, span, centre, out_of_frame(candidate, step[c], centre)
-        )
+        here_at = at + wp.uint64(256 + 32 * i)
+        candidate = stepped(framed, step, key, here_at + wp.uint64(1), i)
+        moved = out_of_frame(candidate, step, centre)
+        value = log_stops(law, state.beta, rays, endpoints, listed, span, centre, moved)
         value += log_cell_prior(prior, candidate)
-        if wp.log(to_uniform(random_bits(key, here + AT_ACCEPT))) < value - present:
+        if wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT))) < value - present:
             framed = candidate
             present = value
-    field.cells[c] = out_of_frame(framed, step[c], centre)
+    state.cells[here] = out_of_frame(framed, step, centre)

@@ -1,11 +1,12 @@
-"""Counting beams that pass each cell, taking every reading at its word."""
+"""Counting beams that pass each cell before their readings end."""
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.beam_rays import BeamRays
-from bayesmap.kernels.field import put_rays
+from bayesmap.beams.rays import Rays as BeamRays
+from bayesmap.kernels.rays import stop_distances
+from bayesmap.kernels.stop_chains import put_rays
 from bayesmap.kernels.stops import Rays
 
 wp.set_module_options({"enable_backward": False})
@@ -25,9 +26,10 @@ def count_passes(first: int, rays: Rays, end_cell: wp.array(dtype=wp.int32), pas
         wp.atomic_add(passes, c, 1)
 
 
-def passes_at_their_word(rays: BeamRays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
-    """How many beams pass each touched cell before they end, (T,)."""
-    passes = wp.zeros(rays.n_cells, dtype=wp.int32, device=device)
-    inputs = [0, put_rays(rays, True, device), wp.array(end_cell, dtype=wp.int32, device=device), passes]
+def passes_of(rays: BeamRays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
+    """How many beams pass each cell of the grid before they end, (N,)."""
+    passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
+    distance_m = stop_distances(rays, 0.0, device)
+    inputs = [0, put_rays(rays, distance_m, device), wp.array(end_cell, dtype=wp.int32, device=device), passes]
     wp.launch(count_passes, dim=rays.n_beams, inputs=inputs, device=device)
     return np.array(passes.numpy())

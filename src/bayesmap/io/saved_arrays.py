@@ -1,0 +1,88 @@
+"""Arrays of a saved run: draws some at a time, so that no whole copy is made of them.
+
+netCDF has neither bits nor half precision: booleans are bytes in the file, and half precision 32-bit floats, whose last
+bits are zero and compress well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.cells.kind import ArraySpec
+
+BLOCK = 1 << 22
+"""Numbers that are turned over at a time."""
+
+CHUNK = 1 << 20
+"""Numbers that are compressed together."""
+
+
+def write_arrays(group: Any, dimensions: tuple[str, ...], compressed: bool = True, **arrays: NDArray[Any]) -> None:
+    """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
+    for name, values in arrays.items():
+        _need_dimensions(group, dimensions, values.shape)
+        group.createVariable(name, values.dtype, dimensions, zlib=compressed, complevel=1)[:] = values
+
+
+def write_draws(
+    group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], written: Callable[[int], None]
+) -> None:
+    """Write an array of the draws, (chains, draws, ...) as it is kept; ``written`` is told how many numbers are."""
+    chains, draws = stored.shape[:2]
+    dimensions, sizes = ("chain", "draw", *spec.dims), (chains, draws, *shape)
+    _need_dimensions(group, dimensions, sizes)
+    size, dtype = int(np.prod(shape)), {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
+    deep = _depth(draws, size)
+    wide = tuple(max(1, part) for part in shape) if size <= CHUNK or len(shape) > 1 else (CHUNK,)
+    variable = group.createVariable(
+        spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits",
+        chunksizes=(1, max(1, min(deep, draws)), *wide),
+    )  # fmt: skip
+    variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
+    if spec.what:
+        variable.long_name = spec.what
+    done = 0
+    for chain, some in _blocks(chains, draws, size):
+        part = spec.values(stored[chain, some], shape)
+        variable[chain, some] = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
+        done += part.size
+        written(done)
+
+
+def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
+    """Read them back as they were kept.
+
+    Raises:
+        ValueError: sizes that are not those of the file's cells.
+    """
+    chains, draws, *sizes = variable.shape
+    if tuple(sizes) != shape:
+        raise ValueError(f"{spec.name} has the sizes {sizes}, and not {shape}")
+    out = spec.empty(chains, draws, shape)
+    for chain, some in _blocks(chains, draws, int(np.prod(shape))):
+        out[chain, some] = spec.stored(variable[chain, some])
+    return out
+
+
+def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
+    for dimension, size in zip(dimensions, sizes, strict=True):
+        if dimension not in group.dimensions:
+            group.createDimension(dimension, size)
+
+
+def _depth(draws: int, size: int) -> int:
+    """Draws that are compressed together."""
+    return max(1, min(draws, CHUNK // max(size, 1)))
+
+
+def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
+    """Chain by chain, some draws at a time."""
+    deep = _depth(draws, size)
+    at_once = max(1, BLOCK // max(size * deep, 1)) * deep  # whole chunks
+    for chain in range(chains if size else 0):
+        for i in range(0, draws, at_once):
+            yield chain, slice(i, min(i + at_once, draws))

@@ -1,0 +1,290 @@
+"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, update cells.
+
+All chains stand in the same arrays. On a GPU each kernel is launched once for all of them, with a thread for each
+chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last; where
+there are more threads than chains, its beams are cut into parts, one a thread, each with counts of its own. Counts are
+whole numbers, and sums of floating-point numbers are over slices of fixed size: the result depends on neither threads nor
+chains beside it.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays as BeamRays
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.cell_draws import ActiveCells, CellPrior, begin_sweep, count_informed, update_free_cells
+from bayesmap.kernels.endpoint_cells import endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.likelihood import sensor_parameters
+from bayesmap.kernels.meeting import Cell
+from bayesmap.kernels.parallel import available_cores, thread_pool
+from bayesmap.kernels.stops import IN_A_ROW, LEARNS, Rays, StopState, decay_of_readings, draw_stops
+from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
+from bayesmap.sensors.model import KernelParameters
+
+STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
+KERNELS = (begin_sweep, draw_stops, update_free_cells, update_endpoint_cells)
+
+
+def put_rays(
+    rays: BeamRays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
+) -> Any:
+    """Rays where kernels read them.
+
+    Args:
+        rays: beams.
+        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
+        device: where to.
+        cells: other numbers of the cells than their places in the grid, (K,).
+    """
+    there = Rays()
+    there.plain = int(distance_m is not None)
+    there.offsets = devices.to_device(rays.offsets, wp.int32, device)
+    there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
+    there.near = devices.to_device(rays.near, wp.int32, device)
+    there.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
+    there.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
+    there.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
+    there.range_m = devices.to_device(rays.range_m, wp.float32, device)
+    there.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
+    return there
+
+
+def as_cells(states: NDArray[np.float32], device: str) -> Any:
+    """(n, 6) numbers as an array of `Cell`."""
+    padded = np.zeros((len(states), 8), dtype=np.float32)
+    padded[:, : states.shape[1]] = states
+    return wp.array(padded, dtype=Cell, device=device)
+
+
+def load_stop_kernels(device: str) -> Iterator[int]:
+    """Compile what sweeps need, or fetch it from Warp's cache, and count the kernels that are there."""
+    for done, kernel in enumerate(KERNELS, 1):
+        devices.load_kernels(kernel, device)
+        yield done
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What the sweeps of all chains share.
+
+    Attributes:
+        rays: with flat indices of the grid's cells.
+        rounds: the length of each touched cell's round of sweeps, 0 where readings end, (T,).
+        endpoints: the cells in which readings end, flat, ascending, (U,).
+        steps: sizes and frames of these cells' steps, (U, 8).
+        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
+        device: where it is.
+    """
+
+    rays: BeamRays
+    rounds: NDArray[np.uint8]
+    endpoints: NDArray[np.int32]
+    steps: NDArray[np.float32]
+    distance_m: NDArray[np.float32] | None
+    device: str
+
+    @property
+    def touched(self) -> NDArray[np.int32]:
+        """The cells that beams touch, flat, ascending, (T,)."""
+        return self.rays.touched
+
+
+class StopChains:
+    """Chains where kernels change them."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        states: Callable[[int], NDArray[np.float32]],
+        keys: Sequence[int],
+        *,
+        threads: int | None,
+        counts: NDArray[np.int32] | None = None,
+        informed: NDArray[np.int32] | None = None,
+    ) -> None:
+        """Put chains on the device, one for each key.
+
+        ``states`` gives the cells at which a chain stands, (N, 6); ``counts`` (C, 2, N) and ``informed`` (C, N, 2) are
+        those of chains that go on.
+        """
+        self.plan, device = plan, plan.device
+        self.device, self.plain, self.n_chains = device, int(plan.distance_m is not None), len(keys)
+        chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
+        self.threads = (threads or available_cores()) if device == "cpu" else 1
+        self._rays = put_rays(plan.rays, plan.distance_m, device)
+        self._endpoints = endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
+        active = ActiveCells()
+        active.cell = devices.to_device(plan.touched, wp.int32, device)
+        active.round = devices.to_device(plan.rounds, wp.uint8, device)
+        active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
+        self._active = active
+        self._keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
+        self._law: tuple[Any, ...] = ()
+
+        empty = partial(wp.zeros, device=device)
+        parts = max(1, -(-self.threads // chains))
+        state = StopState()
+        state.n_cells, state.n_beams, state.parts, state.beta = cells, beams, parts, 1.0
+        state.cells = empty(chains * cells, dtype=Cell)
+        for chain in range(chains):
+            here = slice(chain * cells, (chain + 1) * cells)
+            wp.copy(state.cells[here], as_cells(states(chain), device))
+        state.fixed_m = wp.full(chains * cells, LEARNS, dtype=wp.float32, device=device)
+        state.candidates = empty(chains * -(-cells // IN_A_ROW), dtype=Cell)
+        state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
+        state.gain = empty((chains * parts, cells), dtype=wp.int64)
+        state.stop = empty(chains * beams, dtype=wp.int32)
+        state.where = empty(chains * beams, dtype=wp.vec2)
+        state.log_likelihood = empty(chains * beams, dtype=wp.float32)
+        self._state = state
+        if counts is None:
+            self._hits = empty(chains * cells, dtype=wp.int32)
+            self._met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
+        else:
+            self._hits, self._met = (wp.array(counts[:, i].ravel(), dtype=wp.int32, device=device) for i in (0, 1))
+        there = np.zeros((chains * cells, 2), np.int32) if informed is None else informed.reshape(-1, 2)
+        self._informed = wp.array(there, dtype=wp.vec2i, device=device)
+        self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
+        self._log_priors = empty(chains * touched, dtype=wp.float32)
+        self._slices = [
+            empty((chains, -(-max(size, 1) // SLICE)), dtype=wp.float64) for size in (beams, touched)
+        ]
+
+    def sweeps(
+        self,
+        first: int,
+        count: int,
+        sensor: KernelParameters,
+        prior: tuple[float, float, float, float, float, float],
+        beta: float = 1.0,
+        *,
+        informing_after: int | None = None,
+        before: Callable[[int, int], None] | None = None,
+        after: Callable[[int, int], None] | None = None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Advance every chain by some sweeps, which are numbered from 0.
+
+        Args:
+            first: number of the first sweep.
+            count: how many.
+            sensor: the law of the readings.
+            prior: of the cells: a, b, tau_m, psi_m2, nu, kappa_m (see `bayesmap.kernels.cell_draws`).
+            beta: inverse temperature.
+            informing_after: from this sweep on it is counted which cells beams tell something; never if None.
+            before: given chain and number of each sweep before it.
+            after: likewise after it, by whatever thread has run it.
+
+        Returns:
+            log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
+        """
+        packed = CellPrior()
+        packed.a, packed.b, packed.tau_m, packed.psi_m2, packed.nu, packed.kappa_m = prior
+        law = sensor_parameters(sensor, self.plan.rays.limits)
+        moved = self._law != (sensor, prior, beta)
+        self._law, self._state.beta = (sensor, prior, beta), beta
+        if moved:
+            self._launch(decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
+        likelihood, log_prior = (
+            wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)
+        )
+        beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
+        endpoints = 0 if self.plain else len(self.plan.endpoints)
+        state, keys, counts = self._state, self._keys, [self._hits, self._met]
+
+        def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
+            """Kernels of a sweep in their order, with the elements of a chain."""
+            number, changed = first + i, int(moved and i == 0)
+            shared = [packed, self._active, state, keys]
+            out = [
+                (begin_sweep, touched, [number, self.plain, packed, changed, *shared[1:], self._log_priors]),
+                (draw_stops, beams, [number, law, self._rays, state, keys]),
+                (update_free_cells, touched, [number, *shared, *counts]),
+                (update_endpoint_cells, endpoints, [number, law, packed, self._rays, self._endpoints, self._active,
+                                                    state, self._lists, keys, *counts]),
+            ]  # fmt: skip
+            if informing_after is not None and number >= informing_after:
+                out.append((count_informed, touched, [self._active, state.n_cells, *counts, self._informed]))
+            beam_sums, cell_sums = self._slices
+            out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
+            out.append((sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
+            out.append((sum_of_slices, 1, [i, beam_sums, cell_sums, likelihood, log_prior]))
+            return out
+
+        def note(call: Callable[[int, int], None] | None, chains: range, i: int) -> None:
+            if call is not None:
+                for chain in chains:
+                    call(chain, first + i)
+
+        def all_sweeps(chains: range) -> None:
+            for i in range(count):
+                note(before, chains, i)
+                for phase in phases(i):
+                    self._part(phase, chains, 0)
+                note(after, chains, i)
+
+        if self.device != "cpu":
+            all_sweeps(range(self.n_chains))
+        elif self._state.parts == 1:
+            self._each(all_sweeps, [range(chain, chain + 1) for chain in range(self.n_chains)])
+        else:
+            parts = [(chain, part) for chain in range(self.n_chains) for part in range(self._state.parts)]
+            for i in range(count):
+                note(before, range(self.n_chains), i)
+                for phase in phases(i):
+                    self._each(lambda at, phase=phase: self._part(phase, range(at[0], at[0] + 1), at[1]), parts)
+                note(after, range(self.n_chains), i)
+        return likelihood.numpy(), log_prior.numpy()
+
+    def _part(self, phase: tuple[Any, int, list[Any]], chains: range, part: int) -> None:
+        """Launch a kernel over a part of the elements of neighbouring chains."""
+        kernel, size, inputs = phase
+        begin, end = (size * at // self._state.parts for at in (part, part + 1))
+        if len(chains) > 1:
+            end = size * len(chains)
+        if end > begin:
+            first = chains.start * size + begin
+            inputs = [first, part, *inputs] if kernel is draw_stops else [first, *inputs]
+            wp.launch(kernel, dim=end - begin, inputs=inputs, device=self.device)
+
+    def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:
+        wp.launch(kernel, dim=size, inputs=[0, *inputs], device=self.device)
+
+    def _each(self, work: Callable[[Any], None], tasks: Sequence[Any]) -> None:
+        if self.threads == 1 or len(tasks) == 1:
+            for task in tasks:
+                work(task)
+            return
+        for kernel in (*KERNELS, count_informed, sum_slices, sum_of_slices):
+            devices.load_kernels(kernel, self.device)
+        list(thread_pool(self.threads).map(work, tasks))
+
+    def _of(self, array: Any, chain: int) -> NDArray[Any]:
+        """A chain's cells or beams of an array: on the CPU not a copy, and good until the next sweep."""
+        size = array.shape[0] // self.n_chains
+        return np.asarray(array[chain * size : (chain + 1) * size].numpy())
+
+    def cells(self, chain: int) -> NDArray[np.float32]:
+        """All cells of a chain, (N, 6): on the CPU not a copy, and good until the next sweep."""
+        return self._of(self._state.cells, chain)[:, :STATE_SIZE]
+
+    def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """How many beams stopped in each cell of a chain, and how many met its surface and passed, (N,) each, likewise.
+
+        They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
+        """
+        return self._of(self._hits, chain), self._of(self._met, chain)
+
+    def informed(self, chain: int) -> NDArray[np.int32]:
+        """In how many sweeps some beam told each cell something, and in how many it had counted, (N, 2), likewise."""
+        return self._of(self._informed, chain)
+
+    def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
+        """Of every beam of a chain: whether it stopped, at what distance in metres, and with what variance, (B,)."""
+        where = self._of(self._state.where, chain)
+        return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], where[:, 0].copy(), where[:, 1].copy()

@@ -1,0 +1,144 @@
+"""What chains have done so far: as it is sampled, checkpointed, resumed, and joined with that of other chains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.cells.draws import Draws
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.sampler import Info, Keep, Snapshot
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Chains:
+    """What the chains have done so far.
+
+    Attributes:
+        draws: the kept maps.
+        log_likelihood, log_prior: the two parts of the log joint, of each kept draw, (chains, kept).
+        warmup_log_joint: of each warm-up sweep, (chains, done warm-up sweeps).
+        snapshot: where the chains stand.
+        informed: in how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny).
+        statistics: what the start has to say, by name.
+        n_incidences: how many cells all beams cross together.
+        seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
+        finished: whether all draws are there.
+    """
+
+    draws: Draws
+    log_likelihood: Floats
+    log_prior: Floats
+    warmup_log_joint: Floats
+    snapshot: Snapshot
+    informed: NDArray[np.int32]
+    statistics: Mapping[str, Floats]
+    n_incidences: int
+    seconds: Mapping[str, float]
+    finished: bool
+
+    @property
+    def log_joint(self) -> Floats:
+        """Log joint of every kept draw, (chains, kept)."""
+        return self.log_likelihood + self.log_prior
+
+    @property
+    def sweep(self) -> int:
+        """Sweeps that each chain has made, warm-up included."""
+        return self.snapshot.sweep
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells of which some beam says something in at least half of the maps, (nx, ny): elsewhere the prior speaks."""
+        some, looked = self.informed
+        return np.asarray(2 * some >= np.maximum(looked, 1))
+
+
+def join(parts: Sequence[Chains]) -> Chains:
+    """Chains that ran apart, as if they had run together: in the order in which they are given.
+
+    All must have made the same sweeps.
+    """
+    first = parts[0]
+    if len(parts) == 1:
+        return first
+    assert len({part.sweep for part in parts}) == 1, "chains of different length cannot be joined"
+
+    def joined(arrays: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+        return {name: np.concatenate([one[name] for one in arrays]) for name in arrays[0]}
+
+    return replace(
+        first,
+        draws=replace(first.draws, arrays=joined([part.draws.arrays for part in parts])),
+        log_likelihood=np.concatenate([part.log_likelihood for part in parts]),
+        log_prior=np.concatenate([part.log_prior for part in parts]),
+        warmup_log_joint=np.concatenate([part.warmup_log_joint for part in parts]),
+        snapshot=Snapshot(first.sweep, joined([part.snapshot.arrays for part in parts])),
+        informed=np.sum([part.informed for part in parts], axis=0),
+        seconds={name: sum(part.seconds[name] for part in parts) for name in first.seconds},
+        finished=all(part.finished for part in parts),
+    )
+
+
+class Record:
+    """Draws and traces of some chains, growing as they go."""
+
+    def __init__(self, empty: Draws, schedule: Schedule, keep: Keep, resume: Chains | None = None) -> None:
+        """Room for the schedule's draws.
+
+        Args:
+            empty: no draws of all chains, with the arrays' specs and coordinates.
+            schedule: how many there will be.
+            keep: which are kept.
+            resume: what has been done before.
+        """
+        chains = next(iter(empty.arrays.values())).shape[0]
+        self._draws = replace(
+            empty,
+            arrays={
+                spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec))
+                for spec in empty.specs
+            },
+        )
+        self._keep = keep
+        self._log_likelihood = np.zeros((chains, schedule.draws))
+        self._log_prior = np.zeros((chains, schedule.draws))
+        self._warmup = np.zeros((chains, schedule.warmup))
+        self.kept = self.warmed = 0
+        if resume is not None:
+            self.kept, self.warmed = resume.log_joint.shape[1], resume.warmup_log_joint.shape[1]
+            for name, array in self._draws.arrays.items():
+                array[:, : self.kept] = resume.draws.arrays[name]
+            self._log_likelihood[:, : self.kept] = resume.log_likelihood
+            self._log_prior[:, : self.kept] = resume.log_prior
+            self._warmup[:, : self.warmed] = resume.warmup_log_joint
+
+    def add(self, info: Info, begin: int) -> None:
+        """Note some sweeps, the first of which came after ``begin`` others."""
+        sweeps = info.log_likelihood.shape[1]
+        warm = max(0, min(self._warmup.shape[1] - begin, sweeps))
+        self._warmup[:, self.warmed : self.warmed + warm] = (info.log_likelihood + info.log_prior)[:, :warm]
+        self.warmed += warm
+        kept = self._keep.sweeps(begin, begin + sweeps)
+        new, at = slice(self.kept, self.kept + len(kept)), [sweep - begin - 1 for sweep in kept]
+        self._log_likelihood[:, new] = info.log_likelihood[:, at]
+        self._log_prior[:, new] = info.log_prior[:, at]
+        for name, values in info.draws.items():
+            self._draws.arrays[name][:, new] = values
+        self.kept = new.stop
+
+    @property
+    def draws(self) -> Draws:
+        """Those so far."""
+        return replace(self._draws, arrays={name: a[:, : self.kept] for name, a in self._draws.arrays.items()})
+
+    @property
+    def log_densities(self) -> tuple[Floats, Floats, Floats]:
+        """Log likelihood and log prior of the draws, and the log joint of the warm-up sweeps, so far."""
+        kept = slice(self.kept)
+        return self._log_likelihood[:, kept], self._log_prior[:, kept], self._warmup[:, : self.warmed]

@@ -1,0 +1,189 @@
+"""The one runner of all chains: an iterator of (state, info), and what is made of it.
+
+All chains of a process go abreast, in short steps: between two steps they have made the same number of sweeps, so a
+checkpoint is just where each stands, that number, and the draws so far. A step is about a quarter of a second of work.
+Whoever runs chains (`bayesmap.infer`, the page, a worker of a cluster) takes the states of `sweeps` as they come, or
+lets `run_chains` keep the draws.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from bayesmap.cells.draws import Draws
+from bayesmap.model import Model
+from bayesmap.run.chains import Chains, Record
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.fit import Parameters
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler
+
+STEP_SECONDS = 0.25
+SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step
+FIRST_STEP = 16
+"""Sweeps of the first step, at most."""
+BUFFER_BYTES = 64 << 20
+"""Draws of one step, before they are put with the others."""
+CHECKPOINT_SHARE = 0.1  # of the time, at most
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """Some chains of one posterior: all that a process needs to run them.
+
+    Attributes:
+        model: what is sampled.
+        sampler: how.
+        schedule: how long.
+        seed: of all random numbers.
+        chain_ids: numbers of the chains, the same wherever they run.
+        device: where kernels run.
+        threads: of the CPU; all cores if None.
+        parameters: sensor and prior that were fitted beforehand, under which the chains run.
+        problem: what the sampler has prepared of the model in this process already.
+    """
+
+    model: Model
+    sampler: Sampler[Any, Any]
+    schedule: Schedule
+    seed: int
+    chain_ids: tuple[int, ...]
+    device: str = "cpu"
+    threads: int | None = None
+    parameters: Parameters | None = None
+    problem: Any = None
+
+
+def sweeps(
+    sampler: Sampler[Any, Any],
+    state: Any,
+    until: int,
+    *,
+    keep: Keep = NOTHING,
+    beta: float = 1.0,
+    step_seconds: float | None = None,
+    most_kept: int | None = None,
+    stops: tuple[int, ...] = (),
+) -> Iterator[tuple[Any, Info]]:
+    """Advance chains step by step: (state, info) after each.
+
+    How long a step is depends on how fast they go; what they draw does not.
+
+    Args:
+        sampler: what a sweep is.
+        state: where they stand.
+        until: sweeps that they will have made.
+        keep: which draws the infos hold.
+        beta: inverse temperature.
+        step_seconds: of work between two states; `STEP_SECONDS` if None.
+        most_kept: draws of a step, at most.
+        stops: numbers of sweeps that no step goes across.
+    """
+    seconds = STEP_SECONDS if step_seconds is None else step_seconds
+    per_sweep, most = SECONDS_PER_INCIDENCE * state.problem.n_incidences, FIRST_STEP
+    while state.sweep < until:
+        count = int(max(1, min(seconds / per_sweep if per_sweep > 0 else most, most, until - state.sweep)))
+        count = min([count, *(stop - state.sweep for stop in stops if stop > state.sweep)])
+        if most_kept is not None and keep.every:
+            kept = keep.sweeps(state.sweep, state.sweep + count)
+            count = kept[most_kept - 1] - state.sweep if len(kept) > most_kept else count
+        began = time.perf_counter()
+        state, info = sampler.step(state, count, beta, keep)
+        per_sweep, most = (time.perf_counter() - began) / count, 16 * count
+        yield state, info
+
+
+def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) -> tuple[ChainState, dict[str, float]]:
+    """The chains of a job at their start, or where they stood, and the seconds that tracing and starting took."""
+    began = time.perf_counter()
+    problem = job.problem
+    if problem is None:
+        problem = job.sampler.prepare(job.model, job.device, job.threads, watch)
+    if job.parameters is not None:
+        problem = problem.under(job.parameters.sensor, job.parameters.prior)
+    traced = time.perf_counter()
+    snapshot = None if resume is None else resume.snapshot
+    state = job.sampler.init(problem, job.chain_ids, job.seed, snapshot, watch)
+    return state, {"trace": traced - began, "warm_start": time.perf_counter() - traced, "sampling": 0.0}
+
+
+def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
+    """Draws of a model before there is any."""
+    empty = Draws(model.grid, model.cells.arrays, {}, state.problem.coordinates)
+    return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
+
+
+def run_chains(
+    job: Job,
+    *,
+    resume: Chains | None = None,
+    watch: Watch = SILENT,
+    on_checkpoint: Callable[[Chains], None] | None = None,
+    checkpoint_every_s: float = 30.0,
+) -> Chains:
+    """Run warm-up and draws of all chains of a job in this process.
+
+    Args:
+        job: what to run.
+        resume: continue these chains of the same job: the result is bit for bit that of chains that never stopped.
+        watch: told after every step; asked between two steps whether to stop.
+        on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
+            often where it takes so long that it would hold the chains up.
+        checkpoint_every_s: see above.
+
+    Returns:
+        The chains; with ``finished`` false if they were stopped early.
+    """
+    schedule, keep, chains = job.schedule, job.schedule.keep, len(job.chain_ids)
+    state, seconds = start_chains(job, resume, watch)
+    statistics = state.statistics
+    if resume is not None:
+        seconds = {name: spent + resume.seconds.get(name, 0.0) for name, spent in seconds.items()}
+        statistics = resume.statistics
+    empty = no_draws(job.model, state, chains)
+    record = Record(empty, schedule, keep, resume)
+    one = sum(spec.empty(chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+
+    def so_far(state: ChainState) -> Chains:
+        log_likelihood, log_prior, warmup = record.log_densities
+        return Chains(
+            draws=record.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
+            snapshot=job.sampler.snapshot(state), informed=job.sampler.informed(state, record.draws.arrays),
+            statistics=statistics, n_incidences=state.problem.n_incidences, seconds=dict(seconds),
+            finished=state.sweep >= schedule.sweeps,
+        )  # fmt: skip
+
+    steps = sweeps(
+        job.sampler, state, schedule.sweeps, keep=keep, most_kept=max(1, BUFFER_BYTES // one), stops=(schedule.warmup,)
+    )
+    saved_at, pause_s = time.monotonic(), checkpoint_every_s
+    began, before = time.perf_counter(), state.sweep
+    while not watch.should_stop():
+        state, info = next(steps, (state, None))
+        if info is None:
+            break
+        record.add(info, before)
+        seconds["sampling"] += time.perf_counter() - began
+        warming = before < schedule.warmup
+        before = state.sweep
+        log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
+        watch.report("warm-up" if warming else "draws", state.sweep, schedule.sweeps, log_joint)
+        now = time.monotonic()
+        warmed_up = warming and state.sweep == schedule.warmup
+        last = state.sweep >= schedule.sweeps
+        if on_checkpoint is not None and (warmed_up or now - saved_at > pause_s):
+            on_checkpoint(replace(so_far(state), finished=False) if last else so_far(state))
+            saved_at = time.monotonic()
+            pause_s = pause_after(saved_at - now, checkpoint_every_s)
+        began = time.perf_counter()
+    return so_far(state)
+
+
+def pause_after(checkpoint_s: float, every_s: float) -> float:
+    """Seconds to the next checkpoint, where the last one took so long: as asked, if one is asked for at every step."""
+    return max(every_s, checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s

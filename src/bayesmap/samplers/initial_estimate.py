@@ -1,0 +1,168 @@
+"""An initial estimate of cells and surfaces, from where readings end: where chains start, and how far they step.
+
+Hits and their scatter per cell are what normal-distributions-transform maps keep (Stoyanov, Saarinen et al., 2013).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from bayesmap.beams.rays import Rays
+from bayesmap.cells.reflectivity import Reflective
+
+Floats = NDArray[np.float64]
+
+CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
+FREE_ROUND, FAR_ROUND = 16, 32
+FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
+LOGIT_STEP = 1.0
+ALONG = 0.25
+SIZE = 0.5
+ACROSS = 1.5
+THICKNESS = 1.2
+"""Sizes of steps: they accept a third to a half."""
+
+
+@dataclass(frozen=True, eq=False)
+class InitialEstimate:
+    """What the readings say of each of the T cells that beams touch.
+
+    Endpoint cells are those in which a reading ends.
+
+    Attributes:
+        touched: flat indices of the cells, ascending, (T,).
+        hits, passes: readings that end there, and beams that pass, (T,).
+        far: cells in which no reading ends, nor in any of the eight around them, (T,).
+        mean_m: of each of the U endpoint cells: mean of the end points, drawn towards the centre, (U, 2), metres from
+            the grid's corner.
+        factor_m: likewise: Cholesky factor of their covariance, drawn towards the prior's size: l11, l21, l22, (U, 3).
+    """
+
+    touched: NDArray[np.int32]
+    hits: NDArray[np.int32]
+    passes: NDArray[np.int32]
+    far: NDArray[np.bool_]
+    mean_m: Floats
+    factor_m: Floats
+
+    @property
+    def endpoint(self) -> NDArray[np.bool_]:
+        """Whether a reading ends in the cell, (T,)."""
+        return np.asarray(self.hits > 0)
+
+    @property
+    def endpoint_cells(self) -> NDArray[np.int32]:
+        """Flat indices of the endpoint cells, ascending, (U,)."""
+        return self.touched[self.endpoint]
+
+
+def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> InitialEstimate:
+    """Count hits and passes, and fit a normal distribution to each cell's end points."""
+    from bayesmap.kernels.pass_counts import passes_of
+
+    grid, edge = rays.grid, rays.grid.resolution
+    end_cell = end_cells(rays)
+    ended = end_cell >= 0
+    hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
+    found = np.flatnonzero(hits)
+    place = np.searchsorted(found, end_cell[ended])
+    points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(found), hits[found]
+
+    def total(values: Floats) -> Floats:
+        return np.bincount(place, values, len(found)).astype(np.float64)
+
+    weight = of_cell + CENTRE_WEIGHT
+    mean = np.stack([total(points[:, i]) + CENTRE_WEIGHT * centre[:, i] for i in (0, 1)], axis=-1) / weight[:, None]
+    away, off = points - mean[place], centre - mean
+
+    def second(i: int, j: int) -> Floats:
+        scatter = total(away[:, i] * away[:, j]) + CENTRE_WEIGHT * off[:, i] * off[:, j]
+        return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (of_cell + 1.0))
+
+    l11 = np.sqrt(second(0, 0))
+    l21 = second(0, 1) / l11
+    l22 = np.sqrt(np.maximum(second(1, 1) - l21**2, (1e-3 * edge) ** 2))
+    around = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
+    touched = rays.touched
+    return InitialEstimate(
+        touched=touched,
+        hits=hits[touched],
+        passes=passes_of(rays, end_cell, device)[touched],
+        far=~around[touched],
+        mean_m=mean,
+        factor_m=np.stack([l11, l21, l22], axis=-1),
+    )
+
+
+def end_cells(rays: Rays) -> NDArray[np.int32]:
+    """Flat index of the touched cell in which each reading ends; -1 for none, shape (B,)."""
+    nx, ny = rays.grid.shape
+    points = rays.end_points_m()
+    finite: NDArray[np.bool_] = np.asarray(np.isfinite(points).all(axis=1))
+    cell = np.floor(np.where(finite[:, None], points, -1.0) / rays.grid.resolution).astype(np.int64)
+    inside = finite & (cell >= 0).all(axis=1) & (cell < (nx, ny)).all(axis=1)
+    flat = np.where(inside, cell[:, 0] * ny + cell[:, 1], 0)
+    is_touched = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+    is_touched[rays.touched] = True
+    return np.where(inside & is_touched[flat], flat, -1).astype(np.int32)
+
+
+def start(
+    estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """A chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the posterior.
+
+    Cells in which no reading ends have surfaces from the prior, and those that no beam touches all of their state.
+    """
+    grid, cells = rays.grid, rays.grid.n_cells
+    state = np.zeros((cells, 6), dtype=np.float32)
+    stopped, passed = np.zeros(cells, np.float32), np.zeros(cells, np.float32)
+    stopped[estimate.touched] = estimate.hits
+    # Half of the passes: those of a cell that a wall fills in part mostly go by beside the wall.
+    passed[estimate.touched] = 0.5 * estimate.passes
+    state[:, 0] = rng.beta(stopped + prior.a, passed + prior.b)
+    if not prior.has_surfaces:
+        return state
+    endpoints = estimate.endpoint_cells
+    width = 1.0 / np.sqrt(estimate.hits[estimate.endpoint] + 1.0)
+    fresh = prior.sample_surfaces(rng, min(cells, FRESH)) * grid.resolution
+    state[:, 1:] = fresh if cells <= FRESH else fresh[rng.integers(FRESH, size=cells)]
+    state[:, 1:3] += grid.cell_centres_m(np.arange(cells))
+    l11, l21, l22 = estimate.factor_m.T * np.exp(0.5 * width * rng.standard_normal((3, len(endpoints))))
+    e1, e2 = width * rng.standard_normal((2, len(endpoints)))
+    x, y = estimate.mean_m.T
+    state[endpoints, 1:] = np.stack([x + l11 * e1, y + l21 * e1 + l22 * e2, l11, l21, l22], axis=-1)
+    return state
+
+
+def rounds(estimate: InitialEstimate) -> NDArray[np.uint8]:
+    """In how many sweeps each cell's turn comes round, (T,): 0 for endpoint cells, whose turn is always.
+
+    Of free cells away from all readings little is learnt in a sweep, and they are most of what beams cross.
+    """
+    return np.where(estimate.endpoint, 0, np.where(estimate.far, FAR_ROUND, FREE_ROUND)).astype(np.uint8)
+
+
+def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
+    """Frame and size of the endpoint cells' steps, (U, 8), as `bayesmap.kernels.surface_steps` reads them.
+
+    Along the wall steps are a part of the cell; across it they shrink with the readings.
+    """
+    l11, l21, l22 = estimate.factor_m.T
+    hits, passes = estimate.hits[estimate.endpoint], estimate.passes[estimate.endpoint]
+    var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
+    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
+    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
+    thickness = np.sqrt(np.maximum(half - off, (1e-3 * edge_m) ** 2))
+    few = 1.0 / np.sqrt(hits + 1.0)
+    logit = np.sqrt(1.0 / (hits + 1.0) + 1.0 / (0.5 * passes + 1.0))
+    across = ACROSS * thickness * few
+    out = np.zeros((len(few), 8), dtype=np.float32)
+    for i, size in enumerate((LOGIT_STEP * logit, ALONG * edge_m, across, SIZE, across, THICKNESS * few)):
+        out[:, i] = size
+    out[:, 6], out[:, 7] = np.cos(angle), np.sin(angle)
+    return out

@@ -1,0 +1,42 @@
+"""What a kind of cells means by a method's name: `CellPrior.methods` names the entries of these tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.samplers.block import BlockGibbs
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.metropolis import Metropolis
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.sampler import Sampler
+from bayesmap.samplers.start import Start, default_start
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.wall_sampler import Order, WallSampler
+from bayesmap.samplers.without_chains import Asked, Found, belief_propagation, exact, importance
+from bayesmap.space.grid import Grid
+
+ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": Gibbs, "wall-blocks": BlockGibbs}
+ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
+WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, Asked, Watch], Found]] = {
+    "exact": exact, "importance": importance, "propagate": belief_propagation,
+}  # fmt: skip
+
+
+def sampler_of(
+    name: str, grid: Grid, order: Order, start: Start | NDArray[np.bool_] | None, rounds: int
+) -> tuple[Sampler[Any, Any], dict[str, Any]]:
+    """A Markov chain sampler with its options, and these as a run's settings say them.
+
+    Raises:
+        BadInput: an unknown order.
+    """
+    if name in ON_ANY:
+        return ON_ANY[name](), {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
+    start = default_start(grid) if start is None else start
+    sampler = ON_WALLS[name](order, start, rounds)
+    return sampler, {"order": order, "start": start if isinstance(start, str) else "given map"}

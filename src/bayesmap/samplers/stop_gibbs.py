@@ -1,0 +1,309 @@
+"""Gibbs sampling of reflectivities and surfaces, with each beam's stop drawn along (docs/surfaces.md).
+
+Given the cells, where each beam stops is drawn from its exact conditional in one walk along the beam; given the stops,
+each cell's reflectivity is a Beta, and its surface takes a Metropolis step. The reflectivity half goes back to
+"counting" maps (Haehnel, 2004), which keep the counts of one assignment; here the assignments are drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays, around_readings
+from bayesmap.cells.reflectivity import Reflective
+from bayesmap.cells.surface import PARTS
+from bayesmap.errors import BadInput
+from bayesmap.model import Model
+from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate, rounds, start, steps
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+if TYPE_CHECKING:
+    from bayesmap.kernels.stop_chains import StopChains
+
+CELLS_AROUND = 1.5
+SIGMAS_AROUND = 6.0
+"""A stop further from its reading than so many cells and standard deviations counts as a random reading's."""
+
+HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
+"""The largest number below 1 in half precision, 0.9995. A mean that was rounded to 1 would say that no beam ever comes
+past the cell, and then one that did costs any number of nats; this one costs less than 0.0005 nats a beam."""
+
+
+@dataclass(frozen=True, eq=False)
+class StopProblem:
+    """Rays through cells that stop some of them, under a prior.
+
+    Attributes:
+        rays: cells along every beam.
+        prior: of the cells.
+        sensor: the law of the readings.
+        hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
+        device: where kernels run.
+        threads: of the CPU; all cores if None.
+    """
+
+    rays: Rays
+    prior: Reflective
+    sensor: BeamMixture
+    hit_depth: float = 0.5
+    device: str = "cpu"
+    threads: int | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+        return self.rays.grid
+
+    @property
+    def n_incidences(self) -> int:
+        """How many cells all beams cross together."""
+        return self.rays.n_incidences
+
+    @cached_property
+    def estimate(self) -> InitialEstimate:
+        """Hits, passes and moments of the readings' end points."""
+        return initial_estimate(self.rays, self.prior, self.device)
+
+    @property
+    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
+        """The cells of which draws keep reflectivities, and those of which they keep surfaces."""
+        surfaces = {"surface_cell": self.estimate.endpoint_cells} if self.prior.has_surfaces else {}
+        return {"cell": self.estimate.touched} | surfaces
+
+    @cached_property
+    def distance_m(self) -> NDArray[np.float32]:
+        """Where beams stop in their cells if these have no surfaces, (K,)."""
+        from bayesmap.kernels.rays import stop_distances
+
+        return stop_distances(self.rays, self.hit_depth, self.device)
+
+    def under(self, sensor: BeamMixture, prior: Reflective) -> StopProblem:
+        """The same rays under another sensor and another prior."""
+        other = replace(self, sensor=sensor, prior=prior)
+        shared = {name: self.__dict__[name] for name in ("estimate", "distance_m") if name in self.__dict__}
+        other.__dict__.update(shared)
+        return other
+
+
+def trace_stops(
+    scans: Scans,
+    grid: Grid,
+    prior: Reflective,
+    sensor: SensorModel,
+    *,
+    hit_depth: float = 0.5,
+    device: str = "cpu",
+    threads: int | None = None,
+    watch: Watch = SILENT,
+) -> StopProblem:
+    """Trace the scans' rays, as far as their readings can be explained.
+
+    Raises:
+        BadInput: a sensor that is not a `BeamMixture` of Gaussian noise, or too many incidences.
+    """
+    from bayesmap.kernels.device import resolve
+    from bayesmap.kernels.rays import trace_rays
+
+    device = resolve(device)
+    if not (isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian)):
+        raise BadInput(
+            "infer: reflectivity and surface maps need a BeamMixture sensor with Gaussian noise (on the command line "
+            f"mixture:0.02), got {type(sensor).__name__}; the spread of a surface stands for heavier tails"
+        )
+    ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
+    margin_m = CELLS_AROUND * grid.resolution + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
+    reach_m, near_m = around_readings(scans, margin_m, grid.resolution)
+    rays = trace_rays(scans, grid, reach_m=reach_m, near_m=near_m, device=device, on_progress=watch.of("trace"))
+    return StopProblem(rays, prior, sensor, hit_depth, device, threads)
+
+
+@dataclass(frozen=True, eq=False)
+class StopState:
+    """Chains between two sweeps."""
+
+    problem: StopProblem
+    chains: StopChains
+    sweep: int
+    statistics: Mapping[str, NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class StopGibbs:
+    """Sweeps of stops, reflectivities and surfaces. A kept draw is the map that the sweep began with: its density, and the
+    counts behind its expected reflectivities, are the sweep's own.
+    """
+
+    def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
+        """Compile, trace, and estimate where to start."""
+        from bayesmap.kernels.stop_chains import KERNELS, load_stop_kernels
+
+        assert isinstance(model.cells, Reflective)
+        problem = trace_stops(
+            model.scans, model.grid, model.cells, model.sensor, hit_depth=model.hit_depth, device=device,
+            threads=threads, watch=watch,
+        )  # fmt: skip
+        watch.report("compile", 0, len(KERNELS))
+        for done in load_stop_kernels(problem.device):
+            watch.report("compile", done, len(KERNELS))
+        watch.report("start", 0, 2)
+        _ = problem.estimate
+        watch.report("start", 1, 2)
+        return problem
+
+    def init(
+        self,
+        problem: StopProblem,
+        chain_ids: Sequence[int],
+        seed: int,
+        resume: Snapshot | None = None,
+        watch: Watch = SILENT,
+    ) -> StopState:
+        """Chains scattered about the initial estimate, or where they stood."""
+        from bayesmap.kernels.random import mix
+        from bayesmap.kernels.stop_chains import Plan, StopChains
+
+        estimate, edge = problem.estimate, problem.grid.resolution
+        touched = estimate.touched
+        resumed = {} if resume is None else resume.arrays
+
+        def states(chain: int) -> NDArray[np.float32]:
+            rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
+            state = start(estimate, problem.prior, problem.rays, rng)
+            if "state" in resumed:
+                state[touched] = resumed["state"][chain]
+            return state
+
+        def on_grid(name: str) -> NDArray[np.int32] | None:
+            """Two numbers for each touched cell, (C, 2, T), spread over the grid."""
+            if name not in resumed:
+                return None
+            out = np.zeros((len(chain_ids), 2, problem.grid.n_cells), dtype=np.int32)
+            out[..., touched] = resumed[name]
+            return out
+
+        plan = Plan(
+            rays=problem.rays, rounds=rounds(estimate), endpoints=estimate.endpoint_cells, steps=steps(estimate, edge),
+            distance_m=None if problem.prior.has_surfaces else problem.distance_m, device=problem.device,
+        )  # fmt: skip
+        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
+        informed = on_grid("informed")
+        chains = StopChains(
+            plan, states, keys, threads=problem.threads, counts=on_grid("counts"),
+            informed=None if informed is None else np.ascontiguousarray(informed.transpose(0, 2, 1)),
+        )  # fmt: skip
+        return StopState(problem, chains, 0 if resume is None else resume.sweep, {})
+
+    def step(
+        self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
+    ) -> tuple[StopState, Info]:
+        """Some sweeps of all chains."""
+        problem, chains = state.problem, state.chains
+        parameters = problem.sensor.kernel_parameters()
+        assert parameters is not None
+        kept = keep.sweeps(state.sweep, state.sweep + sweeps)
+        draws = _Draws(problem, chains, keep, kept)
+        log_likelihood, log_prior = chains.sweeps(
+            state.sweep, sweeps, parameters, problem.prior.kernel_numbers(problem.grid.resolution), beta,
+            informing_after=keep.after if keep.every else None, before=draws.begin, after=draws.end,
+        )  # fmt: skip
+        return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
+
+    def snapshot(self, state: StopState) -> Snapshot:
+        """The touched cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started."""
+        touched, chains = state.problem.estimate.touched, range(state.chains.n_chains)
+        counts = [np.stack(state.chains.counted(chain))[:, touched] for chain in chains]
+        return Snapshot(
+            state.sweep,
+            {
+                "state": np.stack([state.chains.cells(chain)[touched] for chain in chains]),
+                "counts": np.stack(counts),
+                "informed": np.stack([state.chains.informed(chain)[touched].T for chain in chains]),
+            },
+        )
+
+    def informed(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+        """Sweeps in which some beam told a cell something, of those that counted, (2, nx, ny)."""
+        counts = sum(state.chains.informed(chain) for chain in range(state.chains.n_chains))
+        return np.reshape(np.transpose(counts), (2, *state.problem.grid.shape))
+
+
+class _Draws:
+    """Room for the draws of some sweeps, filled chain by chain as they are made."""
+
+    def __init__(self, problem: StopProblem, chains: StopChains, keep: Keep, kept: range) -> None:
+        self._problem, self._chains = problem, chains
+        self._number = {sweep - 1: number for number, sweep in enumerate(kept)}
+        sizes = {name: len(cells) for name, cells in problem.coordinates.items()}
+        self.arrays = {
+            spec.name: spec.empty(chains.n_chains, len(kept), tuple(sizes[dim] for dim in spec.dims))
+            for spec in problem.prior.arrays
+            if keep.wants(spec.name)
+        }
+        endpoints = problem.estimate.endpoint_cells
+        self._centres = problem.grid.cell_centres_m(endpoints) if problem.prior.has_surfaces else None
+
+    def begin(self, chain: int, sweep: int) -> None:
+        """Take the cells as they stand before a sweep."""
+        number = self._number.get(sweep)
+        if number is None:
+            return
+        cells, estimate, edge = self._chains.cells(chain), self._problem.estimate, self._problem.grid.resolution
+        self._put("reflectivity", chain, number, cells[estimate.touched, 0])
+        if self._centres is not None:
+            surfaces = cells[estimate.endpoint_cells, 1:].astype(np.float64)
+            surfaces[:, :2] -= self._centres
+            for part, values in zip(PARTS, surfaces.T / edge, strict=True):
+                self._put(f"surface_{part}", chain, number, values)
+
+    def end(self, chain: int, sweep: int) -> None:
+        """Take what the sweep has counted of the cells as they stood before it."""
+        number = self._number.get(sweep)
+        if number is None or "expected" not in self.arrays:
+            return
+        hits, met = (count[self._problem.estimate.touched] for count in self._chains.counted(chain))
+        expected = expected_reflectivity(hits, met, self._problem.prior, self.arrays["reflectivity"][chain, number])
+        self._put("expected", chain, number, expected)
+
+    def _put(self, name: str, chain: int, number: int, values: NDArray[Any]) -> None:
+        if name in self.arrays:
+            self.arrays[name][chain, number] = values
+
+
+def expected_reflectivity(
+    hits: NDArray[np.int32], met: NDArray[np.int32], prior: Reflective, drawn: NDArray[np.float16]
+) -> NDArray[np.float32]:
+    """Mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
+
+    Given where all beams stopped, whom they met, and the surfaces, reflectivities are independent Betas, and the
+    density of one more beam is linear in each: under these means it is what it is on average under draws of them
+    (Rao and Blackwell). The counts are to be those of the sweep that began at the draw, with its surfaces.
+
+    A cell that learnt nothing in that sweep (`bayesmap.kernels.cell_draws`; no reading ends in it) has the counts of its
+    last draw. Its own mean stays right on average; how its reflectivity goes together with what has changed since, in a
+    few sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of such a cell is that it
+    is free, whichever value near zero it happens to have. In a map of four cells and six beams it was under one per cent
+    of a density.
+
+    Args:
+        hits: (T,).
+        met: (T,), negative for cells that have not counted yet.
+        prior: that the sweep was made with.
+        drawn: reflectivities for the cells that have not, (T,).
+    """
+    counted = hits.astype(np.float32)
+    total = counted + np.maximum(met, 0)
+    counted += np.float32(prior.a)
+    total += np.float32(prior.a + prior.b)
+    return np.minimum(np.where(met >= 0, counted / total, drawn), np.float32(HIGHEST))

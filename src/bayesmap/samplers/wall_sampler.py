@@ -1,0 +1,154 @@
+"""What the Markov chain samplers on binary walls have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.cells.packing import unpack
+from bayesmap.errors import BadInput
+from bayesmap.model import Model
+from bayesmap.samplers.problem import WallProblem, trace_walls
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.propagate import ROUNDS, propagate
+from bayesmap.samplers.sampler import NOTHING, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.samplers.start import Start, default_start, start_map
+
+if TYPE_CHECKING:
+    from bayesmap.kernels.chains import WallChains
+
+Order = Literal["raster", "radial", "random"]
+
+MAPS_TO_SEE = 32
+"""How many draws of all chains decide which cells count as observed."""
+
+
+@dataclass(frozen=True, eq=False)
+class WallState:
+    """Chains between two sweeps."""
+
+    problem: WallProblem
+    chains: WallChains
+    kernel: tuple[Any, list[Any]]
+    sites: NDArray[np.int32]
+    sweep: int
+    statistics: Mapping[str, NDArray[np.float64]]
+
+    def walls(self) -> NDArray[np.uint8]:
+        """The chains' maps, shape (chains, N): all that is needed to make this state again."""
+        return self.chains.host_walls()
+
+
+@dataclass(frozen=True, eq=False)
+class WallSampler(ABC):
+    """A sampler of binary walls.
+
+    Attributes:
+        order: of the sites in a sweep: "radial", "raster" or "random".
+        start: where chains start, see `bayesmap.samplers.start`; a default by the size of the map if None.
+        rounds: of belief propagation for a start from it, at most.
+    """
+
+    order: Order = "radial"
+    start: Start | NDArray[np.bool_] | None = None
+    rounds: int = ROUNDS
+
+    def __post_init__(self) -> None:
+        if self.order not in get_args(Order):
+            raise BadInput(f"infer: order must be one of {', '.join(get_args(Order))}, got {self.order!r}")
+
+    @abstractmethod
+    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
+        """What a sweep visits, in order (an order of "random" shuffles it afresh every sweep)."""
+
+    @abstractmethod
+    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
+        """The sweep kernel, and the tables that it takes first."""
+
+    def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
+        """Trace the beam table."""
+        return trace_walls(model, device, threads)
+
+    def init(
+        self,
+        problem: WallProblem,
+        chain_ids: Sequence[int],
+        seed: int,
+        resume: Snapshot | None = None,
+        watch: Watch = SILENT,
+    ) -> WallState:
+        """Chains at their start, or at the maps of a snapshot."""
+        from bayesmap.kernels.chains import WallChains
+        from bayesmap.kernels.random import mix
+
+        kernel = self.kernel(problem)  # whatever is built on first use is built now, not in the first sweep
+        statistics: dict[str, NDArray[np.float64]] = {}
+        if resume is None:
+            start, marginals = self.start if self.start is not None else default_start(problem.grid), None
+            if isinstance(start, str) and start == "propagate":
+                marginals = propagate(problem, rounds=self.rounds, watch=watch)
+                statistics["belief_changes"] = marginals.changes
+            maps = np.stack([start_map(problem, start, chain, seed, marginals) for chain in chain_ids])
+        else:
+            maps = resume.arrays["walls"].reshape(len(chain_ids), *problem.grid.shape) != 0
+        maps = np.stack([problem.admit(walls) for walls in maps]).reshape(len(maps), -1)
+        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
+        chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
+        sweep = 0 if resume is None else resume.sweep
+        return WallState(problem, chains, kernel, self.sites(problem), sweep, statistics)
+
+    def step(
+        self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
+    ) -> tuple[WallState, Info]:
+        """Some sweeps of all chains; a kept draw is the map after its sweep."""
+        from bayesmap.kernels.chains import run_sweeps
+
+        problem = state.problem
+        log_likelihood, log_prior, draws = run_sweeps(
+            *state.kernel,
+            problem.device_prior,
+            problem.log_all_free,
+            state.sites,
+            self.order == "random",
+            state.chains,
+            first=state.sweep,
+            sweeps=sweeps,
+            kept=keep.sweeps(state.sweep, state.sweep + sweeps) if keep.wants("walls") else range(0),
+            beta=beta,
+            threads=problem.threads,
+        )
+        return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, {"walls": draws})
+
+    def snapshot(self, state: WallState) -> Snapshot:
+        """The maps: everything else follows from them."""
+        return Snapshot(state.sweep, {"walls": state.walls()})
+
+    def informed(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+        """In how many of some draws a beam reaches each cell, else of where the chains stand, (2, nx, ny)."""
+        from bayesmap.kernels.reach import reach_frequency
+
+        packed, shape = draws["walls"], state.problem.grid.shape
+        each = -(-MAPS_TO_SEE // len(packed))
+        some = np.unique(np.linspace(0, packed.shape[1] - 1, each).astype(int)) if packed.shape[1] else None
+        out = np.zeros((2, *shape), dtype=np.int32)
+        for chain, walls in enumerate(state.walls()):
+            maps = walls.reshape(1, *shape) != 0 if some is None else unpack(packed[chain, some], shape)
+            reached = reach_frequency(state.problem.table, maps, state.problem.device)
+            out += np.stack([np.rint(reached * len(maps)), np.full(shape, len(maps))]).astype(np.int32)
+        return out
+
+
+def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
+    """L1 distance in cells of every cell from the nearest sensor, shape (nx, ny): the tutorial's diamonds."""
+    from scipy import ndimage
+
+    nx, ny = problem.grid.shape
+    cells = np.floor(problem.grid.to_cells(problem.poses[:, :2])).astype(np.int64)
+    away = np.ones((nx, ny), dtype=np.uint8)
+    away[np.clip(cells[:, 0], 0, nx - 1), np.clip(cells[:, 1], 0, ny - 1)] = 0
+    return np.asarray(ndimage.distance_transform_cdt(away, metric="taxicab"), dtype=np.int64)
