@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from bayesmap.errors import BadInput as BadInput
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.programs.mapping import mapping_model as mapping_model
-    from bayesmap.result import Run as FieldRun
+    from bayesmap.result import Run as FieldRun  # noqa: F401 -- what runs of two kinds of cells were once called
     from bayesmap.result import Run as Run
     from bayesmap.result import load as load
     from bayesmap.result import score as score

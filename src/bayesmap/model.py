@@ -105,7 +105,9 @@ class Model:
             yield trace_rays(self.scans.select(some), self.grid, poses_world=poses[some])
 
 
-def log_likelihoods(rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float) -> Floats:
+def log_likelihoods(
+    rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
+) -> Floats:
     """Log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
 
     Args:
@@ -113,6 +115,7 @@ def log_likelihoods(rays: Rays, states: NDArray[np.floating], sensor: SensorMode
         states: the map, as `bayesmap.beams.stop_law.stops_of` takes it.
         sensor: the law of the readings.
         hit_depth: where in a cell without a surface a beam stops.
+        beta: inverse temperature, the power of the sensor's law p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)
     beam, last = rays.beam_of_entry(), np.arange(rays.n_beams)
@@ -128,4 +131,4 @@ def log_likelihoods(rays: Rays, states: NDArray[np.floating], sensor: SensorMode
     weight[:, 1:] *= passed[:, :-1]
     weight[last, -1] = passed[:, -1]
     with np.errstate(divide="ignore"):
-        return np.asarray(np.logaddexp.reduce(np.log(weight) + law, axis=1))
+        return np.asarray(np.logaddexp.reduce(np.log(weight) + beta * law, axis=1))

@@ -58,7 +58,9 @@ class Run:
 
     @property
     def observed(self) -> NDArray[np.bool_]:
-        """Cells of which some beam says something in at least half of the draws, (nx, ny): elsewhere the prior speaks."""
+        """Cells of which some beam says something in at least half of the draws, (nx, ny): elsewhere the prior
+        speaks.
+        """
         return self.posterior.observed
 
     @cached_property
@@ -82,7 +84,9 @@ class Run:
         return self.posterior.draws.count
 
     def map_of(self, chain: int, draw: int) -> NDArray[Any]:
-        """One draw, (nx, ny): walls or reflectivities; chain and draw are counted from 0, negative ones from the end."""
+        """One draw, (nx, ny): walls or reflectivities; chain and draw are counted from 0, negative ones from the
+        end.
+        """
         return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
@@ -149,10 +153,11 @@ class Run:
         return log_score(self.posterior, heldout_scans, sensor, on_progress)
 
     def dataset(self) -> xarray.Dataset:
-        """The draws as an xarray dataset: the arrays of the kind of cells, log densities and marginals, by named dimensions.
+        """The draws as an xarray dataset: the arrays of the kind of cells, log densities and marginals, by named
+        dimensions.
 
-        ``chain`` and ``draw`` count from 0, ``x`` and ``y`` are the cells' centres in the world frame, metres; arrays of
-        some cells only have their indices as ``cell_x`` and ``cell_y``.
+        ``chain`` and ``draw`` count from 0, ``x`` and ``y`` are the cells' centres in the world frame, metres; arrays
+        of some cells only have their indices as ``cell_x`` and ``cell_y``.
 
         Raises:
             BadInput: xarray is not installed.

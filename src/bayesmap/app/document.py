@@ -17,6 +17,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 VERSION = 1
+CELLS = ("binary", "reflectivity", "surface")
 METHODS = ("gibbs", "block", "propagate", "importance")
 ORDERS = ("raster", "radial", "random")
 SMALLEST_NOISE_M = 0.01
@@ -32,6 +33,7 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
 }
 """Smallest and largest value of every number that a slider sets."""
 
+SETTINGS = (*BOUNDS, "cells", "method", "order")
 WHOLE = ("angles", "sweeps", "seed")
 SIDE = (2, 500)
 SENSORS = (1, 32)
@@ -43,6 +45,7 @@ LIMITS: dict[str, Any] = {
     **{name: list(bounds) for name, bounds in BOUNDS.items()},
     "side": list(SIDE),
     "sensors": list(SENSORS),
+    "cells": list(CELLS),
     "methods": list(METHODS),
     "orders": list(ORDERS),
 }
@@ -150,6 +153,7 @@ class Document:
     noise: float = 0.2
     angles: int = 100
     max_range: float = 42.0
+    cells: str = "binary"
     method: str = "gibbs"
     order: str = "radial"
     sweeps: int = 1000
@@ -182,6 +186,7 @@ class Document:
             "noise": self.noise,
             "angles": self.angles,
             "max_range": self.max_range,
+            "cells": self.cells,
             "method": self.method,
             "order": self.order,
             "sweeps": self.sweeps,
@@ -211,7 +216,7 @@ def parse_document(value: object) -> Document:
     sensors = value.get("sensors")
     if not isinstance(sensors, list) or not SENSORS[0] <= len(sensors) <= SENSORS[1]:
         raise Refused(f"sensors: not a list of {SENSORS[0]} to {SENSORS[1]}")
-    settings = {name: parse_setting(name, value[name]) for name in (*BOUNDS, "method", "order") if name in value}
+    settings = {name: parse_setting(name, value[name]) for name in SETTINGS if name in value}
     document = Document(
         grid=grid,
         walls=WallMap.parse(walls, grid.shape),
@@ -260,13 +265,13 @@ def parse_setting(name: str, value: object) -> Any:
     Raises:
         Refused: an unknown name, or a value outside its limits.
     """
-    for choice, allowed in (("method", METHODS), ("order", ORDERS)):
+    for choice, allowed in (("cells", CELLS), ("method", METHODS), ("order", ORDERS)):
         if name == choice:
             if value not in allowed:
                 raise Refused(f"{name}: {_short(value)} is not known", f"there are: {', '.join(allowed)}")
             return value
     if name not in BOUNDS:
-        raise Refused(f"set: no setting {_short(name)}", f"there are: {', '.join((*BOUNDS, 'method', 'order'))}")
+        raise Refused(f"set: no setting {_short(name)}", f"there are: {', '.join(SETTINGS)}")
     found = number(name, value, *BOUNDS[name], whole=name in WHOLE)
     return int(found) if name in WHOLE else found
 

@@ -14,7 +14,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
 from bayesmap.app.opened import Opened
@@ -24,12 +23,13 @@ from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
 from bayesmap.app.stream import CHAINS, Stream
 from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
 from bayesmap.app.weighing import Weighing
+from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
-from bayesmap.samplers.block import BlockGibbs
-from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import Problem
-from bayesmap.samplers.sampler import WallSampler
-from bayesmap.samplers.start import start_maps
+from bayesmap.model import Model
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fitting
+from bayesmap.samplers.methods import sampler_of
+from bayesmap.samplers.propagate import ROUNDS, Marginals
+from bayesmap.samplers.start import start_map
 
 PREVIEW_SECONDS = 0.020
 FEWEST_ROUNDS = 3
@@ -125,12 +125,14 @@ class Engine:
             self._result = Result(scene, document, "none")
             self._frame()
             return
+        if document.cells != "binary":
+            yield from self._sweep_fitted(scene, document, keep=task.mode == "run")
+            return
         if task.mode == "run" and document.method == "importance":
             yield from self._weigh(scene, document)
             return
         if task.mode == "run" and document.method in ("gibbs", "block") and document.simulated:
-            starts = start_maps(scene.problem, "prior", CHAINS, document.seed)
-            yield from self._sweep(scene, document, starts, keep=True)
+            yield from self._sweep(scene, document, None, keep=True)
             return
         preview = Preview(scene.problem)
         yield from self._propagate(scene, document, preview)
@@ -139,8 +141,7 @@ class Engine:
         else:
             if time.perf_counter() - self._began > PREVIEW_SECONDS / 2:
                 yield from _pause(PAUSE_SECONDS)
-            starts = start_maps(scene.problem, "propagate", CHAINS, document.seed, preview.marginals())
-            yield from self._sweep(scene, document, starts, keep=task.mode == "run")
+            yield from self._sweep(scene, document, preview.marginals(), keep=task.mode == "run")
 
     def _readings(self, document: Document) -> Scene:
         """The scene of a document; what did not change is not made again."""
@@ -171,12 +172,33 @@ class Engine:
             if shown >= 0 or self._elapsed() > PREVIEW_SECONDS:
                 yield
 
-    def _sweep(self, scene: Scene, document: Document, starts: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
-        """The chains, with a frame now and then and one at the end."""
+    def _sweep(self, scene: Scene, document: Document, beliefs: Marginals | None, *, keep: bool) -> Iterator[None]:
+        """Chains of walls from the prior or from beliefs, with a frame now and then and one at the end."""
         yield
-        sampler = _sampler(scene.problem, document)
+        problem, kind = scene.problem, "prior" if beliefs is None else "propagate"
+        starts = [start_map(problem, kind, chain, document.seed, beliefs) for chain in range(CHAINS)]  # type: ignore[arg-type]
+        name = problem.prior.methods[document.method]
+        sampler, _ = sampler_of(name, problem.grid, document.order, np.stack(starts), ROUNDS)  # type: ignore[arg-type]
+        model = scene.model(problem.prior)
+        stream = Stream(model, sampler, problem, document.sweeps, document.seed, keep=keep)
+        yield from self._stream(scene, document, stream)
+
+    def _sweep_fitted(self, scene: Scene, document: Document, *, keep: bool) -> Iterator[None]:
+        """Chains of another kind of cells, after a pilot has fitted the sensor."""
         yield
-        stream = Stream(sampler, starts, document.sweeps, document.seed, keep=keep)
+        prior = BUILT_IN[document.cells]()
+        first = first_sensor(prior, document.grid.resolution)
+        model = Model(scene.scans, scene.problem.grid, prior, first, hit_depth=prior.hit_depth)
+        sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, "radial", None, ROUNDS)
+        problem = sampler.prepare(model, "cpu")
+        yield
+        for now in fitting(problem, document.seed, PILOT_SWEEPS):
+            problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)
+            yield
+        stream = Stream(model, sampler, problem, document.sweeps, document.seed, keep=keep)
+        yield from self._stream(scene, document, stream)
+
+    def _stream(self, scene: Scene, document: Document, stream: Stream) -> Iterator[None]:
         while not stream.done:
             yield
             stream.advance()
@@ -260,13 +282,6 @@ class Engine:
             self._tell(Report({"type": "status", "text": str(error), "level": "warning"}, {}, task.client))
             return
         self._tell(Report({"type": "download", "name": name, "mime": mime}, {"data": data}, task.client))
-
-
-def _sampler(problem: Problem, document: Document) -> WallSampler:
-    cls = BlockGibbs if document.method == "block" else Gibbs
-    sampler = cls(problem, document.order)  # type: ignore[arg-type]
-    sampler.kernel()
-    return sampler
 
 
 def _pause(seconds: float) -> Iterator[None]:

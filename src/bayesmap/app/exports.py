@@ -15,9 +15,11 @@ import numpy as np
 from bayesmap.app.recording import to_html
 from bayesmap.app.result import Result
 from bayesmap.app.stream import CHAINS
-from bayesmap.assembly import Assembly
 from bayesmap.errors import BadInput
+from bayesmap.posterior.from_chains import posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
+from bayesmap.run.resuming import RANDOM_STREAMS
+from bayesmap.samplers.without_chains import Asked, found_by_beliefs, found_by_importance
 from bayesmap.sensors.describe import describe
 
 SAVED_DRAWS = 500
@@ -49,27 +51,31 @@ def as_run(result: Result) -> Run:
     """
     if result.run is not None:
         return result.run
-    document, stream = result.document, result.stream
-    if result.method == "none" or (stream is not None and not stream.packed.shape[1]):
+    document, stream, scene = result.document, result.stream, result.scene
+    if result.method == "none" or (stream is not None and not stream.draws.count):
         raise BadInput("there are no draws to save; run inference first")
     count = SAVED_DRAWS if stream is None else stream.total // stream.thin
+    model = scene.model(scene.problem.prior) if stream is None else stream.model
     settings: dict[str, Any] = {
         "method": result.method, "order": document.order, "chains": CHAINS, "warmup": 0, "draws": count,
         "thin": 1 if stream is None else stream.thin, "seed": document.seed,
         "start": "prior" if document.simulated else "propagate", "particles": document.sweeps,
-        "rounds": 0 if result.preview is None else result.preview.rounds, "hit_depth": result.scene.hit_depth,
-        "prior": result.scene.problem.prior.describe(), "sensor": describe(result.scene.sensor),
+        "rounds": 0 if result.preview is None else result.preview.rounds, "hit_depth": model.hit_depth,
+        "prior": model.cells.describe(), "sensor": describe(model.sensor), "streams": RANDOM_STREAMS,
         "fingerprint": "made by the page",
     }  # fmt: skip
     began = time.perf_counter()
-    scene = result.scene
-    assembly = Assembly(scene.problem, scene.scans, scene.sensor, settings, began, 0.0)
+    asked = Asked(CHAINS, count, document.seed, document.sweeps, settings["rounds"])
     if stream is not None:
-        return assembly.chains(stream.chains(), None, None)
+        chains = stream.chains()
+        return Run(posterior_of_chains(model, chains, settings, {"total": chains.seconds["sampling"]}, None))
     if result.particles is not None:
-        return assembly.importance(result.particles)
-    assert result.preview is not None
-    return assembly.marginals(replace(result.preview.marginals(), finished=True))
+        found = found_by_importance(scene.problem, asked, result.particles)
+    else:
+        assert result.preview is not None
+        found = found_by_beliefs(scene.problem, asked, replace(result.preview.marginals(), finished=True))
+    seconds = {"trace": 0.0, "total": time.perf_counter() - began}
+    return Run(posterior_of_draws(model, found, scene.problem.n_incidences, settings, seconds))
 
 
 def _saved(run: Run) -> bytes:

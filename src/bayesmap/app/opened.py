@@ -14,9 +14,8 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
-from bayesmap.result import load
-from bayesmap.result import Run
-from bayesmap.samplers.problem import Problem
+from bayesmap.result import Run, load
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -59,7 +58,7 @@ class OpenedLog:
         grid = self.document.grid
         sensor = default_sensor(grid.resolution)
         table = trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth)
-        problem = Problem(table, Independent(self.document.prior), self.scans.poses)
+        problem = WallProblem(table, Independent(self.document.prior), self.scans.poses)
         ids = tuple(range(1, len(self.scans) + 1))
         return Scene(self.scans, np.zeros((0, len(self.scans.angles_rad))), ids, sensor, problem, Independent.hit_depth)
 
@@ -87,7 +86,7 @@ class OpenedRun:
         sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)
         depth = float(posterior.settings.get("hit_depth", 0.0))
         table = trace(posterior.scans, posterior.grid, sensor, hit_depth=depth)
-        problem = Problem(table, Independent(self.document.prior), posterior.scans.poses)
+        problem = WallProblem(table, Independent(self.document.prior), posterior.scans.poses)
         ids = tuple(range(1, len(posterior.scans) + 1))
         none = np.zeros((0, len(posterior.scans.angles_rad)))
         return Scene(posterior.scans, none, ids, sensor, problem, depth)

@@ -9,7 +9,7 @@ from scipy import special
 from bayesmap.app.scanning import Touched, touched
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.reach import reach_frequency
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
 
 TOLERANCE = 1e-3
@@ -28,7 +28,7 @@ class Preview:
         converged: whether the last one changed no probability by more than the tolerance, or was the last allowed.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: WallProblem) -> None:
         self.problem = problem
         self.part: Touched = touched(problem.table)
         self.rounds = 0

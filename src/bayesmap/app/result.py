@@ -14,9 +14,9 @@ from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
 from bayesmap.app.tasks import Look
+from bayesmap.cells.draws import Draws
 from bayesmap.posterior.diagnostics import bulk_ess
 from bayesmap.posterior.diagnostics import rhat as split_rhat
-from bayesmap.posterior.posterior import Posterior
 from bayesmap.result import Run
 from bayesmap.samplers.importance import Particles
 
@@ -69,19 +69,22 @@ class Result:
             return reach_frequency(self.scene.problem.table, self.mean()[None] > 0.5) > 0
         return np.zeros(self.document.grid.shape, dtype=np.bool_)
 
+    @property
+    def kept(self) -> Draws | None:
+        """The kept maps, if this method has any."""
+        kept = self.stream.draws if self.stream is not None else None if self.run is None else self.run.posterior.draws
+        return kept if kept is not None and kept.count else None
+
     def draws(self) -> dict[str, int]:
         """How many maps are kept: {"chains", "count"}."""
-        if self.run is not None:
-            return {"chains": len(self.run.log_joint) if self.run.n_draws else 0, "count": self.run.n_draws}
-        packed = self.packed()
-        return {"chains": packed.shape[0] if packed.shape[1] else 0, "count": packed.shape[1]}
+        return (
+            {"chains": 0, "count": 0} if self.kept is None else {"chains": self.kept.chains, "count": self.kept.count}
+        )
 
     def packed(self) -> NDArray[np.uint8]:
         """Kept maps of walls, (chains, count, bytes); none where a map's cells are numbers."""
-        if self.stream is not None:
-            return self.stream.packed
-        if self.run is not None and isinstance(self.run.posterior, Posterior):
-            return self.run.posterior.packed
+        if self.kept is not None and self.kept.specs[0].storage == "bits":
+            return self.kept.arrays[self.kept.specs[0].name]
         return np.zeros((0, 0, 0), dtype=np.uint8)
 
     def log_joint(self) -> NDArray[np.float64]:

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from bayesmap.app.document import SMALLEST_NOISE_M, Document
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
-from bayesmap.samplers.problem import Problem
+from bayesmap.cells.kind import CellPrior
+from bayesmap.model import Model
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import SensorModel
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.forward import ranges
@@ -39,21 +41,16 @@ class Scene:
     exact_m: NDArray[np.float64]
     ids: tuple[int, ...]
     sensor: SensorModel
-    problem: Problem
+    problem: WallProblem
     hit_depth: float = 0.0
+
+    def model(self, cells: CellPrior) -> Model:
+        """The same readings, to be explained by cells of a kind."""
+        return Model(self.scans, self.problem.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
     def with_prior(self, p_wall: float) -> Scene:
         """The same readings under another prior; the beam table is shared, and its index if it is there."""
-        return replace(self, problem=reprior(self.problem, p_wall))
-
-
-def reprior(problem: Problem, p_wall: float) -> Problem:
-    """The same table and index with another prior."""
-    other = Problem(problem.table, Independent(p_wall), problem.poses, problem.device)
-    for name in ("index", "device_table"):
-        if name in problem.__dict__:
-            other.__dict__[name] = problem.__dict__[name]
-    return other
+        return replace(self, problem=self.problem.under(Independent(p_wall)))
 
 
 def fan(angles: int) -> NDArray[np.float64]:
@@ -83,7 +80,7 @@ def simulated_scene(document: Document) -> Scene:
     scans, exact = simulate_document(document)
     sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))
     table = trace(scans, document.grid, sensor)
-    problem = Problem(table, Independent(document.prior), scans.poses)
+    problem = WallProblem(table, Independent(document.prior), scans.poses)
     return Scene(scans, exact, tuple(s.id for s in document.sensors), sensor, problem)
 
 
@@ -92,6 +89,7 @@ def same_readings(before: Document, after: Document) -> bool:
     return before == replace(
         after,
         prior=before.prior,
+        cells=before.cells,
         method=before.method,
         order=before.order,
         sweeps=before.sweeps,

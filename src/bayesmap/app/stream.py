@@ -1,26 +1,29 @@
-"""Chains that are watched while they run: sweeps in short steps, the running mean, the draws where they are kept."""
+"""Chains that are watched while they run: the library's runner in short steps, the running mean, the kept draws."""
 
 from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import unpack
+from bayesmap.cells.draws import Draws
+from bayesmap.model import Model
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
-from bayesmap.run.chain import BUFFER_BYTES, SECONDS_PER_INCIDENCE, Chains
-from bayesmap.samplers.sampler import WallSampler
+from bayesmap.run.chains import Chains, Record
+from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.sampler import Problem, Sampler
 
 CHAINS = 2
 STEP_SECONDS = 0.015
 """Of work between two looks at the pipe."""
 
-SECONDS_PER_CELL = 2e-8
 DRAW_BYTES = 128 << 20
-"""Packed draws of a run; more sweeps than fit are thinned."""
+"""Of the kept draws of a run; more sweeps than fit are thinned."""
 
 DIAGNOSED = 2000
 """Sweeps of each chain, evenly spread, of which R-hat and effective sample size are computed."""
@@ -36,96 +39,89 @@ class Mixing:
 
 
 class Stream:
-    """Some chains from their start to their last sweep.
+    """Some chains from their start to their last sweep, whatever their kind of cells.
 
     Attributes:
-        sampler: what a sweep is.
+        model: what is sampled.
+        problem: what the sampler has prepared of it.
         total: sweeps to do.
         thin: sweeps from one counted map to the next; 1 unless so many are kept that they would not fit.
-        state: where the chains stand.
-        packed: kept draws, (chains, counted or 0, ceil(N / 8)).
+        counted: maps that each chain's mean is made of.
     """
 
-    def __init__(self, sampler: WallSampler, starts: NDArray[np.bool_], total: int, seed: int, *, keep: bool) -> None:
-        cells = sampler.problem.table.grid.n_cells
-        self.sampler, self.keep = sampler, keep
-        size = (cells + 7) // 8
-        self.thin = math.ceil(total * CHAINS * size / DRAW_BYTES) if keep else 1
+    def __init__(
+        self, model: Model, sampler: Sampler[Any, Any], problem: Problem, total: int, seed: int, *, keep: bool
+    ) -> None:
+        self.model, self.problem, self._sampler, self.keep = model, problem, sampler, keep
+        self.state = sampler.init(problem, range(CHAINS), seed)
+        empty = no_draws(model, self.state, CHAINS)
+        one = sum(spec.empty(CHAINS, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+        self.thin = math.ceil(total * one / DRAW_BYTES) if keep else 1
         self.total = math.ceil(total / self.thin) * self.thin
-        self.state = sampler.init(starts, seed)
-        self.counted = 0
-        self.seconds = 0.0
-        kept = self.total // self.thin if keep else 0
-        self._packed = np.zeros((CHAINS, kept, size), dtype=np.uint8)
-        self._sum = np.zeros(cells, dtype=np.int64)
-        self._seen = np.zeros(cells, dtype=np.int64)
-        self._steps = 0
+        schedule = Schedule(0, self.total // self.thin, self.thin)
+        self._record = Record(empty, schedule if keep else Schedule(0, 0), schedule.keep)
+        self._steps = sweeps(
+            sampler, self.state, self.total, keep=schedule.keep, step_seconds=STEP_SECONDS,
+            most_kept=max(1, BUFFER_BYTES // one),
+        )  # fmt: skip
+        self.seconds, self.counted = 0.0, 0
+        self._latest = empty
+        self._sum = np.zeros(model.grid.shape)
+        self._informed = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = np.zeros((CHAINS, self.total))
         self._log_prior = np.zeros((CHAINS, self.total))
-        self._per_sweep = SECONDS_PER_INCIDENCE * sampler.problem.table.n_incidences + SECONDS_PER_CELL * cells
 
     @property
     def sweep(self) -> int:
         """Sweeps done."""
-        return self.state.sweep
+        return int(self.state.sweep)
 
     @property
     def done(self) -> bool:
         """Whether all sweeps are."""
-        return self.state.sweep >= self.total
+        return self.sweep >= self.total
 
     def advance(self) -> None:
         """Some sweeps: about `STEP_SECONDS` of work."""
-        room = BUFFER_BYTES // (CHAINS * self._sum.size)
-        wanted = min(int(STEP_SECONDS / self._per_sweep), room * self.thin)
-        sweeps = min(self.total - self.sweep, max(1, wanted // self.thin) * self.thin)
-        before = self.sweep
-        began = time.perf_counter()
-        self.state, info = self.sampler.step(self.state, sweeps, thin=self.thin)
-        new = slice(self.counted, self.counted + info.draws.shape[1])
-        self._sum += info.draws.reshape(-1, self._sum.size).sum(axis=0, dtype=np.uint32)
+        before, began = self.sweep, time.perf_counter()
+        self.state, info = next(self._steps)
+        latest = replace(self._latest, arrays=info.draws)
+        if latest.count:
+            self._latest = latest
+            self._sum += self.model.cells.mean_map(latest) * latest.count
+            self.counted += latest.count
         if self.keep:
-            self._packed[:, new] = np.packbits(info.draws, axis=-1)
-        self.counted = new.stop
+            self._record.add(info, before)
         self._log_likelihood[:, before : self.sweep] = info.log_likelihood
         self._log_prior[:, before : self.sweep] = info.log_prior
-        self._seen += (self.state.chains.states.reached.numpy() > 0).sum(axis=0)
-        self._steps += 1
-        spent = time.perf_counter() - began
-        self.seconds += spent
-        self._per_sweep = spent / sweeps
+        self._informed += self._sampler.informed(self.state, {})
+        self.seconds += time.perf_counter() - began
 
     @property
-    def packed(self) -> NDArray[np.uint8]:
-        """The kept draws, (chains, count, bytes)."""
-        return self._packed[:, : self.counted if self.keep else 0]
+    def draws(self) -> Draws:
+        """The kept draws."""
+        return self._record.draws
 
     def mean(self) -> NDArray[np.float64]:
-        """Fraction of the counted maps in which each cell is a wall, (nx, ny).
+        """Mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
 
-        Where draws are not kept, cells that no beam touches have the prior exactly: what their draws average to.
+        Where draws are not kept, cells that no beam says anything of have the prior's mean exactly: what their draws
+        average to.
         """
-        table = self.sampler.problem.table
-        mean = (self._sum / (CHAINS * max(1, self.counted))).reshape(table.grid.shape)
-        if self.keep:
-            return np.asarray(mean)
-        return np.where(table.observed(), mean, self.sampler.problem.p_wall.reshape(mean.shape))
+        mean = self._sum / max(1, self.counted)
+        return mean if self.keep else np.where(self._informed[0] > 0, mean, self.model.cells.mean_stop(self.model.grid))
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that a beam reached in at least half of the maps at which the chains paused, (nx, ny)."""
-        shape = self.sampler.problem.table.grid.shape
-        return (2 * self._seen >= CHAINS * max(1, self._steps)).reshape(shape)
+        """Cells of which a beam said something in at least half of the maps at which the chains paused, (nx, ny)."""
+        return np.asarray(2 * self._informed[0] >= np.maximum(1, self._informed[1]))
 
-    def draw(self, chain: int | None, draw: int | None) -> tuple[NDArray[np.bool_], int, int]:
-        """One map, (nx, ny), and which it is: the last where there is none such, the chain's where none are kept."""
-        shape = self.sampler.problem.table.grid.shape
-        which = min(chain or 0, CHAINS - 1)
-        packed = self.packed
-        if packed.shape[1] == 0:
-            return self.state.walls()[which].reshape(shape) != 0, which, 0
-        last = packed.shape[1] - 1
-        number = last if draw is None else min(draw, last)
-        return unpack(packed[which, number], shape), which, number
+    def draw(self, chain: int | None, draw: int | None) -> tuple[NDArray[Any], int, int]:
+        """One map, (nx, ny), and which it is: the last where there is none such, the latest where none are kept."""
+        kept, which = self.draws, min(chain or 0, CHAINS - 1)
+        if kept.count == 0:
+            return self.model.cells.map_of(self._latest, which, -1), which, 0
+        number = kept.count - 1 if draw is None else min(draw, kept.count - 1)
+        return self.model.cells.map_of(kept, which, number), which, number
 
     def log_joint(self) -> NDArray[np.float64]:
         """Of every sweep, (chains, sweeps)."""
@@ -141,14 +137,10 @@ class Stream:
 
     def chains(self) -> Chains:
         """Everything, as the library's runner leaves it."""
-        counted = slice(self.thin - 1, self.sweep, self.thin)
+        log_likelihood, log_prior, warmup = self._record.log_densities
         return Chains(
-            packed=self.packed,
-            log_likelihood=self._log_likelihood[:, counted],
-            log_prior=self._log_prior[:, counted],
-            warmup_log_joint=np.zeros((CHAINS, 0)),
-            walls=self.state.walls(),
-            sweep=self.sweep,
-            seconds=self.seconds,
-            finished=self.done,
-        )
+            draws=self.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
+            snapshot=self._sampler.snapshot(self.state), informed=self._informed, statistics={},
+            n_incidences=self.problem.n_incidences,
+            seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
+        )  # fmt: skip

@@ -11,7 +11,7 @@ from scipy import special
 from bayesmap.kernels.importance import weigh
 from bayesmap.kernels.random import mix
 from bayesmap.samplers.importance import Particles
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.sampler import STREAM_PARTICLES
 
 PIECE_SECONDS = 0.015
@@ -26,7 +26,7 @@ class Weighing:
         done: how many there are.
     """
 
-    def __init__(self, problem: Problem, total: int, seed: int) -> None:
+    def __init__(self, problem: WallProblem, total: int, seed: int) -> None:
         self.problem, self.total, self.done = problem, total, 0
         self._key = mix(seed, 0, STREAM_PARTICLES)
         self._log_weights: NDArray[np.float64] = np.empty(total)

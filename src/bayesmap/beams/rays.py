@@ -80,6 +80,16 @@ class Rays:
         """How many cells each beam touches, shape (B,)."""
         return np.diff(self.offsets)
 
+    def select(self, beams: NDArray[np.integer]) -> Rays:
+        """Some of the beams, in the order given."""
+        lengths = self.lengths[beams]
+        offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
+        entries = np.repeat(self.offsets[beams] - offsets[:-1], lengths) + np.arange(offsets[-1])
+        return Rays(
+            self.grid, offsets, self.cells[entries], offsets[:-1] + self.near[beams] - self.offsets[beams],
+            self.start_m[beams], self.direction[beams], self.range_m[beams], self.limits,
+        )  # fmt: skip
+
     def beam_of_entry(self) -> NDArray[np.int32]:
         """The beam of each entry, shape (K,)."""
         return np.repeat(np.arange(self.n_beams, dtype=np.int32), self.lengths)

@@ -100,7 +100,9 @@ class Independent(CellPrior):
         Raises:
             BadInput: always.
         """
-        raise BadInput("interval: a wall is there or not, and has no interval; the entropy of its probability shows how sure it is")
+        raise BadInput(
+            "interval: a wall is there or not, and has no interval; the entropy of its probability shows how sure it is"
+        )
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Some cells in all draws, (chains, draws, n)."""

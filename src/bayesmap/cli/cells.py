@@ -36,12 +36,14 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def draws_for(values: dict[str, Any], beams: int, cells: int) -> int:
-    """The draws of a chain: as many as the user says, else by the kind of cells, and for fields by beams and cells."""
-    from bayesmap.field_inference import default_draws
+    """The draws of a chain: as many as the user says, else as many as suit the kind of cells, beams and grid."""
+    from bayesmap.cells.kinds import BUILT_IN
 
     if values["draws"] is not None:
         return int(values["draws"])
-    return BINARY_DRAWS if values["cells"] == "binary" else default_draws(beams, cells, values["chains"])
+    if values["cells"] == "binary":
+        return BINARY_DRAWS
+    return BUILT_IN[values["cells"]]().default_draws(beams, cells, values["chains"])
 
 
 def prior_of(values: dict[str, Any]) -> CellPrior:

@@ -152,7 +152,7 @@ def _report(talk: Talk, runs: dict[str, Run], folder: Path) -> None:
     for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
         summary, posterior = runs[name].summary(), runs[name].posterior
         talk.say(
-            f"{line} {posterior.packed.shape[0]} chains of {posterior.sweep:,} sweeps, "
+            f"{line} {posterior.draws.chains} chains of {posterior.sweep:,} sweeps, "
             f"{summary.microseconds_per_sweep:.0f} us a sweep, R-hat of the log joint {summary.rhat_log_joint:.3f}"
         )
     weights, size = runs["importance"].log_weights, runs["importance"].summary().effective_sample_size

@@ -28,7 +28,8 @@ def run_document(run: Run) -> dict[str, Any]:
         "scans": posterior.counts["scans"],
         "beams": posterior.counts["beams"],
         "incidences": posterior.counts["incidences"],
-        "cells": getattr(posterior, "kind", "binary"),
+        "cells": posterior.kind,
+        "states": posterior.prior.words.states,
         "method": settings["method"],
         "order": settings["order"],
         "prior": settings["prior"],
@@ -61,7 +62,9 @@ def run_document(run: Run) -> dict[str, Any]:
 
 def work_done(document: dict[str, Any]) -> str:
     """Such as "4 chains of 100 sweeps"; methods without chains may keep independent maps."""
-    if document["method"] in ("gibbs", "block"):
+    from bayesmap.posterior.posterior import WITHOUT_CHAINS
+
+    if document["method"] not in WITHOUT_CHAINS:
         return f"{counted(document['chains'], 'chain')} of {counted(document['sweeps'], 'sweep')}"
     return counted(document["chains"] * document["draws"], "independent map")
 

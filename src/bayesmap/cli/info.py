@@ -105,9 +105,8 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
     state = "finished" if run["finished"] else "not finished"
-    states = {"binary": "walls or free", "reflectivity": "reflectivities", "surface": "reflectivities and surfaces"}
     lines = [
-        f"grid: {nx} x {ny} cells of {resolution:g} m, {states[run['cells']]}",
+        f"grid: {nx} x {ny} cells of {resolution:g} m, {run['states']}",
         f"method: {run['method']}, {work_done(run)}, {counted(run['draws'], 'draw')} each, {state}"
         if run["sweeps"]
         else f"method: {run['method']}, {work_done(run)}, {state}",

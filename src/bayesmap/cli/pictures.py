@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.field_result import FieldRun
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -85,7 +84,7 @@ def need_walls(run: Run) -> None:
     Raises:
         BadInput: cells are reflectivities.
     """
-    if isinstance(run, FieldRun):
+    if run.posterior.prior.has_interval:
         raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
 
 
@@ -95,7 +94,7 @@ def interval_width(run: Run) -> NDArray[np.float64]:
     Raises:
         BadInput: cells are walls or free, which have no interval.
     """
-    if not isinstance(run, FieldRun):
+    if not run.posterior.prior.has_interval:
         raise BadInput(
             "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
         )
@@ -126,17 +125,6 @@ def misses(
     return found.ends_world, found.residual_m if what == "residuals" else found.surprise_nats
 
 
-def surfaces(run: Run) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Means, covariances and reflectivities of a run's surfaces.
-
-    Raises:
-        BadInput: its cells have none.
-    """
-    if not isinstance(run, FieldRun):
-        raise BadInput("surfaces: the cells of this run are walls or free; infer with --cells surface")
-    return run.surfaces()
-
-
 def quantity(run: Run) -> str:
     """What the occupancy of a run's cells is, for colour bars."""
-    return "mean reflectivity" if isinstance(run, FieldRun) else "probability of wall"
+    return run.posterior.prior.words.mean

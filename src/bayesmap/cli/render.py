@@ -58,7 +58,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     run = load(run_file)
     draws = run.n_draws
     # Methods that compute marginals have an answer without a draw; chains in their warm-up have none.
-    if draws == 0 and (what in ("draw", "animation") or run.posterior.settings["method"] in ("gibbs", "block")):
+    if draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
     if values["window"] is not None and what in WHOLE:
         raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
@@ -102,7 +102,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     elif what == "surfaces":
         from bayesmap.viz.surfaces import surfaces_figure
 
-        write_figure(surfaces_figure(grid, *pictures.surfaces(run), observed), target)
+        write_figure(surfaces_figure(grid, *run.surfaces(), observed), target)
     else:
         from bayesmap.viz.panel import panel_figure
 

@@ -43,8 +43,7 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
     their central 50, 80 and 95 % intervals; median width of the 80 % interval; distance of the probability integral
     transform from uniform; and Brier score and log loss of first hits. docs/scoring.md has the formulas.
     """
-    from bayesmap.result import load
-    from bayesmap.result import score
+    from bayesmap.result import load, score
 
     values = call.values()
     if picture is not None:
@@ -79,7 +78,7 @@ def command(call: Call, run_file: str, log: str, whole: bool, compare: bool, pic
 
 def _name(run: Run) -> str:
     """Such as "surface posterior"."""
-    return f"{getattr(run.posterior, 'kind', 'binary')} posterior"
+    return f"{run.posterior.kind} posterior"
 
 
 def _baselines(call: Call, run: Run, heldout: Scans, seed: int) -> list[tuple[Fitted, Score]]:

@@ -2,15 +2,16 @@
 
 Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sample_stats`` (log joint and its parts),
 ``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (where the chains stand),
-``warmup_sample_stats``. Settings, grid, prior, sensor and timings are attributes of the root, as JSON. Arrays that count
-some cells only have these cells' indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as deflated bytes,
-half precision as 32-bit floats, so that any reader sees plain arrays; a checksum over all of it tells a damaged file from
-a whole one.
+``warmup_sample_stats``. Settings, grid, prior, sensor and timings are attributes of the root, as JSON. Arrays that
+count some cells only have these cells' indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as
+deflated bytes, half precision as 32-bit floats, so that any reader sees plain arrays; a checksum over all of it tells
+a damaged file from a whole one.
 """
 
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
@@ -86,33 +87,35 @@ def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], No
     group = file.createGroup("posterior")
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
-        write_arrays(group, (name,), compressed=False, **{name: values})
+        write_arrays(group, (name,), {name: values}, compressed=False)
     for dimension, cells in draws.index.items():
         places = {f"{dimension}_x": cells // grid.shape[1], f"{dimension}_y": cells % grid.shape[1]}
-        write_arrays(group, (dimension,), **places)
-    sizes = {spec.name: draws.size * int(np.prod(draws.shape_of(spec))) for spec in draws.specs}
+        write_arrays(group, (dimension,), places)
+    numbers = sum(draws.size * math.prod(draws.shape_of(spec)) for spec in draws.specs)
     done = 0
+
+    def written(count: int) -> None:
+        nonlocal done
+        done += count
+        on_progress(done, numbers)
+
     for spec in draws.specs:
-        before = done
-        write_draws(
-            group, spec, draws.arrays[spec.name], draws.shape_of(spec),
-            lambda count, before=before: on_progress(before + count, sum(sizes.values())),
-        )  # fmt: skip
-        done += sizes[spec.name]
-    write_arrays(
-        file.createGroup("sample_stats"), ("chain", "draw"), lp=posterior.log_joint,
-        log_likelihood=posterior.log_likelihood, log_prior=posterior.log_prior,
-    )  # fmt: skip
-    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), lp=posterior.warmup_log_joint)
+        write_draws(group, spec, draws.arrays[spec.name], draws.shape_of(spec), written)
+    densities = {
+        "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
+    }  # fmt: skip
+    write_arrays(file.createGroup("sample_stats"), ("chain", "draw"), densities)
+    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
     constant = _write_scans(file, scans)
-    write_arrays(constant, ("x", "y"), occupancy=posterior.occupancy, observed=posterior.observed.astype(np.int8))
+    observed = posterior.observed.astype(np.int8)
+    write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
     for name, values in _by_name(posterior).items():
-        write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), **{name: values})
+        write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), {name: values})
     state = file.createGroup("chain_state")
     for name, values in posterior.snapshot.arrays.items():
         # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
-        write_arrays(state, dimensions, compressed=values.dtype == np.uint8, **{name: values})
+        write_arrays(state, dimensions, {name: values}, compressed=values.dtype == np.uint8)
 
 
 def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
@@ -124,14 +127,14 @@ def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
 
 def _write_scans(file: Any, scans: Scans) -> Any:
     """Write what was conditioned on; the group of constants, for more of them."""
-    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), range_m=scans.ranges_m)
+    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
     constant = file.createGroup("constant_data")
-    write_arrays(constant, ("scan", "pose_part"), pose_world=scans.poses)
-    write_arrays(constant, ("beam",), angle_rad=scans.angles_rad)
+    write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
+    write_arrays(constant, ("beam",), {"angle_rad": scans.angles_rad})
     if scans.stamps_s is not None:
-        write_arrays(constant, ("scan",), stamp_s=scans.stamps_s)
+        write_arrays(constant, ("scan",), {"stamp_s": scans.stamps_s})
     if scans.beam_poses is not None:
-        write_arrays(constant, ("scan", "beam", "pose_part"), beam_pose_world=scans.beam_poses)
+        write_arrays(constant, ("scan", "beam", "pose_part"), {"beam_pose_world": scans.beam_poses})
     return constant
 
 

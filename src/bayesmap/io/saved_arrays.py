@@ -6,7 +6,7 @@ bits are zero and compress well.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,9 @@ CHUNK = 1 << 20
 """Numbers that are compressed together."""
 
 
-def write_arrays(group: Any, dimensions: tuple[str, ...], compressed: bool = True, **arrays: NDArray[Any]) -> None:
+def write_arrays(
+    group: Any, dimensions: tuple[str, ...], arrays: Mapping[str, NDArray[Any]], compressed: bool = True
+) -> None:
     """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
     for name, values in arrays.items():
         _need_dimensions(group, dimensions, values.shape)
@@ -31,7 +33,9 @@ def write_arrays(group: Any, dimensions: tuple[str, ...], compressed: bool = Tru
 def write_draws(
     group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], written: Callable[[int], None]
 ) -> None:
-    """Write an array of the draws, (chains, draws, ...) as it is kept; ``written`` is told how many numbers are."""
+    """Write an array of the draws, (chains, draws, ...) as it is kept; ``written`` is told how many numbers each
+    time.
+    """
     chains, draws = stored.shape[:2]
     dimensions, sizes = ("chain", "draw", *spec.dims), (chains, draws, *shape)
     _need_dimensions(group, dimensions, sizes)
@@ -45,12 +49,10 @@ def write_draws(
     variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
     if spec.what:
         variable.long_name = spec.what
-    done = 0
     for chain, some in _blocks(chains, draws, size):
         part = spec.values(stored[chain, some], shape)
         variable[chain, some] = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
-        done += part.size
-        written(done)
+        written(part.size)
 
 
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:

@@ -73,9 +73,7 @@ def _read_reflectivities(file: Any, header: dict[str, Any]) -> tuple[Posterior, 
     if not has_expected:
         from dataclasses import replace
 
-        whole = replace(
-            posterior.draws, specs=prior.arrays, arrays={**arrays, "expected": arrays["reflectivity"]}
-        )
+        whole = replace(posterior.draws, specs=prior.arrays, arrays={**arrays, "expected": arrays["reflectivity"]})
         posterior = replace(posterior, draws=whole)
     scans = posterior.scans
     by_cell = [arrays[name] for name in ("reflectivity", "expected") if name in arrays]

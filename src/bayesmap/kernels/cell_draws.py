@@ -1,7 +1,7 @@
 r"""The other half of a sweep: the cells, given where the beams stopped.
 
-Cells in which readings end have a kernel of their own (`bayesmap.kernels.endpoint_cells`). Of the others, one that tries no
-candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
+Cells in which readings end have a kernel of their own (`bayesmap.kernels.endpoint_cells`). Of the others, one that
+tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
 surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of
 the ratio (`bayesmap.kernels.stops`).
 

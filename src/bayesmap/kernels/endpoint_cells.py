@@ -15,7 +15,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import Rays as BeamRays
+from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import (
     AT_ACCEPT,
@@ -31,7 +31,7 @@ from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, gate_at, meet, ray_from
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.stop_law import Law, law_of
-from bayesmap.kernels.stops import LEAST, Rays, StopState, hit_law
+from bayesmap.kernels.stops import LEAST, StopState, TracedRays, hit_law
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
 
@@ -59,7 +59,7 @@ class EndpointCells:
     step: wp.array(dtype=Cell)
 
 
-def endpoint_cells(rays: BeamRays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str) -> EndpointCells:
+def endpoint_cells(rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str) -> EndpointCells:
     """List the incidences of some cells, by flat index, ascending, (U,); ``steps`` are these cells', (U, 8)."""
     wanted = np.zeros(rays.grid.n_cells, dtype=np.bool_)
     wanted[cells] = True
@@ -94,7 +94,7 @@ def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.
 def log_stops(
     law: Law,
     beta: wp.float32,
-    rays: Rays,
+    rays: TracedRays,
     endpoints: EndpointCells,
     listed: wp.array(dtype=wp.int32),
     span: wp.vec4i,
@@ -140,7 +140,7 @@ def update_endpoint_cells(
     sweep: int,
     sensor: SensorParameters,
     prior: CellPrior,
-    rays: Rays,
+    rays: TracedRays,
     endpoints: EndpointCells,
     active: ActiveCells,
     state: StopState,

@@ -6,14 +6,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import Rays as BeamRays
-from bayesmap.kernels.rays import stop_distances
-from bayesmap.kernels.stop_chains import as_cells, put_rays
+from bayesmap.beams.rays import Rays
 from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.meeting import Cell, ray_from
 from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.rays import stop_distances
+from bayesmap.kernels.stop_chains import as_cells, put_rays
 from bayesmap.kernels.stop_law import fading, law_of, no_stop_law, stop_law
-from bayesmap.kernels.stops import Rays, chance_at, plain_or_meet
+from bayesmap.kernels.stops import TracedRays, chance_at, plain_or_meet
 from bayesmap.sensors.model import KernelParameters
 
 wp.set_module_options({"enable_backward": False})
@@ -23,7 +23,7 @@ wp.set_module_options({"enable_backward": False})
 def add_density(
     first: int,
     sensor: SensorParameters,
-    rays: Rays,
+    rays: TracedRays,
     cells: wp.array(dtype=Cell),
     total: wp.array(dtype=wp.float64),
 ):
@@ -56,7 +56,7 @@ class FieldScore:
     """Sum of predictive densities, draw by draw."""
 
     def __init__(
-        self, rays: BeamRays, sensor: KernelParameters, hit_depth: float, *, plain: bool, device: str = "cpu"
+        self, rays: Rays, sensor: KernelParameters, hit_depth: float, *, plain: bool, device: str = "cpu"
     ) -> None:
         self.device, self.draws = device, 0
         self._beams = rays.n_beams

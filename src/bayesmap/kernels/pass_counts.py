@@ -4,16 +4,16 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import Rays as BeamRays
+from bayesmap.beams.rays import Rays
 from bayesmap.kernels.rays import stop_distances
 from bayesmap.kernels.stop_chains import put_rays
-from bayesmap.kernels.stops import Rays
+from bayesmap.kernels.stops import TracedRays
 
 wp.set_module_options({"enable_backward": False})
 
 
 @wp.kernel
-def count_passes(first: int, rays: Rays, end_cell: wp.array(dtype=wp.int32), passes: wp.array(dtype=wp.int32)):
+def count_passes(first: int, rays: TracedRays, end_cell: wp.array(dtype=wp.int32), passes: wp.array(dtype=wp.int32)):
     """One thread a beam: add one to every cell before the one in which its reading ends."""
     b = first + wp.tid()
     reading = rays.range_m[b]
@@ -26,7 +26,7 @@ def count_passes(first: int, rays: Rays, end_cell: wp.array(dtype=wp.int32), pas
         wp.atomic_add(passes, c, 1)
 
 
-def passes_of(rays: BeamRays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
+def passes_of(rays: Rays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
     """How many beams pass each cell of the grid before they end, (N,)."""
     passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
     distance_m = stop_distances(rays, 0.0, device)

@@ -1,10 +1,10 @@
 """Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, update cells.
 
 All chains stand in the same arrays. On a GPU each kernel is launched once for all of them, with a thread for each
-chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last; where
-there are more threads than chains, its beams are cut into parts, one a thread, each with counts of its own. Counts are
-whole numbers, and sums of floating-point numbers are over slices of fixed size: the result depends on neither threads nor
-chains beside it.
+chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last;
+where there are more threads than chains, its beams are cut into parts, one a thread, each with counts of its own.
+Counts are whole numbers, and sums of floating-point numbers are over slices of fixed size: the result depends on
+neither threads nor chains beside it.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -16,14 +16,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import Rays as BeamRays
+from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import ActiveCells, CellPrior, begin_sweep, count_informed, update_free_cells
 from bayesmap.kernels.endpoint_cells import endpoint_cells, update_endpoint_cells
 from bayesmap.kernels.likelihood import sensor_parameters
 from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.parallel import available_cores, thread_pool
-from bayesmap.kernels.stops import IN_A_ROW, LEARNS, Rays, StopState, decay_of_readings, draw_stops
+from bayesmap.kernels.stops import IN_A_ROW, LEARNS, StopState, TracedRays, decay_of_readings, draw_stops
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
 from bayesmap.sensors.model import KernelParameters
 
@@ -32,9 +32,9 @@ KERNELS = (begin_sweep, draw_stops, update_free_cells, update_endpoint_cells)
 
 
 def put_rays(
-    rays: BeamRays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
+    rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
 ) -> Any:
-    """Rays where kernels read them.
+    """TracedRays where kernels read them.
 
     Args:
         rays: beams.
@@ -42,7 +42,7 @@ def put_rays(
         device: where to.
         cells: other numbers of the cells than their places in the grid, (K,).
     """
-    there = Rays()
+    there = TracedRays()
     there.plain = int(distance_m is not None)
     there.offsets = devices.to_device(rays.offsets, wp.int32, device)
     there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
@@ -82,7 +82,7 @@ class Plan:
         device: where it is.
     """
 
-    rays: BeamRays
+    rays: Rays
     rounds: NDArray[np.uint8]
     endpoints: NDArray[np.int32]
     steps: NDArray[np.float32]
@@ -152,9 +152,7 @@ class StopChains:
         self._informed = wp.array(there, dtype=wp.vec2i, device=device)
         self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
-        self._slices = [
-            empty((chains, -(-max(size, 1) // SLICE)), dtype=wp.float64) for size in (beams, touched)
-        ]
+        self._slices = [empty((chains, -(-max(size, 1) // SLICE)), dtype=wp.float64) for size in (beams, touched)]
 
     def sweeps(
         self,
@@ -237,9 +235,13 @@ class StopChains:
             for i in range(count):
                 note(before, range(self.n_chains), i)
                 for phase in phases(i):
-                    self._each(lambda at, phase=phase: self._part(phase, range(at[0], at[0] + 1), at[1]), parts)
+                    self._each(partial(self._part_of, phase), parts)
                 note(after, range(self.n_chains), i)
         return likelihood.numpy(), log_prior.numpy()
+
+    def _part_of(self, phase: tuple[Any, int, list[Any]], at: tuple[int, int]) -> None:
+        """Launch a kernel over a part of the elements of one chain."""
+        self._part(phase, range(at[0], at[0] + 1), at[1])
 
     def _part(self, phase: tuple[Any, int, list[Any]], chains: range, part: int) -> None:
         """Launch a kernel over a part of the elements of neighbouring chains."""

@@ -13,8 +13,8 @@ Metropolis ratio. Both are added up in whole numbers, so that the result does no
 Most cells are free, and hundreds of beams say so in every sweep: in most sweeps they learn nothing. Where such a cell
 has a reflectivity under single precision it does nothing to T, either, and is passed without a look at its surface.
 
-At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not tempered.
-For walls, 0 or 1, that is the likelihood to the power of beta.
+At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not
+tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
 """
 
 import warp as wp
@@ -45,8 +45,8 @@ STREAM_FAR = wp.constant(wp.uint64(3 << 32))
 
 
 @wp.struct
-class Rays:
-    """`BeamRays` on a device; ``plain`` says that cells have no surfaces, and stop beams at ``distance_m``."""
+class TracedRays:
+    """`Rays` on a device; ``plain`` says that cells have no surfaces, and stop beams at ``distance_m``."""
 
     plain: int
     offsets: wp.array(dtype=wp.int32)
@@ -63,7 +63,8 @@ class Rays:
 class StopState:
     """All chains: their cells, what beams told these in this sweep, and where the beams stopped.
 
-    Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the grid.
+    Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the
+    grid.
     """
 
     n_cells: int
@@ -96,7 +97,7 @@ def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
 
 
 @wp.func
-def plain_or_meet(rays: Rays, k: int, cell: Cell, ray: Ray) -> Meeting:
+def plain_or_meet(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Meeting:
     """Chance, distance and variance of a stop at entry k."""
     if rays.plain != 0:
         m = Meeting()
@@ -115,7 +116,16 @@ def in_units(log_ratio: wp.float32) -> wp.int64:
 
 @wp.func
 def pass_by(
-    state: StopState, chain: int, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int, sign: int
+    state: StopState,
+    chain: int,
+    part: int,
+    c: int,
+    cell: Cell,
+    g: wp.float32,
+    ray: Ray,
+    key: wp.uint64,
+    k: int,
+    sign: int,
 ):
     """Tell a cell that a beam passed it; with sign -1 take that back."""
     one = wp.float32(1.0)
@@ -132,7 +142,7 @@ def pass_by(
 
 
 @wp.func
-def chance_at(rays: Rays, cell: Cell, ray: Ray) -> wp.float32:
+def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
     """The chance of meeting a cell's surface: one where cells are plain."""
     if rays.plain != 0:
         return wp.float32(1.0)
@@ -140,7 +150,7 @@ def chance_at(rays: Rays, cell: Cell, ray: Ray) -> wp.float32:
 
 
 @wp.kernel
-def decay_of_readings(first: int, sensor: SensorParameters, rays: Rays):
+def decay_of_readings(first: int, sensor: SensorParameters, rays: TracedRays):
     """One thread a beam: `fading` of its reading, the same for all chains and sweeps."""
     b = first + wp.tid()
     rays.decay[b] = fading(law_of(sensor), rays.range_m[b])
@@ -148,7 +158,13 @@ def decay_of_readings(first: int, sensor: SensorParameters, rays: Rays):
 
 @wp.kernel
 def draw_stops(
-    first: int, part: int, sweep: int, sensor: SensorParameters, rays: Rays, state: StopState, keys: wp.array(dtype=wp.uint64)
+    first: int,
+    part: int,
+    sweep: int,
+    sensor: SensorParameters,
+    rays: TracedRays,
+    state: StopState,
+    keys: wp.array(dtype=wp.uint64),
 ):
     """One thread a chain's beam: draw where it stops, and tell the cells."""
     i = first + wp.tid()

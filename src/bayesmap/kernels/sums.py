@@ -1,4 +1,6 @@
-"""Sums over a chain's beams or cells: in slices of fixed size, so that they never depend on threads or on the device."""
+"""Sums over a chain's beams or cells: in slices of fixed size, so that they never depend on threads or on the
+device.
+"""
 
 import warp as wp
 

@@ -132,11 +132,10 @@ def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> 
     independent prior draws, and the worst of a hundred thousand of those is bad by chance.
     """
     constant, agreed = prior.constant_cells(draws)
-    discrete = constant is not None and agreed is not None
-    changed, disagreeing = np.flatnonzero(among.ravel()), 0
+    changed, disagreeing, unchanged = np.flatnonzero(among.ravel()), 0, None
     if constant is not None and agreed is not None:
         disagreeing = int((constant & ~agreed & among.ravel()).sum())
-        changed = np.flatnonzero(among.ravel() & ~constant)
+        changed, unchanged = np.flatnonzero(among.ravel() & ~constant), int(agreed.sum())
     worst, least, high = float("nan"), float("nan"), disagreeing
     if draws.count >= 4:
         for i in range(0, len(changed), CELLS_AT_ONCE):
@@ -148,5 +147,4 @@ def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> 
             high += int((rhats > RHAT_LIMIT).sum())
             worst = float(np.fmax(worst, np.fmax.reduce(rhats)))
             least = float(np.fmin(least, np.fmin.reduce(plain_ess(halves[..., varied]))))
-    unchanged = int(np.sum(agreed)) if discrete else None
-    return CellDiagnostics(worst, least, unchanged, disagreeing if discrete else None, high)
+    return CellDiagnostics(worst, least, unchanged, None if unchanged is None else disagreeing, high)

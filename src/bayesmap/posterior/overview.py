@@ -9,7 +9,9 @@ from bayesmap.posterior.posterior import Posterior
 
 
 def overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
-    """A title, and four rows of a name and a value: what was inferred, from what, how, how well, and how long it took."""
+    """A title, and four rows of a name and a value: what was inferred, from what, how, how well, and how long it
+    took.
+    """
     (nx, ny), counts, joint = posterior.grid.shape, posterior.counts, posterior.log_joint
     title = f"Run: {posterior.prior.words.states}, {nx} x {ny} cells of {posterior.grid.resolution:g} m"
     chains, draws = joint.shape

@@ -33,9 +33,9 @@ class Posterior:
         prior: of the cells, likewise: it also says what kind of cells they are.
         settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
         draws: the kept maps.
-        occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's own
-            marginals where it computes them ("exact", "importance", "propagate"). Of binary walls it is the probability
-            of a wall.
+        occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's
+            own marginals where it computes them ("exact", "importance", "propagate"). Of binary walls it is the
+            probability of a wall.
         observed: cells of which some beam says something in at least half of the draws, (nx, ny); in the others the
             posterior is the prior, or little more.
         log_likelihood, log_prior: of every draw, (chains, draws).
@@ -45,8 +45,8 @@ class Posterior:
         seconds: {"trace", "warm_start", "sampling", "total", "fit"}.
         counts: {"scans", "beams", "incidences", ...}.
         log_weights: normalised log weights of all particles, for "importance".
-        statistics: other numbers by name, such as "belief_changes": the largest change of any cell's probability in each
-            round of belief propagation.
+        statistics: other numbers by name, such as "belief_changes": the largest change of any cell's probability in
+            each round of belief propagation.
         log_evidence: log p(readings), exact or estimated, where the method gives it.
         notes: what a user should know.
     """

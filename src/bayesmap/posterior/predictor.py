@@ -17,6 +17,7 @@ from bayesmap.space.grid import Grid
 
 Maps = NDArray[np.float32]
 
+
 class Batches(Protocol):
     """Gives the draws of a map."""
 

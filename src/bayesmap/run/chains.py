@@ -54,7 +54,9 @@ class Chains:
         return self.snapshot.sweep
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells of which some beam says something in at least half of the maps, (nx, ny): elsewhere the prior speaks."""
+        """Cells of which some beam says something in at least half of the maps, (nx, ny): elsewhere the prior
+        speaks.
+        """
         some, looked = self.informed
         return np.asarray(2 * some >= np.maximum(looked, 1))
 
@@ -100,10 +102,7 @@ class Record:
         chains = next(iter(empty.arrays.values())).shape[0]
         self._draws = replace(
             empty,
-            arrays={
-                spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec))
-                for spec in empty.specs
-            },
+            arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs},
         )
         self._keep = keep
         self._log_likelihood = np.zeros((chains, schedule.draws))

@@ -64,7 +64,5 @@ def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
 
 def difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str | None:
     """Which settings differ, in words."""
-    names = [
-        name for name in wanted if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != wanted[name]
-    ]
+    names = [name for name in wanted if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != wanted[name]]
     return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names) or None

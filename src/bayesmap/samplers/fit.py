@@ -14,6 +14,7 @@ Only the scans that the map is inferred from are looked at.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -95,16 +96,23 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         sweeps: of the pilot; without any, nothing moves.
         watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
     """
-    sampler = StopGibbs()
     now = Parameters(problem.sensor, problem.prior)
+    for found in fitting(problem, seed, sweeps, watch):
+        now = found
+        if watch.should_stop():
+            break
+    return now
+
+
+def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
+    """The same, sweep by sweep: what is found after each."""
     if sweeps == 0:
-        return now
+        return
+    sampler, now = StopGibbs(), Parameters(problem.sensor, problem.prior)
     state = sampler.init(problem, [PILOT], seed)
     every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
     some = slice(every // 2, None, every)
     for sweep in range(sweeps):
-        if watch.should_stop():
-            break
         state, info = sampler.step(state, 1)
         if sweep >= FIRST_SWEEP:
             step, sensor, prior = gain(sweep), now.sensor, now.prior
@@ -116,10 +124,12 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
             now = Parameters(sensor, prior)
             state = replace(state, problem=problem.under(sensor, prior))
         watch.report("fit", sweep + 1, sweeps, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
-    return now
+        yield now
 
 
-def fit_sensor(model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT) -> BeamMixture:
+def fit_sensor(
+    model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
+) -> BeamMixture:
     """The sensor that explains the model's scans best, whatever its kind of cells: from a pilot over reflectivities.
 
     Raises:

@@ -111,9 +111,7 @@ def end_cells(rays: Rays) -> NDArray[np.int32]:
     return np.where(inside & is_touched[flat], flat, -1).astype(np.int32)
 
 
-def start(
-    estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator
-) -> NDArray[np.float32]:
+def start(estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator) -> NDArray[np.float32]:
     """A chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the posterior.
 
     Cells in which no reading ends have surfaces from the prior, and those that no beam touches all of their state.

@@ -55,8 +55,10 @@ class WallProblem:
     def under(self, prior: Independent) -> WallProblem:
         """The same table, and its index if there is one, under another prior."""
         other = replace(self, prior=prior)
-        shared = {name: self.__dict__[name] for name in ("index", "device_table") if name in self.__dict__}
-        other.__dict__.update(shared)
+        shared: dict[str, Any] = {
+            name: value for name, value in vars(self).items() if name in ("index", "device_table")
+        }
+        vars(other).update(shared)
         return other
 
     @cached_property

@@ -1,9 +1,9 @@
 """The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
 
 A sampler is a value: it holds options and no state. What all its chains in one process share, such as traced beams, is
-made once by `prepare`. Chains have numbers of their own, the same wherever they run: every draw depends on (seed, number
-of the chain, sweep, site) alone, and neither on which other chains run beside it, nor on threads, nor on how sweeps are
-cut into steps, nor on stops and resumptions.
+made once by `prepare`. Chains have numbers of their own, the same wherever they run: every draw depends on (seed,
+number of the chain, sweep, site) alone, and neither on which other chains run beside it, nor on threads, nor on how
+sweeps are cut into steps, nor on stops and resumptions.
 """
 
 from __future__ import annotations
@@ -161,4 +161,6 @@ class Sampler(Protocol[P, S]):
         """Copies of what is needed to go on."""
 
     def informed(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """In how many maps some beam says something of each cell, and in how many was looked, of all chains, (2, nx, ny)."""
+        """In how many maps some beam says something of each cell, and in how many was looked, of all chains, (2, nx,
+        ny): of the draws; without any, of the maps at which the chains stand.
+        """

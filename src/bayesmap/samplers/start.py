@@ -54,7 +54,7 @@ def start_map(
             raise BadInput(
                 f"infer: the start has shape {given.shape}, expected {grid.shape}, or a map for each chain before that"
             )
-        return given if given.ndim == 2 else given[chain]
+        return np.asarray(given if given.ndim == 2 else given[chain])
     if start in ("zeros", "ones"):
         return np.full(grid.shape, start == "ones")
     if start not in get_args(Start):

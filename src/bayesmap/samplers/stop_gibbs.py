@@ -92,8 +92,10 @@ class StopProblem:
     def under(self, sensor: BeamMixture, prior: Reflective) -> StopProblem:
         """The same rays under another sensor and another prior."""
         other = replace(self, sensor=sensor, prior=prior)
-        shared = {name: self.__dict__[name] for name in ("estimate", "distance_m") if name in self.__dict__}
-        other.__dict__.update(shared)
+        shared: dict[str, Any] = {
+            name: value for name, value in vars(self).items() if name in ("estimate", "distance_m")
+        }
+        vars(other).update(shared)
         return other
 
 
@@ -141,8 +143,8 @@ class StopState:
 
 @dataclass(frozen=True)
 class StopGibbs:
-    """Sweeps of stops, reflectivities and surfaces. A kept draw is the map that the sweep began with: its density, and the
-    counts behind its expected reflectivities, are the sweep's own.
+    """Sweeps of stops, reflectivities and surfaces. A kept draw is the map that the sweep began with: its density, and
+    the counts behind its expected reflectivities, are the sweep's own.
     """
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
@@ -205,9 +207,7 @@ class StopGibbs:
         )  # fmt: skip
         return StopState(problem, chains, 0 if resume is None else resume.sweep, {})
 
-    def step(
-        self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
-    ) -> tuple[StopState, Info]:
+    def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
         problem, chains = state.problem, state.chains
         parameters = problem.sensor.kernel_parameters()
@@ -234,9 +234,16 @@ class StopGibbs:
         )
 
     def informed(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Sweeps in which some beam told a cell something, of those that counted, (2, nx, ny)."""
-        counts = sum(state.chains.informed(chain) for chain in range(state.chains.n_chains))
-        return np.reshape(np.transpose(counts), (2, *state.problem.grid.shape))
+        """Kept-phase sweeps in which some beam told a cell something, of those that counted, else of the last, (2, nx,
+        ny).
+        """
+        chains = range(state.chains.n_chains)
+        if draws:
+            counts = np.sum([state.chains.informed(chain).T for chain in chains], axis=0)
+        else:
+            counted = [state.chains.counted(chain) for chain in chains]
+            counts = np.sum([((met >= 0) & (hits + met > 0), met >= 0) for hits, met in counted], axis=0)
+        return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)
 
 
 class _Draws:
@@ -290,11 +297,11 @@ def expected_reflectivity(
     density of one more beam is linear in each: under these means it is what it is on average under draws of them
     (Rao and Blackwell). The counts are to be those of the sweep that began at the draw, with its surfaces.
 
-    A cell that learnt nothing in that sweep (`bayesmap.kernels.cell_draws`; no reading ends in it) has the counts of its
-    last draw. Its own mean stays right on average; how its reflectivity goes together with what has changed since, in a
-    few sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of such a cell is that it
-    is free, whichever value near zero it happens to have. In a map of four cells and six beams it was under one per cent
-    of a density.
+    A cell that learnt nothing in that sweep (`bayesmap.kernels.cell_draws`; no reading ends in it) has the counts of
+    its last draw. Its own mean stays right on average; how its reflectivity goes together with what has changed since,
+    in a few sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of such a cell is
+    that it is free, whichever value near zero it happens to have. In a map of four cells and six beams it was under one
+    per cent of a density.
 
     Args:
         hits: (T,).

@@ -102,9 +102,7 @@ class WallSampler(ABC):
         sweep = 0 if resume is None else resume.sweep
         return WallState(problem, chains, kernel, self.sites(problem), sweep, statistics)
 
-    def step(
-        self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
-    ) -> tuple[WallState, Info]:
+    def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[WallState, Info]:
         """Some sweeps of all chains; a kept draw is the map after its sweep."""
         from bayesmap.kernels.chains import run_sweeps
 
@@ -132,15 +130,15 @@ class WallSampler(ABC):
         """In how many of some draws a beam reaches each cell, else of where the chains stand, (2, nx, ny)."""
         from bayesmap.kernels.reach import reach_frequency
 
-        packed, shape = draws["walls"], state.problem.grid.shape
+        packed, shape = draws.get("walls"), state.problem.grid.shape
+        if packed is None or packed.shape[1] == 0:
+            reached = (state.chains.states.reached.numpy() > 0).sum(axis=0).reshape(shape)
+            return np.stack([reached, np.full(shape, state.chains.shape[0])]).astype(np.int32)
         each = -(-MAPS_TO_SEE // len(packed))
-        some = np.unique(np.linspace(0, packed.shape[1] - 1, each).astype(int)) if packed.shape[1] else None
-        out = np.zeros((2, *shape), dtype=np.int32)
-        for chain, walls in enumerate(state.walls()):
-            maps = walls.reshape(1, *shape) != 0 if some is None else unpack(packed[chain, some], shape)
-            reached = reach_frequency(state.problem.table, maps, state.problem.device)
-            out += np.stack([np.rint(reached * len(maps)), np.full(shape, len(maps))]).astype(np.int32)
-        return out
+        some = np.unique(np.linspace(0, packed.shape[1] - 1, each).astype(int))
+        maps = unpack(packed[:, some].reshape(-1, packed.shape[-1]), shape)
+        share = reach_frequency(state.problem.table, maps, state.problem.device)
+        return np.stack([np.rint(share * len(maps)), np.full(shape, len(maps))]).astype(np.int32)
 
 
 def radial_distance(problem: WallProblem) -> NDArray[np.int64]:

@@ -1,0 +1,171 @@
+"""Metropolis sampling of any kind of cells, one at a time, in plain NumPy: for kinds without a sampler of their own.
+
+In every sweep each cell is proposed another state (`CellPrior.propose`; by default one from the prior), which is taken
+with probability min(1, ratio), the ratio being that of the likelihoods of the beams that touch the cell times what the
+proposal says of priors and proposals (Metropolis et al., 1953; Hastings, 1970). It knows nothing of the kind of cells
+and nothing of the sensor but its density: a small map's worth of patience buys a first posterior of a new idea.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.model import Model, log_likelihoods
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.space.grid import Grid
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class MetropolisProblem:
+    """A model, its rays, and which beams touch each cell."""
+
+    model: Model
+    rays: Rays
+
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+        return self.model.grid
+
+    @property
+    def n_incidences(self) -> int:
+        """How many cells all beams cross together."""
+        return self.rays.n_incidences
+
+    @property
+    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
+        """Draws cover the grid."""
+        return {}
+
+    @cached_property
+    def beams_of(self) -> list[NDArray[np.int32]]:
+        """The beams that touch each cell, by flat index."""
+        order = np.argsort(self.rays.cells, kind="stable")
+        bounds = np.searchsorted(self.rays.cells[order], np.arange(self.grid.n_cells + 1))
+        beam = self.rays.beam_of_entry()[order]
+        return [np.unique(beam[bounds[c] : bounds[c + 1]]) for c in range(self.grid.n_cells)]
+
+    def log_likelihoods(
+        self, cells: Mapping[str, NDArray[Any]], beta: float, beams: NDArray[np.int32] | None = None
+    ) -> Floats:
+        """Log p(reading | cells) of some beams, of all if None, at an inverse temperature."""
+        rays = self.rays if beams is None else self.rays.select(beams)
+        stops = self.model.cells.stops(cells, self.grid)
+        return log_likelihoods(rays, stops, self.model.sensor, self.model.hit_depth, beta)
+
+
+@dataclass(frozen=True, eq=False)
+class MetropolisState:
+    """Maps of several chains between two sweeps."""
+
+    problem: MetropolisProblem
+    maps: tuple[dict[str, NDArray[Any]], ...]
+    chain_ids: tuple[int, ...]
+    seed: int
+    sweep: int
+    statistics: Mapping[str, Floats]
+
+
+@dataclass(frozen=True)
+class Metropolis:
+    """Every sweep proposes each cell of the grid a new state once."""
+
+    def prepare(
+        self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT
+    ) -> MetropolisProblem:
+        """Trace the beams; the sweeps themselves are NumPy's, on the CPU."""
+        from bayesmap.kernels.device import resolve
+        from bayesmap.kernels.rays import trace_rays
+
+        rays = trace_rays(model.scans, model.grid, device=resolve(device), on_progress=watch.of("trace"))
+        return MetropolisProblem(model, rays)
+
+    def init(
+        self,
+        problem: MetropolisProblem,
+        chain_ids: Sequence[int],
+        seed: int,
+        resume: Snapshot | None = None,
+        watch: Watch = SILENT,
+    ) -> MetropolisState:
+        """Chains at draws from the prior, or at the maps of a snapshot."""
+        prior, grid = problem.model.cells, problem.grid
+        if resume is None:
+            starts = [
+                prior.sample_cells(np.random.default_rng([seed, chain, STREAM_START]), grid) for chain in chain_ids
+            ]
+        else:
+            starts = [{name: a[i].copy() for name, a in resume.arrays.items()} for i in range(len(chain_ids))]
+        sweep = 0 if resume is None else resume.sweep
+        return MetropolisState(problem, tuple(starts), tuple(chain_ids), seed, sweep, {})
+
+    def step(
+        self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
+    ) -> tuple[MetropolisState, Info]:
+        """Some sweeps of all chains; a kept draw is the map after its sweep."""
+        problem, chains = state.problem, len(state.maps)
+        prior, sizes = problem.model.cells, {"x": problem.grid.shape[0], "y": problem.grid.shape[1]}
+        kept = keep.sweeps(state.sweep, state.sweep + sweeps)
+        specs = [spec for spec in prior.arrays if keep.wants(spec.name)]
+        draws = {s.name: s.empty(chains, len(kept), tuple(sizes[dim] for dim in s.dims)) for s in specs}
+        log_likelihood, log_prior = np.zeros((chains, sweeps)), np.zeros((chains, sweeps))
+        for chain, cells in enumerate(state.maps):
+            of_beam = problem.log_likelihoods(cells, beta)
+            for i in range(sweeps):
+                number = state.sweep + i
+                rng = np.random.default_rng([state.seed, state.chain_ids[chain], STREAM_SWEEPS, number])
+                of_beam = _sweep(problem, cells, of_beam, beta, rng)
+                log_likelihood[chain, i] = of_beam.sum()
+                log_prior[chain, i] = prior.log_prob(cells, problem.grid)
+                if number + 1 in kept:
+                    for spec in specs:
+                        draws[spec.name][chain, kept.index(number + 1)] = spec.stored(cells[spec.name])
+        return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws)
+
+    def snapshot(self, state: MetropolisState) -> Snapshot:
+        """The maps."""
+        names = state.maps[0]
+        return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in names})
+
+    def informed(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+        """The cells that beams touch, (2, nx, ny)."""
+        touched = np.zeros(state.problem.grid.n_cells, dtype=np.int32)
+        touched[state.problem.rays.touched] = 1
+        return np.stack([touched, np.ones_like(touched)]).reshape(2, *state.problem.grid.shape)
+
+
+def _sweep(
+    problem: MetropolisProblem,
+    cells: dict[str, NDArray[Any]],
+    of_beam: Floats,
+    beta: float,
+    rng: np.random.Generator,
+) -> Floats:
+    """Propose each cell another state, in place; the log-likelihoods of all beams afterwards."""
+    ny = problem.grid.shape[1]
+    for c, beams in enumerate(problem.beams_of):
+        site = (c // ny, c % ny)
+        proposal, log_ratio = problem.model.cells.propose(cells, site, rng, problem.grid)
+        before = {name: cells[name][site].copy() for name in proposal}
+        for name, value in proposal.items():
+            cells[name][site] = value
+        if len(beams):
+            proposed = problem.log_likelihoods(cells, beta, beams)
+            log_ratio += float((proposed - of_beam[beams]).sum())
+        if np.log(rng.random()) < log_ratio:
+            if len(beams):
+                of_beam[beams] = proposed
+        else:
+            for name, value in before.items():
+                cells[name][site] = value
+    return of_beam
