@@ -48,10 +48,10 @@ def test_reflectivities_and_surfaces_have_the_likelihood_of_the_definition(prior
     for seed in range(4):
         model, cells = Model(scans(seed), GRID, prior, SENSOR, hit_depth=DEPTH), map_of(prior, seed)
         state = model.state(cells)
-        rays = beam_rays(model.scans, GRID, hit_depth=DEPTH, whole=True)
+        rays = beam_rays(model.scans, GRID, whole=True)
         stops = np.zeros((len(rays.touched), 6))
         stops[:, : 6 if prior.has_surfaces else 1] = prior.stops(cells, GRID).reshape(GRID.n_cells, -1)[rays.touched]
-        expected = log_likelihoods(paths_of(rays, far=False), stops, SENSOR, not prior.has_surfaces)
+        expected = log_likelihoods(paths_of(rays, far=False, hit_depth=DEPTH), stops, SENSOR, not prior.has_surfaces)
         np.testing.assert_allclose(model.beam_log_likelihoods(state), expected, atol=1e-5)
         assert model.log_joint(state) == pytest.approx(prior.log_prob(cells, GRID) + expected.sum(), abs=1e-3)
 

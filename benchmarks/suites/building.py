@@ -13,7 +13,7 @@ from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.start import start_maps
 from benchmarks.figure import Figure, best, timed
@@ -50,7 +50,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
 
     def build() -> Problem:
         table = trace(scans, grid, sensor, hit_depth=HIT_DEPTH, device=device)
-        return Problem(table, bm.Independent(P_WALL), scans.poses, device)
+        return WallProblem(table, bm.Independent(P_WALL), scans.poses, device)
 
     def table_and_index() -> int:
         _ = build().index

@@ -9,7 +9,7 @@ from bayesmap.field_inference import first_sensor
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
 from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, derived, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time, sweeps_of
@@ -34,7 +34,7 @@ def walls_of_the_tutorial(device: str) -> Iterator[Figure]:
         angles = np.arange(beams) / beams * 2 * np.pi
         scans = bm.simulate(walls, TUTORIAL_GRID, pose, angles, sensor=SENSOR, max_range_m=42.0, seed=0)
         table = trace(scans, TUTORIAL_GRID, SENSOR)
-        sampler = Gibbs(Problem(table, bm.Independent(0.5), scans.poses, device), "radial")
+        sampler = Gibbs(WallProblem(table, bm.Independent(0.5), scans.poses, device), "radial")
         figure = sweep_time(f"scaling/{beams}_beams", sweeps_of(sampler, 2_000_000 // beams))
         figures.append(figure)
         yield figure

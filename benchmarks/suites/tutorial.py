@@ -10,7 +10,7 @@ from bayesmap.kernels.trace import trace
 from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.importance import sample_importance
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.sampler import WallSampler
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, rate, ratio, timed, timer
@@ -25,7 +25,7 @@ def problem(p_wall: float, device: str) -> Problem:
     _, readings = tutorial_data()
     angles = np.arange(len(readings)) / len(readings) * 2 * np.pi
     scans = bm.Scans(poses=[10.0, 10.0, 0.0], angles_rad=angles, ranges_m=readings, max_range_m=42.0)
-    return Problem(trace(scans, TUTORIAL_GRID, SENSOR), bm.Independent(p_wall), scans.poses, device)
+    return WallProblem(trace(scans, TUTORIAL_GRID, SENSOR), bm.Independent(p_wall), scans.poses, device)
 
 
 def sweeps_of(sampler: WallSampler, sweeps: int, chains: int = 1, threads: int = 1) -> Callable[[], int]:

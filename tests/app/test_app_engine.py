@@ -16,7 +16,7 @@ from bayesmap.app.tasks import Cancel, Inspect, Look
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.importance import sample_importance
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
 from bayesmap.space.grid import Grid
 
@@ -65,7 +65,7 @@ def test_the_preview_is_the_library_s_belief_propagation():
     preview = Preview(problem)
     while not preview.converged:
         preview.round()
-    whole = propagate(Problem(problem.table, problem.prior, problem.poses))
+    whole = propagate(WallProblem(problem.table, problem.prior, problem.poses))
     assert preview.rounds == len(whole.changes)
     assert np.abs(preview.p_wall() - whole.p_wall).max() < 1e-5
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds
+from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds, touching
 
 import bayesmap as bm
 from bayesmap.kernels.field_score import FieldScore
-from bayesmap.samplers.field_gibbs import build_field
+from bayesmap.samplers.stop_gibbs import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 SHARP = bm.BeamMixture(bm.Gaussian(0.004, 0.001), p_random=0.01, p_no_return=0.0, p_short=0.02)
@@ -28,8 +28,8 @@ CLOSE = {"rtol": 3e-4, "atol": 3e-4}
 def kernel_log_likelihoods(worlds, truth):
     """Of every beam under the given states, as a sweep works them out on the way."""
     sampler = worlds.sampler(1, truth)
-    total, prior = sampler.sweep(0, worlds.problem.sensor, worlds.problem.prior)
-    return sampler._chains._fields[0].log_likelihood.numpy(), total[0], prior[0]
+    total, prior = sampler.sweep()
+    return sampler.arrays.log_likelihood.numpy(), total[0], prior[0]
 
 
 @pytest.mark.parametrize("sensor", [SENSOR, SHARP], ids=["blunt", "sharp"])
@@ -51,7 +51,8 @@ def test_a_score_s_density_is_the_reference_s_with_the_likelihood_of_every_entry
     plain = isinstance(prior, bm.Beta)
     worlds, _ = draw_worlds([8, len(name)], LONE, prior, SENSOR, 100, poses=2, beams=6)
     rays = worlds.problem.rays
-    score = FieldScore(replace(rays, near=rays.offsets[:-1]), SENSOR.kernel_parameters(), plain=plain)
+    everywhere = touching(replace(rays, near=rays.offsets[:-1]), rays.touched)
+    score = FieldScore(everywhere, SENSOR.kernel_parameters(), 0.5, plain=plain)
     paths = paths_of(rays, far=False)
     rng, mean = np.random.default_rng(9), 0.0
     for _ in range(5):
@@ -78,7 +79,7 @@ def test_stops_far_from_the_reading_that_count_as_random_readings_hardly_matter(
     for _ in range(5):
         states = draw_states(rng, prior, centres_of(whole))
         readings = draw_readings(rng, paths_of(whole, far=False), states, sensor, plain)
-        rays = build_field(replace(scans, ranges_m=readings.reshape(400, 3)), grid, prior, sensor).rays
+        rays = trace_stops(replace(scans, ranges_m=readings.reshape(400, 3)), grid, prior, sensor).rays
         np.testing.assert_array_equal(rays.touched, whole.touched)
         short, full = paths_of(rays), paths_of(replace(whole, range_m=readings), far=False)
         lost.append(log_likelihoods(full, states, sensor, plain) - log_likelihoods(short, states, sensor, plain))
@@ -96,7 +97,7 @@ def test_the_compiled_law_of_readings_adds_up_to_one(name):
     rays = beam_rays(scans, LONE, margin_m=0.0, whole=True)
     rays = replace(rays, near=rays.offsets[:-1])
     for seed in range(4):
-        score = FieldScore(rays, SENSOR.kernel_parameters(), plain=plain)
+        score = FieldScore(rays, SENSOR.kernel_parameters(), 0.5, plain=plain)
         score.add(draw_states(np.random.default_rng(seed), prior, centres_of(rays)).astype(np.float32))
         p = np.exp(score.log_mean_density())
         assert np.trapezoid(p[:-2], z[:-2]) + p[-2:].sum() == pytest.approx(1.0, abs=1e-3)
@@ -124,20 +125,20 @@ def test_nothing_is_impossible_but_no_density_is_nan(plain):
     sensor = bm.BeamMixture(bm.Gaussian(0.01), p_random=1e-3, p_no_return=0.0, p_short=0.0)
     readings = np.array([[0.9, np.inf, -np.inf, np.nan, 0.0, 3.0]])
     scans = bm.Scans([-0.3, 0.3, 0.0], np.linspace(-0.2, 0.2, 6), readings, max_range_m=3.0)
-    problem = build_field(scans, LONE, prior, sensor)
+    problem = trace_stops(scans, LONE, prior, sensor)
     for m in (0.0, 1.0, 1e-30, 1 - 1e-7):
-        states = np.zeros((problem.rays.n_cells, 6))
+        states = np.zeros((len(problem.rays.touched), 6))
         states[:, 0], states[:, 3], states[:, 5] = m, 0.1, 0.1
-        states[:, 1:3] = problem.rays.centres_m()
+        states[:, 1:3] = centres_of(problem.rays)[0]
         worlds = Worlds(problem, LONE.shape, 1)
         sampler = worlds.sampler(1, states)
-        for sweep in range(4):
-            log_likelihood, _ = sampler.sweep(sweep, sensor, prior)
+        for beta in (1.0, 1.0, 0.5, 0.0):
+            log_likelihood, _ = sampler.sweep(beta=beta)
             assert np.isfinite(log_likelihood).all()
             hits, met = sampler.counts()
             assert hits.min() >= 0
             assert max(hits.max(), met.max()) <= 5
-        score = FieldScore(problem.rays, sensor.kernel_parameters(), plain=plain)
+        score = FieldScore(problem.rays, sensor.kernel_parameters(), 0.5, plain=plain)
         score.add(states.astype(np.float32))
         assert np.isfinite(score.log_mean_density()).all()
 
@@ -146,5 +147,5 @@ def test_paths_hold_what_rays_hold():
     worlds, _ = draw_worlds(13, LONE, bm.Beta(1, 1), SENSOR, 3)
     rays, paths = worlds.problem.rays, paths_of(worlds.problem.rays)
     assert isinstance(paths, Paths)
-    np.testing.assert_array_equal(paths.cell[paths.there], rays.cells)
-    np.testing.assert_allclose(paths.plain_m[paths.there], rays.distance_m)
+    np.testing.assert_array_equal(rays.touched[paths.cell[paths.there]], rays.cells)
+    np.testing.assert_allclose(paths.plain_m[paths.there], worlds.problem.distance_m, atol=1e-6)

@@ -253,11 +253,14 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         np.testing.assert_array_equal(found[1], passes)
 
 
-def test_chains_have_the_same_rays_with_their_cells_numbered():
-    scans = bm.Scans([-0.5, 1.5, 0.0], [0.0], [[1.2]], max_range_m=9.0)
+def test_some_beams_alone_are_those_beams():
+    scans = bm.Scans([[0.5, 1.5, 0.0], [2.2, 0.3, 2.0]], [-0.3, 0.0, 0.4], np.full((2, 3), 1.2), max_range_m=3.0)
     rays = beam_rays(scans, bm.Grid((4, 3)), margin_m=0.5)
-    assert rays.n_cells == rays.n_incidences == 2
-    np.testing.assert_array_equal(
-        rays.to_grid(np.array([[5.0, 6.0]]), -1.0)[0], [[-1, 5, -1], [-1, 6, -1], [-1, -1, -1], [-1, -1, -1]]
-    )
-    np.testing.assert_allclose(rays.centres_m(), [[0.5, 1.5], [1.5, 1.5]])
+    some = rays.select(np.array([4, 0, 4]))
+    assert some.n_beams == 3
+    for mine, whole in zip(range(3), (4, 0, 4), strict=True):
+        theirs = slice(*rays.offsets[whole : whole + 2])
+        np.testing.assert_array_equal(some.cells[slice(*some.offsets[mine : mine + 2])], rays.cells[theirs])
+        assert some.near[mine] - some.offsets[mine] == rays.near[whole] - rays.offsets[whole]
+        np.testing.assert_array_equal(some.direction[mine], rays.direction[whole])
+    assert some.range_m.tolist() == rays.range_m[[4, 0, 4]].tolist()

@@ -5,7 +5,7 @@ log-likelihood ratio of
 
     |Sigma|^(-n/2) exp(-tr(S Sigma^-1) / 2) exp(-|mu - x|^2 / (2 t^2)),
 
-whose posterior is in closed form: Sigma ~ InverseWishart(nu + n, psi I + S), mu normal. In busy cells by one that lets
+whose posterior is in closed form: Sigma ~ InverseWishart(nu + n, psi I + S), mu normal. In endpoint cells by one that lets
 every beam stop where it always did: their law is then compared with half a million weighted draws. Thousands of cells
 at once are as many independent chains. False alarms: `ALPHA` = 1e-4 over this module.
 """
@@ -20,10 +20,10 @@ from oracle.verdict import ALPHA
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.kernels import field as chains
+from bayesmap.kernels import stop_chains as chains
 from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import Cell
-from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, Field, Rays
+from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, StopState, TracedRays
 
 EDGE, CELLS = 0.5, 10_000
 UNBOUNDED = bm.Surface(1.0, 1.0, wander=0.4, spread=0.3, dof=3.5, extent=1e6)
@@ -44,37 +44,42 @@ def worth(cell: Cell, centre: wp.vec2) -> float:
 
 
 @wp.func
-def tell(rays: Rays, field: Field, part: int, b: int, jacobian: float):
+def tell(rays: TracedRays, state: StopState, part: int, b: int, jacobian: float):
     c = rays.cells[rays.offsets[b]]
-    if field.cells[c][6] != 0.0:
+    if state.cells[c][6] != 0.0:
         centre = wp.vec2(rays.start_m[b][0] + 0.5, rays.start_m[b][1])  # the beam starts half a metre before it
-        ratio = worth(field.candidates[c // IN_A_ROW], centre) - worth(field.cells[c], centre)
-        ratio += jacobian * wp.log(field.candidates[c // IN_A_ROW][3] / field.cells[c][3])
-        field.gain[part, c] = wp.int64(ratio * float(GAIN_UNITS))
+        ratio = worth(state.candidates[c // IN_A_ROW], centre) - worth(state.cells[c], centre)
+        ratio += jacobian * wp.log(state.candidates[c // IN_A_ROW][3] / state.cells[c][3])
+        state.gain[part, c] = wp.int64(ratio * float(GAIN_UNITS))
 
 
 @wp.kernel
-def speak(first: int, part: int, law: SensorParameters, rays: Rays, field: Field, keys: wp.array(dtype=wp.uint64)):
-    tell(rays, field, part, first + wp.tid(), 0.0)
+def speak(
+    first: int, part: int, sweep: int, law: SensorParameters, rays: TracedRays, state: StopState,
+    keys: wp.array(dtype=wp.uint64),
+):  # fmt: skip
+    tell(rays, state, part, first + wp.tid(), 0.0)
 
 
 @wp.kernel
 def speak_wrongly(
-    first: int, part: int, law: SensorParameters, rays: Rays, field: Field, keys: wp.array(dtype=wp.uint64)
-):
-    tell(rays, field, part, first + wp.tid(), 0.5)
+    first: int, part: int, sweep: int, law: SensorParameters, rays: TracedRays, state: StopState,
+    keys: wp.array(dtype=wp.uint64),
+):  # fmt: skip
+    tell(rays, state, part, first + wp.tid(), 0.5)
 
 
 @wp.kernel
 def stop_as_ever(
-    first: int, part: int, law: SensorParameters, rays: Rays, field: Field, keys: wp.array(dtype=wp.uint64)
-):
+    first: int, part: int, sweep: int, law: SensorParameters, rays: TracedRays, state: StopState,
+    keys: wp.array(dtype=wp.uint64),
+):  # fmt: skip
     """Beams cross one cell: those with a reading stop there, the others pass."""
     b = first + wp.tid()
     if wp.isfinite(rays.range_m[b]):
-        field.stop[b] = rays.offsets[b]
+        state.stop[b] = rays.offsets[b]
     else:
-        field.stop[b] = rays.offsets[b + 1]
+        state.stop[b] = rays.offsets[b + 1]
 
 
 def closed_form_p_values(surfaces):
@@ -102,14 +107,14 @@ def test_draws_from_the_prior_are_accepted_as_often_as_they_should(kernel, right
     monkeypatch.setattr(chains, "draw_stops", kernel)
     scans = bm.Scans([-0.25, 0.25, 0.0], [0.0], [[1.2]], max_range_m=2.0)
     worlds = copies(scans, bm.Grid((1, 1), EDGE), UNBOUNDED, SENSOR, CELLS)
-    assert not worlds.problem.guess.busy.any()
+    assert not worlds.problem.estimate.endpoint.any()
     cells = worlds.cells()[:, 0]
-    surfaces = worlds.sweep(worlds.sampler(8), 0, 1500)[cells, 1:].astype(float)
-    surfaces[:, :2] -= worlds.problem.rays.centres_m()[cells]
+    surfaces = worlds.sweep(worlds.sampler(8), 1500)[cells, 1:].astype(float)
+    surfaces[:, :2] -= centres_of(worlds.problem.rays)[0][cells]
     assert (closed_form_p_values(surfaces).min() > ALPHA / 100) == right
 
 
-BUSY = bm.Scans(
+ENDING = bm.Scans(
     [[-0.3, 0.2, 0.1], [0.1, -0.4, 1.3]], [-0.15, 0.0, 0.15],
     [[0.5, np.inf, 0.75], [np.inf, np.inf, 0.8]], max_range_m=2.0,
 )  # fmt: skip
@@ -120,8 +125,8 @@ PRIORS = [
 
 
 def given_stops(prior):
-    """Weighted draws of a busy cell's state, given that beams with a reading stopped in it and the others passed."""
-    rays = build_worlds(BUSY, bm.Grid((1, 1), EDGE), prior, SENSOR, 1).problem.rays
+    """Weighted draws of an endpoint cell's state, given that beams with a reading stopped in it and the others passed."""
+    rays = build_worlds(ENDING, bm.Grid((1, 1), EDGE), prior, SENSOR, 1).problem.rays
     paths, centres = paths_of(rays), centres_of(rays)
     assert (paths.there.sum(axis=1) == 1).all()
     states = draw_states(np.random.default_rng(5), prior, centres, (500_000,))
@@ -132,11 +137,11 @@ def given_stops(prior):
 
 
 @pytest.mark.parametrize("prior", PRIORS, ids=["wide", "narrow"])
-def test_a_busy_cell_comes_to_its_law_given_the_stops(prior, monkeypatch):
+def test_an_endpoint_cell_comes_to_its_law_given_the_stops(prior, monkeypatch):
     monkeypatch.setattr(chains, "draw_stops", stop_as_ever)
-    worlds = copies(BUSY, bm.Grid((1, 1), EDGE), prior, SENSOR, 3000)
-    assert worlds.problem.guess.busy.all()
-    states = worlds.split(worlds.sweep(worlds.sampler(9), 0, 300))
+    worlds = copies(ENDING, bm.Grid((1, 1), EDGE), prior, SENSOR, 5000)
+    assert worlds.problem.estimate.endpoint.all()
+    states = worlds.split(worlds.sweep(worlds.sampler(9), 300))
     mine = weighted.surface_coordinates(states, np.array([[0.5, 0.5]]), 1.0)
     law = given_stops(prior)
     assert law.size > 20_000

@@ -37,8 +37,8 @@ class BetaMixture:
         return out
 
 
-def exact_reflectivities(paths, cells, prior, sensor):
-    """Enumerate; ``cells`` is how many there are."""
+def exact_reflectivities(paths, cells, prior, sensor, beta=1.0):
+    """Enumerate; ``cells`` is how many there are, ``beta`` the inverse temperature."""
     zero = (0,) * cells
     ways = {(zero, zero): 1.0}
     for b in range(len(paths.range_m)):
@@ -51,6 +51,7 @@ def exact_reflectivities(paths, cells, prior, sensor):
         if np.isfinite(z):
             floor = sensor.p_random / (paths.limits.max_m - paths.limits.min_m)
             law[:-1] = np.where(paths.far[b][paths.there[b]], floor, law[:-1])
+        law = law**beta
         after = {}
         for (hits, passes), weight in ways.items():
             p = list(passes)

@@ -27,15 +27,15 @@ class Paths(NamedTuple):
     limits: object
 
 
-def paths_of(rays, *, far=True):
-    """The beams of a `BeamRays`; without ``far`` no entry is taken for far."""
+def paths_of(rays, *, far=True, hit_depth=0.5):
+    """The beams of `Rays`, cells numbered among the touched; without ``far`` no entry is taken for far."""
     lengths = np.diff(rays.offsets)
     column = np.arange(max(int(lengths.max(initial=0)), 1))
     there = column < lengths[:, None]
     at = np.where(there, rays.offsets[:-1, None] + column, 0)
     pad = np.zeros(1)
-    cell = np.where(there, np.append(rays.cells, pad)[at], 0).astype(int)
-    plain_m = np.where(there, np.append(rays.distance_m, pad)[at], 0.0).astype(float)
+    cell = np.where(there, np.append(rays.columns, pad)[at], 0).astype(int)
+    plain_m = np.where(there, np.append(rays.distance_m(hit_depth), pad)[at], 0.0).astype(float)
     is_far = there & (at < rays.near[:, None]) & far
     lines = (rays.start_m.astype(float), rays.direction.astype(float))
     return Paths(cell, there, plain_m, is_far, *lines, rays.range_m, rays.limits)
@@ -101,8 +101,8 @@ def reading_law(z, distance, variance, sensor, limits):
     return np.select([np.isposinf(z), np.isneginf(z), np.isfinite(z)], [silent, close, finite], 1.0)
 
 
-def joint(paths, states, sensor, plain):
-    """p(stop, reading | state) of every beam and stop, (..., B, K + 1)."""
+def joint(paths, states, sensor, plain, beta=1.0):
+    """p(stop | state) p(reading | stop)^beta of every beam and stop, (..., B, K + 1)."""
     stopped, distance, variance = stops(paths, states, plain)
     z = paths.range_m[:, None]
     law = reading_law(z, distance, variance, sensor, paths.limits)
@@ -110,12 +110,12 @@ def joint(paths, states, sensor, plain):
     law = np.where(paths.far & np.isfinite(z), floor, law)
     nowhere = reading_law(z, np.inf, 0.0, sensor, paths.limits)
     nowhere = np.broadcast_to(nowhere, (*law.shape[:-1], 1))
-    return stop_probabilities(stopped) * np.concatenate([law, nowhere], axis=-1)
+    return stop_probabilities(stopped) * np.concatenate([law, nowhere], axis=-1) ** beta
 
 
-def log_likelihoods(paths, states, sensor, plain):
-    """log p(reading | state) of every beam, (..., B); 0 where it is invalid."""
-    return np.log(joint(paths, states, sensor, plain).sum(axis=-1))
+def log_likelihoods(paths, states, sensor, plain, beta=1.0):
+    """log p(reading | state) of every beam at an inverse temperature, (..., B); 0 where it is invalid."""
+    return np.log(joint(paths, states, sensor, plain, beta).sum(axis=-1))
 
 
 def draw_states(rng, prior, centres, count=()):

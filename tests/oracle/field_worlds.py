@@ -10,17 +10,22 @@ import numpy as np
 from oracle.field_law import draw_readings, draw_states, paths_of
 
 import bayesmap as bm
-from bayesmap.beams.beam_rays import BeamRays
 from bayesmap.beams.rays import around_readings
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.samplers.field_gibbs import FieldGibbs, FieldProblem, build_field
+from bayesmap.samplers.sampler import Snapshot
+from bayesmap.samplers.stop_gibbs import StopGibbs, StopProblem, trace_stops
 
 
-def beam_rays(scans, grid, *, margin_m=np.inf, hit_depth=0.5, whole=False):
-    """Rays as chains keep them, cut and marked about the readings, or whole."""
+def beam_rays(scans, grid, *, margin_m=np.inf, whole=False):
+    """Rays, cut and marked about the readings, or whole."""
     reach_m, near_m = around_readings(scans, margin_m, grid.resolution)
-    rays = trace_rays(scans, grid, reach_m=None if whole else reach_m, near_m=near_m)
-    return BeamRays.of(rays, rays.distance_m(hit_depth))
+    return trace_rays(scans, grid, reach_m=None if whole else reach_m, near_m=near_m)
+
+
+def touching(rays, cells):
+    """The rays, counting these cells as touched, whether a beam comes there or not."""
+    vars(rays)["touched"] = np.sort(cells).astype(np.int32)
+    return rays
 
 
 def corners(shape, worlds, gap):
@@ -39,24 +44,51 @@ def side_by_side(rays, worlds):
     nx, ny = rays.grid.shape
     corner, shape = corners((nx, ny), worlds, math.ceil(rays.limits.max_m / rays.grid.resolution) + 1)
     x, y = corner[:, :1] + np.arange(nx * ny) // ny, corner[:, 1:] + np.arange(nx * ny) % ny
-    touched = np.sort((x * shape[1] + y).ravel())
+    flat = x * shape[1] + y
     world = np.arange(rays.n_beams) // (rays.n_beams // worlds)
-    entry_world = np.repeat(world, np.diff(rays.offsets))
-    flat = rays.touched[rays.cells]
-    return replace(
+    many = replace(
         rays,
         grid=bm.Grid(shape, rays.grid.resolution),
-        touched=touched.astype(np.int32),
-        cells=np.searchsorted(touched, (x * shape[1] + y)[entry_world, flat]).astype(np.int32),
-        start_m=(rays.start_m + corner[world] * rays.grid.resolution).astype(np.float32),
+        cells=flat[world[rays.beam_of_entry()], rays.cells].astype(np.int32),
+        # as kernels read them, so that rounding far from the origin is no difference
+        start_m=(rays.start_m + corner[world] * rays.grid.resolution).astype(np.float32).astype(float),
+        direction=rays.direction.astype(np.float32).astype(float),
     )
+    return touching(many, flat.ravel())
+
+
+class Chain:
+    """One chain, advanced a sweep at a time."""
+
+    def __init__(self, problem, seed, states=None, sweep=0):
+        self.sampler = StopGibbs()
+        at = None if states is None else Snapshot(sweep, {"state": states[None].astype(np.float32)})
+        self.state = self.sampler.init(problem, [0], seed, at)
+
+    def sweep(self, count=1, beta=1.0):
+        """Log-likelihood and log prior before each sweep, (count,) each."""
+        self.state, info = self.sampler.step(self.state, count, beta)
+        return info.log_likelihood[0], info.log_prior[0]
+
+    def states(self):
+        """All touched cells, (T, 6)."""
+        return self.sampler.snapshot(self.state).arrays["state"][0]
+
+    def counts(self):
+        """Hits and met beams of the touched cells, (T,) each."""
+        return tuple(self.sampler.snapshot(self.state).arrays["counts"][0])
+
+    @property
+    def arrays(self):
+        """What kernels keep of it."""
+        return self.state.chains._state
 
 
 @dataclass(frozen=True, eq=False)
 class Worlds:
     """``count`` worlds side by side, as a problem for the package."""
 
-    problem: FieldProblem
+    problem: StopProblem
     shape: tuple
     count: int
 
@@ -79,22 +111,26 @@ class Worlds:
         out[..., 1:] /= edge
         return out
 
-    def sampler(self, seed, states=None, threads=1):
+    def sampler(self, seed, states=None, sweep=0):
         """One chain over all worlds, from the states (T, 6) or from the package's own start."""
-        return FieldGibbs(
-            self.problem, 1, seed, threads=threads, states=None if states is None else states[None].astype(np.float32)
-        )
+        return Chain(replaced(self.problem, threads=1), seed, states, sweep)
 
-    def sweep(self, sampler, first, count):
+    def sweep(self, sampler, count, beta=1.0):
         """Some sweeps with nothing fitted; where the chain then stands, (T, 6)."""
-        for number in range(first, first + count):
-            sampler.sweep(number, self.problem.sensor, self.problem.prior)
-        return sampler.states()[0]
+        sampler.sweep(count, beta)
+        return sampler.states()
+
+
+def replaced(problem, **changes):
+    """The problem with other parts, and the same initial estimate."""
+    other = replace(problem, **changes)
+    vars(other)["estimate"] = problem.estimate
+    return other
 
 
 def build_worlds(scans, grid, prior, sensor, worlds, hit_depth=0.5):
     """The problem of ``worlds`` worlds: the scans of world w are the w-th part of ``scans``."""
-    problem = build_field(scans, grid, prior, sensor, hit_depth=hit_depth)
+    problem = trace_stops(scans, grid, prior, sensor, hit_depth=hit_depth)
     return Worlds(replace(problem, rays=side_by_side(problem.rays, worlds)), grid.shape, worlds)
 
 
@@ -106,7 +142,7 @@ def copies(scans, grid, prior, sensor, count, hit_depth=0.5):
 
 def centres_of(rays):
     """Centres of the touched cells, and their edge, as the oracle takes them."""
-    return rays.centres_m(), rays.grid.resolution
+    return rays.grid.cell_centres_m(rays.touched), rays.grid.resolution
 
 
 def draw_worlds(seed, grid, prior, sensor, worlds, *, poses=2, beams=5, limits=(0.1, 3.0), invalid=0.03):

@@ -9,7 +9,7 @@ from oracle.formula import beams, distances
 
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Case:
 
     def problem(self):
         table = trace(self.scans, self.grid, self.sensor)
-        return Problem(table=table, prior=self.prior, poses=self.scans.poses)
+        return WallProblem(table=table, prior=self.prior, poses=self.scans.poses)
 
 
 def scorer(sensor, limits):

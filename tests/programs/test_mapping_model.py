@@ -16,7 +16,7 @@ import bayesmap.gen as gen
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.kernels.trace import trace
 from bayesmap.programs.mapping import sensor_model
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import RangeLimits
 
 KEY = jr.key(0)
@@ -58,7 +58,7 @@ def test_assess_is_infer_s_log_joint(name, lattice):
     readings[0, :3], readings[1, :2] = np.inf, -np.inf
     scans = bm.Scans(case.scans.poses, case.scans.angles_rad, readings, max_range_m=3.0, min_range_m=0.1)
     model, rng = of_case(case), np.random.default_rng(1)
-    problem = Problem(trace(scans, case.grid, case.sensor), case.prior, scans.poses)
+    problem = WallProblem(trace(scans, case.grid, case.sensor), case.prior, scans.poses)
     maps = rng.random((50, *case.grid.shape)) < rng.random((50, 1, 1))
     assess = jax.jit(jax.vmap(lambda w: model.assess(both(w, jnp.asarray(readings)), ())[0]))
     expected = [problem.log_joint(w) for w in maps]

@@ -1,5 +1,6 @@
 """The problems on which all samplers are tried, and how to draw with them."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,9 +9,11 @@ from oracle.transitions import block_sites, single_sites
 from oracle.worlds import make_case
 
 import bayesmap as bm
+from bayesmap.model import Model
+from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 
 ORDERS = ("raster", "radial", "random")
 SAMPLERS = {"gibbs": (Gibbs, single_sites), "block": (BlockGibbs, block_sites)}
@@ -64,15 +67,28 @@ def draw_maps(rng, p, n, count):
     return all_maps(n)[rng.choice(len(p), count, p=p)]
 
 
-def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None):
-    """Where chains from the given maps (chains, n) stand after some sweeps, (chains, n)."""
-    sampler = SAMPLERS[method][0](problem, order)
-    state = sampler.init(np.asarray(starts).reshape(-1, *problem.table.grid.shape), seed)
-    state, _ = sampler.step(state, sweeps, keep=False, threads=threads)
+def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None, beta=1.0):
+    """Where chains from the given maps (chains, n) stand after some sweeps at an inverse temperature, (chains, n)."""
+    problem = replace(problem, threads=threads)
+    starts = np.asarray(starts).reshape(-1, *problem.grid.shape)
+    sampler = SAMPLERS[method][0](order, starts)
+    state, _ = sampler.step(sampler.init(problem, range(len(starts)), seed), sweeps, beta)
     return state.walls() != 0
+
+
+def chains_of(problem, method, order, chains=5, seed=3, schedule=None, start="prior", **options):
+    """The runner's chains of a sampler."""
+    job = Job(model_of(problem), SAMPLERS[method][0](order, start), schedule, seed, tuple(range(chains)), problem=problem)
+    return run_chains(job, **options)
+
+
+def model_of(problem):
+    """A model of which a problem has the table; its scans and its sensor are not looked at."""
+    nothing = bm.Scans(problem.poses, [0.0], np.full((len(problem.poses), 1), np.nan), max_range_m=1.0)
+    return Model(nothing, problem.grid, problem.prior, bm.Gaussian(1.0))
 
 
 def problem_of(case, *, table=None, prior=None):
     """The case's problem, with another table or prior if given: for samplers that are wrong on purpose."""
     right = case.problem()
-    return Problem(table=table or right.table, prior=prior or right.prior, poses=right.poses)
+    return WallProblem(table=table or right.table, prior=prior or right.prior, poses=right.poses)

@@ -16,7 +16,7 @@ from scipy import stats
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
 from bayesmap.posterior.diagnostics import rhat
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import RangeLimits
 
 WORLDS, DRAWS, BINS = 320, 31, 16
@@ -52,7 +52,7 @@ def rank_of_truth(number, true_sensor, sensor, options):
         scans, GRID, prior=PRIOR, sensor=sensor, chains=1, warmup=100, draws=DRAWS, thin=15, seed=number, threads=1,
         **options,
     )  # fmt: skip
-    problem = Problem(trace(scans, GRID, sensor), PRIOR, poses)
+    problem = WallProblem(trace(scans, GRID, sensor), PRIOR, poses)
     worth = [np.array([value]) for value in (problem.log_joint(walls), problem.table.log_likelihood(walls))]
     drawn = functions(run.draws[0], run.log_joint[0], run.posterior.log_likelihood[0])
     true = functions(walls[None], *worth)

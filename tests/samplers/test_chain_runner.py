@@ -1,22 +1,29 @@
 """The chain runner: how the work is cut up never shows in the result, and nothing that was done is lost."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from oracle.worlds import make_case
 from sampler_cases import BOTH, SAMPLERS
+from sampler_cases import chains_of as run_of
+from sampler_cases import model_of
 
 import bayesmap as bm
+from bayesmap.cells.packing import unpack
 from bayesmap.kernels.chains import WallChains
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.state import EXACT as EXACTLY
 from bayesmap.kernels.state import derive_state
-from bayesmap.run import chain as runner
-from bayesmap.run.chain import Schedule, run_chains
-from bayesmap.samplers.start import start_maps
+from bayesmap.run import runner
+from bayesmap.run.chains import join
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.sampler import Keep
 
 EXACT = int(EXACTLY)
 SCHEDULE = Schedule(warmup=13, draws=17, thin=3)
-FIELDS = ("packed", "log_likelihood", "log_prior", "warmup_log_joint", "walls", "sweep", "finished")
+FIELDS = ("log_likelihood", "log_prior", "warmup_log_joint", "sweep", "finished")
 
 
 def problem_8x8():
@@ -28,19 +35,26 @@ def problem_8x8():
     ranges = bm.ranges(walls, grid, poses, angles, 6.0) + rng.normal(0, 0.2, (2, 40))
     scans = bm.Scans(poses, angles, ranges, max_range_m=6.0)
     from bayesmap.kernels.trace import trace
-    from bayesmap.samplers.problem import Problem
+    from bayesmap.samplers.problem import WallProblem
 
-    return Problem(table=trace(scans, grid, bm.Gaussian(0.2)), prior=bm.Independent(0.2), poses=scans.poses)
+    return WallProblem(table=trace(scans, grid, bm.Gaussian(0.2)), prior=bm.Independent(0.2), poses=scans.poses)
 
 
-def chains_of(problem, method, order, **options):
-    sampler = SAMPLERS[method][0](problem, order)
-    return run_chains(sampler, start_maps(problem, "prior", 5, 3), SCHEDULE, 3, **options)
+def chains_of(problem, method, order, *, threads=None, should_stop=lambda: False, on_progress=None, **options):
+    watch = Watch(on_progress, should_stop)
+    problem = replace(problem, threads=threads)
+    return run_of(problem, method, order, schedule=SCHEDULE, watch=watch, **options)
+
+
+def packed(chains):
+    return chains.draws.arrays["walls"]
 
 
 def assert_same(one, other):
     for name in FIELDS:
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
+    np.testing.assert_array_equal(packed(one), packed(other))
+    np.testing.assert_array_equal(one.snapshot.arrays["walls"], other.snapshot.arrays["walls"])
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
@@ -81,13 +95,14 @@ def test_a_stop_keeps_what_there_is_and_says_so(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem = problem_8x8()
     whole = chains_of(problem, "gibbs", "radial")
-    for after in (0, 5, 13, 20, 29):
+    for after in (0, 5, 13, 20, 21, 29):
         asked = iter(range(100))
         part = chains_of(problem, "gibbs", "radial", should_stop=lambda asked=asked, after=after: next(asked) >= after)
         assert not part.finished
-        kept, warmed = part.packed.shape[1], part.warmup_log_joint.shape[1]
-        assert part.sweep == warmed + 3 * kept == after if after <= 13 else part.sweep == 13 + 3 * (after - 13)
-        np.testing.assert_array_equal(part.packed, whole.packed[:, :kept])
+        kept, warmed = packed(part).shape[1], part.warmup_log_joint.shape[1]
+        assert part.sweep == after
+        assert (warmed, kept) == (min(after, 13), max(0, after - 13) // 3)
+        np.testing.assert_array_equal(packed(part), packed(whole)[:, :kept])
         np.testing.assert_array_equal(part.log_joint, whole.log_joint[:, :kept])
         np.testing.assert_array_equal(part.warmup_log_joint, whole.warmup_log_joint[:, :warmed])
 
@@ -110,7 +125,8 @@ def test_checkpoints_come_as_often_as_asked(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem, seen = problem_8x8(), []
     whole = chains_of(problem, "gibbs", "radial", on_checkpoint=seen.append, checkpoint_every_s=-1.0)
-    assert [c.sweep for c in seen] == [*range(1, 14), *range(16, 65, 3)]
+    assert [c.sweep for c in seen] == list(range(1, 65))
+    assert not any(c.finished for c in seen)
     assert_same(chains_of(problem, "gibbs", "radial", resume=seen[-3]), whole)
 
 
@@ -124,17 +140,54 @@ def test_progress_counts_sweeps_and_tells_the_log_joint(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem, seen = problem_8x8(), []
     chains = chains_of(problem, "gibbs", "radial", on_progress=seen.append)
-    assert [p.done for p in seen] == [*range(1, 14), *range(16, 65, 3)]
+    assert [p.done for p in seen] == list(range(1, 65))
     assert {p.total for p in seen} == {SCHEDULE.sweeps}
-    assert [p.warming_up for p in seen] == [True] * 13 + [False] * 17
-    np.testing.assert_array_equal(np.stack([p.log_joint for p in seen[13:]], axis=1), chains.log_joint)
+    assert [p.stage for p in seen] == ["warm-up"] * 13 + ["draws"] * 51
+    np.testing.assert_array_equal([p.log_joint for p in seen[15::3]], chains.log_joint.mean(axis=0))
+
+
+def test_what_is_kept_is_told_by_a_value():
+    assert list(Keep(13, 3).sweeps(0, 25)) == [16, 19, 22, 25]
+    assert list(Keep(13, 3).sweeps(16, 24)) == [19, 22]
+    assert list(Keep(13, 3).sweeps(17, 18)) == list(Keep().sweeps(0, 100)) == []
+    assert list(Keep(0, 1).sweeps(4, 7)) == [5, 6, 7]
+    assert Keep().wants("walls")
+    assert not Keep(arrays=("other",)).wants("walls")
+
+
+@pytest.mark.parametrize(("method", "order"), BOTH)
+def test_a_chain_draws_the_same_wherever_it_runs_and_whichever_others_do(method, order):
+    """Chains 3 and 1 alone, joined, are chains 3 and 1 of five."""
+    problem = problem_8x8()
+    whole = chains_of(problem, method, order)
+    sampler = SAMPLERS[method][0](order, "prior")
+    parts = [
+        runner.run_chains(runner.Job(model_of(problem), sampler, SCHEDULE, 3, (chain,), problem=problem))
+        for chain in (3, 1)
+    ]
+    both = join(parts)
+    for name in ("log_likelihood", "log_prior", "warmup_log_joint"):
+        np.testing.assert_array_equal(getattr(both, name), getattr(whole, name)[[3, 1]], err_msg=name)
+    np.testing.assert_array_equal(packed(both), packed(whole)[[3, 1]])
+    assert (packed(both)[0] != packed(both)[1]).any()
+
+
+def test_the_runner_is_an_iterator_of_states_and_infos():
+    problem = problem_8x8()
+    sampler = SAMPLERS["gibbs"][0]("raster", "prior")
+    state, sweeps = sampler.init(problem, [0, 1], 3), []
+    for state, info in runner.sweeps(sampler, state, 50, keep=Keep(20, 10), stops=(20,), step_seconds=1e-5):
+        sweeps.append(state.sweep)
+        assert info.log_likelihood.shape[0] == 2
+    assert sweeps[-1] == 50
+    assert 20 in sweeps
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
 def test_what_a_chain_keeps_up_to_date_is_what_follows_from_its_walls(method, order):
     problem = problem_8x8()
-    sampler = SAMPLERS[method][0](problem, order)
-    state = sampler.init(start_maps(problem, "prior", 20, 1), 1)
+    sampler = SAMPLERS[method][0](order, "prior")
+    state = sampler.init(problem, range(20), 1)
     for sweeps in (1, 10, 200):
         state, _ = sampler.step(state, sweeps)
         fresh = WallChains(problem.device_table, state.walls(), [0] * 20, "cpu")
@@ -148,8 +201,8 @@ def test_what_a_chain_keeps_up_to_date_is_what_follows_from_its_walls(method, or
 def test_what_a_chain_remembers_of_its_cells_is_true(method, order):
     """``gain`` is what a wall in the cell adds to the log-likelihood, or the bound that it says it is."""
     problem = problem_8x8()
-    sampler = SAMPLERS[method][0](problem, order)
-    state = sampler.init(start_maps(problem, "prior", 3, 1), 1)
+    sampler = SAMPLERS[method][0](order, "prior")
+    state = sampler.init(problem, range(3), 1)
     for _ in range(10):
         state, _ = sampler.step(state, 3)
         states = state.chains.states
@@ -173,11 +226,12 @@ def test_the_reported_log_joint_is_that_of_the_drawn_map(method, order):
     """For priors of one number and of one a cell, fixed cells included."""
     for case in (make_case(1, prior="cells", n_poses=3), make_case(2, prior=0.3)):
         problem = case.problem()
-        sampler = SAMPLERS[method][0](problem, order)
-        _, info = sampler.step(sampler.init(start_maps(problem, "prior", 3, 1), 1), 20)
+        sampler = SAMPLERS[method][0](order, "prior")
+        _, info = sampler.step(sampler.init(problem, range(3), 1), 20, keep=Keep(0, 1))
+        draws = unpack(info.draws["walls"], case.grid.shape)
         for chain in range(3):
             for draw in range(20):
-                walls = info.draws[chain, draw].reshape(case.grid.shape) != 0
+                walls = draws[chain, draw]
                 reported = info.log_likelihood[chain, draw] + info.log_prior[chain, draw]
                 assert reported == pytest.approx(problem.log_joint(walls), rel=1e-6, abs=1e-4)
                 assert info.log_prior[chain, draw] == pytest.approx(case.prior.log_prob(walls, case.grid), abs=1e-9)
@@ -188,9 +242,9 @@ def test_fixed_cells_stay_as_the_prior_fixed_them():
     problem = case.problem()
     p = case.prior.p_wall
     for method, order in BOTH:
-        sampler = SAMPLERS[method][0](problem, order)
-        _, info = sampler.step(sampler.init(start_maps(problem, "ones", 50, 1), 1), 20)
-        draws = info.draws.reshape(-1, *case.grid.shape) != 0
+        sampler = SAMPLERS[method][0](order, "ones")
+        _, info = sampler.step(sampler.init(problem, range(50), 1), 20, keep=Keep(0, 1))
+        draws = unpack(info.draws["walls"], case.grid.shape).reshape(-1, *case.grid.shape)
         assert not draws[:, p == 0].any()
         assert draws[:, p == 1].all()
 
@@ -203,7 +257,7 @@ def test_radial_orders_go_outwards_from_the_nearest_sensor():
         problem = case.problem()
         for method, sites in (("gibbs", single_sites), ("block", block_sites)):
             expected = sites(case.grid.shape, "radial", case.scans.poses, case.grid)
-            found = SAMPLERS[method][0](problem, "radial").sites
+            found = SAMPLERS[method][0]("radial").sites(problem)
             if method == "block":
                 rows = max(1, case.grid.shape[1] - 1)
                 found = [s // rows * case.grid.shape[1] + s % rows for s in found.tolist()]

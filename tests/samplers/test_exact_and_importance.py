@@ -12,7 +12,7 @@ import bayesmap as bm
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.importance import sample_importance
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 
 FLAT = 1e-4  # nats a beam: how much a robust table may differ from the model
 
@@ -46,14 +46,14 @@ def test_exact_draws_follow_the_posterior():
 def test_too_many_unknown_cells_are_refused_with_the_remedy():
     grid = bm.Grid((17, 1))
     scans = bm.Scans([-1.0, 0.5, 0.0], [0.0], [[5.0]], max_range_m=50.0)
-    problem = Problem(trace(scans, grid, bm.Gaussian(1.0)), bm.Independent(0.5), scans.poses)
+    problem = WallProblem(trace(scans, grid, bm.Gaussian(1.0)), bm.Independent(0.5), scans.poses)
     with pytest.raises(
         bm.BadInput, match=r"17 cells are unknown, and enumeration takes at most 16; use method 'gibbs'"
     ):
         enumerate_maps(problem)
     p = np.full((17, 1), 0.5)
     p[3] = 0.0
-    assert len(enumerate_maps(Problem(problem.table, bm.Independent(p), scans.poses)).unknown) == 16
+    assert len(enumerate_maps(WallProblem(problem.table, bm.Independent(p), scans.poses)).unknown) == 16
 
 
 # Importance sampling on worlds whose posterior it can reach: wide noise.

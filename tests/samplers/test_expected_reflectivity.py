@@ -88,7 +88,7 @@ def predicted(case):
     found = field_chain.run_field(worlds.problem, Schedule(150, DRAWS), 1, 7, fit_sensor=False, fit_prior=False)
     states = np.zeros((COPIES, DRAWS, len(centres), 6))
     if not plain:
-        assert worlds.problem.guess.busy.all()
+        assert worlds.problem.estimate.endpoint.all()
         states[..., 1:] = np.moveaxis(found.surfaces[0][:, worlds.cells()], 0, 1).astype(float) * EDGE
         states[..., 1:3] += centres
     out = []

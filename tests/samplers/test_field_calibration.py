@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle.field_law import log_likelihoods, paths_of
-from oracle.field_worlds import draw_worlds
+from oracle.field_worlds import draw_worlds, replaced
 from oracle.verdict import ALPHA
 from scipy import stats
 
@@ -58,7 +58,7 @@ def ranks(prior, sensor, thin, seed, wrong=None):
     plain = isinstance(prior, bm.Beta)
     worlds, truth = draw_worlds(seed, GRID, prior, sensor, WORLDS, poses=2, beams=5)
     if wrong is not None:
-        worlds = replace(worlds, problem=replace(worlds.problem, **wrong))
+        worlds = replace(worlds, problem=replaced(worlds.problem, **wrong))
     rays = worlds.problem.rays
     paths, rng = paths_of(rays), np.random.default_rng(seed)
 
@@ -69,10 +69,10 @@ def ranks(prior, sensor, thin, seed, wrong=None):
     single = truth.astype(np.float32).astype(float)  # equal is what single precision cannot tell apart
     true = values(single)
     sampler = worlds.sampler(seed)
-    worlds.sweep(sampler, 0, WARMUP)
+    worlds.sweep(sampler, WARMUP)
     below, equal = ({name: np.zeros(WORLDS, dtype=int) for name in true} for _ in range(2))
     for draw in range(DRAWS):
-        states = worlds.sweep(sampler, WARMUP + draw * thin, thin).astype(float)
+        states = worlds.sweep(sampler, thin).astype(float)
         for name, value in values(states).items():
             same = abs(value - true[name]) < 1e-9
             equal[name] += same

@@ -8,7 +8,7 @@ import bayesmap as bm
 from bayesmap.field_inference import default_draws
 from bayesmap.run import field_chain
 from bayesmap.run.chain import Schedule
-from bayesmap.samplers.field_gibbs import build_field
+from bayesmap.samplers.stop_gibbs import trace_stops
 
 KINDS = pytest.mark.parametrize("kind", PRIORS)
 
@@ -65,7 +65,7 @@ def test_a_finished_run_goes_on_to_itself():
 
 
 def test_asked_to_stop_it_stops_between_two_sweeps():
-    problem = build_field(scans(), GRID, bm.Surface(), TRUTH)
+    problem = trace_stops(scans(), GRID, bm.Surface(), TRUTH)
     asked = []
 
     def should_stop():
@@ -94,7 +94,7 @@ def test_kept_log_likelihoods_are_those_of_the_kept_draws():
     from oracle.field_law import log_likelihoods, paths_of
 
     run = infer("reflectivities", sensor=TRUTH, draws=3)
-    rays = build_field(scans(), GRID, bm.Beta(), TRUTH).rays
+    rays = trace_stops(scans(), GRID, bm.Beta(), TRUTH).rays
     states = np.zeros((rays.n_cells, 6))
     for draw in range(3):
         states[:, 0] = run.posterior.reflectivity[0, draw]  # in half precision

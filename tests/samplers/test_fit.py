@@ -17,7 +17,7 @@ import bayesmap as bm
 from bayesmap.field_inference import first_sensor, fit_sensor
 from bayesmap.run.chain import Schedule
 from bayesmap.run.field_chain import run_field
-from bayesmap.samplers.field_gibbs import build_field
+from bayesmap.samplers.stop_gibbs import trace_stops
 from bayesmap.samplers.fit import FIRST_SWEEP, PRIOR_EVERY, Stops, gain, prior_gain, refit_prior, refit_sensor
 
 SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_short_per_m")
@@ -66,7 +66,7 @@ def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     """7500 beams, of which some thousand say something about each number: a standard error of 3 to 15 %."""
     data, grid = drawn_map(prior, 4)
     start = replace(prior, a=0.02, b=0.2)
-    problem = build_field(data, grid, start, first_sensor(prior, grid.resolution))
+    problem = trace_stops(data, grid, start, first_sensor(prior, grid.resolution))
     found = run_field(problem, Schedule(80, 0), 2, 0, fit_sensor=True, fit_prior=True).parameters
     mine, truth = found.sensor, TRUTH
     for name, tolerance in (("p_random", 0.5), ("p_no_return", 0.5), ("p_short", 0.4), ("rate_short_per_m", 0.6)):

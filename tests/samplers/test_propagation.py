@@ -10,7 +10,7 @@ from scipy import special
 import bayesmap as bm
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.trace import trace
-from bayesmap.samplers.problem import Problem
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.start import default_start, start_maps
 
@@ -54,7 +54,7 @@ def tree(sensor):
     grid = bm.Grid((4, 4))
     poses = [[-0.5, y + 0.5, 0.0] for y in range(4)] + [[0.5, -0.5, np.pi / 2]]
     scans = bm.Scans(poses, [0.0], [[1.6], [2.4], [0.7], [3.5], [2.2]], max_range_m=6.0)
-    return Problem(trace(scans, grid, sensor), bm.Independent(0.3), scans.poses), scans, grid
+    return WallProblem(trace(scans, grid, sensor), bm.Independent(0.3), scans.poses), scans, grid
 
 
 @pytest.mark.parametrize("noise", [0.2, 0.5, 2.0])
@@ -88,7 +88,7 @@ def test_cells_without_beams_keep_the_prior_and_fixed_cells_stay_fixed():
     p[0, 0], p[2, 2], p[5, 5] = 0.0, 1.0, 1.0
     grid = bm.Grid((6, 6))
     scans = bm.Scans([0.5, 2.5, 0.0], [0.0, 0.1], [[1.4, 3.0]], max_range_m=5.0)
-    problem = Problem(trace(scans, grid, bm.Gaussian(0.3)), bm.Independent(p), scans.poses)
+    problem = WallProblem(trace(scans, grid, bm.Gaussian(0.3)), bm.Independent(p), scans.poses)
     found = propagate(problem).p_wall
     silent = ~problem.table.observed()
     np.testing.assert_allclose(found[silent], p[silent], atol=1e-6)
@@ -116,7 +116,7 @@ def test_rounds_and_damping_out_of_range_are_refused(options):
 def problem_of_cells(shape):
     grid = bm.Grid(shape, 0.1)
     scans = bm.Scans([1.0, 1.0, 0.0], np.linspace(-3, 3, 50), np.full((1, 50), 0.5), max_range_m=5.0)
-    return Problem(trace(scans, grid, bm.BeamMixture()), bm.Independent(0.3), scans.poses)
+    return WallProblem(trace(scans, grid, bm.BeamMixture()), bm.Independent(0.3), scans.poses)
 
 
 @pytest.mark.parametrize(("shape", "start"), [((100, 100), "prior"), ((100, 101), "propagate")])
@@ -156,5 +156,5 @@ def test_a_wall_that_the_prior_fixes_hides_what_is_behind_it_whatever_the_beams_
     p = np.full((6, 1), 0.3)
     p[2] = 1.0
     scans = bm.Scans(np.tile([-0.5, 0.5, 0.0], (20, 1)), [0.0], np.full((20, 1), 4.5), max_range_m=9.0)
-    found = propagate(Problem(trace(scans, grid, sensor), bm.Independent(p), scans.poses), rounds=50)
+    found = propagate(WallProblem(trace(scans, grid, sensor), bm.Independent(p), scans.poses), rounds=50)
     np.testing.assert_allclose(found.p_wall.ravel()[3:], 0.3, atol=0.01)

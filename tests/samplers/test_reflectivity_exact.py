@@ -50,15 +50,15 @@ CASES = [
 ]
 
 
-def exact_of(scans, grid, prior, law, hit_depth=0.5):
+def exact_of(scans, grid, prior, law, hit_depth=0.5, beta=1.0):
     rays = build_worlds(scans, grid, prior, law, 1, hit_depth).problem.rays
-    return exact_reflectivities(paths_of(rays), grid.n_cells, prior, law)
+    return exact_reflectivities(paths_of(rays, hit_depth=hit_depth), grid.n_cells, prior, law, beta)
 
 
-def drawn(scans, grid, prior, law, sweeps, seed=11, hit_depth=0.5):
+def drawn(scans, grid, prior, law, sweeps, seed=11, hit_depth=0.5, beta=1.0):
     """Reflectivities of all copies after some sweeps, (COPIES, cells)."""
     worlds = copies(scans, grid, prior, law, COPIES, hit_depth)
-    return worlds.sweep(worlds.sampler(seed), 0, sweeps)[worlds.cells(), 0].astype(float)
+    return worlds.sweep(worlds.sampler(seed), sweeps, beta)[worlds.cells(), 0].astype(float)
 
 
 def p_values(m, exact):
@@ -103,6 +103,15 @@ def test_beams_along_lines_and_through_corners():
     exact = exact_of(scans, grid, prior, law, hit_depth=0.0)
     m = drawn(scans, grid, prior, law, 150, hit_depth=0.0)
     assert p_values(m, exact).min() > ALPHA / TESTS
+
+
+@pytest.mark.parametrize("beta", [0.0, 0.3, 0.7])
+def test_at_an_inverse_temperature_draws_follow_the_tempered_posterior(beta):
+    shape, prior, law = (2, 2), bm.Beta(1.0, 1.0), sensor(0.1)
+    grid, scans = bm.Grid(shape, 0.5), scans_for(shape, [4, 1])
+    m = drawn(scans, grid, prior, law, 150, beta=beta)
+    assert p_values(m, exact_of(scans, grid, prior, law, beta=beta)).min() > ALPHA / TESTS
+    assert p_values(m, exact_of(scans, grid, prior, law, beta=beta + 0.3)).min() < ALPHA / TESTS  # the twin
 
 
 def test_wrong_twins_are_rejected():

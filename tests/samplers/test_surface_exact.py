@@ -51,18 +51,18 @@ def prior_states(shape, prior):
     return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,)), centres
 
 
-def by_importance(shape, scans, law, prior):
+def by_importance(shape, scans, law, prior, beta=1.0):
     """Draws from the prior, weighted by their likelihood."""
     states, centres = prior_states(shape, prior)
     paths = paths_of(build_worlds(scans, bm.Grid(shape, EDGE), prior, law, 1).problem.rays)
     parts = [states[i : i + AT_ONCE] for i in range(0, DRAWS, AT_ONCE)]
-    log_weights = [log_likelihoods(paths, part, law, False).sum(axis=-1) for part in parts]
+    log_weights = [log_likelihoods(paths, part, law, False, beta).sum(axis=-1) for part in parts]
     return weighted(surface_coordinates(states, *centres), np.concatenate(log_weights))
 
 
-def drawn(shape, scans, law, prior, sweeps, seed=17):
+def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0):
     worlds = copies(scans, bm.Grid(shape, EDGE), prior, law, COPIES)
-    states = worlds.split(worlds.sweep(worlds.sampler(seed), 0, sweeps))
+    states = worlds.split(worlds.sweep(worlds.sampler(seed), sweeps, beta))
     nx, ny = shape
     cell = np.arange(nx * ny)
     return surface_coordinates(states, np.stack([cell // ny + 0.5, cell % ny + 0.5], axis=-1), 1.0)
@@ -74,6 +74,14 @@ def test_draws_follow_the_posterior(name):
     law = by_importance(*case)
     assert law.size > 8 * COPIES
     assert p_values(drawn(*case, sweeps=400), law).min() > ALPHA / TESTS
+
+
+@pytest.mark.parametrize("beta", [0.0, 0.4])
+def test_at_an_inverse_temperature_draws_follow_the_tempered_posterior(beta):
+    case = CASES["one cell, blunt"]
+    mine = drawn(*case, sweeps=400, beta=beta)
+    assert p_values(mine, by_importance(*case, beta=beta)).min() > ALPHA / TESTS
+    assert p_values(mine, by_importance(*case, beta=beta + 0.5)).min() < ALPHA / TESTS  # the twin
 
 
 def test_wrong_twins_are_rejected():
