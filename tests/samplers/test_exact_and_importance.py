@@ -12,6 +12,7 @@ import bayesmap as bm
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.importance import sample_importance
+from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.problem import WallProblem
 
 FLAT = 1e-4  # nats a beam: how much a robust table may differ from the model
@@ -125,7 +126,7 @@ def test_a_particle_s_weight_does_not_depend_on_how_many_there_are_or_on_the_bat
 
 def test_a_stopped_run_keeps_its_particles():
     case = world(WIDE[0])
-    found = sample_importance(case.problem(), 10**7, seed=1, should_stop=lambda: True)
+    found = sample_importance(case.problem(), 10**7, seed=1, watch=Watch(should_stop=lambda: True))
     assert not found.finished
     assert 0 < len(found.log_weights) < 10**7
     assert np.exp(found.log_weights).sum() == pytest.approx(1.0)
@@ -138,3 +139,9 @@ def test_neighbouring_particles_have_no_random_number_in_common():
     maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
     correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
     assert abs(correlations).max() < 5.5 / np.sqrt(20_000)
+
+
+def test_at_an_inverse_temperature_weights_are_the_likelihood_to_that_power():
+    problem = world(WIDE[0]).problem()
+    plain, tempered = (sample_importance(problem, 2000, seed=3, beta=beta).log_weights for beta in (1.0, 0.25))
+    np.testing.assert_allclose(np.diff(tempered), 0.25 * np.diff(plain), atol=1e-9)

@@ -1,5 +1,7 @@
 """Belief propagation: the messages that its definition gives, exact where it should be, and how it warms chains."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from oracle.enumeration import marginals
@@ -12,7 +14,8 @@ from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
-from bayesmap.samplers.start import default_start, start_maps
+from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.start import default_start, start_map
 
 SINGLE = 2e-4  # log-odds: messages are kept in single precision, and some dozens are added
 
@@ -98,13 +101,15 @@ def test_cells_without_beams_keep_the_prior_and_fixed_cells_stay_fixed():
 
 def test_the_report_says_how_far_it_has_settled():
     problem, told = make_case(2).problem(), []
-    found = propagate(problem, rounds=200, tolerance=1e-4, on_round=lambda *news: told.append(news))
+    found = propagate(problem, rounds=200, tolerance=1e-4, watch=Watch(told.append))
     assert found.converged
     assert found.changes[-1] < 1e-4 <= found.changes[:-1].min()
-    assert told == [(i + 1, 200, change) for i, change in enumerate(found.changes)]
+    assert [(event.stage, event.done, event.total) for event in told] == [
+        ("propagate", i + 1, 200) for i in range(len(found.changes))
+    ]
     assert (found.mean_changes <= found.changes).all()
     assert not propagate(problem, rounds=1).converged
-    assert len(propagate(problem, rounds=200, should_stop=lambda: True).changes) == 1
+    assert len(propagate(problem, rounds=200, watch=Watch(should_stop=lambda: True)).changes) == 1
 
 
 @pytest.mark.parametrize("options", [{"rounds": 0}, {"rounds": 1.5}, {"damping": 1.0}, {"damping": -0.1}])
@@ -121,13 +126,13 @@ def problem_of_cells(shape):
 
 @pytest.mark.parametrize(("shape", "start"), [((100, 100), "prior"), ((100, 101), "propagate")])
 def test_maps_of_more_than_ten_thousand_cells_start_warm(shape, start):
-    assert default_start(problem_of_cells(shape)) == start
+    assert default_start(bm.Grid(shape)) == start
 
 
 def test_a_warm_start_is_the_beliefs_where_they_say_something_and_the_prior_elsewhere():
     problem = problem_of_cells((40, 40))
     found = propagate(problem)
-    maps = start_maps(problem, "propagate", 200, 1, found)
+    maps = np.stack([start_map(problem, "propagate", chain, 1, found) for chain in range(200)])
     sure = abs(found.p_wall - 0.3) > 0.01
     assert (maps[:, sure] == (found.p_wall > 0.5)[sure]).all()
     silent = ~problem.table.observed()
@@ -138,16 +143,34 @@ def test_a_warm_start_is_the_beliefs_where_they_say_something_and_the_prior_else
 
 def test_starts_of_every_kind_have_a_map_for_each_chain():
     problem = make_case(1).problem()
-    assert not start_maps(problem, "zeros", 3, 1).any()
-    assert start_maps(problem, "ones", 3, 1).all()
-    prior = start_maps(problem, "prior", 3, 1)
-    np.testing.assert_array_equal(prior[:2], start_maps(problem, "prior", 2, 1))
-    np.testing.assert_array_equal(start_maps(problem, prior, 3, 1), prior)
-    np.testing.assert_array_equal(start_maps(problem, prior[1], 3, 1), [prior[1]] * 3)
-    with pytest.raises(bm.BadInput, match=r"shape \(2, 2\), expected \(4, 4\) or \(3, 4, 4\)"):
-        start_maps(problem, np.zeros((2, 2)), 3, 1)
+    assert not start_map(problem, "zeros", 3, 1).any()
+    assert start_map(problem, "ones", 3, 1).all()
+    prior = np.stack([start_map(problem, "prior", chain, 1) for chain in range(3)])
+    assert (prior[0] != prior[1]).any()
+    for chain in range(3):
+        np.testing.assert_array_equal(start_map(problem, prior, chain, 1), prior[chain])
+        np.testing.assert_array_equal(start_map(problem, prior[1], chain, 1), prior[1])
+    with pytest.raises(bm.BadInput, match=r"shape \(2, 2\), expected \(4, 4\)"):
+        start_map(problem, np.zeros((2, 2)), 0, 1)
+    with pytest.raises(bm.BadInput, match="a map for each chain"):
+        start_map(problem, prior, 3, 1)
     with pytest.raises(bm.BadInput, match="start must be one of prior, zeros, ones, propagate or a map, got 'ones!'"):
-        start_maps(problem, "ones!", 3, 1)
+        start_map(problem, "ones!", 3, 1)
+
+
+@pytest.mark.parametrize("beta", [0.0, 0.4])
+def test_at_an_inverse_temperature_beliefs_are_those_of_the_tempered_likelihood(beta):
+    """One beam alone, for which one round is exact: by the tempered table itself."""
+    grid, sensor = bm.Grid((5, 1)), bm.Gaussian(0.8)
+    scans = bm.Scans([-0.5, 0.5, 0.0], [0.0], [[3.2]], max_range_m=9.0)
+    table = trace(scans, grid, sensor)
+    tempered = replace(table, loglik=np.float32(beta) * table.loglik, no_hit=np.float32(beta) * table.no_hit)
+    mine, expected, untempered = (
+        propagate(WallProblem(of, bm.Independent(0.3), scans.poses), rounds=1, damping=0.0, beta=power).p_wall
+        for of, power in ((table, beta), (tempered, 1.0), (table, 1.0))
+    )
+    np.testing.assert_allclose(mine, expected, atol=1e-5)
+    assert abs(mine - untempered).max() > 0.02
 
 
 def test_a_wall_that_the_prior_fixes_hides_what_is_behind_it_whatever_the_beams_say():

@@ -9,6 +9,7 @@ False alarms: `ALPHA` = 1e-4 for the whole file, over all choices of its (fixed)
 
 import numpy as np
 import pytest
+from oracle.enumeration import all_maps
 from oracle.verdict import ALPHA, least_p_value
 from sampler_cases import BOTH, NAMES, WORLDS, draw_maps, problem_of, run_sweeps, world
 
@@ -56,3 +57,25 @@ def test_one_incidence_whose_gain_has_the_wrong_sign_is_rejected(method):
     loglik[entry] -= 2 * gain[entry]
     wrong = BeamTable(case.grid, table.offsets, table.cells, loglik, table.no_hit)
     assert p_value_after(case, problem_of(case, table=wrong), method, "radial", LONG, 2) < ALPHA / TESTS
+
+
+def tempered(case, beta):
+    """The law of all maps under the prior and the likelihood to the power of beta."""
+    maps, p_wall = all_maps(case.n), np.broadcast_to(case.prior.p_wall, case.grid.shape).ravel()
+    with np.errstate(divide="ignore", invalid="ignore"):
+        log_prior = np.where(maps, np.log(p_wall), np.log1p(-p_wall)).sum(axis=1)
+        log_p = np.where(np.isinf(log_prior), -np.inf, log_prior + beta * (case.exact.log_joint - log_prior))
+    p = np.exp(log_p - log_p.max())
+    return p / p.sum()
+
+
+@pytest.mark.parametrize("beta", [0.0, 0.3])
+@pytest.mark.parametrize(("method", "order"), [("gibbs", "radial"), ("block", "random")])
+def test_at_an_inverse_temperature_a_sweep_leaves_the_tempered_posterior_invariant(method, order, beta):
+    for number in (POWER, WORLDS.index(next(w for w in WORLDS if w[0] == "cells" and w[5] == 70))):
+        case = world(number)
+        law, other = tempered(case, beta), tempered(case, beta + 0.3)
+        starts = draw_maps(np.random.default_rng([number, 4]), law, case.n, CHAINS)
+        found = run_sweeps(case.problem(), method, order, starts, LONG, number, beta=beta)
+        assert least_p_value(found, law) > ALPHA / TESTS
+        assert least_p_value(found, other) < ALPHA / TESTS  # the twin
