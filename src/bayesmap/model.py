@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.stop_law import stops_of
-from bayesmap.cells.kind import CellPrior, Cells
+from bayesmap.cells.kind import ArraySpec, CellPrior, Cells
 from bayesmap.errors import BadInput
 from bayesmap.poses.prior import Known, PosePrior
 from bayesmap.sensors.model import Floats, SensorModel
@@ -30,6 +30,9 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 BEAMS_AT_ONCE = 8192
+
+POSES = ArraySpec("poses", ("scan", "pose"), "float64", what="x, y in metres and yaw in radians, in the world frame")
+"""What a draw holds where poses are unknown, beside its cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +69,11 @@ class Model:
     sensor: SensorModel
     poses: PosePrior = field(default_factory=Known)
     hit_depth: float = 0.0
+
+    @property
+    def arrays(self) -> tuple[ArraySpec, ...]:
+        """What a draw holds: the arrays of its cells, and the poses where they are unknown."""
+        return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:
         """A state with these cells, the model's sensor, and the poses that the log states."""

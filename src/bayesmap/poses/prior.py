@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,7 +46,13 @@ class PoseLaw(ABC):
 
 
 class PosePrior(ABC):
-    """What is believed of the poses before the scans are looked at."""
+    """What is believed of the poses before the scans are looked at.
+
+    Attributes:
+        unknown: whether there is anything to infer.
+    """
+
+    unknown: ClassVar[bool] = True
 
     @abstractmethod
     def law(self, log_poses: Floats) -> PoseLaw:
@@ -59,6 +66,8 @@ class PosePrior(ABC):
 @dataclass(frozen=True)
 class Known(PosePrior):
     """The poses are those of the log."""
+
+    unknown: ClassVar[bool] = False
 
     def law(self, log_poses: Floats) -> PoseLaw:
         """A law under which nothing moves."""

@@ -114,7 +114,7 @@ def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) 
 
 def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
     """Draws of a model before there is any."""
-    empty = Draws(model.grid, model.cells.arrays, {}, state.problem.coordinates)
+    empty = Draws(model.grid, model.arrays, {}, state.problem.coordinates)
     return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
 
 

@@ -74,7 +74,8 @@ class PoseMetropolis:
     Attributes:
         likelihood: of scans at poses.
         prior: of the poses.
-        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3).
+        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3), or for each chain one,
+            (C, S, 3, 3).
     """
 
     likelihood: ScanLikelihood
@@ -104,7 +105,7 @@ class PoseMetropolis:
         moved = np.zeros(chains)
         for step in range(state.step, state.step + n):
             noise, level = self._random(state, step)
-            shifts = np.exp(log_scale)[..., None] * np.einsum("sij,csj->csi", self.factor, noise)
+            shifts = np.exp(log_scale)[..., None] * (self.factor @ noise[..., None])[..., 0]
             accepted = np.zeros((chains, scans), dtype=np.bool_)
             for colour in self.prior.colours(scans):
                 proposed = poses.copy()

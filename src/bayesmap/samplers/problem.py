@@ -52,6 +52,10 @@ class WallProblem:
         """Draws cover the grid."""
         return {}
 
+    def for_any_poses(self) -> WallProblem:
+        """The same: draws of walls cover the grid already."""
+        return self
+
     def under(self, prior: Independent) -> WallProblem:
         """The same table, and its index if there is one, under another prior."""
         other = replace(self, prior=prior)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from bayesmap.beams.rays import Rays, around_readings
 from bayesmap.cells.reflectivity import Reflective
@@ -30,11 +31,15 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.stop_chains import StopChains
+    from bayesmap.kernels.stop_chains import Plan, StopChains
 
 CELLS_AROUND = 1.5
 SIGMAS_AROUND = 6.0
 """A stop further from its reading than so many cells and standard deviations counts as a random reading's."""
+
+CELLS_MOVED = 2
+"""How far readings are expected to move when poses do, in cells: surfaces further from where readings end at first are
+not kept in draws."""
 
 HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
 """The largest number below 1 in half precision, 0.9995. A mean that was rounded to 1 would say that no beam ever comes
@@ -52,6 +57,8 @@ class StopProblem:
         hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
         device: where kernels run.
         threads: of the CPU; all cores if None.
+        kept: the cells of which draws and snapshots keep reflectivities ("cell") and surfaces ("surface_cell"), flat; if
+            None, those that beams touch and those in which readings end.
     """
 
     rays: Rays
@@ -60,6 +67,7 @@ class StopProblem:
     hit_depth: float = 0.5
     device: str = "cpu"
     threads: int | None = None
+    kept: Mapping[str, NDArray[np.int32]] | None = None
 
     @property
     def grid(self) -> Grid:
@@ -79,8 +87,18 @@ class StopProblem:
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
         """The cells of which draws keep reflectivities, and those of which they keep surfaces."""
+        if self.kept is not None:
+            return self.kept
         surfaces = {"surface_cell": self.estimate.endpoint_cells} if self.prior.has_surfaces else {}
         return {"cell": self.estimate.touched} | surfaces
+
+    def for_any_poses(self) -> StopProblem:
+        """The same for poses that may move: draws keep all cells, and surfaces about those in which readings end now."""
+        ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        ends[self.estimate.endpoint_cells] = True
+        near = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
+        surfaces = {"surface_cell": np.nonzero(near.ravel())[0].astype(np.int32)} if self.prior.has_surfaces else {}
+        return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 
     @cached_property
     def distance_m(self) -> NDArray[np.float32]:
@@ -137,6 +155,7 @@ class StopState:
 
     problem: StopProblem
     chains: StopChains
+    keys: Sequence[int]
     sweep: int
     statistics: Mapping[str, NDArray[np.float64]]
 
@@ -174,38 +193,33 @@ class StopGibbs:
     ) -> StopState:
         """Chains scattered about the initial estimate, or where they stood."""
         from bayesmap.kernels.random import mix
-        from bayesmap.kernels.stop_chains import Plan, StopChains
+        from bayesmap.kernels.stop_chains import StopChains
 
-        estimate, edge = problem.estimate, problem.grid.resolution
-        touched = estimate.touched
+        estimate, kept = problem.estimate, problem.coordinates["cell"]
         resumed = {} if resume is None else resume.arrays
 
         def states(chain: int) -> NDArray[np.float32]:
             rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
             state = start(estimate, problem.prior, problem.rays, rng)
             if "state" in resumed:
-                state[touched] = resumed["state"][chain]
+                state[kept] = resumed["state"][chain]
             return state
 
         def on_grid(name: str) -> NDArray[np.int32] | None:
-            """Two numbers for each touched cell, (C, 2, T), spread over the grid."""
+            """Two numbers for each kept cell, (C, 2, T), spread over the grid."""
             if name not in resumed:
                 return None
             out = np.zeros((len(chain_ids), 2, problem.grid.n_cells), dtype=np.int32)
-            out[..., touched] = resumed[name]
+            out[..., kept] = resumed[name]
             return out
 
-        plan = Plan(
-            rays=problem.rays, rounds=rounds(estimate), endpoints=estimate.endpoint_cells, steps=steps(estimate, edge),
-            distance_m=None if problem.prior.has_surfaces else problem.distance_m, device=problem.device,
-        )  # fmt: skip
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         informed = on_grid("informed")
         chains = StopChains(
-            plan, states, keys, threads=problem.threads, counts=on_grid("counts"),
+            _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"),
             informed=None if informed is None else np.ascontiguousarray(informed.transpose(0, 2, 1)),
         )  # fmt: skip
-        return StopState(problem, chains, 0 if resume is None else resume.sweep, {})
+        return StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
@@ -221,15 +235,15 @@ class StopGibbs:
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
     def snapshot(self, state: StopState) -> Snapshot:
-        """The touched cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started."""
-        touched, chains = state.problem.estimate.touched, range(state.chains.n_chains)
-        counts = [np.stack(state.chains.counted(chain))[:, touched] for chain in chains]
+        """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started."""
+        kept, chains = state.problem.coordinates["cell"], range(state.chains.n_chains)
+        counts = [np.stack(state.chains.counted(chain))[:, kept] for chain in chains]
         return Snapshot(
             state.sweep,
             {
-                "state": np.stack([state.chains.cells(chain)[touched] for chain in chains]),
+                "state": np.stack([state.chains.cells(chain)[kept] for chain in chains]),
                 "counts": np.stack(counts),
-                "informed": np.stack([state.chains.informed(chain)[touched].T for chain in chains]),
+                "informed": np.stack([state.chains.informed(chain)[kept].T for chain in chains]),
             },
         )
 
@@ -246,6 +260,18 @@ class StopGibbs:
         return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)
 
 
+def _plan(problem: StopProblem) -> Plan:
+    """What the sweeps of all chains share."""
+    from bayesmap.kernels.stop_chains import Plan
+
+    estimate = problem.estimate
+    return Plan(
+        rays=problem.rays, rounds=rounds(estimate), endpoints=estimate.endpoint_cells,
+        steps=steps(estimate, problem.grid.resolution),
+        distance_m=None if problem.prior.has_surfaces else problem.distance_m, device=problem.device,
+    )  # fmt: skip
+
+
 class _Draws:
     """Room for the draws of some sweeps, filled chain by chain as they are made."""
 
@@ -258,18 +284,19 @@ class _Draws:
             for spec in problem.prior.arrays
             if keep.wants(spec.name)
         }
-        endpoints = problem.estimate.endpoint_cells
-        self._centres = problem.grid.cell_centres_m(endpoints) if problem.prior.has_surfaces else None
+        self._cells = problem.coordinates
+        surfaces = self._cells.get("surface_cell")
+        self._centres = None if surfaces is None else problem.grid.cell_centres_m(surfaces)
 
     def begin(self, chain: int, sweep: int) -> None:
         """Take the cells as they stand before a sweep."""
         number = self._number.get(sweep)
         if number is None:
             return
-        cells, estimate, edge = self._chains.cells(chain), self._problem.estimate, self._problem.grid.resolution
-        self._put("reflectivity", chain, number, cells[estimate.touched, 0])
+        cells, edge = self._chains.cells(chain), self._problem.grid.resolution
+        self._put("reflectivity", chain, number, cells[self._cells["cell"], 0])
         if self._centres is not None:
-            surfaces = cells[estimate.endpoint_cells, 1:].astype(np.float64)
+            surfaces = cells[self._cells["surface_cell"], 1:].astype(np.float64)
             surfaces[:, :2] -= self._centres
             for part, values in zip(PARTS, surfaces.T / edge, strict=True):
                 self._put(f"surface_{part}", chain, number, values)
@@ -279,7 +306,7 @@ class _Draws:
         number = self._number.get(sweep)
         if number is None or "expected" not in self.arrays:
             return
-        hits, met = (count[self._problem.estimate.touched] for count in self._chains.counted(chain))
+        hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))
         expected = expected_reflectivity(hits, met, self._problem.prior, self.arrays["reflectivity"][chain, number])
         self._put("expected", chain, number, expected)
 

@@ -36,6 +36,7 @@ class WallState:
     chains: WallChains
     kernel: tuple[Any, list[Any]]
     sites: NDArray[np.int32]
+    keys: Sequence[int]
     sweep: int
     statistics: Mapping[str, NDArray[np.float64]]
 
@@ -100,7 +101,7 @@ class WallSampler(ABC):
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
         sweep = 0 if resume is None else resume.sweep
-        return WallState(problem, chains, kernel, self.sites(problem), sweep, statistics)
+        return WallState(problem, chains, kernel, self.sites(problem), keys, sweep, statistics)
 
     def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[WallState, Info]:
         """Some sweeps of all chains; a kept draw is the map after its sweep."""
@@ -121,6 +122,21 @@ class WallSampler(ABC):
             threads=problem.threads,
         )
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, {"walls": draws})
+
+    def retrace(self, problem: WallProblem, model: Model) -> WallProblem:
+        """The same problem for a model whose scans were taken elsewhere."""
+        return trace_walls(model, problem.device, 1)
+
+    def moved(self, state: WallState, problem: WallProblem) -> WallState:
+        """The chains as they are, under another problem."""
+        from bayesmap.kernels.chains import WallChains
+
+        chains = WallChains(problem.device_table, state.walls(), state.keys, problem.device)
+        return replace(state, problem=problem, chains=chains, kernel=self.kernel(problem), sites=self.sites(problem))
+
+    def stops(self, state: WallState) -> NDArray[np.float32]:
+        """Stop probabilities 0 and 1 where the chains stand, (C, N)."""
+        return state.walls().astype(np.float32)
 
     def snapshot(self, state: WallState) -> Snapshot:
         """The maps: everything else follows from them."""

@@ -150,6 +150,14 @@ class Scans:
         seen_from_scan = between(self.poses[:, None], self.beam_poses)
         return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
 
+    def moved_to(self, poses: ArrayLike) -> Scans:
+        """The same scans from other poses, (S, 3); beams that left while the sensor moved go along with their scan."""
+        there = as_poses(poses)
+        if self.beam_poses is None:
+            return replace(self, poses=there)
+        within = between(self.poses[:, None], self.beam_poses)
+        return replace(self, poses=there, beam_poses=compose(there[:, None], within))
+
     def holdout(self, every: int) -> tuple[Scans, Scans]:
         """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
 

@@ -1,0 +1,271 @@
+"""Cells and poses together: sweeps of the cells at fixed poses, then steps of the poses given the cells, in turn.
+
+Both leave the joint posterior of map and trajectory as it is, so their alternation does (Gibbs sampling in two blocks).
+Each chain has poses of its own, and so beams that cross other cells: after its poses have moved, its rays are traced
+anew, and its cells stay what they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.cells.kind import CellPrior
+from bayesmap.model import POSES, Model
+from bayesmap.poses.prior import PoseLaw
+from bayesmap.samplers.pose_steps import PoseMetropolis, PoseState, proposal_factors
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import NOTHING, Info, Keep, Sampler, Snapshot
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.grid import Grid
+
+if TYPE_CHECKING:
+    from bayesmap.kernels.scan_likelihood import ScanLikelihood
+
+Floats = NDArray[np.float64]
+
+EVERY = 5
+"""Sweeps of the cells from one round of pose steps to the next."""
+STEPS = 3
+"""Steps of every pose in a round."""
+STREAM_START_POSES = 6
+DIFFERENCE_M = 0.02
+"""Of poses, over which slopes of the likelihood are taken: about the noise of a laser."""
+OF_STEPS = ("pose_log_scale", "pose_factor")
+
+class MovableSampler(Sampler[Any, Any], Protocol):
+    """A sampler of cells whose rays can be traced anew under its chains."""
+
+    def retrace(self, problem: Any, model: Model) -> Any:
+        """The same problem for a model whose scans were taken elsewhere; draws keep the same cells."""
+
+    def moved(self, state: Any, problem: Any) -> Any:
+        """The chains as they are, under another problem of `retrace`."""
+
+    def stops(self, state: Any) -> NDArray[np.float32]:
+        """Where the chains stand, as `bayesmap.cells.kind.CellPrior.stops`: (C, N) or (C, N, 6)."""
+
+
+@dataclass(frozen=True, eq=False)
+class PoseProblem:
+    """A model whose poses are unknown, where samplers can read it.
+
+    Attributes:
+        model: what is sampled.
+        cells: the same at the poses that the log states, for the sampler of the cells.
+        device: where kernels run.
+        threads: of the CPU; all cores if None.
+    """
+
+    model: Model
+    cells: Any
+    device: str
+    threads: int | None
+
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+        return self.model.grid
+
+    @property
+    def n_incidences(self) -> int:
+        """How many cells all beams cross together."""
+        return int(self.cells.n_incidences)
+
+    @property
+    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
+        """Those of the cells, and the numbers of scans and of the parts of a pose."""
+        scans = np.arange(len(self.model.scans), dtype=np.int32)
+        return {**self.cells.coordinates, "scan": scans, "pose": np.arange(3, dtype=np.int32)}
+
+    @cached_property
+    def likelihood(self) -> ScanLikelihood:
+        """The likelihood of scans at poses."""
+        from bayesmap.kernels.scan_likelihood import ScanLikelihood
+
+        model = self.model
+        return ScanLikelihood(model.scans, model.grid, model.sensor, model.hit_depth, self.device)
+
+    @cached_property
+    def law(self) -> PoseLaw:
+        """The prior of the poses."""
+        return self.model.poses.law(self.model.scans.poses)
+
+    def at(self, poses: Floats) -> Model:
+        """The model as if its scans had been taken at these poses, (S, 3)."""
+        return replace(self.model, scans=self.model.scans.moved_to(poses))
+
+    def under(self, sensor: SensorModel, prior: CellPrior) -> PoseProblem:
+        """The same under another sensor and another prior of the cells."""
+        model = replace(self.model, sensor=sensor, cells=prior)
+        return replace(self, model=model, cells=self.cells.under(sensor, prior))
+
+
+@dataclass(frozen=True, eq=False)
+class JointState:
+    """Chains between two sweeps.
+
+    Attributes:
+        problem: what is sampled.
+        cells: one state of the cells' sampler a chain, each with rays of its own.
+        poses: of all chains.
+        factor: Cholesky factors of the chains' proposals, (C, S, 3, 3); zero before the first round.
+        sweep: sweeps of the cells that each chain has made.
+        statistics: none.
+    """
+
+    problem: PoseProblem
+    cells: tuple[Any, ...]
+    poses: PoseState
+    factor: Floats
+    sweep: int
+    statistics: Mapping[str, Floats]
+
+
+@dataclass(frozen=True, eq=False)
+class WithPoses:
+    """A sampler of cells made one of cells and poses.
+
+    Attributes:
+        cells: the sampler of the cells.
+        adapt_until: the sweep after which the sizes of pose steps stand still: the end of warm-up.
+        start: poses at which chains start, by their numbers, (chains of the run, S, 3); draws of the prior if None.
+        every: sweeps of the cells between rounds of pose steps.
+        pose_steps: steps of every pose in a round.
+    """
+
+    cells: MovableSampler
+    adapt_until: int
+    start: Floats | None = None
+    every: int = EVERY
+    pose_steps: int = STEPS
+
+    def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> PoseProblem:
+        """Trace the beams at the poses that the log states.
+
+        Raises:
+            BadInput: as the sampler of the cells.
+        """
+        problem = self.cells.prepare(model, device, threads, watch)
+        return PoseProblem(model, problem.for_any_poses(), problem.device, threads)
+
+    def init(
+        self,
+        problem: PoseProblem,
+        chain_ids: Sequence[int],
+        seed: int,
+        resume: Snapshot | None = None,
+        watch: Watch = SILENT,
+    ) -> JointState:
+        """Chains at their start, or where a snapshot left them."""
+        scans = len(problem.model.scans)
+        if resume is None:
+            poses = np.stack([self._start(problem, chain, seed) for chain in chain_ids])
+            factor, sweep = np.zeros((len(chain_ids), scans, 3, 3)), 0
+            state = PoseState(poses, np.zeros((len(chain_ids), scans)), np.asarray(chain_ids), seed)
+        else:
+            poses, factor, sweep = resume.arrays["poses"], resume.arrays["pose_factor"], resume.sweep
+            steps = sweep // self.every * self.pose_steps
+            state = PoseState(poses, resume.arrays["pose_log_scale"], np.asarray(chain_ids), seed, steps)
+
+        def chain_of(i: int) -> Any:
+            inner = None
+            if resume is not None:
+                own = {n: a[i : i + 1] for n, a in resume.arrays.items() if n not in ("poses", *OF_STEPS)}
+                inner = Snapshot(resume.sweep, own)
+            at = self.cells.retrace(problem.cells, problem.at(poses[i]))
+            return self.cells.init(at, [chain_ids[i]], seed, inner, watch)
+
+        cells = tuple(self._each(problem, chain_of, len(chain_ids)))
+        return JointState(problem, cells, state, factor, sweep, {})
+
+    def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[JointState, Info]:
+        """Some sweeps of all chains; after every few a round of pose steps. A draw has the poses of its sweep."""
+        end, infos, poses = state.sweep + sweeps, [], []
+        while state.sweep < end:
+            count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep
+            kept = len(keep.sweeps(state.sweep, state.sweep + count)) if keep.wants(POSES.name) else 0
+            poses.append(np.repeat(state.poses.poses[:, None], kept, axis=1))
+            log_prior = self._log_prior(state)
+            state, info = self._sweep_cells(state, count, beta, keep)
+            infos.append(replace(info, log_prior=info.log_prior + log_prior[:, None]))
+            if state.sweep % self.every == 0:
+                state = self._move(state, beta)
+        draws = {name: np.concatenate([info.draws[name] for info in infos], axis=1) for name in infos[0].draws}
+        if keep.wants(POSES.name):
+            draws[POSES.name] = np.concatenate(poses, axis=1)
+        parts = [np.concatenate([getattr(i, n) for i in infos], axis=1) for n in ("log_likelihood", "log_prior")]
+        return state, Info(parts[0], parts[1], draws)
+
+    def snapshot(self, state: JointState) -> Snapshot:
+        """Cells and poses, and the sizes of the steps."""
+        own = [self.cells.snapshot(chain).arrays for chain in state.cells]
+        arrays = {name: np.concatenate([one[name] for one in own]) for name in own[0]}
+        steps = {"pose_log_scale": state.poses.log_scale, "pose_factor": state.factor}
+        return Snapshot(state.sweep, {**arrays, "poses": state.poses.poses, **steps})
+
+    def informed(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+        """In how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny)."""
+        own = [
+            self.cells.informed(chain, {name: a[i : i + 1] for name, a in draws.items() if name != POSES.name})
+            for i, chain in enumerate(state.cells)
+        ]
+        return np.asarray(np.sum(own, axis=0))
+
+    def _start(self, problem: PoseProblem, chain: int, seed: int) -> Floats:
+        if self.start is not None:
+            return np.asarray(self.start[chain % len(self.start)], dtype=np.float64)
+        return problem.law.sample(np.random.default_rng([seed, chain, STREAM_START_POSES]))
+
+    def _log_prior(self, state: JointState) -> Floats:
+        return np.asarray(state.problem.law.log_prob(state.poses.poses))
+
+    def _sweep_cells(self, state: JointState, count: int, beta: float, keep: Keep) -> tuple[JointState, Info]:
+        done = self._each(state.problem, lambda i: self.cells.step(state.cells[i], count, beta, keep), len(state.cells))
+        infos = [info for _, info in done]
+        joined = Info(
+            np.concatenate([info.log_likelihood for info in infos]),
+            np.concatenate([info.log_prior for info in infos]),
+            {name: np.concatenate([info.draws[name] for info in infos]) for name in infos[0].draws},
+        )
+        return replace(state, cells=tuple(chain for chain, _ in done), sweep=state.sweep + count), joined
+
+    def _move(self, state: JointState, beta: float) -> JointState:
+        """A round of pose steps, and the chains' rays traced where the poses are then."""
+        problem = state.problem
+        cells = np.concatenate([self.cells.stops(chain) for chain in state.cells])
+        factor = state.factor
+        if not factor.any():
+            factor = np.stack([self._factor(problem, cells[i : i + 1], p) for i, p in enumerate(state.poses.poses)])
+        rounds = state.sweep // self.every
+        gain = float(rounds**-0.6) if state.sweep <= self.adapt_until else 0.0
+        steps = PoseMetropolis(problem.likelihood, problem.law, factor)
+        poses, _ = steps.step(state.poses, cells, self.pose_steps, beta=beta, gain=gain)
+
+        def moved(i: int) -> Any:
+            if (poses.poses[i] == state.poses.poses[i]).all():
+                return state.cells[i]
+            there = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
+            return self.cells.moved(state.cells[i], there)
+
+        chains = tuple(self._each(problem, moved, len(state.cells)))
+        return replace(state, cells=chains, poses=poses, factor=factor)
+
+    def _factor(self, problem: PoseProblem, cells: NDArray[np.float32], poses: Floats) -> Floats:
+        return proposal_factors(problem.likelihood, cells, poses, problem.law, DIFFERENCE_M)
+
+    def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
+        """Something for every chain: on the CPU as many at once as there are threads."""
+        from bayesmap.kernels.parallel import available_cores
+
+        threads = min(problem.threads or available_cores(), count) if problem.device == "cpu" else 1
+        if threads == 1:
+            return [work(i) for i in range(count)]
+        with ThreadPoolExecutor(threads) as pool:
+            return list(pool.map(work, range(count)))
