@@ -43,8 +43,8 @@ def drawn_model(seed, prior, scans=4):
     return Model(log, GRID, bm.Independent(0.25), SENSOR, prior), walls, truth
 
 
-def chains_of(model, ids, schedule, seed, **options):
-    sampler = WithPoses(Gibbs(start="prior"), schedule.warmup, **{"every": 2, "pose_steps": 4} | options)
+def chains_of(model, ids, schedule, seed, walls="prior", **options):
+    sampler = WithPoses(Gibbs(start=walls), schedule.warmup, **{"every": 2, "pose_steps": 4} | options)
     return run_chains(Job(model, sampler, schedule, seed, tuple(ids), threads=1))
 
 
@@ -57,7 +57,7 @@ def test_ranks_of_the_truth_among_draws_are_uniform(name):
     for seed in range(worlds):
         model, walls, truth = drawn_model(seed, PRIORS[name])
         # The chain starts at the truth, a draw of the posterior: what has to be forgotten is forgotten in warm-up.
-        chains = chains_of(model, [0], Schedule(15, draws, 12), seed, start=truth[None], every=3, pose_steps=6)
+        chains = chains_of(model, [0], Schedule(15, draws, 12), seed, walls, start=truth[None], every=3, pose_steps=6)
         poses, maps = chains.draws.values("poses")[0], chains.draws.values("walls")[0]
         rng = np.random.default_rng(seed)
 

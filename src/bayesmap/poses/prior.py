@@ -5,6 +5,7 @@ A prior is a value that users pass; with the poses of a log it becomes a law (`P
 
 from __future__ import annotations
 
+import hashlib
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -159,6 +160,43 @@ class Odometry(PosePrior):
             "kind": "odometry", "m_per_m": self.m_per_m, "m_per_rad": self.m_per_rad, "rad_per_m": self.rad_per_m,
             "rad_per_rad": self.rad_per_rad, "still_m": self.still_m, "still_rad": self.still_rad,
         }  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Motions(PosePrior):
+    """Each motion from scan to scan is normal about one that is given: odometry, corrected by whoever knows better.
+
+    Attributes:
+        relative: each scan's pose in the frame of the one before, (S - 1, 3).
+        sigmas: standard deviations of x, y and yaw of these, (S - 1, 3).
+
+    Raises:
+        BadInput: shapes that do not fit together, or deviations that are not positive.
+    """
+
+    relative: Floats
+    sigmas: Floats
+
+    def __post_init__(self) -> None:
+        if self.relative.shape != self.sigmas.shape or self.relative.shape[1:] != (3,):
+            raise BadInput(f"Motions: shapes {self.relative.shape} and {self.sigmas.shape}, expected (S - 1, 3) twice")
+        if not (np.isfinite(self.sigmas).all() and (self.sigmas > 0).all()):
+            raise BadInput("Motions: all standard deviations must be positive numbers")
+
+    def law(self, log_poses: Floats) -> PoseLaw:
+        """A Markov chain of poses that starts at the log's first.
+
+        Raises:
+            BadInput: another number of scans than of motions and one.
+        """
+        if len(log_poses) != len(self.relative) + 1:
+            raise BadInput(f"Motions: {len(self.relative)} motions, but {len(log_poses)} scans")
+        return _Markov(log_poses[0], self.relative, self.sigmas)
+
+    def describe(self) -> dict[str, object]:
+        """The prior as plain JSON values; the motions by their checksum."""
+        digest = hashlib.blake2b(self.relative.tobytes() + self.sigmas.tobytes(), digest_size=8)
+        return {"kind": "motions", "count": len(self.relative), "checksum": digest.hexdigest()}
 
 
 def pose_prior_from(description: dict[str, object]) -> PosePrior:
