@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput, check_count
 from bayesmap.model import Model
+from bayesmap.poses.prior import Known, PosePrior
 from bayesmap.posterior.from_chains import chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.result import Run
@@ -30,6 +31,7 @@ from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.start import Start, default_start
 from bayesmap.samplers.wall_sampler import Order
+from bayesmap.samplers.with_poses import WithPoses
 from bayesmap.samplers.without_chains import Asked
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
@@ -54,6 +56,8 @@ def infer(
     thin: int = 1,
     seed: int = 0,
     start: Start | NDArray[np.bool_] | None = None,
+    poses: PosePrior | None = None,
+    start_poses: NDArray[np.float64] | None = None,
     particles: int = 100_000,
     rounds: int = ROUNDS,
     hit_depth: float = 0.0,
@@ -92,6 +96,9 @@ def infer(
         seed: of all random numbers.
         start: "prior", "zeros", "ones", "propagate", or a map; by default "propagate" on maps of more than 10 000
             cells and "prior" on others.
+        poses: what is believed of the scans' poses before they are looked at: `Known` (the default), `Uncertain` about
+            the log's, or `Odometry`. Unknown poses are sampled along with the map: ``run.poses``.
+        start_poses: poses from which chains start, one trajectory each, (chains, S, 3); draws of their prior if None.
         particles: of "importance".
         rounds: of belief propagation, at most.
         hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
@@ -139,8 +146,12 @@ def infer(
         )
     ask = Asked(chains, schedule.draws, seed, particles, rounds)
     first = first_sensor(prior, grid.resolution) if isinstance(sensor, str) else sensor
-    model = Model(scans, grid, prior, first, hit_depth=float(hit_depth))
-    inference = Inference(model, method, schedule, ask, isinstance(sensor, str), threads, device)
+    model = Model(scans, grid, prior, first, Known() if poses is None else poses, float(hit_depth))
+    if start_poses is not None and np.shape(start_poses)[1:] != scans.poses.shape:
+        raise BadInput(f"infer: start_poses has shape {np.shape(start_poses)}, expected (chains, {len(scans)}, 3)")
+    if model.poses.unknown and prior.methods[method] not in ("wall-gibbs", "wall-blocks", "stop-gibbs"):
+        raise BadInput(f"infer: method {method!r} of {kind} takes poses as known; leave poses out, or take another")
+    inference = Inference(model, method, schedule, ask, isinstance(sensor, str), threads, device, start_poses)
     with stop_on_interrupt() as should_stop:
         return inference.run(
             order=order, start=start, resume=None if resume is None else resume.posterior,
@@ -160,6 +171,7 @@ class Inference:
     fitted: bool
     threads: int | None
     device: str
+    start_poses: NDArray[np.float64] | None = None
 
     def run(
         self,
@@ -179,8 +191,11 @@ class Inference:
             sampler, options = None, {"order": order, "start": default_start(self.model.grid)}
         else:
             sampler, options = sampler_of(name, self.model.grid, order, start, self.asked.rounds)
+        if sampler is not None and self.model.poses.unknown:
+            sampler = WithPoses(sampler, self.schedule.warmup, self.start_poses)
         settings = self._settings(options)
-        settings["fingerprint"] = fingerprint(settings, self.model, None if isinstance(start, str) else start)
+        given = (None if isinstance(start, str) else start, self.start_poses)
+        settings["fingerprint"] = fingerprint(settings, self.model, *given)
         if resume is not None:
             check_same(resume.settings, settings)
             if resume.sweep == 0:
@@ -197,7 +212,8 @@ class Inference:
             if resume is not None:
                 parameters = Parameters.from_description(resume.settings["fitted"])
             else:
-                parameters = fit(problem, self.asked.seed, min(PILOT_SWEEPS, self.schedule.warmup), watch)
+                cells = problem.cells if self.model.poses.unknown else problem
+                parameters = fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.schedule.warmup), watch)
             settings["fitted"] = parameters.describe()
         elif self.fitted:
             sensor = fit_sensor(model, self.device, seed=self.asked.seed, threads=self.threads, watch=watch)
@@ -237,6 +253,7 @@ class Inference:
             "draws": schedule.draws, "thin": schedule.thin, "seed": asked.seed, "particles": asked.particles,
             "rounds": asked.rounds, "hit_depth": self.model.hit_depth, "prior": self.model.cells.describe(),
             "sensor": FIT if self.fitted else describe(self.model.sensor), "streams": RANDOM_STREAMS,
+            "poses": self.model.poses.describe(),
         }  # fmt: skip
 
     def _threads_used(self) -> int:

@@ -24,14 +24,23 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.posterior.pose_summary import PoseSummary
+
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Run:
-    """The posterior over a map that a call of `bayesmap.infer` found, whatever its kind of cells."""
+    """The posterior over a map, and over poses where they were unknown, that a call of `bayesmap.infer` found.
+
+    Attributes:
+        posterior: everything that a saved run holds.
+        trajectory: after `bayesmap.slam`, the approximation of all scans' poses; not part of the saved run.
+    """
 
     posterior: Posterior
+    trajectory: Trajectory | None = None
 
     @property
     def grid(self) -> Grid:
@@ -88,6 +97,29 @@ class Run:
         end.
         """
         return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
+
+    @property
+    def poses(self) -> Floats:
+        """Draws of the scans' poses in the world frame, (chain, draw, scan, 3): x and y in metres, yaw in radians.
+
+        Where poses were known, they are those of the log, in every draw.
+        """
+        draws = self.posterior.draws
+        if "poses" in draws.arrays:
+            return draws.values("poses")
+        known = self.posterior.scans.poses
+        return np.broadcast_to(known, (draws.chains, draws.count, *known.shape))
+
+    def pose_summary(self) -> PoseSummary:
+        """Mean, covariance and R-hat of each scan's pose.
+
+        Raises:
+            BadInput: a run that was stopped before its first draw.
+        """
+        from bayesmap.posterior.pose_summary import summarise_poses
+
+        self._need_marginals()
+        return summarise_poses(self.poses)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
         """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each.

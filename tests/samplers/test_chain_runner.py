@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle.worlds import make_case
-from sampler_cases import BOTH, SAMPLERS
+from sampler_cases import BOTH, SAMPLERS, model_of
 from sampler_cases import chains_of as run_of
-from sampler_cases import model_of
 
 import bayesmap as bm
 from bayesmap.cells.packing import unpack

@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from bayesmap.run.chain import Schedule
 from field_rooms import PRIORS, infer, scans
 from oracle.field_exact import exact_reflectivities
 from oracle.field_law import draw_states, log_likelihoods, paths_of
@@ -19,7 +20,6 @@ from scipy import stats
 
 import bayesmap as bm
 from bayesmap.run import field_chain
-from bayesmap.run.chain import Schedule
 
 EDGE, COPIES, DRAWS, FROM_PRIOR = 0.5, 2000, 4, 100_000
 TESTS = 200  # p-values in this module, at most

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from bayesmap.field_inference import default_draws
+from bayesmap.run.chain import Schedule
 from field_rooms import GRID, PRIORS, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
-from bayesmap.field_inference import default_draws
 from bayesmap.run import field_chain
-from bayesmap.run.chain import Schedule
 from bayesmap.samplers.stop_gibbs import trace_stops
 
 KINDS = pytest.mark.parametrize("kind", PRIORS)

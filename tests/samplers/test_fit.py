@@ -8,17 +8,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bayesmap.field_inference import first_sensor, fit_sensor
+from bayesmap.run.chain import Schedule
+from bayesmap.run.field_chain import run_field
 from field_rooms import GRID, TRUTH, assert_same, infer, scans
 from oracle.field_law import draw_readings, draw_states, paths_of
 from oracle.field_worlds import beam_rays, centres_of
 from oracle.worlds import bm_limits
 
 import bayesmap as bm
-from bayesmap.field_inference import first_sensor, fit_sensor
-from bayesmap.run.chain import Schedule
-from bayesmap.run.field_chain import run_field
-from bayesmap.samplers.stop_gibbs import trace_stops
 from bayesmap.samplers.fit import FIRST_SWEEP, PRIOR_EVERY, Stops, gain, prior_gain, refit_prior, refit_sensor
+from bayesmap.samplers.stop_gibbs import trace_stops
 
 SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_short_per_m")
 

@@ -108,3 +108,44 @@ def test_the_log_joint_is_the_models():
                 poses=chains.draws.values("poses")[chain, draw],
             )
             assert chains.log_joint[chain, draw] == pytest.approx(model.log_joint(state), abs=1e-3)
+
+
+def test_infer_takes_a_prior_of_poses_and_its_run_keeps_their_draws(tmp_path):
+    model, _, _ = drawn_model(5, PRIORS["uncertain"])
+    run = bm.infer(
+        model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, poses=model.poses, chains=2, warmup=10, draws=8
+    )
+    assert run.poses.shape == (2, 8, 4, 3)
+    assert run.poses.std(axis=1).min() > 0
+    assert run.pose_summary().mean.shape == (4, 3)
+    run.save(tmp_path / "run.nc")
+    again = bm.load(tmp_path / "run.nc")
+    assert (again.poses == run.poses).all()
+    assert again.posterior.settings["poses"] == model.poses.describe()
+    half = bm.infer(
+        model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, chains=2, warmup=10, draws=8
+    )
+    assert (half.poses == model.scans.poses).all()
+
+
+@pytest.mark.parametrize("prior", [bm.Beta(), bm.Surface()], ids=["reflectivity", "surface"])
+def test_reflectivities_and_surfaces_have_poses_too(prior):
+    """Poses that are a little wrong come nearer to where they were, when the map is seen from all of them."""
+    walls, pose = bm.worlds.tutorial()
+    grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
+    rng = np.random.default_rng(0)
+    truth = np.array(pose) + np.column_stack([rng.uniform(-1.5, 1.5, (12, 2)), rng.uniform(-3, 3, 12)])
+    angles = np.arange(60) / 60 * 2 * np.pi
+    scans = bm.simulate(walls, grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.05)), max_range_m=30.0, seed=0)
+    said = truth + rng.normal(0, [0.2, 0.2, 0.05], truth.shape)
+    run = bm.infer(
+        scans.moved_to(said), grid, prior=prior, sensor=bm.BeamMixture(bm.Gaussian(0.05)), poses=Uncertain(0.2, 0.05),
+        start_poses=said[None], chains=2, warmup=60, draws=30, hit_depth=0.0 if prior == bm.Beta() else 0.5,
+    )  # fmt: skip
+    found = run.pose_summary().mean
+    # The whole map may lie elsewhere: what is compared is each pose in the frame of the others.
+    def spread(poses):
+        turned = poses - truth
+        return np.abs(turned[:, :2] - turned[:, :2].mean(axis=0)).mean()
+
+    assert spread(found) < 0.7 * spread(said)

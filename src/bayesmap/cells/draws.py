@@ -22,7 +22,7 @@ class Draws:
         specs: what the arrays are.
         arrays: by name, (chains, draws, ...), as `ArraySpec.stored` keeps them.
         index: of dimensions that count some of the grid's cells only ("cell", "surface_cell"): the flat indices of
-            these, ascending, int32.
+            these, ascending, int32; of others ("scan") the numbers of what they count.
     """
 
     grid: Grid

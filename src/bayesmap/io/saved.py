@@ -28,6 +28,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
 from bayesmap.io.saved_arrays import read_draws, write_arrays, write_draws
+from bayesmap.model import POSES
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.describe import describe, from_description
@@ -90,6 +91,8 @@ def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], No
         write_arrays(group, (name,), {name: values}, compressed=False)
     for dimension, cells in draws.index.items():
         places = {f"{dimension}_x": cells // grid.shape[1], f"{dimension}_y": cells % grid.shape[1]}
+        if not dimension.endswith("cell"):
+            places = {dimension: cells}
         write_arrays(group, (dimension,), places)
     numbers = sum(draws.size * math.prod(draws.shape_of(spec)) for spec in draws.specs)
     done = 0
@@ -210,9 +213,11 @@ def assemble(
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
     specs = prior.arrays if specs is None else specs
+    if POSES.name in draws.variables:
+        specs = (*specs, POSES)
     if index is None:
         some = {dim for spec in specs for dim in spec.dims} - {"x", "y"}
-        index = {dim: flat_index(draws[f"{dim}_x"][:], draws[f"{dim}_y"][:], grid) for dim in sorted(some)}
+        index = {dim: _numbers(draws, dim, grid) for dim in sorted(some)}
     empty = Draws(grid, specs, {}, index)
     arrays = {spec.name: read_draws(draws[spec.name], spec, empty.shape_of(spec)) for spec in specs}
     described = header["settings"]["sensor"] if header.get("sensor") is None else header["sensor"]
@@ -236,6 +241,13 @@ def assemble(
         log_evidence=header.get("log_evidence"),
         notes=tuple(header["notes"]),
     )
+
+
+def _numbers(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
+    """What a dimension counts: cells by their flat indices, or others by their numbers."""
+    if dimension.endswith("cell"):
+        return flat_index(draws[f"{dimension}_x"][:], draws[f"{dimension}_y"][:], grid)
+    return np.asarray(draws[dimension][:], dtype=np.int32)
 
 
 def flat_index(x: NDArray[Any], y: NDArray[Any], grid: Grid) -> NDArray[np.int32]:

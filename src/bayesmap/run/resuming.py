@@ -23,8 +23,8 @@ PROBES = 64
 """Readings, and distances, at which a sensor model is looked at to tell it from another of the same name."""
 
 
-def fingerprint(settings: dict[str, Any], model: Model, start: NDArray[np.bool_] | None) -> str:
-    """What a run is determined by: settings, data, prior, sensor and start."""
+def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
+    """What a run is determined by: settings, data, prior, sensor, and where cells and poses start."""
     scans, grid = model.scans, model.grid
     digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
@@ -33,7 +33,7 @@ def fingerprint(settings: dict[str, Any], model: Model, start: NDArray[np.bool_]
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     readings = scans.ranges_m.ravel()[:: max(1, scans.n_beams // PROBES)][:PROBES, None]
     arrays.append(model.sensor.log_likelihood(readings, np.linspace(0.0, limits.max_m, PROBES), limits))
-    for array in (*arrays, start):
+    for array in (*arrays, *starts):
         if array is not None:
             digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()[:16]

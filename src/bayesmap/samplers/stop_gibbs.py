@@ -57,8 +57,8 @@ class StopProblem:
         hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
         device: where kernels run.
         threads: of the CPU; all cores if None.
-        kept: the cells of which draws and snapshots keep reflectivities ("cell") and surfaces ("surface_cell"), flat; if
-            None, those that beams touch and those in which readings end.
+        kept: the cells of which draws and snapshots keep reflectivities ("cell") and surfaces ("surface_cell"), flat;
+            if None, those that beams touch and those in which readings end.
     """
 
     rays: Rays
@@ -220,6 +220,31 @@ class StopGibbs:
             informed=None if informed is None else np.ascontiguousarray(informed.transpose(0, 2, 1)),
         )  # fmt: skip
         return StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
+
+    def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
+        """The same problem for a model whose scans were taken elsewhere; draws keep the same cells."""
+        there = trace_stops(
+            model.scans, model.grid, problem.prior, problem.sensor, hit_depth=problem.hit_depth, device=problem.device,
+            threads=1,
+        )  # fmt: skip
+        return replace(there, kept=problem.kept)
+
+    def moved(self, state: StopState, problem: StopProblem) -> StopState:
+        """The chains as they are, under another problem."""
+        from bayesmap.kernels.stop_chains import StopChains
+
+        old, chains = state.chains, range(state.chains.n_chains)
+        new = StopChains(
+            _plan(problem), old.cells, state.keys, threads=problem.threads,
+            counts=np.stack([np.stack(old.counted(chain)) for chain in chains]),
+            informed=np.stack([old.informed(chain) for chain in chains]),
+        )  # fmt: skip
+        return replace(state, problem=problem, chains=new)
+
+    def stops(self, state: StopState) -> NDArray[np.float32]:
+        """Where the chains stand: reflectivities (C, N), or surfaces (C, N, 6)."""
+        cells = np.stack([state.chains.cells(chain) for chain in range(state.chains.n_chains)])
+        return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
