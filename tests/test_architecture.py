@@ -31,6 +31,7 @@ LEVELS = (
     {"loading"},
     {"assembly", "field_inference"},  # the halves of `api` that run fields, and turn results into runs
     {"api"},
+    {"from_odometry"},
     {"app"},
     {"cli"},
     {"__main__"},

@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     from bayesmap.cells.reflectivity import Beta as Beta
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
+    from bayesmap.from_odometry import slam as slam
     from bayesmap.io.logs import read_log as read_log
+    from bayesmap.poses.prior import Known as Known
+    from bayesmap.poses.prior import Odometry as Odometry
+    from bayesmap.poses.prior import Uncertain as Uncertain
     from bayesmap.programs.mapping import mapping_model as mapping_model
     from bayesmap.result import Run as FieldRun  # noqa: F401 -- what runs of two kinds of cells were once called
     from bayesmap.result import Run as Run
@@ -59,6 +63,10 @@ _HOME = {
     "read_log": "bayesmap.io.logs",
     "score": "bayesmap.result",
     "simulate": "bayesmap.sim.forward",
+    "slam": "bayesmap.from_odometry",
+    "Known": "bayesmap.poses.prior",
+    "Uncertain": "bayesmap.poses.prior",
+    "Odometry": "bayesmap.poses.prior",
     "worlds": "bayesmap.sim.worlds",
 }
 

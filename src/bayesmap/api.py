@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,7 @@ from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.start import Start, default_start
 from bayesmap.samplers.wall_sampler import Order
-from bayesmap.samplers.with_poses import WithPoses
+from bayesmap.samplers.with_poses import MovableSampler, WithPoses
 from bayesmap.samplers.without_chains import Asked
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
@@ -192,7 +192,7 @@ class Inference:
         else:
             sampler, options = sampler_of(name, self.model.grid, order, start, self.asked.rounds)
         if sampler is not None and self.model.poses.unknown:
-            sampler = WithPoses(sampler, self.schedule.warmup, self.start_poses)
+            sampler = WithPoses(cast(MovableSampler, sampler), self.schedule.warmup, self.start_poses)
         settings = self._settings(options)
         given = (None if isinstance(start, str) else start, self.start_poses)
         settings["fingerprint"] = fingerprint(settings, self.model, *given)

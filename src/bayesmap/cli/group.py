@@ -23,6 +23,7 @@ COMMANDS = {
     "simulate": "Draw the scans of a robot in a known world.",
     "info": "Say what is in a log, a recording or a saved run.",
     "infer": "Infer the walls from a log of range scans.",
+    "slam": "Infer walls and trajectory from a log with raw odometry.",
     "score": "Score a saved run on held-out scans.",
     "render": "Draw a saved run.",
     "export": "Write a saved run for robots and other programs.",

@@ -13,6 +13,7 @@ from bayesmap.cli import cells, sensors
 from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.given import LOG, need_file
+from bayesmap.cli.keys import SECTIONS
 from bayesmap.cli.progress import SETTING_UP, progress, stage
 from bayesmap.cli.reading import options_of
 from bayesmap.cli.settings import Settings, as_toml, read_file
@@ -29,6 +30,13 @@ PASSED_ON = (
     "threads", "device",
 )  # fmt: skip
 """Settings that `bayesmap.infer` has under the same name."""
+
+DEFAULTS = {key.name: key.default for key in SECTIONS["infer"]}
+
+
+def names_of(section: str) -> list[str]:
+    """Names of a command's settings."""
+    return [key.name for key in SECTIONS[section]]
 
 
 @takes("infer")
@@ -56,8 +64,8 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
-    folder = Folder(Path(output) if output else Path("runs") / _stem(log), call.talk, resuming=resume)
-    values = call.values(_settings_of(folder) if resume else None)
+    folder = Folder(Path(output) if output else Path("runs") / stem(log), call.talk, resuming=resume)
+    values = call.values(settings_of(folder) if resume else None)
     values = cells.settled(values)
     sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
     folder.check(force=force)
@@ -74,37 +82,37 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
 def _run(
     call: Call, folder: Folder, log: str, values: dict[str, Any], sensor: SensorModel | str | None, go_on: str
 ) -> None:
-    reading = _read(call.talk, log, values)
+    reading = read(call.talk, log, values)
     train, heldout = _split(reading.scans, values["holdout"])
-    saved = _saved(folder) if folder.resuming else None
-    run = _infer(folder, reading.scans, train, values, sensor, saved)
+    before = saved(folder) if folder.resuming else None
+    run = _infer(folder, reading.scans, train, values, sensor, before)
     if not run.finished:
-        _leave(folder, run, reading, go_on)
+        leave(folder, run, reading, go_on)
 
     outputs = folder.write_products(run)
     score = _score(call.talk, run, heldout, values["holdout"])
     with progress(call.talk, "comparing the chains"):
-        document = _document(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
+        document = document_of(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
     folder.write_document(document)
-    _report(call.talk, document)
+    report(call.talk, document)
     call.talk.result(document, document["outputs"].values())
     if values["strict"] and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
-def _stem(log: str) -> str:
+def stem(log: str) -> str:
     name = os.path.basename(os.path.normpath(log))
     for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz"):
         name = name.removesuffix(ending)
     return name or "log"
 
 
-def _settings_of(folder: Folder) -> Settings:
+def settings_of(folder: Folder, section: str = "infer") -> Settings:
     """What the run in the folder was started with."""
-    return {k: v for k, v in read_file(folder.config).items() if k == "infer"} if folder.config.exists() else {}
+    return {k: v for k, v in read_file(folder.config).items() if k == section} if folder.config.exists() else {}
 
 
-def _saved(folder: Folder) -> Run | None:
+def saved(folder: Folder) -> Run | None:
     """The run to go on with; None if it had not come to its first checkpoint."""
     from bayesmap.result import load
 
@@ -116,7 +124,7 @@ def _saved(folder: Folder) -> Run | None:
     return run
 
 
-def _read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
+def read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
     from bayesmap.io.logs import describe_log
 
     reading = describe_log(log, max_range_m=values["max_range"], **options_of(values))
@@ -188,7 +196,7 @@ def _infer(
     return run
 
 
-def _leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn:
+def leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn:
     """Interrupted: keep the chains so far, say how to go on, and go."""
     kept: list[Path] = []
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
@@ -202,7 +210,7 @@ def _leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoRetur
         folder.talk.say(f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}")
     else:
         folder.talk.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
-    folder.talk.result(_document(run, reading, None, kept), kept)
+    folder.talk.result(document_of(run, reading, None, kept), kept)
     click.get_current_context().exit(INTERRUPTED)
 
 
@@ -215,7 +223,7 @@ def _score(talk: Talk, run: Run, heldout: Scans | None, every: int) -> dict[str,
     return {"every": every, "beams": valid, "nats_per_beam": nats}
 
 
-def _document(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
+def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
     from bayesmap.cli.document import run_document
 
     return {
@@ -226,7 +234,7 @@ def _document(run: Run, reading: LogReading, score: dict[str, Any] | None, outpu
     }
 
 
-def _report(talk: Talk, document: dict[str, Any]) -> None:
+def report(talk: Talk, document: dict[str, Any]) -> None:
     from bayesmap.cli.document import work_done
 
     seconds, joint = document["seconds"], document["log_joint"]

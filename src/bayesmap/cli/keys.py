@@ -103,6 +103,21 @@ INFER = (
     Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
 )
 
+SLAM = (
+    *(
+        key
+        for key in INFER
+        if key.name
+        in (
+            "resolution", "max_range", "no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame", "deskew",
+            "thin_scans", "cells", "chains", "warmup", "draws", "thin", "seed", "sensor", "hit_depth", "threads", "device",
+            "checkpoint_every", "strict",
+        )
+    ),
+    Key("fast", bool, False, "Stop after the approximate trajectory: the map then takes it as known."),
+    Key("no_odometry", bool, False, "Do not look at the log's poses; scans must come at 5 Hz or more."),
+)  # fmt: skip
+
 SIMULATE = (
     Key("world", str, "tutorial", "tutorial, building, or a FILE: drawing, picture, map_server YAML.", metavar="WORLD"),
     Key("resolution", float, None, "Edge of a cell in metres.", "1 for tutorial and drawings, else 0.1"),
@@ -156,6 +171,7 @@ SCORE = (
 
 SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "infer": INFER,
+    "slam": SLAM,
     "simulate": SIMULATE,
     "demo": DEMO,
     "render": RENDER,

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 Stage = Literal[
-    "trace", "compile", "start", "fit", "propagate", "warm-up", "draws", "particles", "save", "score"
+    "trace", "compile", "start", "fit", "propagate", "warm-up", "draws", "particles", "save", "score",
+    "front end", "loops", "aligned", "aligned-again", "aligned-rematched", "rematch", "placing",
 ]  # fmt: skip
 
 

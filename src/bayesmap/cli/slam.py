@@ -1,0 +1,202 @@
+"""``bayesmap slam``: from a log with raw odometry to the posterior over map and trajectory."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from bayesmap.cli import cells, infer, sensors
+from bayesmap.cli.command import PROBLEMS, Call, takes
+from bayesmap.cli.folder import Folder
+from bayesmap.cli.given import LOG, need_file
+from bayesmap.cli.progress import SETTING_UP, progress
+from bayesmap.cli.settings import as_toml
+from bayesmap.samplers.progress import Event
+
+if TYPE_CHECKING:
+    from bayesmap.io.log_reading import LogReading
+    from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.result import Run
+
+PASSED_ON = ("chains", "warmup", "thin", "seed", "threads", "device", "hit_depth", "fast", "no_odometry")
+STAGES = ("front end", "loops", "aligned", "aligned-again", "aligned-rematched", "rematch", "placing")
+
+
+@takes("slam")
+@click.argument("log")
+@click.option("-o", "--output", metavar="DIR", help="Folder of the run. [default: runs/NAME-OF-LOG]")
+@click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
+@click.option("--force", is_flag=True, help="Replace the run in DIR.")
+def command(call: Call, log: str, output: str | None, resume: bool, force: bool) -> None:
+    r"""Infer map and trajectory from LOG, whose poses are raw odometry: any log that infer reads.
+
+    All scans are matched, loops are closed, and every scan is matched against all others that see the same walls; the
+    result is a trajectory with covariances. Then chains sample the map and the poses of the key scans together, each from
+    its own draw of that trajectory; --fast leaves this out and takes the trajectory as known.
+
+    Leaves in DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, with its covariances beside it),
+    the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png), the JSON document
+    (summary.json) and the settings (config.toml). Ctrl-C keeps the stages and sweeps that are done; --resume goes on.
+
+    \b
+    bayesmap slam recording.bag -o runs/office
+    bayesmap slam intel-odometry.log.gz --max-range 20 --fast
+
+    {sensors}
+    """
+    if resume and force:
+        raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
+    need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
+    folder = Folder(Path(output) if output else Path("runs") / infer.stem(log), call.talk, resuming=resume)
+    values = cells.settled({**infer.DEFAULTS, **call.values(infer.settings_of(folder, "slam") if resume else None)})
+    sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
+    folder.check(force=force)
+    go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder.path), "--resume"])
+
+    reading = infer.read(call.talk, log, values)
+    saved = infer.saved(folder) if resume else None
+    if force:
+        _forget(folder)
+    found: list[Trajectory] = []
+    try:
+        run = _slam(folder, reading, values, sensor, saved, found)
+    except KeyboardInterrupt:
+        call.talk.say(f"the stages that are done are kept; go on with:\n  {go_on}")
+        raise
+    if not run.finished:
+        infer.leave(folder, run, reading, go_on)
+    outputs = [*folder.write_products(run), *_write_trajectory(folder, reading, run)]
+    document = infer.document_of(run, reading, None, [*outputs, folder.path / "summary.json", folder.config])
+    document["trajectory"] = summary(run)
+    folder.write_document(document)
+    infer.report(call.talk, document)
+    _report(call, document["trajectory"])
+    call.talk.result(document, document["outputs"].values())
+    if values["strict"] and document["problems"]:
+        click.get_current_context().exit(PROBLEMS)
+
+
+def _stages(folder: Folder) -> Path:
+    """Where the finished stages of the approximation are."""
+    return folder.path / "stages"
+
+
+def _forget(folder: Folder) -> None:
+    import shutil
+
+    shutil.rmtree(_stages(folder), ignore_errors=True)
+
+
+def _slam(
+    folder: Folder, reading: LogReading, values: dict[str, Any], sensor: Any, saved: Run | None, found: list[Trajectory]
+) -> Run:
+    from bayesmap.from_odometry import slam
+
+    toml = as_toml({"slam": {name: values[name] for name in infer.names_of("slam")}})
+    with progress(folder.talk, "matching scans") as show:
+
+        def on_progress(event: Event) -> None:
+            if event.stage not in SETTING_UP and event.stage not in STAGES:
+                folder.begin(toml)
+            show(event)
+
+        def on_checkpoint(run: Run) -> None:
+            folder.begin(toml)
+            folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
+
+        _stages(folder).mkdir(parents=True, exist_ok=True)
+        run = slam(
+            reading.scans,
+            resolution=values["resolution"],
+            prior=cells.prior_of(values),
+            sensor=cells.sensor_for(values, sensor, values["resolution"]),  # type: ignore[arg-type]
+            draws=values["draws"],
+            checkpoint=_stages(folder),
+            resume=saved,
+            on_progress=on_progress,
+            on_trajectory=found.append,
+            on_checkpoint=on_checkpoint,
+            checkpoint_every_s=values["checkpoint_every"],
+            **{name: values[name] for name in PASSED_ON},
+        )
+    folder.begin(toml)
+    return run
+
+
+def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:
+    """The trajectory of all scans, its covariances and its pictures."""
+    from bayesmap.io.tum import covariances_path, write_covariances, write_trajectory
+    from bayesmap.space.planar import between, compose
+    from bayesmap.viz.figure import write_figure
+    from bayesmap.viz.trajectory import loops_figure, odometry_figure, trajectory_figure
+
+    found = run.trajectory
+    assert found is not None
+    tum = folder.path / "trajectory.tum"
+    covariances, closures = found.covariances(), found.closures
+    raw = reading.scans.poses[found.order]
+    pictures = {
+        "trajectory.png": trajectory_figure(
+            run.grid, run.occupancy, run.observed, found.poses, covariances, found.flagged
+        ),
+        "odometry.png": odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses),
+        "loops.png": loops_figure(found.poses, closures.first, closures.second, closures.residuals, closures.weights),
+    }
+    for name, figure in pictures.items():
+        write_figure(figure, folder.path / name)
+    return [
+        write_trajectory(tum, found.poses, found.stamps_s),
+        write_covariances(covariances_path(tum), covariances, found.stamps_s),
+        *(folder.path / name for name in pictures),
+    ]
+
+
+def summary(run: Run) -> dict[str, Any]:
+    """What was found of the trajectory, as JSON values."""
+    import numpy as np
+
+    found = run.trajectory
+    assert found is not None
+    sigma_m = np.sqrt(np.linalg.eigvalsh(found.covariances()[:, :2, :2])[:, 1])
+    fit = found.calibration.odometry
+    out: dict[str, Any] = {
+        "scans": len(found),
+        "key_scans": len(found.keys),
+        "loop_closures": int((found.closures.weights > 0.5).sum()),
+        "flagged": np.nonzero(found.flagged)[0].tolist(),
+        "breaks": found.breaks.tolist(),
+        "sigma_m": {"median": float(np.median(sigma_m)), "max": float(sigma_m.max())},
+        "angle_step_ratio": found.calibration.angle_step_ratio,
+        "odometry": None if fit is None else {"lag_s": fit.lag_s, "slope": fit.slope.tolist()},
+    }
+    if run.posterior.draws.count and run.posterior.settings["poses"]["kind"] != "known":
+        poses = run.pose_summary()
+        out["sampled"] = {
+            "sigma_m": float(np.median(poses.sigma_m)),
+            "sigma_rad": float(np.median(poses.sigma_rad)),
+            "rhat_max": float(np.nanmax(poses.rhat)) if np.isfinite(poses.rhat).any() else None,
+        }
+    return out
+
+
+def _report(call: Call, trajectory: dict[str, Any]) -> None:
+    call.talk.say(
+        f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them in the map, "
+        f"{trajectory['loop_closures']:,} loop closures, standard deviation {100 * trajectory['sigma_m']['median']:.1f} cm "
+        f"(at most {100 * trajectory['sigma_m']['max']:.0f})"
+    )
+    if trajectory["flagged"]:
+        some = ", ".join(str(scan) for scan in trajectory["flagged"][:10])
+        call.talk.warn(
+            f"{len(trajectory['flagged'])} scans are badly explained by all others, their poses are not to be trusted: "
+            f"{some}{', ...' if len(trajectory['flagged']) > 10 else ''}"
+        )
+    if trajectory["breaks"]:
+        some = ", ".join(str(scan) for scan in trajectory["breaks"][:10])
+        call.talk.warn(f"before these scans the robot seems to have been carried, or data are missing: {some}")
+
+
+command.help = (command.help or "").format(sensors=sensors.HELP)

@@ -1,0 +1,132 @@
+"""Pictures of a trajectory: on its map with its uncertainty, beside raw odometry, and where it closes loops."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.space.grid import Grid
+from bayesmap.viz import maps, palette
+
+Floats = NDArray[np.float64]
+
+REGION = 5.991
+"""Square of the radius of the ellipse that holds 95 % of a normal distribution in the plane, in deviations."""
+
+MOST_ELLIPSES = 300
+SIZE_IN = 8.0
+BEFORE, AFTER, FLAGGED, LOOP = "#c1440e", "#0b7a5b", "#d6278a", "#3b6fb6"
+
+
+def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
+    """95 % ellipses of positions, (n, 2) and (n, 2, 2) in metres, drawn so many times as large as they are."""
+    values, vectors = np.linalg.eigh(covariances)
+    axes_m = 2.0 * np.sqrt(REGION * np.maximum(values, 0.0)) * magnified
+    angle = np.degrees(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
+    ellipses = EllipseCollection(
+        axes_m[:, 1], axes_m[:, 0], angle, units="xy", offsets=means, offset_transform=ax.transData, facecolors="none",
+        edgecolors=AFTER, linewidths=0.6, zorder=4,
+    )  # fmt: skip
+    ax.add_collection(ellipses)
+    return ellipses
+
+
+def trajectory_figure(
+    grid: Grid,
+    occupancy: ArrayLike,
+    observed: ArrayLike,
+    poses: Floats,
+    covariances: Floats,
+    flagged: NDArray[np.bool_] | None = None,
+) -> Figure:
+    """The map, the trajectory on it, 95 % ellipses, and the scans whose poses are not to be trusted.
+
+    Args:
+        grid: of the map.
+        occupancy: (nx, ny).
+        observed: where a beam came, (nx, ny).
+        poses: (S, 3).
+        covariances: of x, y and yaw, (S, 3, 3).
+        flagged: (S,).
+    """
+    figure, ax = _one(grid)
+    maps.draw_probability(ax, grid, occupancy, observed)
+    ax.plot(poses[:, 0], poses[:, 1], color=AFTER, linewidth=0.8, label="trajectory", zorder=3)
+    some = np.unique(np.linspace(0, len(poses) - 1, MOST_ELLIPSES).astype(int))
+    spread_m = float(np.sqrt(np.median(np.linalg.eigvalsh(covariances[some, :2, :2])[:, 1])))
+    magnified = _round_down(max(1.0, 0.01 * max(grid.shape) * grid.resolution / max(spread_m, 1e-6)))
+    draw_ellipses(ax, poses[some, :2], covariances[some, :2, :2], magnified)
+    name = "95 % region" + (f", drawn {magnified:g} times as large" if magnified > 1 else "")
+    ax.plot([], [], "o", markerfacecolor="none", markeredgecolor=AFTER, label=name)
+    if flagged is not None and flagged.any():
+        ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED, markersize=5, label="badly explained scan", zorder=5)
+    return _finished(figure, ax)
+
+
+def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
+    """The trajectory as odometry has it, and as it was inferred, (S, 3) each, from the same first pose."""
+    low = np.minimum(raw.min(axis=0), inferred.min(axis=0))[:2]
+    high = np.maximum(raw.max(axis=0), inferred.max(axis=0))[:2]
+    figure, ax = _axes(float((high - low)[1] / max((high - low)[0], 1e-3)))
+    ax.plot(raw[:, 0], raw[:, 1], color=BEFORE, linewidth=0.9, label="raw odometry")
+    ax.plot(inferred[:, 0], inferred[:, 1], color=AFTER, linewidth=0.9, label="inferred")
+    ax.plot(*inferred[0, :2], "o", color=palette.TEXT, markersize=4, label="start")
+    ax.set_aspect("equal")
+    return _finished(figure, ax)
+
+
+def loops_figure(poses: Floats, first: ArrayLike, second: ArrayLike, residuals: Floats, weights: Floats) -> Figure:
+    """Where the robot came back to a place: pairs of scans, coloured by how far the final poses are from the match.
+
+    Args:
+        poses: (S, 3).
+        first, second: indices of the scans of each closure, (M,).
+        residuals: x, y and yaw of each, metres and radians, (M, 3).
+        weights: how far each was believed, from 0 to 1, (M,).
+    """
+    first, second = np.asarray(first), np.asarray(second)
+    spans = np.ptp(poses[:, :2], axis=0)
+    figure, ax = _axes(float(spans[1] / max(spans[0], 1e-3)))
+    ax.plot(poses[:, 0], poses[:, 1], color="#9a9a9a", linewidth=0.8, label="trajectory")
+    believed = weights > 0.5
+    for chosen, colour, name in ((~believed, FLAGGED, "rejected loop closure"), (believed, LOOP, "loop closure")):
+        if chosen.any():
+            ends = np.stack([poses[first[chosen], :2], poses[second[chosen], :2]], axis=1)
+            ax.add_collection(LineCollection(list(ends), colors=colour, linewidths=0.9, label=name, zorder=3))
+    off_m = np.hypot(residuals[believed, 0], residuals[believed, 1])
+    if len(off_m):
+        turned = np.degrees(np.abs(residuals[believed, 2]))
+        ax.set_title(
+            f"{believed.sum()} loop closures: median residual {100 * np.median(off_m):.1f} cm, "
+            f"{np.median(turned):.2f} degrees", fontsize=9,
+        )  # fmt: skip
+    ax.set_aspect("equal")
+    return _finished(figure, ax)
+
+
+def _one(grid: Grid) -> tuple[Figure, Axes]:
+    return _axes(grid.shape[1] / grid.shape[0])
+
+
+def _axes(tall: float) -> tuple[Figure, Axes]:
+    height = SIZE_IN * float(np.clip(tall, 0.35, 1.6)) + 1.0
+    figure = Figure(figsize=(SIZE_IN, height), dpi=150, facecolor="white", layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure, figure.add_subplot()
+
+
+def _finished(figure: Figure, ax: Axes) -> Figure:
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
+    return figure
+
+
+def _round_down(value: float) -> float:
+    """To 1, 2 or 5 times a power of ten."""
+    ten = 10.0 ** np.floor(np.log10(value))
+    return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= value * (1 + 1e-9)))
