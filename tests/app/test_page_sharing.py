@@ -44,7 +44,10 @@ def test_a_share_link_opens_to_the_same_map_and_the_same_posterior(drawn, open_p
 
 def test_the_html_file_opens_from_disk_with_all_its_draws(drawn, open_page, tmp_path):
     drawn.get_by_role("button", name="Run", exact=True).click()
-    until(drawn, "!s.running && s.draws.count === 1000 && s.painted.sweeps === 1000")
+    until(
+        drawn,
+        "!s.running && s.draws.count === 1000 && s.painted.sweeps === 1000 && s.painted.generation === s.generation",
+    )
     here = snapshot(drawn)
     file = tmp_path / "page.html"
     saved(drawn, "Page with its draws").save_as(file)
