@@ -15,9 +15,12 @@ export async function fromFragment(fragment: string): Promise<MapDocument | null
   return match && JSON.parse(new TextDecoder().decode(await inflate(fromBase64(match[1]))));
 }
 
+export const DAMAGED = "The link's map cannot be read: copy the link again, whole";
+
 /** The document of the address's fragment, which is taken off: a reload shows what has become of it. */
-export async function takeFragment(): Promise<MapDocument | null> {
+export async function takeFragment(): Promise<{ document: MapDocument | null; damaged: boolean }> {
   const found = await fromFragment(location.hash).catch(() => null);
+  const damaged = !found && location.hash.startsWith("#m=");
   if (found) history.replaceState(null, "", location.pathname + location.search);
-  return found;
+  return { document: found, damaged };
 }

@@ -1,13 +1,16 @@
 // bayesmap's page: draw walls, drag the robot, watch the posterior. One module, three homes: the page of `bayesmap
 // app` (WebSocket), the notebook widget (anywidget), and the static export (a recording inside the file).
 
-import { takeFragment } from "./fragment";
+import { DAMAGED, takeFragment } from "./fragment";
 import { mount, type Handle } from "./mount";
+import { keepToken, keptDocument, onToken } from "./state/kept";
 import { recordedTransport } from "./transport/recorded";
 import { webSocketTransport } from "./transport/socket";
 import { widgetTransport, type Model } from "./transport/widget";
 
 export { mount, recordedTransport, webSocketTransport, widgetTransport };
+
+const KEPT = "This is the map that was drawn here when the connection was lost; undo leads back";
 
 /** `window.bayesmap` is the page that was shown last. */
 const expose = (handle: Handle) => Object.assign(window, { bayesmap: handle });
@@ -35,9 +38,15 @@ async function start() {
     expose(mount(host, recordedTransport(JSON.parse(recording.textContent ?? ""))));
     return;
   }
-  const url = new URL("socket" + location.search, location.href);
-  url.protocol = url.protocol.replace("http", "ws");
-  url.hash = "";
-  expose(mount(host, webSocketTransport(url.href), { adopt: await takeFragment() }));
+  keepToken(new URLSearchParams(location.search).get("token"));
+  const { document: linked, damaged } = await takeFragment();
+  const kept = linked ? null : keptDocument();
+  const transport = webSocketTransport(() => new URL(location.href));
+  onToken((token) => {
+    history.replaceState(null, "", `${location.pathname}?token=${encodeURIComponent(token)}${location.hash}`);
+    transport.retry?.();
+  });
+  const notice = damaged ? ({ text: DAMAGED, level: "error" } as const) : kept ? ({ text: KEPT, level: "info" } as const) : null;
+  expose(mount(host, transport, { adopt: linked ?? kept, notice }));
 }
 start();

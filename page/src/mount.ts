@@ -1,6 +1,6 @@
 // Puts the page into an element: makes its parts and ties them together.
 
-import { takeFragment, toFragment } from "./fragment";
+import { DAMAGED, takeFragment, toFragment } from "./fragment";
 import { Editor } from "./input/editor";
 import { Hand } from "./input/hand";
 import { MapKeys, pageKey } from "./input/keys";
@@ -13,6 +13,7 @@ import { picture } from "./layers/picture";
 import { RaysLayer } from "./layers/rays";
 import { GUTTER, Viewport } from "./layers/viewport";
 import { bar } from "./panels/bar";
+import { traceChart, weightChart } from "./panels/chart";
 import { helpDialog, newDialog, shareDialog } from "./panels/dialogs";
 import { download, h, mark, put } from "./panels/dom";
 import { head } from "./panels/head";
@@ -25,20 +26,24 @@ import { Player, scanPanel, viewPanel } from "./panels/view";
 import type { MapDocument, Transport } from "./protocol";
 import { snapshot } from "./snapshot";
 import { Session } from "./state/session";
+import type { Level } from "./state/status";
+import CHARTS from "uplot/dist/uPlot.min.css";
 import STYLE from "./style.css";
 import { ThemeChoice } from "./theme";
 
 export type Options = {
   /** In a notebook. */
   embedded?: boolean;
-  /** A document to adopt, of a share link. */
+  /** A document to adopt, of a share link or from before the connection was lost. */
   adopt?: MapDocument | null;
+  /** What to say once it is connected. */
+  notice?: { text: string; level: Level } | null;
 };
 
-export function mount(element: HTMLElement, transport: Transport, { embedded = false, adopt = null }: Options = {}) {
+export function mount(element: HTMLElement, transport: Transport, { embedded = false, adopt = null, notice = null }: Options = {}) {
   const shadow = element.shadowRoot ?? element.attachShadow({ mode: "open" });
   const sheet = new CSSStyleSheet();
-  sheet.replaceSync(STYLE);
+  sheet.replaceSync(CHARTS + STYLE);
   shadow.adoptedStyleSheets = [sheet];
   element.toggleAttribute("data-embedded", embedded);
 
@@ -46,7 +51,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const schedule = () => {
     frame ||= requestAnimationFrame(draw);
   };
-  const session = new Session(transport, schedule, adopt);
+  const session = new Session(transport, schedule, adopt, notice);
   const view = new Viewport();
   const hand = new Hand(session);
   const editor = new Editor(session, hand);
@@ -68,19 +73,20 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const tools = bar(ui);
   const onMap = { chip: chip(ui), banner: banner(ui) };
   const stage = h("main", { className: "stage" }, ...canvases, onMap.chip, onMap.banner);
-  const legendOfMap = legend(ui, () => themes.theme);
+  const dressed = () => themes.theme;
+  const legendOfMap = legend(ui, dressed);
   const bottom = foot(ui);
   canvas.setAttribute("aria-describedby", bottom.readout.id);
   const share = shareDialog(ui);
   const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
-  const panels = [posteriorPanel(ui), viewPanel(ui, player, shown), scanPanel(ui), sensors, model, inference, clear];
+  const panels = [posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)), viewPanel(ui, player, shown), scanPanel(ui), sensors, model, inference, clear];
   const panel = h("aside", { "aria-label": "Controls" }, ...panels);
   const isRun = () => session.recorded || session.document?.source.kind === "run";
   ui.visible(sensors, () => session.editable);
   ui.visible(model, () => !isRun());
   ui.visible(inference, () => !isRun());
-  ui.visible(clear, () => !session.recorded);
+  ui.visible(clear, () => !isRun());
   ui.each(() => {
     put(tools, "inert", !session.document);
     put(panel, "inert", !session.document);
@@ -137,8 +143,9 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     else if (what === "theme") themes.next();
     else if (what === "add") keys.addSensor();
     else if (what === "share") {
-      const whole = session.effectiveDocument();
-      if (whole) share.show(location.href.replace(/#.*/, "") + (await toFragment(whole)));
+      const whole = session.portableDocument();
+      // without the token: who has it need not be told, and nobody else shall have it
+      if (whole) share.show(location.origin + location.pathname + (await toFragment(whole)));
     } else if (what === "export png") {
       const blob = await picture(scene());
       if (blob) download("bayesmap.png", blob);
@@ -161,8 +168,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   };
   const online = () => transport.retry?.();
   const hash = async () => {
-    const document = embedded ? null : await takeFragment();
-    if (document) session.act({ type: "hello", document });
+    if (embedded) return;
+    const { document, damaged } = await takeFragment();
+    if (document) session.bring(document);
+    else if (damaged) session.say(DAMAGED, "error");
   };
   const listeners: [EventTarget, string, EventListener][] = [
     [embedded ? element : window, "keydown", key as EventListener],

@@ -18,8 +18,12 @@ export type MapDocument = {
   noise: number;
   angles: number;
   max_range: number;
+  /** Radians, of every sensor. */
+  fov: number;
+  readings: "noisy" | "exact";
   method: string;
   order: string;
+  start: string;
   sweeps: number;
   seed: number;
   source: Source;
@@ -46,6 +50,9 @@ export type State = {
   view?: { layer?: Layer; chain?: number | null; draw?: number | null };
 };
 
+/** What is to be thought of a result, and why. */
+export type Verdict = { level: "good" | "fair" | "bad"; why: string };
+
 /** One picture of the posterior. */
 export type Field = {
   generation: number;
@@ -57,6 +64,13 @@ export type Field = {
   ess?: number | null;
   rhat?: number | null;
   log_joint?: number | null;
+  verdict?: Verdict | null;
+  /** Log joint of every chain, (chains, n), and the sweeps that these are of, (n). */
+  trace: Float32Array;
+  traced: Float32Array;
+  /** How many particles weigh how much, and where the first bin begins, in nats below the largest. */
+  weights?: Float32Array;
+  lowest?: number;
   milliseconds?: number;
   chain?: number;
   draw?: number;
@@ -76,9 +90,12 @@ export type Scan = {
   angles: Numbers;
   ranges: Numbers;
   exact: Numbers;
+  /** (S, A), 1 where the beam met something. */
+  hit: Numbers;
 };
 
-export type Connection = { connected: boolean; retryIn_ms?: number };
+/** Refused: there is a server, which does not know this page's token. */
+export type Connection = { connected: boolean; retryIn_ms?: number; refused?: boolean };
 
 /** A way to the session. `onmessage` and `onstatus` are set by the page before it calls `open`. */
 export type Transport = {
@@ -99,6 +116,7 @@ export const LIMITS = {
   noise: [0, 5],
   angles: [10, 1000],
   max_range: [0.1, 10_000],
+  fov_deg: [5, 360],
   sweeps: [1, 100_000],
   seed: [0, 2 ** 31 - 1],
 } as const;

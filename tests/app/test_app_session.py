@@ -1,5 +1,7 @@
 """The session: what actions do, what is refused, one step of undo a gesture, and pictures in order."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from acted_session import Acted
@@ -30,6 +32,36 @@ def test_hello_with_a_document_adopts_it():
     generation = acted.session.generation
     acted.act("hello", document=document.to_json())  # the same again, as after a lost connection
     assert acted.session.generation == generation
+
+
+def test_a_link_to_the_file_on_show_brings_its_settings_and_nothing_else():
+    acted = Acted(of_a_log())
+    generation = acted.session.generation
+    acted.act("hello", document=json_of(acted.session.document))
+    assert acted.session.generation == generation
+    acted.act("hello", document={**json_of(acted.session.document), "prior": 0.25, "max_range": 7.0})
+    assert acted.session.document == replace(of_a_log(), prior=0.25)
+
+
+@pytest.mark.parametrize("brought", ["another log", "a drawn map"])
+def test_a_link_to_something_else_is_answered_by_what_to_start(brought):
+    acted = Acted(of_a_log())
+    document = tutorial_document() if brought == "a drawn map" else of_a_log("other.log")
+    answers = acted.act("hello", document=json_of(document))
+    assert [m["type"] for m in answers] == ["status", "state"]
+    assert ("other.log" if brought == "another log" else "without a file") in acted.text
+    assert acted.session.document == of_a_log()
+
+
+def of_a_log(name="office.log"):
+    from bayesmap.app.document import Source, WallMap
+
+    drawn = tutorial_document()
+    return replace(drawn, walls=WallMap.none(drawn.grid.shape), sensors=(), source=Source("log", name, 9))
+
+
+def json_of(document):
+    return {**document.to_json(), "walls": ""} if not document.simulated else document.to_json()
 
 
 def test_a_stroke_is_one_step_of_undo():

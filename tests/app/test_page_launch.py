@@ -81,8 +81,3 @@ def test_light_and_dark_follow_the_system_and_the_button(open_page, server):
 def test_a_second_page_shows_the_same(open_page, server, page):
     other = open_page(server)
     assert snapshot(other)["document"] == settled(page)["document"]
-
-
-def test_a_link_that_is_no_document_is_no_trouble(open_page, server):
-    page = open_page(server + "#m=nonsense")
-    assert snapshot(page)["document"]["version"] == 1

@@ -33,8 +33,14 @@ export class MapKeys {
     private readonly hand: Hand,
     private readonly editor: Editor,
   ) {
-    canvas.addEventListener("keydown", (event) => this.key(event));
-    canvas.addEventListener("blur", () => hand.setCursor(null));
+    canvas.addEventListener("keydown", (event) => {
+      delete canvas.dataset.pointed;
+      this.key(event);
+    });
+    canvas.addEventListener("blur", () => {
+      delete canvas.dataset.pointed;
+      hand.setCursor(null);
+    });
   }
 
   /** Takes the focus, so that arrows move the cursor. */

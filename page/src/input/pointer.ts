@@ -13,7 +13,7 @@ const REACH = { touch: 24, other: 11 };
 const SECOND_FINGER_MS = 90;
 
 type Gesture =
-  | { kind: "stroke"; id: number; wall: boolean; last: Point; held: PointerEvent | null }
+  | { kind: "stroke"; id: number; wall: boolean; last: Point; held: PointerEvent | null; onWall: boolean }
   | { kind: "sensor"; id: number; drag: number; grip: Point }
   | { kind: "turn"; id: number; drag: number }
   | { kind: "pan"; last: Point }
@@ -69,6 +69,7 @@ export class Pointer {
     if (!document) return;
     event.preventDefault();
     this.canvas.focus({ preventScroll: true });
+    this.canvas.dataset.pointed = ""; // who points needs no frame around the focus
     hand.setCursor(null);
     this.canvas.setPointerCapture(event.pointerId);
     const point = this.at(event);
@@ -89,7 +90,9 @@ export class Pointer {
       }
     } else {
       const wall = (hand.tool === "draw") !== (event.button === 2 || event.shiftKey);
-      this.begin({ kind: "stroke", id: hand.nextGesture(), wall, last: this.cellAt(point), held: event });
+      const cell = this.cellAt(point);
+      const onWall = wall && this.editor.isWall(cell);
+      this.begin({ kind: "stroke", id: hand.nextGesture(), wall, last: cell, held: event, onWall });
       if (event.pointerType !== "touch") this.release();
       else setTimeout(() => this.release(), SECOND_FINGER_MS);
     }
@@ -133,6 +136,7 @@ export class Pointer {
       const events = event.getCoalescedEvents?.() ?? [];
       for (const each of events.length ? events : [event]) {
         const cell = this.cellAt(this.at(each));
+        if (cell.x !== gesture.last.x || cell.y !== gesture.last.y) gesture.onWall = false;
         path.push(...lineOfCells(gesture.last, cell));
         gesture.last = cell;
       }
@@ -160,6 +164,10 @@ export class Pointer {
 
   private up(event: PointerEvent) {
     if (event.type === "pointerup") this.release();
+    // a wall that was clicked, and not drawn on from, goes
+    if (event.type === "pointerup" && this.gesture?.kind === "stroke" && this.gesture.onWall) {
+      this.editor.setWalls([this.gesture.last], false, this.gesture.id, event);
+    }
     this.fingers.delete(event.pointerId);
     if (this.fingers.size === 0) {
       this.gesture = null;

@@ -29,9 +29,7 @@ export class RaysLayer implements Layer {
       const from = view.fromGrid(toCells({ x: px, y: py }, document.grid), ny);
       for (let b = 0; b < beams; b++) {
         const range = scan.ranges[s * beams + b];
-        // a simulated beam that met nothing reads the longest range, give or take the noise
-        const met = scan.exact.length ? scan.exact[s * beams + b] : range;
-        const hit = Number.isFinite(range) && met < document.max_range;
+        const hit = scan.hit[s * beams + b] === 1;
         const length = (hit ? range : document.max_range) * cellsAMetre * scale;
         const angle = scan.angles[b] + yaw;
         const to = { x: from.x + length * Math.cos(angle), y: from.y - length * Math.sin(angle) };

@@ -14,7 +14,7 @@ const EXPLAINED = [
   "Draw walls, and drag the robot: a beam reads the first wall that it hits, with noise. Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (draw), and where doubt remains (entropy). No beam has been where it is hatched.",
   "While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",
 ];
-const MOUSE = "Mouse: the wheel zooms, the middle button pans, Shift or the right button erases. Touch: two fingers zoom and pan.";
+const MOUSE = "Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom and pan.";
 
 export function helpDialog(ui: Ui) {
   const rows = KEYS.map(([key, text]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", { textContent: key })), h("td", { textContent: text })));
@@ -60,7 +60,7 @@ export function shareDialog(ui: Ui) {
   };
   const button = ui.button(null, "Copy the link", copy, { className: "primary", text: "Copy" });
   const explained =
-    "The link holds the walls, the sensors and all settings after its #. It opens on this server while it runs; the part from # on can be put after the address of any bayesmap page.";
+    "The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while the server runs; the part from # on can be put after the address of any bayesmap page.";
   const dialog = ui.dialog("Share", h("p", { textContent: explained }), h("div", { className: "buttons" }, link, button), copied);
   return {
     dialog,

@@ -1,6 +1,7 @@
 // The bar at the top: what is shown, undo, new map, share, export, theme, help.
 
 import { h, mark, put } from "./dom";
+import type { Session } from "../state/session";
 import type { Ui } from "./ui";
 
 export function head(ui: Ui) {
@@ -36,10 +37,13 @@ export function head(ui: Ui) {
   };
 }
 
+/** Whether there is something to save: draws that were kept, or the answer of a method that needs none. */
+const hasRun = ({ shown, draws }: Session) => draws.count > 0 || /importance|propagate/.test(shown?.method ?? "");
+
 function exportMenu(ui: Ui) {
   const { session } = ui;
-  const item = (label: string, value: string, onServer: boolean) => {
-    const element = ui.button(null, label, () => ui.command(`export ${value}`), { text: label });
+  const item = (label: string, value: string, onServer: boolean, when?: () => boolean) => {
+    const element = ui.button(null, label, () => ui.command(`export ${value}`), { text: label, when });
     if (onServer) ui.visible(element, () => !session.recorded);
     return element;
   };
@@ -47,7 +51,7 @@ function exportMenu(ui: Ui) {
     "div",
     { className: "menu", hidden: true },
     item("Picture (PNG)", "png", false),
-    item("Saved run (netCDF)", "run", true),
+    item("Saved run (netCDF)", "run", true, () => hasRun(session)),
     item("Map for robots (YAML and PGM)", "map", true),
     item("Page with its draws (HTML)", "html", true),
     item("Document (JSON)", "document", true),

@@ -1,16 +1,28 @@
 // What is said on and under the map: the chip, the banner, the status line and the read-out of a cell.
 
 import { centreOf, entropyBits } from "../geometry/cells";
-import type { Point } from "../protocol";
+import { LIMITS, type MapDocument, type Point } from "../protocol";
 import type { Session } from "../state/session";
-import { h, put } from "./dom";
+import { h, mark, put } from "./dom";
 import type { Ui } from "./ui";
 
-/** Says on the map itself what is shown, and that the quick answer is approximate. */
+const REFUSED =
+  "The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";
+
+/** Says on the map itself what is shown, that the quick answer is approximate, and that chains have not converged. */
 export function chip(ui: Ui) {
   const { session } = ui;
-  const element = h("div", { className: "chip" });
+  const what = h("span", { className: "chip" });
+  const remedy = ui.button(null, "Not converged", () => tryRemedy(session)?.apply(), { text: "Not converged", className: "chip doubt" });
+  const element = h("div", { className: "chips" }, what, remedy);
   ui.each(() => {
+    const found = tryRemedy(session);
+    put(remedy, "hidden", !found);
+    if (found) {
+      put(remedy.firstElementChild as HTMLElement, "textContent", `not converged: ${found.text}`);
+      put(remedy, "title", `${session.shown?.verdict?.why}. Click to ${found.text}.`);
+      mark(remedy, "aria-label", `Not converged: ${found.text}`);
+    }
     const field = session.shown;
     if (!field || !session.document) return put(element, "hidden", true);
     const numbered = session.draws.count ? `draw ${session.draw + 1} of ${session.draws.count}` : "draw";
@@ -18,10 +30,22 @@ export function chip(ui: Ui) {
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
     const by = field.approximate ? "approximate, belief propagation" : (other ?? `${field.sweeps} sweeps`);
     put(element, "hidden", false);
-    put(element, "textContent", `${kind} \u00b7 ${by}`);
-    put(element, "className", field.approximate ? "chip approximate" : "chip");
+    put(what, "textContent", `${kind} \u00b7 ${by}`);
+    put(what, "className", field.approximate ? "chip approximate" : "chip");
   });
   return element;
+}
+
+/** What to do where the result on show is bad; null where it is not, or nothing can be done here. */
+function tryRemedy(session: Session): { text: string; apply: () => void } | null {
+  const { shown, document } = session;
+  if (shown?.verdict?.level !== "bad" || !document || session.recorded || document.source.kind === "run") return null;
+  const set = (patch: Partial<MapDocument>) => () => session.act({ type: "set", patch });
+  if (shown.method === "gibbs" && document.source.kind === "simulation") return { text: "try blocks", apply: set({ method: "block" }) };
+  if (shown.method === "importance") return { text: "try Gibbs", apply: set({ method: "auto" }) };
+  if (session.sampling) return null;
+  const sweeps = Math.min(LIMITS.sweeps[1], 4 * document.sweeps);
+  return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : null;
 }
 
 /** Says that the connection or the worker is lost. */
@@ -37,7 +61,8 @@ export function banner(ui: Ui) {
     put(element, "className", lost ? "banner" : "banner mild");
     put(retry, "hidden", !lost);
     const wait = `Connection lost. Trying again in ${seconds} s; the map is kept here.`;
-    put(text, "textContent", lost ? wait : "The worker stopped and is being started again. The map is kept.");
+    const offline = session.connection.refused ? REFUSED : wait;
+    put(text, "textContent", lost ? offline : "The worker stopped and is being started again. The map is kept.");
   });
   return element;
 }
@@ -55,8 +80,9 @@ export function foot(ui: Ui) {
     const keys = session.editable && !matchMedia("(pointer: coarse)").matches;
     const idle = keys ? "Point at a cell, or press ? for the keys" : "Point at a cell";
     put(readout, "textContent", cell ? describeCell(session, cell) : idle);
-    put(status, "textContent", session.status.text);
-    put(status, "className", session.status.level);
+    const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
+    put(status, "textContent", doubt ? "Ready, but the chains have not converged" : session.status.text);
+    put(status, "className", doubt ? "warning" : session.status.level);
   });
   return { element: h("footer", {}, status, readout, spoken), readout };
 }

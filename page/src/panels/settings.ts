@@ -4,13 +4,18 @@ import { LIMITS } from "../protocol";
 import { h, put } from "./dom";
 import type { Ui } from "./ui";
 
-const METHODS = {
+const METHODS: Record<string, string> = {
+  auto: "Chosen by the prior",
   gibbs: "Gibbs, cell by cell",
   block: "Gibbs, 2 \u00d7 2 blocks",
   propagate: "Belief propagation",
   importance: "Importance sampling",
 };
-const ORDERS = { raster: "raster", radial: "radial", random: "random" };
+const READINGS = { noisy: "with noise", exact: "exact" };
+const STARTS: Record<string, string> = { auto: "as is best", prior: "draws of the prior", empty: "the empty map" };
+const ORDERS: Record<string, string> = { raster: "raster", radial: "radial", random: "random" };
+const FULL_CIRCLE = 2 * Math.PI;
+const degrees = (rad: number) => Math.round((rad * 1800) / Math.PI) / 10;
 const UNITS: { [method: string]: string } = { importance: "Particles", propagate: "Rounds" };
 
 export function sensorPanel(ui: Ui) {
@@ -46,6 +51,8 @@ export function sensorPanel(ui: Ui) {
     text: "Remove",
     when: () => (session.document?.sensors.length ?? 0) > 1,
   });
+  // in a full circle all headings are alike
+  ui.visible(heading, () => (session.document?.fov ?? FULL_CIRCLE) < FULL_CIRCLE);
   const numbers = h("div", { className: "triple" }, place("x (m)", "x"), place("y (m)", "y"), heading);
   return ui.section("Sensors", h("div", { className: "buttons" }, list, add, remove), numbers);
 }
@@ -53,11 +60,19 @@ export function sensorPanel(ui: Ui) {
 export function modelPanel(ui: Ui) {
   const { session } = ui;
   const [least, most] = LIMITS.max_range;
+  const [narrowest, widest] = LIMITS.fov_deg;
   const range = ui.numberInput("Longest range (m)", () => session.document?.max_range ?? 0, (max_range) => ui.set({ max_range }), { min: least, max: most, step: "any" });
   const simulated = [
     ui.slider("noise", () => "Noise (m)", { low: LIMITS.noise[0], high: LIMITS.noise[1], step: 0.01, unit: " m" }),
     ui.slider("angles", () => "Angles", { low: LIMITS.angles[0], high: LIMITS.angles[1], step: 1, log: true }),
     range,
+    ui.numberInput(
+      "Field of view (\u00b0)",
+      () => degrees(session.document?.fov ?? FULL_CIRCLE),
+      (value) => ui.set({ fov: value >= widest ? FULL_CIRCLE : (value * Math.PI) / 180 }),
+      { min: narrowest, max: widest, step: 5 },
+    ),
+    ui.select("Readings", READINGS, () => session.document?.readings ?? "noisy", (readings) => ui.set({ readings })),
   ];
   for (const element of simulated) ui.visible(element, () => session.editable);
   const prior = ui.slider("prior", () => "Prior P(wall)", { low: LIMITS.prior[0], high: LIMITS.prior[1], step: 0.01 });
@@ -66,12 +81,14 @@ export function modelPanel(ui: Ui) {
 
 export function inferencePanel(ui: Ui) {
   const { session } = ui;
-  const method = () => session.document?.method ?? "gibbs";
+  const method = () => session.document?.method ?? "auto";
+  const isChain = () => /auto|gibbs|block/.test(method());
   const [least, most] = LIMITS.seed;
   return ui.section(
     "Inference",
     ui.select("Method", METHODS, method, (value) => ui.set({ method: value })),
-    ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs"),
+    ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto"),
+    ui.select("Start", STARTS, () => session.document?.start ?? "auto", (start) => ui.set({ start }), isChain),
     ui.slider("sweeps", () => UNITS[method()] ?? "Sweeps", { low: LIMITS.sweeps[0], high: LIMITS.sweeps[1], step: 1, log: true }),
     ui.numberInput("Seed", () => session.document?.seed ?? 0, (seed) => ui.set({ seed: Math.round(seed) }), { min: least, max: most, step: 1 }),
   );

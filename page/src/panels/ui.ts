@@ -128,9 +128,9 @@ export class Ui {
     return h("div", { className: "row slider" }, text, range, exact);
   }
 
-  select(label: string, options: { [value: string]: string }, current: () => string, choose: (value: string) => void, when?: () => boolean) {
-    const element = h("select", { onchange: () => choose(element.value) });
-    for (const [value, text] of Object.entries(options)) element.append(h("option", { value, textContent: text }));
+  select<T extends string>(label: string, options: Record<T, string>, current: () => T, choose: (value: T) => void, when?: () => boolean) {
+    const element = h("select", { onchange: () => choose(element.value as T) });
+    for (const [value, text] of Object.entries<string>(options)) element.append(h("option", { value, textContent: text }));
     this.each(() => {
       put(element, "value", current());
       if (when) put(element, "disabled", !when());

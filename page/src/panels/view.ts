@@ -11,11 +11,13 @@ const LAYERS = [
   ["draw", "One draw"],
   ["entropy", "Entropy"],
 ] as const;
-const PAUSE_MS = 90;
+/** Draws a second. */
+const SPEEDS: Record<string, string> = { "2": "2 a second", "10": "10 a second", "30": "30 a second", "1000": "full speed" };
 
 /** Shows draws one after another, until the last; the next is asked for when one has been painted. */
 export class Player {
   playing = false;
+  drawsPerSecond = 10;
 
   constructor(private readonly session: Session) {}
 
@@ -38,6 +40,13 @@ export class Player {
     this.session.changed();
   }
 
+  /** Plays the first sweeps of a chain, from the first draw on. */
+  playFromStart() {
+    this.showDraw(0);
+    this.playing = true;
+    this.session.changed();
+  }
+
   /** Called after a picture is painted. */
   step() {
     if (!this.playing || this.session.shown?.layer !== "draw") return;
@@ -46,7 +55,7 @@ export class Player {
       const { draw, draws } = this.session;
       if (draw + 1 >= draws.count) this.play(false);
       else this.showDraw(draw + 1);
-    }, PAUSE_MS);
+    }, 1000 / this.drawsPerSecond);
   }
 }
 
@@ -98,7 +107,13 @@ function playerControls(ui: Ui, player: Player) {
     play.setAttribute("aria-label", label);
     play.replaceChildren(icon(player.playing ? "pause" : "play"));
   });
-  return h("div", { className: "player" }, play, slider, count, chain);
+  const speed = h("select", { "aria-label": "Speed" });
+  for (const [value, text] of Object.entries(SPEEDS)) speed.append(h("option", { value, textContent: text }));
+  speed.value = String(player.drawsPerSecond);
+  speed.addEventListener("change", () => (player.drawsPerSecond = Number(speed.value)));
+  const first = ui.button(null, "From the first sweep", () => player.playFromStart(), { text: "From the first", when: () => session.draws.count > 1 });
+  ui.each(() => put(speed, "disabled", session.draws.count < 2));
+  return h("div", { className: "player" }, play, slider, count, h("div", { className: "buttons wide" }, chain, speed, first));
 }
 
 export function scanPanel(ui: Ui) {

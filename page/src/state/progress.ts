@@ -3,8 +3,6 @@
 import type { Field } from "../protocol";
 
 export class Progress {
-  /** [sweep, log joint] of the frames of one generation. */
-  joint: [number, number][] = [];
   private generation = -1;
   private last = 0;
   private from = { sweeps: 0, time: 0 };
@@ -15,10 +13,8 @@ export class Progress {
     if (this.generation !== field.generation || field.sweeps < this.last) {
       this.generation = field.generation;
       this.from = { sweeps: field.sweeps, time: performance.now() };
-      this.joint = [];
     }
     this.last = field.sweeps;
-    if (field.log_joint != null && this.joint.at(-1)?.[0] !== field.sweeps) this.joint.push([field.sweeps, field.log_joint]);
   }
 
   /** Seconds until the chain of a field is done, or null where nothing can be said. */

@@ -2,6 +2,7 @@
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
 import type { Buffers, Connection, Field, MapDocument, Message, Pair, Scan, State, Transport, View } from "../protocol";
+import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
 import { Latency } from "./latency";
 import { Progress } from "./progress";
@@ -40,13 +41,16 @@ export class Session {
   private pending: Message[] = [];
   private confirmedWalls = { text: "", walls: this.walls };
   private wallsAhead = false;
+  /** Number of the last hello that brought a document. */
+  private broughtAt: number | null = null;
   private packed = { version: -1, text: "" };
 
-  /** `adopt` is the document to adopt on connecting, from a share link. */
+  /** `adopt` is a document to adopt on connecting, `notice` what to say then. */
   constructor(
     readonly transport: Transport,
     readonly changed: () => void,
     private readonly adopt: MapDocument | null = null,
+    private readonly notice: { text: string; level: Level } | null = null,
   ) {
     transport.onmessage = (message, buffers) => this.receive(message, buffers);
     transport.onstatus = (connection) => this.onstatus(connection);
@@ -75,7 +79,7 @@ export class Session {
     return Math.min(last, this.view.draw ?? (this.shown?.layer === "draw" ? (this.shown.draw ?? last) : last));
   }
   get hasDraws() {
-    return this.draws.count > 0 || (!this.recorded && /gibbs|block/.test(this.document?.method ?? ""));
+    return this.draws.count > 0 || (!this.recorded && /auto|gibbs|block/.test(this.document?.method ?? ""));
   }
 
   say(text: string, level: Level = "info") {
@@ -94,7 +98,14 @@ export class Session {
     }
     if (event) this.latency.sent(sent.seq, event);
     if (this.connection.connected) this.transport.send(sent);
+    else if (this.everConnected) keep(this.portableDocument());
     this.changed();
+  }
+
+  /** Says hello, with a document for the server to adopt where there is one. */
+  bring(document: MapDocument | null) {
+    this.act(document ? { type: "hello", document } : { type: "hello" });
+    this.broughtAt = document ? this.seq : null;
   }
 
   /** The document as it is shown, edits included. */
@@ -105,9 +116,15 @@ export class Session {
     return this.document && { ...this.document, walls: this.packed.text };
   }
 
+  /** The same as it travels: of a file's map the server has the cells. */
+  portableDocument(): MapDocument | null {
+    const whole = this.effectiveDocument();
+    return whole && (whole.source.kind === "simulation" ? whole : { ...whole, walls: "" });
+  }
+
   /** Takes the newest field for painting: whether there is one. */
   take() {
-    if (!this.next) return false;
+    if (!this.next || !this.document) return false; // a field of a running chain may come before the first state
     this.shown = this.next;
     this.next = null;
     return true;
@@ -128,13 +145,18 @@ export class Session {
     this.connection = connection;
     if (connection.connected) {
       // on a reconnection the document goes back to the server, with what was edited meanwhile
-      const document = this.everConnected ? this.effectiveDocument() : this.adopt;
+      const document = this.everConnected ? this.portableDocument() : this.adopt;
       this.pending = [];
       this.latency.forget();
-      this.act(document ? { type: "hello", document } : { type: "hello" });
+      this.bring(document);
       if (this.everConnected) this.say("Connected again");
+      else if (this.notice) this.say(this.notice.text, this.notice.level);
       this.everConnected = true;
-    } else if (this.everConnected) this.say("Connection lost", "error");
+      forget();
+    } else if (this.everConnected) {
+      this.say("Connection lost", "error");
+      keep(this.portableDocument());
+    }
     this.changed();
   }
 
@@ -151,8 +173,8 @@ export class Session {
         break;
       case "scan":
         if (message.generation >= this.generation) {
-          const { pose, angles, ranges, exact } = buffers;
-          this.scan = { ids: message.ids ?? [], index: message.index ?? null, pose, angles, ranges, exact };
+          const { pose, angles, ranges, exact, hit } = buffers;
+          this.scan = { ids: message.ids ?? [], index: message.index ?? null, pose, angles, ranges, exact, hit };
         }
         break;
       case "field":
@@ -165,10 +187,7 @@ export class Session {
         this.status.say(message.text, message.level ?? "info", this.acted);
         break;
       case "error":
-        this.status.say([message.text, message.remedy].filter(Boolean).join("; "), "error", this.acted);
-        this.pending = this.pending.filter((edit) => edit.seq !== message.seq);
-        this.latency.refused(message.seq);
-        this.rebuild();
+        this.receiveError(message);
         break;
       case "worker":
         this.worker = message.state;
@@ -180,6 +199,19 @@ export class Session {
         break;
     }
     this.changed();
+  }
+
+  private receiveError(message: Message) {
+    const seq: number | null = message.refused?.seq ?? null;
+    if (seq !== null && seq === this.broughtAt) {
+      // the document that this page brought is none: it takes the server's
+      this.broughtAt = null;
+      this.act({ type: "hello" });
+    }
+    this.status.say([message.text, message.remedy].filter(Boolean).join("; "), "error", this.acted);
+    this.pending = this.pending.filter((edit) => edit.seq !== seq);
+    if (seq !== null) this.latency.refused(seq);
+    this.rebuild();
   }
 
   private receiveState(state: State) {
@@ -198,12 +230,13 @@ export class Session {
     }
     this.generation = message.generation;
     const p = buffers.p as Uint8Array;
+    const { trace, traced, weights } = buffers as { [name: string]: Float32Array };
     const bits = buffers.observed as Uint8Array;
     const old = this.next ?? this.shown;
     // most frames of a chain see the same cells
     const same = old && old.p.length === p.length && old.bits.every((byte, i) => byte === bits[i]);
     const seen = same ? { observed: old.observed, bits: old.bits } : { observed: unpackBits(bits, p.length), bits };
-    this.next = { ...(message as unknown as Field), p, ...seen };
+    this.next = { ...(message as unknown as Field), p, trace, traced, weights, ...seen };
     this.progress.hear(this.next);
   }
 

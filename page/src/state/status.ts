@@ -20,7 +20,7 @@ export class Status {
 
   /** Actions up to a number are confirmed. */
   confirmed(seq: number) {
-    const overcome = this.level !== "info" && seq > this.until && !/worker/.test(this.text);
+    const overcome = seq > this.until && !/worker/.test(this.text);
     if (this.text === "Connecting" || overcome) this.say("Ready", "info", seq);
   }
 

@@ -1,19 +1,19 @@
 // A recording inside a page in one file (docs/app.md): answers as a session would.
 
-import { fromBase64, inflate } from "../geometry/bits";
-import type { MapDocument, Transport, View } from "../protocol";
+import { fromBase64, inflate, unpackBits } from "../geometry/bits";
+import type { MapDocument, Transport, Verdict, View } from "../protocol";
 import { deaf } from "./frame";
 
 type Rows = (number | null)[][];
 export type Recording = {
   version: 1;
   document: MapDocument;
-  scans: { ids: number[]; pose: Rows; angles: number[]; ranges: Rows; exact?: Rows };
+  scans: { ids: number[]; pose: Rows; angles: number[]; ranges: Rows; exact?: Rows; hit: string };
   mean: string;
   observed: string;
   draws?: { chains: number; count: number; data: string };
   log_joint?: number[][];
-  settings?: { method?: string; sweeps?: number; ess?: number | null; rhat?: number | null };
+  settings?: { method?: string; sweeps?: number; ess?: number | null; rhat?: number | null; verdict?: Verdict | null };
 };
 
 export function recordedTransport(recording: Recording): Transport {
@@ -30,6 +30,13 @@ export function recordedTransport(recording: Recording): Transport {
   const rows = (values: Rows) => (oneByOne ? [values[index]] : values);
   const floats = (values: Rows) => Float32Array.from(rows(values).flat(), (value) => value ?? Infinity);
 
+  const beams = scans.angles.length;
+  const allHits = unpackBits(fromBase64(scans.hit), scans.pose.length * beams);
+  const hits = () => (oneByOne ? allHits.subarray(index * beams, (index + 1) * beams) : allHits);
+  const trace = Float32Array.from(log_joint.flat());
+  const every = (settings.sweeps ?? count) / Math.max(1, count);
+  const traced = Float32Array.from(log_joint[0] ?? [], (_, i) => (i + 1) * every);
+
   const state = (seq: number) => {
     const held = { chains: recording.draws?.chains ?? 0, count: draws ? count : 0 };
     const fixed = { generation: 1, can_undo: false, can_redo: false, live: false, running: false };
@@ -39,16 +46,17 @@ export function recordedTransport(recording: Recording): Transport {
     const pose = Float64Array.from(rows(scans.pose).flat(), Number);
     const message = { type: "scan", generation: 1, ids: oneByOne ? [index] : scans.ids, index: oneByOne ? index : null };
     const exact = scans.exact?.length ? floats(scans.exact) : new Float32Array(0);
-    transport.onmessage(message, { pose, angles: Float32Array.from(scans.angles), ranges: floats(scans.ranges), exact });
+    transport.onmessage(message, { pose, angles: Float32Array.from(scans.angles), ranges: floats(scans.ranges), exact, hit: hits() });
   };
   const field = () => {
     const drawn = view.layer === "draw" && draws ? oneDraw(draws, view.chain * count + (view.draw ?? count - 1), cells) : null;
     const joint = log_joint[view.chain]?.[(view.layer === "draw" ? view.draw : null) ?? count - 1] ?? null;
     const which = drawn ? { ...view, draw: view.draw ?? count - 1 } : { layer: view.layer === "draw" ? "mean" : view.layer };
     const sweeps = settings.sweeps ?? count;
-    const figures = { sweeps, total: sweeps, ess: settings.ess, rhat: settings.rhat, log_joint: joint };
+    const figures = { sweeps, total: sweeps, ess: settings.ess, rhat: settings.rhat, verdict: settings.verdict, log_joint: joint };
     const method = settings.method ?? document.method;
-    transport.onmessage({ type: "field", generation: 1, ...which, method, approximate: false, ...figures }, { p: drawn ?? mean, observed });
+    const buffers = { p: drawn ?? mean, observed, trace, traced };
+    transport.onmessage({ type: "field", generation: 1, ...which, method, approximate: false, ...figures }, buffers);
   };
 
   const transport: Transport = {

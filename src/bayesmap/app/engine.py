@@ -16,12 +16,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import Document
+from bayesmap.app.document import CHAIN_METHODS, Document
 from bayesmap.app.opened import Opened
 from bayesmap.app.preview import Preview
 from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
-from bayesmap.app.stream import CHAINS, Stream
+from bayesmap.app.starting import starts
+from bayesmap.app.stream import Stream
 from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
 from bayesmap.app.weighing import Weighing
 from bayesmap.errors import BadInput
@@ -29,7 +30,6 @@ from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import Problem
 from bayesmap.samplers.sampler import WallSampler
-from bayesmap.samplers.start import start_maps
 
 PREVIEW_SECONDS = 0.020
 FEWEST_ROUNDS = 3
@@ -110,7 +110,7 @@ class Engine:
     # Jobs
 
     def _work(self, task: Infer) -> Iterator[None]:
-        document = task.document
+        document = replace(task.document, method=task.document.sampler)
         if document.source.kind == "run":
             assert self._opened is not None
             self._scene, self._scene_of = self._opened.scene(document), document
@@ -128,19 +128,18 @@ class Engine:
         if task.mode == "run" and document.method == "importance":
             yield from self._weigh(scene, document)
             return
-        if task.mode == "run" and document.method in ("gibbs", "block") and document.simulated:
-            starts = start_maps(scene.problem, "prior", CHAINS, document.seed)
-            yield from self._sweep(scene, document, starts, keep=True)
+        if task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
+            yield from self._sweep(scene, document, starts(scene.problem, document, None), keep=True)
             return
         preview = Preview(scene.problem)
         yield from self._propagate(scene, document, preview)
-        if task.mode == "preview" or document.method not in ("gibbs", "block"):
+        if task.mode == "preview" or document.method not in CHAIN_METHODS:
             self._finish()
         else:
             if time.perf_counter() - self._began > PREVIEW_SECONDS / 2:
                 yield from _pause(PAUSE_SECONDS)
-            starts = start_maps(scene.problem, "propagate", CHAINS, document.seed, preview.marginals())
-            yield from self._sweep(scene, document, starts, keep=task.mode == "run")
+            begun = starts(scene.problem, document, preview)
+            yield from self._sweep(scene, document, begun, keep=task.mode == "run")
 
     def _readings(self, document: Document) -> Scene:
         """The scene of a document; what did not change is not made again."""
@@ -171,12 +170,12 @@ class Engine:
             if shown >= 0 or self._elapsed() > PREVIEW_SECONDS:
                 yield
 
-    def _sweep(self, scene: Scene, document: Document, starts: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
+    def _sweep(self, scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
         """The chains, with a frame now and then and one at the end."""
         yield
         sampler = _sampler(scene.problem, document)
         yield
-        stream = Stream(sampler, starts, document.sweeps, document.seed, keep=keep)
+        stream = Stream(sampler, begun, document.sweeps, document.seed, keep=keep)
         while not stream.done:
             yield
             stream.advance()

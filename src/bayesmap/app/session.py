@@ -12,6 +12,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from bayesmap.app.adopting import adopted
 from bayesmap.app.document import LIMITS, VERSION, Document, Refused
 from bayesmap.app.edits import EDITS, edit, gesture_of, merged
 from bayesmap.app.history import History
@@ -138,11 +139,15 @@ class Session:
     def _on_hello(self, client: int, message: Message) -> Effects:
         effects: Effects = []
         document = message.get("document")
-        if document is not None and document != self.document:
-            if self.document.simulated:
+        if document is not None:
+            try:
+                document = adopted(self.document, document)
+            except Refused as refusal:
+                effects.append(self._status(f"{refusal.text}; {refusal.remedy}", "warning", client))
+            else:
                 self.history = self.history.push(document)
-                return self._restart()
-            effects.append(self._status(f"this page shows {self.document.source.name}", "warning", client))
+                if self.document is document:
+                    return self._restart()
         effects.append(replace(self._state(), client=client))
         return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
 

@@ -22,8 +22,8 @@ SECONDS_PER_CELL = 2e-8
 DRAW_BYTES = 128 << 20
 """Packed draws of a run; more sweeps than fit are thinned."""
 
-DIAGNOSED = 2000
-"""Sweeps of each chain, evenly spread, of which R-hat and effective sample size are computed."""
+DIAGNOSIS_SHARE = 0.1
+"""Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,11 @@ class Stream:
         self.seconds = 0.0
         kept = self.total // self.thin if keep else 0
         self._packed = np.zeros((CHAINS, kept, size), dtype=np.uint8)
-        self._sum = np.zeros(cells, dtype=np.int64)
+        self._sums = np.zeros((CHAINS, cells), dtype=np.int64)
         self._seen = np.zeros(cells, dtype=np.int64)
         self._steps = 0
+        self._rhat = self._ess = math.nan
+        self._diagnose_at, self._diagnosed = 0.0, 0
         self._log_likelihood = np.zeros((CHAINS, self.total))
         self._log_prior = np.zeros((CHAINS, self.total))
         self._per_sweep = SECONDS_PER_INCIDENCE * sampler.problem.table.n_incidences + SECONDS_PER_CELL * cells
@@ -76,14 +78,14 @@ class Stream:
 
     def advance(self) -> None:
         """Some sweeps: about `STEP_SECONDS` of work."""
-        room = BUFFER_BYTES // (CHAINS * self._sum.size)
+        room = BUFFER_BYTES // self._sums.size
         wanted = min(int(STEP_SECONDS / self._per_sweep), room * self.thin)
         sweeps = min(self.total - self.sweep, max(1, wanted // self.thin) * self.thin)
         before = self.sweep
         began = time.perf_counter()
         self.state, info = self.sampler.step(self.state, sweeps, thin=self.thin)
         new = slice(self.counted, self.counted + info.draws.shape[1])
-        self._sum += info.draws.reshape(-1, self._sum.size).sum(axis=0, dtype=np.uint32)
+        self._sums += info.draws.reshape(CHAINS, -1, self._sums.shape[1]).sum(axis=1, dtype=np.uint32)
         if self.keep:
             self._packed[:, new] = np.packbits(info.draws, axis=-1)
         self.counted = new.stop
@@ -106,10 +108,14 @@ class Stream:
         Where draws are not kept, cells that no beam touches have the prior exactly: what their draws average to.
         """
         table = self.sampler.problem.table
-        mean = (self._sum / (CHAINS * max(1, self.counted))).reshape(table.grid.shape)
+        mean = (self._sums.sum(axis=0) / (CHAINS * max(1, self.counted))).reshape(table.grid.shape)
         if self.keep:
             return np.asarray(mean)
         return np.where(table.observed(), mean, self.sampler.problem.p_wall.reshape(mean.shape))
+
+    def means(self) -> NDArray[np.float64]:
+        """The same of each chain, (chains, nx, ny)."""
+        return (self._sums / max(1, self.counted)).reshape(CHAINS, *self.sampler.problem.table.grid.shape)
 
     def observed(self) -> NDArray[np.bool_]:
         """Cells that a beam reached in at least half of the maps at which the chains paused, (nx, ny)."""
@@ -132,12 +138,16 @@ class Stream:
         return self._log_likelihood[:, : self.sweep] + self._log_prior[:, : self.sweep]
 
     def mixing(self) -> Mixing:
-        """Diagnostics of the sweeps so far."""
+        """Diagnostics of all sweeps, while the chains run of those until a moment ago; NaN where nothing changed."""
         joint = self.log_joint()
-        every = -(-joint.shape[1] // DIAGNOSED)
-        some = joint[:, ::every] if every > 1 else joint
         last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
-        return Mixing(rhat(some), bulk_ess(some), last)
+        now = time.perf_counter()
+        if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
+            constant = joint.size == 0 or float(np.ptp(joint)) == 0.0
+            self._rhat, self._ess = (math.nan, math.nan) if constant else (rhat(joint), bulk_ess(joint))
+            self._diagnosed = self.sweep
+            self._diagnose_at = math.inf if self.done else now + (time.perf_counter() - now) / DIAGNOSIS_SHARE
+        return Mixing(self._rhat, self._ess, last)
 
     def chains(self) -> Chains:
         """Everything, as the library's runner leaves it."""

@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
 
+ALIVE_SECONDS = 1.0
+"""From one sign of life of the worker's to the next."""
+
 Mode = Literal["preview", "live", "run", "clear"]
 
 
@@ -77,7 +80,7 @@ class Report:
 
     Attributes:
         header: the message; of type scan, field, cell, download or status, which the page knows, or ready, finished or
-            failed, which are the session's.
+            failed, which are the session's, or alive, which is the supervisor's.
         buffers: arrays by name.
         client: who asked, where it is for one page alone.
     """
