@@ -66,7 +66,9 @@ def test_an_export_waits_for_the_first_picture():
     heard = Heard()
     heard.infer(tutorial_document(), steps=0)
     assert heard.ask(Export(1, "map")) == []
-    heard.engine.advance()
+    while not heard.all("field"):
+        assert heard.all("download") == []
+        heard.engine.advance()
     assert len(heard.all("download")) == 1
 
 

@@ -72,6 +72,7 @@ export function traceChart(ui: Ui, theme: () => Theme) {
         height: HEIGHT,
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, y: false },
+        padding: [8, 10, 0, 0],
         scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + 1)] }, y: { range: (_, low, high) => padded(Math.max(low, settled), high) } },
         axes: [axis(theme, 26), axis(theme, 52)],
         series: [{ label: "sweep" }, ...series],
@@ -82,7 +83,8 @@ export function traceChart(ui: Ui, theme: () => Theme) {
     );
   };
   const chartOf = kept(place, make, theme);
-  const element = h("div", { className: "charted" }, choice, place);
+  const caption = h("span", { className: "caption", textContent: "log joint by sweep" });
+  const element = h("div", { className: "charted" }, h("div", { className: "buttons" }, choice, caption), place);
   ui.each(() => {
     const field = session.shown;
     const count = field?.traced?.length ? field.trace.length / field.traced.length : 0;
@@ -142,6 +144,7 @@ export function weightChart(ui: Ui, theme: () => Theme) {
         height: HEIGHT,
         legend: { show: false },
         cursor: { show: false },
+        padding: [8, 10, 0, 0],
         scales: { x: { time: false, range: (_, low, high) => [low, high] }, y: { distr: 3, range: (_, _low, high) => [0.5, Math.max(10, 2 * high)] } },
         axes: [axis(theme, 26), { ...axis(theme, 52), values: (_, ticks) => ticks.map((tick) => (tick >= 1 ? String(tick) : "")) }],
         series: [{}, { fill: theme().ray, stroke: theme().ray, paths: uPlot.paths.bars?.({ size: [0.9, 100], align: 1 }), points: { show: false } }],

@@ -12,7 +12,7 @@ const LAYERS = [
   ["entropy", "Entropy"],
 ] as const;
 /** Draws a second. */
-const SPEEDS: Record<string, string> = { "2": "2 a second", "10": "10 a second", "30": "30 a second", "1000": "full speed" };
+const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30 / s", "1000": "fastest" };
 
 /** Shows draws one after another, until the last; the next is asked for when one has been painted. */
 export class Player {

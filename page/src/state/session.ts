@@ -149,6 +149,7 @@ export class Session {
       this.pending = [];
       this.latency.forget();
       this.bring(document);
+      if (this.view.layer !== "mean" && this.document) this.act({ type: "view", ...this.view });
       if (this.everConnected) this.say("Connected again");
       else if (this.notice) this.say(this.notice.text, this.notice.level);
       this.everConnected = true;

@@ -52,7 +52,7 @@ class Engine:
         self._opened = opened
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
-        self._look = Look("mean")
+        self._looks: dict[int | None, Look] = {}  # of pages that are shown a draw
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
@@ -74,9 +74,11 @@ class Engine:
         elif isinstance(task, Cancel):
             self._cancel()
         elif isinstance(task, Look):
-            self._look = task
+            self._looks.pop(task.client, None)
+            if task.layer == "draw":
+                self._looks[task.client] = task
             if self._result is not None:
-                self._frame()
+                self._show(task)
         elif isinstance(task, ShowScan):
             if self._scene is not None and self._opened is not None:
                 self._rays(self._scene, task.index)
@@ -209,9 +211,11 @@ class Engine:
 
     # Reports
 
-    def _report(self, kind: str, buffers: dict[str, Any] | None = None, **fields: Any) -> None:
+    def _report(
+        self, kind: str, buffers: dict[str, Any] | None = None, client: int | None = None, **fields: Any
+    ) -> None:
         assert self._task is not None
-        self._tell(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}))
+        self._tell(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}, client))
 
     def _finish(self) -> None:
         draws = {"chains": 0, "count": 0} if self._result is None else self._result.draws()
@@ -219,9 +223,16 @@ class Engine:
 
     def _frame(self) -> None:
         assert self._result is not None
-        header, buffers = self._result.field(self._look)
+        for look in (Look("mean"), *self._looks.values()):
+            self._show(look)
         self._framed = time.perf_counter()
-        self._report("field", buffers, **header, milliseconds=round(1e3 * (self._framed - self._began), 1))
+
+    def _show(self, look: Look) -> None:
+        """A field for one page, or for all that are not shown a draw."""
+        assert self._result is not None
+        header, buffers = self._result.field(look)
+        spent = round(1e3 * (time.perf_counter() - self._began), 1)
+        self._report("field", buffers, client=look.client, **header, milliseconds=spent)
 
     def _rays(self, scene: Scene, scan: int | None) -> None:
         header, buffers = rays(scene, scan)

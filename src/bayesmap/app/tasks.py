@@ -40,11 +40,19 @@ class Cancel:
 
 @dataclass(frozen=True)
 class Look:
-    """Which field to send from now on; one is sent at once."""
+    """Which field a page is sent from now on; one is sent at once.
+
+    Attributes:
+        layer: "mean", "entropy" or "draw".
+        chain: whose draw.
+        draw: its number, or None for the last.
+        client: the page.
+    """
 
     layer: str
     chain: int | None = None
     draw: int | None = None
+    client: int | None = None
 
 
 @dataclass(frozen=True)

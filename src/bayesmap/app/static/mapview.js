@@ -47,7 +47,7 @@ key.toLowerCase()==="a"&&n.editable)this.addSensor();else if((e.key==="Delete"||
 o.setCursor(null);else return;e.preventDefault(),e.stopPropagation()}addSensor(){this.editor.addSensor(this.hand.cursor?{near:this.hand.cursor}:"where there is \
 room")}arrow(e,n){let{session:o,view:r,hand:s}=this,[i,a]=o.shape;if(s.tool==="sensor"&&s.sensor&&o.document&&o.editable){let{resolution:u}=o.document.grid;s.selected=
 s.sensor.id,this.editor.moveSensor(s.sensor,{x:s.sensor.x+e*u,y:s.sensor.y+n*u})}else if(s.tool==="pan"&&o.editable)r.pan(-40*e,40*n,o.shape),o.changed();else{let u=s.
-cursor??{x:Math.floor(i/2),y:Math.floor(a/2)},p={x:Se(u.x+e,0,i-1),y:Se(u.y+n,0,a-1)};s.setCursor(p);let m=r.fromGrid({x:p.x+.5,y:p.y+.5},a),h=(x,w,M)=>x-Se(x,w,
+cursor??{x:Math.floor(i/2),y:Math.floor(a/2)},p={x:Se(u.x+e,0,i-1),y:Se(u.y+n,0,a-1)};s.setCursor(p);let m=r.fromGrid({x:p.x+.5,y:p.y+.5},a),h=(x,b,M)=>x-Se(x,b,
 M),g={x:h(m.x,je.left+10,r.width-20),y:h(m.y,20,r.height-je.bottom-10)};(g.x||g.y)&&r.pan(-g.x,-g.y,o.shape)}}space(e){let{session:n,hand:o,editor:r}=this;if(n.
 editable){if(o.tool==="sensor"){let s=n.document?.sensors??[],i=s.findIndex(a=>a.id===o.sensor?.id);o.select(s[(i+1)%Math.max(1,s.length)]?.id??null),o.selected!==
 null&&o.announce(`Sensor ${o.selected}`)}else if(o.tool!=="pan"){o.cursor||this.arrow(0,0);let s=o.cursor,i=o.tool==="draw"&&!r.isWall(s);r.setWalls([s],i,o.nextGesture(),
@@ -59,8 +59,8 @@ key==="Escape"&&(e.running||e.sampling))e.act({type:"cancel"});else return;t.pre
 "middle",i&&(t.strokeStyle=r.halo,t.lineWidth=3,t.strokeText(e,n,o)),t.fillStyle=r.axis,t.fillText(e,n,o)}function Ir({document:t,scan:e}){return t?t.source.kind==="simulation"||!e?t.sensors:Array.from({length:e.pose.length/3},(o,r)=>r).map(o=>({id:o,x:e.pose[3*o],y:e.
 pose[3*o+1],yaw:e.pose[3*o+2]})):[]}function No(t,e,n){let o=n.fromGrid(no(t,e),e.shape[1]),r=Se(n.transform.scale*.42,7,13),s=r*2.6,i={x:o.x+s*Math.cos(t.yaw),
 y:o.y-s*Math.sin(t.yaw)};return{point:o,size:r,handle:i}}function wi(t,{session:e,view:n,look:o}){let r=e.document;if(!r)return;let{theme:s}=o,i=Ir(e);t.lineJoin=
-"round";for(let a of i){let u=No(a,r.grid,n),{point:p,size:m}=u;a.id===o.selected&&kc(t,u,o);let[h,g]=[Math.cos(a.yaw),-Math.sin(a.yaw)],x=(w,M)=>[p.x+m*(w*h-M*
-g),p.y+m*(w*g+M*h)];t.beginPath(),t.moveTo(...x(1.25,0)),t.lineTo(...x(-.9,.8)),t.lineTo(...x(-.45,0)),t.lineTo(...x(-.9,-.8)),t.closePath(),t.strokeStyle=s.halo,
+"round";for(let a of i){let u=No(a,r.grid,n),{point:p,size:m}=u;a.id===o.selected&&kc(t,u,o);let[h,g]=[Math.cos(a.yaw),-Math.sin(a.yaw)],x=(b,M)=>[p.x+m*(b*h-M*
+g),p.y+m*(b*g+M*h)];t.beginPath(),t.moveTo(...x(1.25,0)),t.lineTo(...x(-.9,.8)),t.lineTo(...x(-.45,0)),t.lineTo(...x(-.9,-.8)),t.closePath(),t.strokeStyle=s.halo,
 t.lineWidth=3,t.stroke(),t.fillStyle=s.sensor,t.fill(),i.length>1&&i.length<100&&Ln(t,String(a.id),p.x,p.y+m*2+4,s,"center",!0)}}function kc(t,{point:e,size:n,handle:o},{
 theme:r}){t.beginPath(),t.moveTo(e.x,e.y),t.lineTo(o.x,o.y),t.moveTo(o.x+4.5,o.y),t.arc(o.x,o.y,4.5,0,2*Math.PI),t.moveTo(e.x+n*1.7,e.y),t.arc(e.x,e.y,n*1.7,0,2*
 Math.PI),t.strokeStyle=r.halo,t.lineWidth=4,t.stroke(),t.strokeStyle=r.sensor,t.lineWidth=1.5,t.stroke(),t.beginPath(),t.arc(o.x,o.y,4,0,2*Math.PI),t.fillStyle=
@@ -107,7 +107,7 @@ fill(255),[o,r]=[Uo(t.unobserved),Uo(t.unobservedWall)];for(let s=0;s<256;s++)n.
 n.buffer)}var Mi=t=>`linear-gradient(90deg,${[0,.125,.25,.375,.5,.625,.75,.875,1].map(e=>`rgb(${t(e).map(Math.round)})`)})`;var zo=class{paints={};sheets;constructor(e,n){this.sheets=e.map((o,r)=>({layer:o,canvas:n[r],context:n[r].getContext("2d"),before:[]}));for(let{name:o}of e)this.
 paints[o]=0}paint(e){let{width:n,height:o,ratio:r,transform:s}=e.view;if(!n||!o)return;let i={width:Math.max(1,Math.ceil(n*r)),height:Math.max(1,Math.ceil(o*r))},
 a=[e.look.theme,n,o,r,s.scale,s.x,s.y];for(let u of this.sheets){let{canvas:p,context:m,layer:h}=u,g=[...a,...h.depends(e)];g.length===u.before.length&&g.every(
-(x,w)=>Object.is(x,u.before[w]))||(u.before=g,(p.width!==i.width||p.height!==i.height)&&(Object.assign(p,i),p.style.width=`${i.width/r}px`,p.style.height=`${i.height/
+(x,b)=>Object.is(x,u.before[b]))||(u.before=g,(p.width!==i.width||p.height!==i.height)&&(Object.assign(p,i),p.style.width=`${i.width/r}px`,p.style.height=`${i.height/
 r}px`),m.setTransform(1,0,0,1,0,0),m.clearRect(0,0,p.width,p.height),m.setTransform(r,0,0,r,0,0),m.save(),h.paint(m,e),m.restore(),this.paints[h.name]++)}}};function Dn(t,{
 session:e,view:n}){let[o,r]=e.shape,{scale:s,x:i,y:a}=n.transform;t.beginPath(),t.rect(i,a,o*s,r*s),t.clip()}var Cc=10,_c=7,Ho=()=>document.createElement("canvas").getContext("2d"),Rn=class{name="field";cells=Ho();mask=Ho();hatch=Ho();palettes=new Map;image=new ImageData(
 1,1);drawn={field:null,bits:null,palette:"",hatch:""};depends({session:e}){return[e.shown,e.view.layer==="entropy",...e.shape,e.document===null]}paint(e,n){let{
@@ -116,30 +116,30 @@ unobserved,e.fillRect(p,m,i*u,a*u);return}this.fill(h,i,a,s.theme,o.view.layer==
 canvas,p,m,i*u,a*u),this.fillHatch(n),e.drawImage(this.hatch.canvas,0,0,this.hatch.canvas.width/r.ratio,this.hatch.canvas.height/r.ratio),u>=Cc&&this.lines(e,n)}fill(e,n,o,r,s){
 let{cells:i,mask:a,drawn:u}=this,p=`${r.ground} ${s}`;if(u.field===e&&u.palette===p)return;let m=this.palettes.get(p)??ki(r,s);if(this.palettes.set(p,m),this.image.
 width!==n||this.image.height!==o){this.image=new ImageData(n,o);for(let{canvas:g}of[i,a])Object.assign(g,{width:n,height:o});u.bits=null}let h=new Uint32Array(this.
-image.data.buffer);for(let g=0,x=0;g<o;g++)for(let w=o-1-g;w<n*o;w+=o)h[x++]=m[e.p[w]+(e.observed[w]?0:256)];if(i.putImageData(this.image,0,0),u.bits!==e.bits){
-for(let g=0,x=0;g<o;g++)for(let w=o-1-g;w<n*o;w+=o)h[x++]=e.observed[w]?0:4278190080;a.putImageData(this.image,0,0),u.hatch=""}Object.assign(u,{field:e,bits:e.bits,
-palette:p})}fillHatch({session:e,view:n,look:o}){let{hatch:r,mask:s,drawn:i}=this,{ratio:a,width:u,height:p}=n,{scale:m,x:h,y:g}=n.transform,[x,w]=e.shape,M=[o.
+image.data.buffer);for(let g=0,x=0;g<o;g++)for(let b=o-1-g;b<n*o;b+=o)h[x++]=m[e.p[b]+(e.observed[b]?0:256)];if(i.putImageData(this.image,0,0),u.bits!==e.bits){
+for(let g=0,x=0;g<o;g++)for(let b=o-1-g;b<n*o;b+=o)h[x++]=e.observed[b]?0:4278190080;a.putImageData(this.image,0,0),u.hatch=""}Object.assign(u,{field:e,bits:e.bits,
+palette:p})}fillHatch({session:e,view:n,look:o}){let{hatch:r,mask:s,drawn:i}=this,{ratio:a,width:u,height:p}=n,{scale:m,x:h,y:g}=n.transform,[x,b]=e.shape,M=[o.
 theme.ground,m,h,g,u,p,a].join(" ");if(i.hatch===M)return;i.hatch=M;let A=Ho(),L=A.canvas.width=A.canvas.height=Math.round(_c*a);A.strokeStyle=o.theme.hatch,A.lineWidth=
 a,A.beginPath();for(let _ of[-L,0,L])A.moveTo(_-1,L+1),A.lineTo(_+L+1,-1);A.stroke(),Object.assign(r.canvas,{width:Math.ceil(u*a),height:Math.ceil(p*a)}),r.setTransform(
-a,0,0,a,0,0),r.imageSmoothingEnabled=!1,r.drawImage(s.canvas,h,g,x*m,w*m),r.globalCompositeOperation="source-in",r.setTransform(1,0,0,1,0,0);let k=r.createPattern(
+a,0,0,a,0,0),r.imageSmoothingEnabled=!1,r.drawImage(s.canvas,h,g,x*m,b*m),r.globalCompositeOperation="source-in",r.setTransform(1,0,0,1,0,0);let k=r.createPattern(
 A.canvas,"repeat");k.setTransform(new DOMMatrix().translate(Math.round(h*a),Math.round(g*a))),r.fillStyle=k,r.fillRect(0,0,r.canvas.width,r.canvas.height)}lines(e,{
 session:n,view:o,look:r}){let[s,i]=n.shape,{scale:a,x:u,y:p}=o.transform;e.beginPath();for(let m=1;m<s;m++)e.moveTo(u+m*a,p),e.lineTo(u+m*a,p+i*a);for(let m=1;m<
 i;m++)e.moveTo(u,p+m*a),e.lineTo(u+s*a,p+m*a);e.strokeStyle=r.theme.lines,e.lineWidth=1,e.stroke()}};var Lc=46;function Dc(t){let e=10**Math.floor(Math.log10(t));return e*([1,2,5].find(n=>n*e>=t)??10)}function Ti(t,{session:e,view:n,look:o}){if(!e.document)return;
-let{theme:r}=o,{width:s,height:i}=n,{origin:a,resolution:u,shape:p}=e.document.grid,{scale:m,x:h,y:g}=n.transform,x=Dc(Lc/m*u),w=Math.min(g+p[1]*m,i-je.bottom)+
-.5,M=Math.max(h,je.left)-.5;t.fillStyle=r.ground,h<M&&t.fillRect(0,0,M,i+1),g+p[1]*m>w&&t.fillRect(0,w,s+1,i+1-w);let A=Math.max(0,-Math.floor(Math.log10(x)+1e-9));
+let{theme:r}=o,{width:s,height:i}=n,{origin:a,resolution:u,shape:p}=e.document.grid,{scale:m,x:h,y:g}=n.transform,x=Dc(Lc/m*u),b=Math.min(g+p[1]*m,i-je.bottom)+
+.5,M=Math.max(h,je.left)-.5;t.fillStyle=r.ground,h<M&&t.fillRect(0,0,M,i+1),g+p[1]*m>b&&t.fillRect(0,b,s+1,i+1-b);let A=Math.max(0,-Math.floor(Math.log10(x)+1e-9));
 t.strokeStyle=r.frame,t.lineWidth=1,t.beginPath();let L=_=>Math.ceil(a[_]/x-1e-9)*x,k=_=>a[_]+p[_]*u+1e-9;for(let _=L(0);_<=k(0);_+=x){let T=h+(_-a[0])/u*m;T<M||
-T>s-4||(t.moveTo(T,w),t.lineTo(T,w+4),Ln(t,_.toFixed(A),T,w+12,r,"center"))}for(let _=L(1);_<=k(1);_+=x){let T=g+(p[1]-(_-a[1])/u)*m;T>w||T<4||(t.moveTo(M,T),t.
-lineTo(M-4,T),Ln(t,_.toFixed(A),M-7,T,r,"right"))}t.stroke(),Ln(t,"m",M-7,w+12,r,"right")}var Nn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=Ir(e).flatMap(({id:i,x:a,y:u,yaw:p})=>[i,a,u,p]),{grid:r}=e.document??{},
+T>s-4||(t.moveTo(T,b),t.lineTo(T,b+4),Ln(t,_.toFixed(A),T,b+12,r,"center"))}for(let _=L(1);_<=k(1);_+=x){let T=g+(p[1]-(_-a[1])/u)*m;T>b||T<4||(t.moveTo(M,T),t.
+lineTo(M-4,T),Ln(t,_.toFixed(A),M-7,T,r,"right"))}t.stroke(),Ln(t,"m",M-7,b+12,r,"right")}var Nn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=Ir(e).flatMap(({id:i,x:a,y:u,yaw:p})=>[i,a,u,p]),{grid:r}=e.document??{},
 s=Pi(e)&&n.truth&&e.wallsVersion;return[r&&[...r.shape,...r.origin,r.resolution].join(),s,n.selected,...o]}paint(e,n){let{session:o,view:r,look:s}=n;if(!o.document)
 return;let[i,a]=o.shape,{scale:u,x:p,y:m}=r.transform;s.truth&&Pi(o)&&this.truth(e,n),e.strokeStyle=s.theme.frame,e.lineWidth=1,e.strokeRect(p-.5,m-.5,i*u+1,a*u+
 1),wi(e,n),Ti(e,n)}truth(e,n){let{session:o,view:r,look:s}=n,{scale:i,x:a,y:u}=r.transform;this.edgesOf!==o.wallsVersion&&(this.edges=ai(o.walls,o.shape),this.edgesOf=
 o.wallsVersion),e.save(),Dn(e,n),e.transform(i,0,0,-i,a,u+o.shape[1]*i),e.lineCap="square",e.strokeStyle=s.theme.truth,e.lineWidth=Se(i*.09,1,2.5)/i,e.stroke(this.
 edges),e.restore()}},Pi=({document:t})=>t?.source.kind==="simulation";var Rc=600,On=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings]}paint(e,n){let{session:o,view:r,look:s}=n,{scan:i,
 document:a}=o;if(!i||!a||!(s.rays||s.readings))return;Dn(e,n);let{scale:u}=r.transform,p=1/a.grid.resolution,m=a.grid.shape[1],h=i.angles.length,g=i.pose.length/
-3,[x,w,M]=[new Path2D,new Path2D,new Path2D],A=Se(u*.1,1.3,4);for(let L=0;L<g;L++){let[k,_,T]=i.pose.subarray(3*L,3*L+3),j=r.fromGrid(no({x:k,y:_},a.grid),m);for(let D=0;D<
-h;D++){let Z=i.ranges[L*h+D],G=i.hit[L*h+D]===1,R=(G?Z:a.max_range)*p*u,z=i.angles[D]+T,E={x:j.x+R*Math.cos(z),y:j.y-R*Math.sin(z)},Y=G?x:w;Y.moveTo(j.x,j.y),Y.
+3,[x,b,M]=[new Path2D,new Path2D,new Path2D],A=Se(u*.1,1.3,4);for(let L=0;L<g;L++){let[k,_,T]=i.pose.subarray(3*L,3*L+3),j=r.fromGrid(no({x:k,y:_},a.grid),m);for(let D=0;D<
+h;D++){let Z=i.ranges[L*h+D],G=i.hit[L*h+D]===1,R=(G?Z:a.max_range)*p*u,z=i.angles[D]+T,E={x:j.x+R*Math.cos(z),y:j.y-R*Math.sin(z)},Y=G?x:b;Y.moveTo(j.x,j.y),Y.
 lineTo(E.x,E.y),G&&(h*g>Rc?M.rect(E.x-.9*A,E.y-.9*A,1.8*A,1.8*A):(M.moveTo(E.x+A,E.y),M.arc(E.x,E.y,A,0,2*Math.PI)))}}s.rays&&(e.lineWidth=1,e.globalAlpha=Se(28/
-Math.sqrt(h*g)/5,.07,.45),e.strokeStyle=s.theme.ray,e.stroke(x),e.strokeStyle=s.theme.noReturn,e.stroke(w),e.globalAlpha=1),s.readings&&(e.fillStyle=s.theme.ray,
+Math.sqrt(h*g)/5,.07,.45),e.strokeStyle=s.theme.ray,e.stroke(x),e.strokeStyle=s.theme.noReturn,e.stroke(b),e.globalAlpha=1),s.readings&&(e.fillStyle=s.theme.ray,
 e.fill(M))}};var Ei=900,ro=2;function Ai({session:t,look:e}){let[n,o]=t.shape,r=new _n;r.resize(Ei,Math.round(Se(Ei*o/n,300,1800)),ro),r.fit(t.shape);let s=document.createElement(
 "canvas");Object.assign(s,{width:r.width*ro,height:r.height*ro});let i=s.getContext("2d");i.scale(ro,ro),i.fillStyle=e.theme.ground,i.fillRect(0,0,r.width,r.height);
 let a=[new Rn,new On,new Nn];for(let u of a)i.save(),u.paint(i,{session:t,view:r,look:{...e,hover:null,cursor:null,selected:null}}),i.restore();return new Promise(
@@ -167,7 +167,7 @@ p=a(i(Oe(t))),m=u(i(Oe(e))),h=zn(n,p),g=zn(n,m);return n==10&&(p<0&&(h=ye(h,-p))
 let r=qo(t,e,n,o);return t==0&&(r[0]=0),e==0&&(r[1]=0),r}var us=.1,Gi={mode:3,pad:us},po={pad:0,soft:null,mode:0},su={min:po,max:po};function jo(t,e,n,o){return Zo(
 n)?Bi(t,e,n):(po.pad=n,po.soft=o?0:null,po.mode=o?3:0,Bi(t,e,su))}function ae(t,e){return t??e}function iu(t,e,n){for(e=ae(e,0),n=ae(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function Bi(t,e,n){let o=n.min,r=n.max,s=ae(o.pad,0),i=ae(r.pad,0),a=ae(o.hard,-ge),u=ae(r.hard,ge),p=ae(o.soft,ge),m=ae(r.soft,-ge),
-h=ae(o.mode,0),g=ae(r.mode,0),x=e-t,w=It(x),M=Xe(Oe(t),Oe(e)),A=It(M),L=Oe(A-w);(x<1e-24||L>10)&&(x=0,(t==0||e==0)&&(x=1e-24,h==2&&p!=ge&&(s=0),g==2&&m!=-ge&&(i=
+h=ae(o.mode,0),g=ae(r.mode,0),x=e-t,b=It(x),M=Xe(Oe(t),Oe(e)),A=It(M),L=Oe(A-b);(x<1e-24||L>10)&&(x=0,(t==0||e==0)&&(x=1e-24,h==2&&p!=ge&&(s=0),g==2&&m!=-ge&&(i=
 0)));let k=x||M||1e3,_=It(k),T=zn(10,ct(_)),j=k*(x==0?t==0?.1:1:s),D=ye(kl(t-j,T/10),24),Z=t>=p&&(h==1||h==3&&D<=p||h==2&&D>=p)?p:ge,G=Xe(a,D<Z&&t>=Z?Z:Pt(Z,D)),
 R=k*(x==0?e==0?.1:1:i),z=ye(Jo(e+R,T/10),24),E=e<=m&&(g==1||g==3&&z>=m||g==2&&z<=m)?m:-ge,Y=Pt(u,z>E&&e<=E?E:Xe(E,z));return G==Y&&G==0&&(Y=100),[G,Y]}var lu=new Intl.
 NumberFormat(Gn?tu.language:"en-US"),ps=t=>lu.format(t),ut=Math,Bo=ut.PI,Oe=ut.abs,ct=ut.floor,Ne=ut.round,bt=ut.ceil,Pt=ut.min,Xe=ut.max,zn=ut.pow,$i=ut.sign,It=ut.
@@ -185,7 +185,7 @@ for(let n=1;n<e.length;n++){let o=e[n];for(let r in o)r!=Pl&&(Zo(t[r])?Le(t[r],V
 r,s=-1;o<e.length;o++){let i=e[o];if(i>s){for(r=i-1;r>=0&&t[r]==null;)t[r--]=null;for(r=i+1;r<n&&t[r]==null;)t[s=r++]=null}}}function wu(t,e){if(Su(t)){let i=t[0].
 slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return ku(i[0])||(i=vu(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let u=t[i][0],p=u.length;for(let m=0;m<
 p;m++)n.add(u[m])}let o=[Array.from(n).sort((i,a)=>i-a)],r=o[0].length,s=new Map;for(let i=0;i<r;i++)s.set(o[0][i],i);for(let i=0;i<t.length;i++){let a=t[i],u=a[0];
-for(let p=1;p<a.length;p++){let m=a[p],h=Array(r).fill(void 0),g=e?e[i][p]:gu,x=[];for(let w=0;w<m.length;w++){let M=m[w],A=s.get(u[w]);M===null?g!=mu&&(h[A]=M,
+for(let p=1;p<a.length;p++){let m=a[p],h=Array(r).fill(void 0),g=e?e[i][p]:gu,x=[];for(let b=0;b<m.length;b++){let M=m[b],A=s.get(u[b]);M===null?g!=mu&&(h[A]=M,
 g==yu&&x.push(A)):h[A]=M}bu(h,x,r),o.push(h)}}return o}var xu=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function vu(t){let e=t[0],n=e.
 length,o=Array(n);for(let s=0;s<o.length;s++)o[s]=s;o.sort((s,i)=>e[s]-e[i]);let r=[];for(let s=0;s<t.length;s++){let i=t[s],a=Array(n);for(let u=0;u<n;u++)a[u]=
 i[o[u]];r.push(a)}return r}function Su(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let r=t[o][0];if(r.length!=n)return!1;if(r!=e){for(let s=0;s<n;s++)
@@ -205,13 +205,13 @@ _l),sn=Lu.concat(Ll),hs=`
 r=o*24,s=r*30,i=r*365,u=(t==1?ho(10,0,3,Ko).filter(_l):ho(10,-3,0,Ko)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,r,r*2,r*3,r*
 4,r*5,r*6,r*7,r*8,r*9,r*10,r*15,s,s*2,s*3,s*4,s*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),p=[[i,Dl,de,de,de,de,de,de,1],[r*28,"{MMM}",Ji,de,de,de,de,de,1],[r,Rl,Ji,de,
 de,de,de,de,1],[o,"{h}"+Nl,Wo,de,uo,de,de,de,1],[n,Un,Wo,de,uo,de,de,de,1],[e,Qi,Wo+" "+Un,de,uo+" "+Un,de,Zi,de,1],[t,Qi+".{fff}",Wo+" "+Un,de,uo+" "+Un,de,Zi,
-de,1]];function m(h){return(g,x,w,M,A,L)=>{let k=[],_=A>=i,T=A>=s&&A<i,j=h(w),D=ye(j*t,3),Z=Kr(j.getFullYear(),_?0:j.getMonth(),T||_?1:j.getDate()),G=ye(Z*t,3);
+de,1]];function m(h){return(g,x,b,M,A,L)=>{let k=[],_=A>=i,T=A>=s&&A<i,j=h(b),D=ye(j*t,3),Z=Kr(j.getFullYear(),_?0:j.getMonth(),T||_?1:j.getDate()),G=ye(Z*t,3);
 if(T||_){let R=T?A/s:0,z=_?A/i:0,E=D==G?D:ye(Kr(Z.getFullYear()+z,Z.getMonth()+R,1)*t,3),Y=new Date(Ne(E/t)),I=Y.getFullYear(),K=Y.getMonth();for(let W=0;E<=M;W++){
-let ne=Kr(I+z*W,K+R*W,1),B=ne-h(ye(ne*t,3));E=ye((+ne+B)*t,3),E<=M&&k.push(E)}}else{let R=A>=r?r:A,z=ct(w)-ct(D),E=G+z+Jo(D-G,R);k.push(E);let Y=h(E),I=Y.getHours()+
+let ne=Kr(I+z*W,K+R*W,1),B=ne-h(ye(ne*t,3));E=ye((+ne+B)*t,3),E<=M&&k.push(E)}}else{let R=A>=r?r:A,z=ct(b)-ct(D),E=G+z+Jo(D-G,R);k.push(E);let Y=h(E),I=Y.getHours()+
 Y.getMinutes()/n+Y.getSeconds()/o,K=A/o,W=g.axes[x]._space,ne=L/W;for(;E=ye(E+A,t==1?0:3),!(E>M);)if(K>1){let B=ct(ye(I+K,6))%24,re=h(E).getHours()-B;re>1&&(re=
 -1),E-=re*o,I=(I+K)%24;let ce=k[k.length-1];ye((E-ce)/A,3)*ne>=.7&&k.push(E)}else k.push(E)}return k}}return[u,p,m]}var[Nu,Ou,Fu]=Ol(1),[Uu,Iu,zu]=Ol(.001);ho(2,
--53,53,[1]);function Xi(t,e){return t.map(n=>n.map((o,r)=>r==0||r==8||o==null?o:e(r==1||n[8]==0?o:n[1]+o)))}function el(t,e){return(n,o,r,s,i)=>{let a=e.find(w=>i>=
-w[0])||e[e.length-1],u,p,m,h,g,x;return o.map(w=>{let M=t(w),A=M.getFullYear(),L=M.getMonth(),k=M.getDate(),_=M.getHours(),T=M.getMinutes(),j=M.getSeconds(),D=A!=
+-53,53,[1]);function Xi(t,e){return t.map(n=>n.map((o,r)=>r==0||r==8||o==null?o:e(r==1||n[8]==0?o:n[1]+o)))}function el(t,e){return(n,o,r,s,i)=>{let a=e.find(b=>i>=
+b[0])||e[e.length-1],u,p,m,h,g,x;return o.map(b=>{let M=t(b),A=M.getFullYear(),L=M.getMonth(),k=M.getDate(),_=M.getHours(),T=M.getMinutes(),j=M.getSeconds(),D=A!=
 u&&a[2]||L!=p&&a[3]||k!=m&&a[4]||_!=h&&a[5]||T!=g&&a[6]||j!=x&&a[7]||a[1];return u=A,p=L,m=k,h=_,g=T,x=j,D(M)})}}function Hu(t,e){let n=fs(e);return(o,r,s,i,a)=>r.
 map(u=>n(t(u)))}function Kr(t,e,n){return new Date(t,e,n)}function tl(t,e){return e(t)}var Vu="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function nl(t,e){return(n,o,r,s)=>s==
 null?ls:e(t(o))}function Wu(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Gu(t,e){return t.series[e].fill(
@@ -241,57 +241,57 @@ gaps:Wl,alpha:1,points:{show:ap,filter:null},values:null,min:ge,max:-ge,idxs:[],
 distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},up=Le({},Gl,{time:!1,ori:1}),ul={};function Bl(t,e){let n=ul[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(r=>r!=o)},pub(o,r,s,i,a,u,p){for(let m=0;m<n.plots.length;m++)n.plots[m]!=r&&n.plots[m].pub(o,r,s,i,a,u,p)}},t!=null&&(ul[t]=
 n)),n}var Wn=1,os=2;function un(t,e,n){let o=t.mode,r=t.series[e],s=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,u=s[0],p=o==2?s[1]:s[e],m=o==2?i[r.facets[0].scale]:
-i[t.series[0].scale],h=o==2?i[r.facets[1].scale]:i[r.scale],g=a.left,x=a.top,w=a.width,M=a.height,A=t.valToPosH,L=t.valToPosV;return m.ori==0?n(r,u,p,m,h,A,L,g,
-x,w,M,Xo,Bn,tr,jl,Yl):n(r,u,p,m,h,L,A,x,g,M,w,er,$n,ws,Kl,ql)}function ys(t,e){let n=0,o=0,r=ae(t.bands,ds);for(let s=0;s<r.length;s++){let i=r[s];i.series[0]==
+i[t.series[0].scale],h=o==2?i[r.facets[1].scale]:i[r.scale],g=a.left,x=a.top,b=a.width,M=a.height,A=t.valToPosH,L=t.valToPosV;return m.ori==0?n(r,u,p,m,h,A,L,g,
+x,b,M,Xo,Bn,tr,jl,Yl):n(r,u,p,m,h,L,A,x,g,M,b,er,$n,ws,Kl,ql)}function ys(t,e){let n=0,o=0,r=ae(t.bands,ds);for(let s=0;s<r.length;s++){let i=r[s];i.series[0]==
 e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function pp(t,e,n,o,r){let s=t.mode,i=t.series[e],a=s==2?i.facets[1].scale:i.scale,
-u=t.scales[a];return r==-1?u.min:r==1?u.max:u.distr==3?u.dir==1?u.min:u.max:0}function zt(t,e,n,o,r,s){return un(t,e,(i,a,u,p,m,h,g,x,w,M,A)=>{let L=i.pxRound,k=p.
-dir*(p.ori==0?1:-1),_=p.ori==0?Bn:$n,T,j;k==1?(T=n,j=o):(T=o,j=n);let D=L(h(a[T],p,M,x)),Z=L(g(u[T],m,A,w)),G=L(h(a[j],p,M,x)),R=L(g(s==1?m.max:m.min,m,A,w)),z=new Path2D(
+u=t.scales[a];return r==-1?u.min:r==1?u.max:u.distr==3?u.dir==1?u.min:u.max:0}function zt(t,e,n,o,r,s){return un(t,e,(i,a,u,p,m,h,g,x,b,M,A)=>{let L=i.pxRound,k=p.
+dir*(p.ori==0?1:-1),_=p.ori==0?Bn:$n,T,j;k==1?(T=n,j=o):(T=o,j=n);let D=L(h(a[T],p,M,x)),Z=L(g(u[T],m,A,b)),G=L(h(a[j],p,M,x)),R=L(g(s==1?m.max:m.min,m,A,b)),z=new Path2D(
 r);return _(z,G,R),_(z,D,R),_(z,D,Z),z})}function Qo(t,e,n,o,r,s){let i=null;if(t.length>0){i=new Path2D;let a=e==0?tr:ws,u=n;for(let h=0;h<t.length;h++){let g=t[h];
 if(g[1]>g[0]){let x=g[0]-u;x>0&&a(i,u,o,x,o+s),u=g[1]}}let p=n+r-u,m=10;p>0&&a(i,u,o-m/2,p,o+s+m)}return i}function dp(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function bs(t,e,n,o,r,s,i){let a=[],u=t.length;for(let p=r==1?n:o;p>=n&&p<=o;p+=r)if(e[p]===null){let h=p,g=p;if(r==1)for(;++p<=o&&e[p]===null;)
-g=p;else for(;--p>=n&&e[p]===null;)g=p;let x=s(t[h]),w=g==h?x:s(t[g]),M=h-r;x=i<=0&&M>=0&&M<u?s(t[M]):x;let L=g+r;w=i>=0&&L>=0&&L<u?s(t[L]):w,w>=x&&a.push([x,w])}
+g=p;else for(;--p>=n&&e[p]===null;)g=p;let x=s(t[h]),b=g==h?x:s(t[g]),M=h-r;x=i<=0&&M>=0&&M<u?s(t[M]):x;let L=g+r;b=i>=0&&L>=0&&L<u?s(t[L]):b,b>=x&&a.push([x,b])}
 return a}function pl(t){return t==0?vl:t==1?Ne:e=>rn(e,t)}function $l(t){let e=t==0?Xo:er,n=t==0?(r,s,i,a,u,p)=>{r.arcTo(s,i,a,u,p)}:(r,s,i,a,u,p)=>{r.arcTo(i,s,
 u,a,p)},o=t==0?(r,s,i,a,u)=>{r.rect(s,i,a,u)}:(r,s,i,a,u)=>{r.rect(i,s,u,a)};return(r,s,i,a,u,p=0,m=0)=>{p==0&&m==0?o(r,s,i,a,u):(p=Pt(p,a/2,u/2),m=Pt(m,a/2,u/2),
 e(r,s+p,i),n(r,s+a,i,s+a,i+u,p),n(r,s+a,i+u,s,i+u,m),n(r,s,i+u,s,i,m),n(r,s,i,s+a,i,p),r.closePath())}}var Xo=(t,e,n)=>{t.moveTo(e,n)},er=(t,e,n)=>{t.moveTo(n,e)},
 Bn=(t,e,n)=>{t.lineTo(e,n)},$n=(t,e,n)=>{t.lineTo(n,e)},tr=$l(0),ws=$l(1),jl=(t,e,n,o,r,s)=>{t.arc(e,n,o,r,s)},Kl=(t,e,n,o,r,s)=>{t.arc(n,e,o,r,s)},Yl=(t,e,n,o,r,s,i)=>{
-t.bezierCurveTo(e,n,o,r,s,i)},ql=(t,e,n,o,r,s,i)=>{t.bezierCurveTo(n,e,r,o,i,s)};function Jl(t){return(e,n,o,r,s)=>un(e,n,(i,a,u,p,m,h,g,x,w,M,A)=>{let{pxRound:L,
+t.bezierCurveTo(e,n,o,r,s,i)},ql=(t,e,n,o,r,s,i)=>{t.bezierCurveTo(n,e,r,o,i,s)};function Jl(t){return(e,n,o,r,s)=>un(e,n,(i,a,u,p,m,h,g,x,b,M,A)=>{let{pxRound:L,
 points:k}=i,_,T;p.ori==0?(_=Xo,T=jl):(_=er,T=Kl);let j=ye(k.width*pe,3),D=(k.size-k.width)/2*pe,Z=ye(D*2,3),G=new Path2D,R=new Path2D,{left:z,top:E,width:Y,height:I}=e.
-bbox;tr(R,z-Z,E-Z,Y+Z*2,I+Z*2);let K=W=>{if(u[W]!=null){let ne=L(h(a[W],p,M,x)),B=L(g(u[W],m,A,w));_(G,ne+D,B),T(G,ne,B,D,0,Bo*2)}};if(s)s.forEach(K);else for(let W=o;W<=
+bbox;tr(R,z-Z,E-Z,Y+Z*2,I+Z*2);let K=W=>{if(u[W]!=null){let ne=L(h(a[W],p,M,x)),B=L(g(u[W],m,A,b));_(G,ne+D,B),T(G,ne,B,D,0,Bo*2)}};if(s)s.forEach(K);else for(let W=o;W<=
 r;W++)K(W);return{stroke:j>0?G:null,fill:G,clip:R,flags:Wn|os}})}function Zl(t){return(e,n,o,r,s,i)=>{o!=r&&(s!=o&&i!=o&&t(e,n,o),s!=r&&i!=r&&t(e,n,r),t(e,n,i))}}
-var fp=Zl(Bn),hp=Zl($n);function Ql(t){let e=ae(t?.alignGaps,0);return(n,o,r,s)=>un(n,o,(i,a,u,p,m,h,g,x,w,M,A)=>{[r,s]=Yo(u,r,s);let L=i.pxRound,k=I=>L(h(I,p,M,
-x)),_=I=>L(g(I,m,A,w)),T,j;p.ori==0?(T=Bn,j=fp):(T=$n,j=hp);let D=p.dir*(p.ori==0?1:-1),Z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:Wn},G=Z.
+var fp=Zl(Bn),hp=Zl($n);function Ql(t){let e=ae(t?.alignGaps,0);return(n,o,r,s)=>un(n,o,(i,a,u,p,m,h,g,x,b,M,A)=>{[r,s]=Yo(u,r,s);let L=i.pxRound,k=I=>L(h(I,p,M,
+x)),_=I=>L(g(I,m,A,b)),T,j;p.ori==0?(T=Bn,j=fp):(T=$n,j=hp);let D=p.dir*(p.ori==0?1:-1),Z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:Wn},G=Z.
 stroke,R=!1;if(s-r>=M*4){let I=H=>n.posToVal(H,p.key,!0),K=null,W=null,ne,B,Ke,he=k(a[D==1?r:s]),re=k(a[r]),ce=k(a[s]),X=I(D==1?re+1:ce-1);for(let H=D==1?r:s;H>=
 r&&H<=s;H+=D){let Pe=a[H],me=(D==1?Pe<X:Pe>X)?he:k(Pe),ie=u[H];me==he?ie!=null?(B=ie,K==null?(T(G,me,_(B)),ne=K=W=B):B<K?K=B:B>W&&(W=B)):ie===null&&(R=!0):(K!=null&&
 j(G,he,_(K),_(W),_(ne),_(B)),ie!=null?(B=ie,T(G,me,_(B)),K=W=ne=B):(K=W=null,ie===null&&(R=!0)),he=me,X=I(he+D))}K!=null&&K!=W&&Ke!=he&&j(G,he,_(K),_(W),_(ne),_(
 B))}else for(let I=D==1?r:s;I>=r&&I<=s;I+=D){let K=u[I];K===null?R=!0:K!=null&&T(G,k(a[I]),_(K))}let[E,Y]=ys(n,o);if(i.fill!=null||E!=0){let I=Z.fill=new Path2D(
 G),K=i.fillTo(n,o,i.min,i.max,E),W=_(K),ne=k(a[r]),B=k(a[s]);D==-1&&([B,ne]=[ne,B]),T(I,B,W),T(I,ne,W)}if(!i.spanGaps){let I=[];R&&I.push(...bs(a,u,r,s,D,k,e)),
-Z.gaps=I=i.gaps(n,o,r,s,I),Z.clip=Qo(I,p.ori,x,w,M,A)}return Y!=0&&(Z.band=Y==2?[zt(n,o,r,s,G,-1),zt(n,o,r,s,G,1)]:zt(n,o,r,s,G,Y)),Z})}function mp(t){let e=ae(
-t.align,1),n=ae(t.ascDesc,!1),o=ae(t.alignGaps,0),r=ae(t.extend,!1);return(s,i,a,u)=>un(s,i,(p,m,h,g,x,w,M,A,L,k,_)=>{[a,u]=Yo(h,a,u);let T=p.pxRound,{left:j,width:D}=s.
-bbox,Z=re=>T(w(re,g,k,A)),G=re=>T(M(re,x,_,L)),R=g.ori==0?Bn:$n,z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:Wn},E=z.stroke,Y=g.dir*(g.ori==
+Z.gaps=I=i.gaps(n,o,r,s,I),Z.clip=Qo(I,p.ori,x,b,M,A)}return Y!=0&&(Z.band=Y==2?[zt(n,o,r,s,G,-1),zt(n,o,r,s,G,1)]:zt(n,o,r,s,G,Y)),Z})}function mp(t){let e=ae(
+t.align,1),n=ae(t.ascDesc,!1),o=ae(t.alignGaps,0),r=ae(t.extend,!1);return(s,i,a,u)=>un(s,i,(p,m,h,g,x,b,M,A,L,k,_)=>{[a,u]=Yo(h,a,u);let T=p.pxRound,{left:j,width:D}=s.
+bbox,Z=re=>T(b(re,g,k,A)),G=re=>T(M(re,x,_,L)),R=g.ori==0?Bn:$n,z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:Wn},E=z.stroke,Y=g.dir*(g.ori==
 0?1:-1),I=G(h[Y==1?a:u]),K=Z(m[Y==1?a:u]),W=K,ne=K;r&&e==-1&&(ne=j,R(E,ne,I)),R(E,K,I);for(let re=Y==1?a:u;re>=a&&re<=u;re+=Y){let ce=h[re];if(ce==null)continue;
 let X=Z(m[re]),H=G(ce);e==1?R(E,X,I):R(E,W,H),R(E,X,H),I=H,W=X}let B=W;r&&e==1&&(B=j+D,R(E,B,I));let[Ke,he]=ys(s,i);if(p.fill!=null||Ke!=0){let re=z.fill=new Path2D(
 E),ce=p.fillTo(s,i,p.min,p.max,Ke),X=G(ce);R(re,B,X),R(re,ne,X)}if(!p.spanGaps){let re=[];re.push(...bs(m,h,a,u,Y,Z,o));let ce=p.width*pe/2,X=n||e==1?ce:-ce,H=n||
 e==-1?-ce:ce;re.forEach(Pe=>{Pe[0]+=X,Pe[1]+=H}),z.gaps=re=p.gaps(s,i,a,u,re),z.clip=Qo(re,g.ori,A,L,k,_)}return he!=0&&(z.band=he==2?[zt(s,i,a,u,E,-1),zt(s,i,a,
 u,E,1)]:zt(s,i,a,u,E,he)),z})}function dl(t,e,n,o,r,s,i=ge){if(t.length>1){let a=null;for(let u=0,p=1/0;u<t.length;u++)if(e[u]!==void 0){if(a!=null){let m=Oe(t[u]-
 t[a]);m<p&&(p=m,i=Oe(n(t[u],o,r,s)-n(t[a],o,r,s)))}a=u}}return i}function gp(t){t=t||fo;let e=ae(t.size,[.6,ge,1]),n=t.align||0,o=t.gap||0,r=t.radius;r=r==null?
-[0,0]:typeof r=="number"?[r,0]:r;let s=se(r),i=1-e[0],a=ae(e[1],ge),u=ae(e[2],1),p=ae(t.disp,fo),m=ae(t.each,x=>{}),{fill:h,stroke:g}=p;return(x,w,M,A)=>un(x,w,
-(L,k,_,T,j,D,Z,G,R,z,E)=>{let Y=L.pxRound,I=n,K=o*pe,W=a*pe,ne=u*pe,B,Ke;T.ori==0?[B,Ke]=s(x,w):[Ke,B]=s(x,w);let he=T.dir*(T.ori==0?1:-1),re=T.ori==0?tr:ws,ce=T.
-ori==0?m:(F,be,Re,fn,Jt,Et,Zt)=>{m(F,be,Re,Jt,fn,Zt,Et)},X=ae(x.bands,ds).find(F=>F.series[0]==w),H=X!=null?X.dir:0,Pe=L.fillTo(x,w,L.min,L.max,H),Ue=Y(Z(Pe,j,E,
-R)),me,ie,pt,et=z,Me=Y(L.width*pe),ot=!1,q=null,te=null,De=null,Nt=null;h!=null&&(Me==0||g!=null)&&(ot=!0,q=h.values(x,w,M,A),te=new Map,new Set(q).forEach(F=>{
-F!=null&&te.set(F,new Path2D)}),Me>0&&(De=g.values(x,w,M,A),Nt=new Map,new Set(De).forEach(F=>{F!=null&&Nt.set(F,new Path2D)})));let{x0:pn,size:Kn}=p;if(pn!=null&&
-Kn!=null){I=1,k=pn.values(x,w,M,A),pn.unit==2&&(k=k.map(Re=>x.posToVal(G+Re*z,T.key,!0)));let F=Kn.values(x,w,M,A);Kn.unit==2?ie=F[0]*z:ie=D(F[0],T,z,G)-D(0,T,z,
+[0,0]:typeof r=="number"?[r,0]:r;let s=se(r),i=1-e[0],a=ae(e[1],ge),u=ae(e[2],1),p=ae(t.disp,fo),m=ae(t.each,x=>{}),{fill:h,stroke:g}=p;return(x,b,M,A)=>un(x,b,
+(L,k,_,T,j,D,Z,G,R,z,E)=>{let Y=L.pxRound,I=n,K=o*pe,W=a*pe,ne=u*pe,B,Ke;T.ori==0?[B,Ke]=s(x,b):[Ke,B]=s(x,b);let he=T.dir*(T.ori==0?1:-1),re=T.ori==0?tr:ws,ce=T.
+ori==0?m:(F,be,Re,fn,Jt,Et,Zt)=>{m(F,be,Re,Jt,fn,Zt,Et)},X=ae(x.bands,ds).find(F=>F.series[0]==b),H=X!=null?X.dir:0,Pe=L.fillTo(x,b,L.min,L.max,H),Ue=Y(Z(Pe,j,E,
+R)),me,ie,pt,et=z,Me=Y(L.width*pe),ot=!1,q=null,te=null,De=null,Nt=null;h!=null&&(Me==0||g!=null)&&(ot=!0,q=h.values(x,b,M,A),te=new Map,new Set(q).forEach(F=>{
+F!=null&&te.set(F,new Path2D)}),Me>0&&(De=g.values(x,b,M,A),Nt=new Map,new Set(De).forEach(F=>{F!=null&&Nt.set(F,new Path2D)})));let{x0:pn,size:Kn}=p;if(pn!=null&&
+Kn!=null){I=1,k=pn.values(x,b,M,A),pn.unit==2&&(k=k.map(Re=>x.posToVal(G+Re*z,T.key,!0)));let F=Kn.values(x,b,M,A);Kn.unit==2?ie=F[0]*z:ie=D(F[0],T,z,G)-D(0,T,z,
 G),et=dl(k,_,D,T,z,G,et),pt=et-ie+K}else et=dl(k,_,D,T,z,G,et),pt=et*i+K,ie=et-pt;pt<1&&(pt=0),Me>=ie/2&&(Me=0),pt<5&&(Y=vl);let mo=pt>0,Yt=et-pt-(mo?Me:0);ie=Y(
 es(Yt,ne,W)),me=(I==0?ie/2:I==he?0:ie)-I*he*((I==0?K/2:0)+(mo?Me/2:0));let qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},dn=ot?null:new Path2D,
-Ot=null;if(X!=null)Ot=x.data[X.series[1]];else{let{y0:F,y1:be}=p;F!=null&&be!=null&&(_=be.values(x,w,M,A),Ot=F.values(x,w,M,A))}let qt=B*ie,ee=Ke*ie;for(let F=he==
+Ot=null;if(X!=null)Ot=x.data[X.series[1]];else{let{y0:F,y1:be}=p;F!=null&&be!=null&&(_=be.values(x,b,M,A),Ot=F.values(x,b,M,A))}let qt=B*ie,ee=Ke*ie;for(let F=he==
 1?M:A;F>=M&&F<=A;F+=he){let be=_[F];if(be==null)continue;if(Ot!=null){let tt=Ot[F]??0;if(be-tt==0)continue;Ue=Z(tt,j,E,R)}let Re=T.distr!=2||p!=null?k[F]:F,fn=D(
 Re,T,z,G),Jt=Z(ae(be,Pe),j,E,R),Et=Y(fn-me),Zt=Y(Xe(Jt,Ue)),rt=Y(Pt(Jt,Ue)),dt=Zt-rt;if(be!=null){let tt=be<0?ee:qt,wt=be<0?qt:ee;ot?(Me>0&&De[F]!=null&&re(Nt.get(
-De[F]),Et,rt+ct(Me/2),ie,Xe(0,dt-Me),tt,wt),q[F]!=null&&re(te.get(q[F]),Et,rt+ct(Me/2),ie,Xe(0,dt-Me),tt,wt)):re(dn,Et,rt+ct(Me/2),ie,Xe(0,dt-Me),tt,wt),ce(x,w,
+De[F]),Et,rt+ct(Me/2),ie,Xe(0,dt-Me),tt,wt),q[F]!=null&&re(te.get(q[F]),Et,rt+ct(Me/2),ie,Xe(0,dt-Me),tt,wt)):re(dn,Et,rt+ct(Me/2),ie,Xe(0,dt-Me),tt,wt),ce(x,b,
 F,Et-Me/2,rt,ie+Me,dt)}}return Me>0?qe.stroke=ot?Nt:dn:ot||(qe._fill=L.width==0?L._fill:L._stroke??L._fill,qe.width=0),qe.fill=ot?te:dn,qe})}function yp(t,e){let n=ae(
-e?.alignGaps,0);return(o,r,s,i)=>un(o,r,(a,u,p,m,h,g,x,w,M,A,L)=>{[s,i]=Yo(p,s,i);let k=a.pxRound,_=B=>k(g(B,m,A,w)),T=B=>k(x(B,h,L,M)),j,D,Z;m.ori==0?(j=Xo,Z=Bn,
+e?.alignGaps,0);return(o,r,s,i)=>un(o,r,(a,u,p,m,h,g,x,b,M,A,L)=>{[s,i]=Yo(p,s,i);let k=a.pxRound,_=B=>k(g(B,m,A,b)),T=B=>k(x(B,h,L,M)),j,D,Z;m.ori==0?(j=Xo,Z=Bn,
 D=Yl):(j=er,Z=$n,D=ql);let G=m.dir*(m.ori==0?1:-1),R=_(u[G==1?s:i]),z=R,E=[],Y=[];for(let B=G==1?s:i;B>=s&&B<=i;B+=G)if(p[B]!=null){let he=u[B],re=_(he);E.push(
 z=re),Y.push(T(p[B]))}let I={stroke:t(E,Y,j,Z,D,k),fill:null,clip:null,band:null,gaps:null,flags:Wn},K=I.stroke,[W,ne]=ys(o,r);if(a.fill!=null||W!=0){let B=I.fill=
 new Path2D(K),Ke=a.fillTo(o,r,a.min,a.max,W),he=T(Ke);Z(B,z,he),Z(B,R,he)}if(!a.spanGaps){let B=[];B.push(...bs(u,p,s,i,G,_,n)),I.gaps=B=a.gaps(o,r,s,i,B),I.clip=
-Qo(B,m.ori,w,M,A,L)}return ne!=0&&(I.band=ne==2?[zt(o,r,s,i,K,-1),zt(o,r,s,i,K,1)]:zt(o,r,s,i,K,ne)),I})}function bp(t){return yp(wp,t)}function wp(t,e,n,o,r,s){
+Qo(B,m.ori,b,M,A,L)}return ne!=0&&(I.band=ne==2?[zt(o,r,s,i,K,-1),zt(o,r,s,i,K,1)]:zt(o,r,s,i,K,ne)),I})}function bp(t){return yp(wp,t)}function wp(t,e,n,o,r,s){
 let i=t.length;if(i<2)return null;let a=new Path2D;if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let u=Array(i),p=Array(i-1),m=Array(i-1),h=Array(i-1);for(let g=0;g<
 i-1;g++)m[g]=e[g+1]-e[g],h[g]=t[g+1]-t[g],p[g]=m[g]/h[g];u[0]=p[0];for(let g=1;g<i-1;g++)p[g]===0||p[g-1]===0||p[g-1]>0!=p[g]>0?u[g]=0:(u[g]=3*(h[g-1]+h[g])/((2*
 h[g]+h[g-1])/p[g-1]+(h[g]+2*h[g-1])/p[g]),isFinite(u[g])||(u[g]=0));u[i-1]=p[i-2];for(let g=0;g<i-1;g++)r(a,t[g]+h[g]/3,e[g]+u[g]*h[g]/3,t[g+1]-h[g]/3,e[g+1]-u[g+
@@ -304,14 +304,14 @@ n;return t=t.replace(/(\d+)px/,(o,r)=>(e=Ne((n=+r)*pe))+"px"),[t,e,n]}function A
 /[0-9.]+px/,n+"px"),e[1]=n})}function Fe(t,e,n){let o={mode:ae(t.mode,1)},r=o.mode;function s(l,c,d,f){let y=c.valToPct(l);return f+d*(c.dir==-1?1-y:y)}function i(l,c,d,f){
 let y=c.valToPct(l);return f+d*(c.dir==-1?y:1-y)}function a(l,c,d,f){return c.ori==0?s(l,c,d,f):i(l,c,d,f)}o.valToPosH=s,o.valToPosV=i;let u=!1;o.status=0;let p=o.
 root=yt(Oc);if(t.id!=null&&(p.id=t.id),at(p,t.class),t.title){let l=yt(Ic,p);l.textContent=t.title}let m=Mt("canvas"),h=o.ctx=m.getContext("2d"),g=yt(zc,p);an("\
-click",g,l=>{l.target===w&&(we!=Mn||Te!=Tn)&&$e.click(o,l)},!0);let x=o.under=yt(Hc,g);g.appendChild(m);let w=o.over=yt(Vc,g);t=Vn(t);let M=+ae(t.pxAlign,1),A=pl(
+click",g,l=>{l.target===b&&(we!=Mn||Te!=Tn)&&$e.click(o,l)},!0);let x=o.under=yt(Hc,g);g.appendChild(m);let b=o.over=yt(Vc,g);t=Vn(t);let M=+ae(t.pxAlign,1),A=pl(
 M);(t.plugins||[]).forEach(l=>{l.opts&&(t=l.opts(o,t)||t)});let L=t.ms||.001,k=o.series=r==1?hl(t.series||[],rl,cl,!1):Sp(t.series||[null],al),_=o.axes=hl(t.axes||
 [],ol,il,!0),T=o.scales={},j=o.bands=t.bands||[];j.forEach(l=>{l.fill=se(l.fill||null),l.dir=ae(l.dir,-1)});let D=r==2?k[1].facets[0].scale:k[0].scale,Z={axes:nc,
 series:Za},G=(t.drawOrder||["axes","series"]).map(l=>Z[l]);function R(l){let c=l.distr==3?d=>It(d>0?d:l.clamp(o,d,l.min,l.max,l.key)):l.distr==4?d=>jr(d,l.asinh):
-l.distr==100?d=>l.fwd(d):d=>d;return d=>{let f=c(d),{_min:y,_max:b}=l,v=b-y;return(f-y)/v}}function z(l){let c=T[l];if(c==null){let d=(t.scales||fo)[l]||fo;if(d.
-from!=null){z(d.from);let f=Le({},T[d.from],d,{key:l});f.valToPct=R(f),T[l]=f}else{c=T[l]=Le({},l==D?Gl:up,d),c.key=l;let f=c.time,y=c.range,b=$t(y);if((l!=D||r==
-2&&!f)&&(b&&(y[0]==null||y[1]==null)&&(y={min:y[0]==null?Gi:{mode:1,hard:y[0],soft:y[0]},max:y[1]==null?Gi:{mode:1,hard:y[1],soft:y[1]}},b=!1),!b&&Zo(y))){let v=y;
-y=(P,C,N)=>C==null?Hn:jo(C,N,v)}c.range=se(y||(f?kp:l==D?c.distr==3?Tp:c.distr==4?Pp:Xl:c.distr==3?ea:c.distr==4?ta:Mp)),c.auto=se(b?!1:c.auto),c.clamp=se(c.clamp||
+l.distr==100?d=>l.fwd(d):d=>d;return d=>{let f=c(d),{_min:y,_max:w}=l,v=w-y;return(f-y)/v}}function z(l){let c=T[l];if(c==null){let d=(t.scales||fo)[l]||fo;if(d.
+from!=null){z(d.from);let f=Le({},T[d.from],d,{key:l});f.valToPct=R(f),T[l]=f}else{c=T[l]=Le({},l==D?Gl:up,d),c.key=l;let f=c.time,y=c.range,w=$t(y);if((l!=D||r==
+2&&!f)&&(w&&(y[0]==null||y[1]==null)&&(y={min:y[0]==null?Gi:{mode:1,hard:y[0],soft:y[0]},max:y[1]==null?Gi:{mode:1,hard:y[1],soft:y[1]}},w=!1),!w&&Zo(y))){let v=y;
+y=(P,C,N)=>C==null?Hn:jo(C,N,v)}c.range=se(y||(f?kp:l==D?c.distr==3?Tp:c.distr==4?Pp:Xl:c.distr==3?ea:c.distr==4?ta:Mp)),c.auto=se(w?!1:c.auto),c.clamp=se(c.clamp||
 cp),c._min=c._max=null,c.valToPct=R(c)}}}z("x"),z("y"),r==1&&k.forEach(l=>{z(l.scale)}),_.forEach(l=>{z(l.scale)});for(let l in t.scales)z(l);let E=T[D],Y=E.distr,
 I,K;E.ori==0?(at(p,Fc),I=s,K=i):(at(p,Uc),I=i,K=s);let W={};for(let l in T){let c=T[l];(c.min!=null||c.max!=null)&&(W[l]={min:c.min,max:c.max},c.min=c.max=null)}
 let ne=t.tzDate||(l=>new Date(Ne(l/L))),B=t.fmtDate||fs,Ke=L==1?Fu(ne):zu(ne),he=el(ne,Xi(L==1?Ou:Iu,B)),re=nl(ne,tl(Vu,B)),ce=[],X=o.legend=Le({},Bu,t.legend),
@@ -320,25 +320,25 @@ se(me.fill);let ie,pt,et,Me=[],ot=[],q,te=!1,De={};if(X.live){let l=k[1]?k[1].va
 "table",Kc,p),et=Mt("tbody",null,ie),X.mount(o,ie),te){pt=Mt("thead",null,ie,et);let l=Mt("tr",null,pt);Mt("th",null,l);for(var Nt in q)Mt("th",_i,l).textContent=
 Nt}else at(ie,qc),X.live&&at(ie,Yc);let pn={show:!0},Kn={show:!1};function mo(l,c){if(c==0&&(te||!X.live||r==2))return Hn;let d=[],f=Mt("tr",Jc,et,et.childNodes[c]);
 at(f,l.class),l.show||at(f,ln);let y=Mt("th",null,f);if(me.show){let P=yt(Zc,y);if(c>0){let C=me.width(o,c);C&&(P.style.border=C+"px "+me.dash(o,c)+" "+me.stroke(
-o,c)),P.style.background=me.fill(o,c)}}let b=yt(_i,y);l.label instanceof HTMLElement?b.appendChild(l.label):b.textContent=l.label,c>0&&(me.show||(b.style.color=
+o,c)),P.style.background=me.fill(o,c)}}let w=yt(_i,y);l.label instanceof HTMLElement?w.appendChild(l.label):w.textContent=l.label,c>0&&(me.show||(w.style.color=
 l.width>0?me.stroke(o,c):me.fill(o,c)),qe("click",y,P=>{if(H._lock)return;Xt(P);let C=k.indexOf(l);if((P.ctrlKey||P.metaKey)!=X.isolate){let N=k.some((O,U)=>U>0&&
 U!=C&&O.show);k.forEach((O,U)=>{U>0&&Ct(U,N?U==C?pn:Kn:pn,!0,Ce.setSeries)})}else Ct(C,{show:!l.show},!0,Ce.setSeries)},!1),mn&&qe(Ni,y,P=>{H._lock||(Xt(P),Ct(k.
 indexOf(l),En,!0,Ce.setSeries))},!1));for(var v in q){let P=Mt("td",Qc,f);P.textContent="--",d.push(P)}return[f,d]}let Yt=new Map;function qe(l,c,d,f=!0){let y=Yt.
-get(c)||{},b=H.bind[l](o,c,d,f);b&&(an(l,c,y[l]=b),Yt.set(c,y))}function dn(l,c,d){let f=Yt.get(c)||{};for(let y in f)(l==null||y==l)&&(Xr(y,c,f[y]),delete f[y]);
+get(c)||{},w=H.bind[l](o,c,d,f);w&&(an(l,c,y[l]=w),Yt.set(c,y))}function dn(l,c,d){let f=Yt.get(c)||{};for(let y in f)(l==null||y==l)&&(Xr(y,c,f[y]),delete f[y]);
 l==null&&Yt.delete(c)}let Ot=0,qt=0,ee=0,F=0,be=0,Re=0,fn=be,Jt=Re,Et=ee,Zt=F,rt=0,dt=0,tt=0,wt=0;o.bbox={};let fr=!1,go=!1,hn=!1,Qt=!1,yo=!1,ft=!1;function hr(l,c,d){
 (d||l!=o.width||c!=o.height)&&Es(l,c),xn(!1),hn=!0,go=!0,vn()}function Es(l,c){o.width=Ot=ee=l,o.height=qt=F=c,be=Re=0,Ba(),$a();let d=o.bbox;rt=d.left=rn(be*pe,
 .5),dt=d.top=rn(Re*pe,.5),tt=d.width=rn(ee*pe,.5),wt=d.height=rn(F*pe,.5)}let Va=3;function Wa(){let l=!1,c=0;for(;!l;){c++;let d=ec(c),f=tc(c);l=c==Va||d&&f,l||
-(Es(o.width,o.height),go=!0)}}function Ga({width:l,height:c}){hr(l,c)}o.setSize=Ga;function Ba(){let l=!1,c=!1,d=!1,f=!1;_.forEach((y,b)=>{if(y.show&&y._show){let{
+(Es(o.width,o.height),go=!0)}}function Ga({width:l,height:c}){hr(l,c)}o.setSize=Ga;function Ba(){let l=!1,c=!1,d=!1,f=!1;_.forEach((y,w)=>{if(y.show&&y._show){let{
 side:v,_size:P}=y,C=v%2,N=y.label!=null?y.labelSize:0,O=P+N;O>0&&(C?(ee-=O,v==3?(be+=O,f=!0):d=!0):(F-=O,v==0?(Re+=O,l=!0):c=!0))}}),en[0]=l,en[1]=d,en[2]=c,en[3]=
-f,ee-=Ht[1]+Ht[3],be+=Ht[3],F-=Ht[2]+Ht[0],Re+=Ht[0]}function $a(){let l=be+ee,c=Re+F,d=be,f=Re;function y(b,v){switch(b){case 1:return l+=v,l-v;case 2:return c+=
-v,c-v;case 3:return d-=v,d+v;case 0:return f-=v,f+v}}_.forEach((b,v)=>{if(b.show&&b._show){let P=b.side;b._pos=y(P,b._size),b.label!=null&&(b._lpos=y(P,b.labelSize))}})}
-if(H.dataIdx==null){let l=H.hover,c=l.skip=new Set(l.skip??[]);c.add(void 0);let d=l.prox=se(l.prox),f=l.bias??=0;H.dataIdx=(y,b,v,P)=>{if(b==0)return v;let C=v,
-N=d(y,b,v,P)??ge,O=N>=0&&N<ge,U=E.ori==0?ee:F,Q=H.left,ue=e[0],le=e[b];if(c.has(le[v])){C=null;let oe=null,J=null,$;if(f==0||f==-1)for($=v;oe==null&&$-- >0;)c.has(
+f,ee-=Ht[1]+Ht[3],be+=Ht[3],F-=Ht[2]+Ht[0],Re+=Ht[0]}function $a(){let l=be+ee,c=Re+F,d=be,f=Re;function y(w,v){switch(w){case 1:return l+=v,l-v;case 2:return c+=
+v,c-v;case 3:return d-=v,d+v;case 0:return f-=v,f+v}}_.forEach((w,v)=>{if(w.show&&w._show){let P=w.side;w._pos=y(P,w._size),w.label!=null&&(w._lpos=y(P,w.labelSize))}})}
+if(H.dataIdx==null){let l=H.hover,c=l.skip=new Set(l.skip??[]);c.add(void 0);let d=l.prox=se(l.prox),f=l.bias??=0;H.dataIdx=(y,w,v,P)=>{if(w==0)return v;let C=v,
+N=d(y,w,v,P)??ge,O=N>=0&&N<ge,U=E.ori==0?ee:F,Q=H.left,ue=e[0],le=e[w];if(c.has(le[v])){C=null;let oe=null,J=null,$;if(f==0||f==-1)for($=v;oe==null&&$-- >0;)c.has(
 le[$])||(oe=$);if(f==0||f==1)for($=v;J==null&&$++<le.length;)c.has(le[$])||(J=$);if(oe!=null||J!=null)if(O){let ve=oe==null?-1/0:I(ue[oe],E,U,0),Ee=J==null?1/0:
 I(ue[J],E,U,0),Ge=Q-ve,fe=Ee-Q;Ge<=fe?Ge<=N&&(C=oe):fe<=N&&(C=J)}else C=J==null?oe:oe==null?J:v-oe<=J-v?oe:J}else O&&Oe(Q-I(ue[v],E,U,0))>N&&(C=null);return C}}
 let Xt=l=>{H.event=l};H.idxs=ce,H._lock=!1;let Ye=H.points;Ye.show=se(Ye.show),Ye.size=se(Ye.size),Ye.stroke=se(Ye.stroke),Ye.width=se(Ye.width),Ye.fill=se(Ye.fill);
 let At=o.focus=Le({},t.focus||{alpha:.3},H.focus),mn=At.prox>=0,gn=mn&&Ye.one,ht=[],yn=[],bn=[];function As(l,c){let d=Ye.show(o,c);if(d instanceof HTMLElement)
-return at(d,jc),at(d,l.class),Rt(d,-10,-10,ee,F),w.insertBefore(d,ht[c]),d}function Cs(l,c){if(r==1||c>0){let d=r==1&&T[l.scale].time,f=l.value;l.value=d?qi(f)?
+return at(d,jc),at(d,l.class),Rt(d,-10,-10,ee,F),b.insertBefore(d,ht[c]),d}function Cs(l,c){if(r==1||c>0){let d=r==1&&T[l.scale].time,f=l.value;l.value=d?qi(f)?
 nl(ne,tl(f,B)):f||re:f||ip,l.label=l.label||(d?Qu:Zu)}if(gn||c>0){l.width=l.width==null?1:l.width,l.paths=l.paths||xp||uu,l.fillTo=se(l.fillTo||pp),l.pxAlign=+ae(
 l.pxAlign,M),l.pxRound=pl(l.pxAlign),l.stroke=se(l.stroke||null),l.fill=se(l.fill||null),l._stroke=l._fill=l._paths=l._focus=null;let d=lp(Xe(1,l.width),1),f=l.
 points=Le({},{size:d,width:Xe(1,d*.2),stroke:l.stroke,space:d*2,paths:vp,_stroke:null,_fill:null},l.points);f.show=se(f.show),f.filter=se(f.filter),f.fill=se(f.
@@ -349,64 +349,64 @@ l,1)[0];dn(null,c.firstChild),c.remove()}Ue&&(ce.splice(l,1),ht.splice(l,1)[0].r
 !1,!1,!1,!1];function Ya(l,c){if(l._show=l.show,l.show){let d=l.side%2,f=T[l.scale];f==null&&(l.scale=d?k[1].scale:D,f=T[l.scale]);let y=f.time;l.size=se(l.size),
 l.space=se(l.space),l.rotate=se(l.rotate),$t(l.incrs)&&l.incrs.forEach(v=>{!jt.has(v)&&jt.set(v,Ml(v))}),l.incrs=se(l.incrs||(f.distr==2?Du:y?L==1?Nu:Uu:sn)),l.
 splits=se(l.splits||(y&&f.distr==1?Ke:f.distr==3?ts:f.distr==4?tp:ep)),l.stroke=se(l.stroke),l.grid.stroke=se(l.grid.stroke),l.ticks.stroke=se(l.ticks.stroke),l.
-border.stroke=se(l.border.stroke);let b=l.values;l.values=$t(b)&&!$t(b[0])?se(b):y?$t(b)?el(ne,Xi(b,B)):qi(b)?Hu(ne,b):b||he:b||Xu,l.filter=se(l.filter||(f.distr>=
+border.stroke=se(l.border.stroke);let w=l.values;l.values=$t(w)&&!$t(w[0])?se(w):y?$t(w)?el(ne,Xi(w,B)):qi(w)?Hu(ne,w):w||he:w||Xu,l.filter=se(l.filter||(f.distr>=
 3&&f.log==10?rp:f.distr==3&&f.log==2?sp:Sl)),l.font=ml(l.font),l.labelFont=ml(l.labelFont),l._size=l.size(o,null,c,0),l._space=l._rotate=l._incrs=l._found=l._splits=
-l._values=null,l._size>0&&(en[c]=!0,l._el=yt(Wc,g))}}function Yn(l,c,d,f){let[y,b,v,P]=d,C=c%2,N=0;return C==0&&(P||b)&&(N=c==0&&!y||c==2&&!v?Ne(ol.size/3):0),C==
-1&&(y||v)&&(N=c==1&&!b||c==3&&!P?Ne(il.size/2):0),N}let _s=o.padding=(t.padding||[Yn,Yn,Yn,Yn]).map(l=>se(ae(l,Yn))),Ht=o._padding=_s.map((l,c)=>l(o,c,en,0)),Be,
+l._values=null,l._size>0&&(en[c]=!0,l._el=yt(Wc,g))}}function Yn(l,c,d,f){let[y,w,v,P]=d,C=c%2,N=0;return C==0&&(P||w)&&(N=c==0&&!y||c==2&&!v?Ne(ol.size/3):0),C==
+1&&(y||v)&&(N=c==1&&!w||c==3&&!P?Ne(il.size/2):0),N}let _s=o.padding=(t.padding||[Yn,Yn,Yn,Yn]).map(l=>se(ae(l,Yn))),Ht=o._padding=_s.map((l,c)=>l(o,c,en,0)),Be,
 Ie=null,ze=null,bo=r==1?k[0].idxs:null,xt=null,qn=!1;function Ls(l,c){if(e=l??[],o.data=o._data=e,r==2){Be=0;for(let d=1;d<k.length;d++)Be+=e[d][0].length}else{
 e.length==0&&(o.data=o._data=e=[[]]),xt=e[0],Be=xt.length;let d=e;if(Y==2){d=e.slice();let f=d[0]=Array(Be);for(let y=0;y<Be;y++)f[y]=y}o._data=e=d}if(xn(!0),We(
 "setData"),Y==2&&(hn=!0),c!==!1){let d=E;d.auto(o,qn)?mr():Wt(D,d.min,d.max),Qt=Qt||H.left>=0,ft=!0,vn()}}o.setData=Ls;function mr(){qn=!0;let l,c;r==1&&(Be>0?(Ie=
 bo[0]=0,ze=bo[1]=Be-1,l=e[0][Ie],c=e[0][ze],Y==2?(l=Ie,c=ze):l==c&&(Y==3?[l,c]=qo(l,l,E.log,!1):Y==4?[l,c]=cs(l,l,E.log,!1):E.time?c=l+Ne(86400/L):[l,c]=jo(l,c,
-us,!0))):(Ie=bo[0]=l=null,ze=bo[1]=c=null)),Wt(D,l,c)}let wo,wn,gr,yr,br,wr,xr,vr,Sr,nt;function Ds(l,c,d,f,y,b){l??=Di,d??=ds,f??="butt",y??=Di,b??="round",l!=
-wo&&(h.strokeStyle=wo=l),y!=wn&&(h.fillStyle=wn=y),c!=gr&&(h.lineWidth=gr=c),b!=br&&(h.lineJoin=br=b),f!=wr&&(h.lineCap=wr=f),d!=yr&&h.setLineDash(yr=d)}function Rs(l,c,d,f){
+us,!0))):(Ie=bo[0]=l=null,ze=bo[1]=c=null)),Wt(D,l,c)}let wo,wn,gr,yr,br,wr,xr,vr,Sr,nt;function Ds(l,c,d,f,y,w){l??=Di,d??=ds,f??="butt",y??=Di,w??="round",l!=
+wo&&(h.strokeStyle=wo=l),y!=wn&&(h.fillStyle=wn=y),c!=gr&&(h.lineWidth=gr=c),w!=br&&(h.lineJoin=br=w),f!=wr&&(h.lineCap=wr=f),d!=yr&&h.setLineDash(yr=d)}function Rs(l,c,d,f){
 c!=wn&&(h.fillStyle=wn=c),l!=xr&&(h.font=xr=l),d!=vr&&(h.textAlign=vr=d),f!=Sr&&(h.textBaseline=Sr=f)}function kr(l,c,d,f,y=0){if(f.length>0&&l.auto(o,qn)&&(c==
-null||c.min==null)){let b=ae(Ie,0),v=ae(ze,f.length-1),P=d.min==null?ru(f,b,v,y,l.distr==3):[d.min,d.max];l.min=Pt(l.min,d.min=P[0]),l.max=Xe(l.max,d.max=P[1])}}
+null||c.min==null)){let w=ae(Ie,0),v=ae(ze,f.length-1),P=d.min==null?ru(f,w,v,y,l.distr==3):[d.min,d.max];l.min=Pt(l.min,d.min=P[0]),l.max=Xe(l.max,d.max=P[1])}}
 let Ns={min:null,max:null};function qa(){for(let f in T){let y=T[f];W[f]==null&&(y.min==null||W[D]!=null&&y.auto(o,qn))&&(W[f]=Ns)}for(let f in T){let y=T[f];W[f]==
-null&&y.from!=null&&W[y.from]!=null&&(W[f]=Ns)}W[D]!=null&&xn(!0);let l={};for(let f in W){let y=W[f];if(y!=null){let b=l[f]=Vn(T[f],fu);if(y.min!=null)Le(b,y);else if(f!=
-D||r==2)if(Be==0&&b.from==null){let v=b.range(o,null,null,f);b.min=v[0],b.max=v[1]}else b.min=ge,b.max=-ge}}if(Be>0){k.forEach((f,y)=>{if(r==1){let b=f.scale,v=W[b];
-if(v==null)return;let P=l[b];if(y==0){let C=P.range(o,P.min,P.max,b);P.min=C[0],P.max=C[1],Ie=Tt(P.min,e[0]),ze=Tt(P.max,e[0]),ze-Ie>1&&(e[0][Ie]<P.min&&Ie++,e[0][ze]>
-P.max&&ze--),f.min=xt[Ie],f.max=xt[ze]}else f.show&&f.auto&&kr(P,v,f,e[y],f.sorted);f.idxs[0]=Ie,f.idxs[1]=ze}else if(y>0&&f.show&&f.auto){let[b,v]=f.facets,P=b.
-scale,C=v.scale,[N,O]=e[y],U=l[P],Q=l[C];U!=null&&kr(U,W[P],b,N,b.sorted),Q!=null&&kr(Q,W[C],v,O,v.sorted),f.min=v.min,f.max=v.max}});for(let f in l){let y=l[f],
-b=W[f];if(y.from==null&&(b==null||b.min==null)){let v=y.range(o,y.min==ge?null:y.min,y.max==-ge?null:y.max,f);y.min=v[0],y.max=v[1]}}}for(let f in l){let y=l[f];
-if(y.from!=null){let b=l[y.from];if(b.min==null)y.min=y.max=null;else{let v=y.range(o,b.min,b.max,f);y.min=v[0],y.max=v[1]}}}let c={},d=!1;for(let f in l){let y=l[f],
-b=T[f];if(b.min!=y.min||b.max!=y.max){b.min=y.min,b.max=y.max;let v=b.distr;b._min=v==3?It(b.min):v==4?jr(b.min,b.asinh):v==100?b.fwd(b.min):b.min,b._max=v==3?It(
-b.max):v==4?jr(b.max,b.asinh):v==100?b.fwd(b.max):b.max,c[f]=d=!0}}if(d){k.forEach((f,y)=>{r==2?y>0&&c.y&&(f._paths=null):c[f.scale]&&(f._paths=null)});for(let f in c)
+null&&y.from!=null&&W[y.from]!=null&&(W[f]=Ns)}W[D]!=null&&xn(!0);let l={};for(let f in W){let y=W[f];if(y!=null){let w=l[f]=Vn(T[f],fu);if(y.min!=null)Le(w,y);else if(f!=
+D||r==2)if(Be==0&&w.from==null){let v=w.range(o,null,null,f);w.min=v[0],w.max=v[1]}else w.min=ge,w.max=-ge}}if(Be>0){k.forEach((f,y)=>{if(r==1){let w=f.scale,v=W[w];
+if(v==null)return;let P=l[w];if(y==0){let C=P.range(o,P.min,P.max,w);P.min=C[0],P.max=C[1],Ie=Tt(P.min,e[0]),ze=Tt(P.max,e[0]),ze-Ie>1&&(e[0][Ie]<P.min&&Ie++,e[0][ze]>
+P.max&&ze--),f.min=xt[Ie],f.max=xt[ze]}else f.show&&f.auto&&kr(P,v,f,e[y],f.sorted);f.idxs[0]=Ie,f.idxs[1]=ze}else if(y>0&&f.show&&f.auto){let[w,v]=f.facets,P=w.
+scale,C=v.scale,[N,O]=e[y],U=l[P],Q=l[C];U!=null&&kr(U,W[P],w,N,w.sorted),Q!=null&&kr(Q,W[C],v,O,v.sorted),f.min=v.min,f.max=v.max}});for(let f in l){let y=l[f],
+w=W[f];if(y.from==null&&(w==null||w.min==null)){let v=y.range(o,y.min==ge?null:y.min,y.max==-ge?null:y.max,f);y.min=v[0],y.max=v[1]}}}for(let f in l){let y=l[f];
+if(y.from!=null){let w=l[y.from];if(w.min==null)y.min=y.max=null;else{let v=y.range(o,w.min,w.max,f);y.min=v[0],y.max=v[1]}}}let c={},d=!1;for(let f in l){let y=l[f],
+w=T[f];if(w.min!=y.min||w.max!=y.max){w.min=y.min,w.max=y.max;let v=w.distr;w._min=v==3?It(w.min):v==4?jr(w.min,w.asinh):v==100?w.fwd(w.min):w.min,w._max=v==3?It(
+w.max):v==4?jr(w.max,w.asinh):v==100?w.fwd(w.max):w.max,c[f]=d=!0}}if(d){k.forEach((f,y)=>{r==2?y>0&&c.y&&(f._paths=null):c[f.scale]&&(f._paths=null)});for(let f in c)
 hn=!0,We("setScale",f);Ue&&H.left>=0&&(Qt=ft=!0)}for(let f in W)W[f]=null}function Ja(l){let c=es(Ie-1,0,Be-1),d=es(ze+1,0,Be-1);for(;l[c]==null&&c>0;)c--;for(;l[d]==
 null&&d<Be-1;)d++;return[c,d]}function Za(){if(Be>0){let l=k.some(c=>c._focus)&&nt!=At.alpha;l&&(h.globalAlpha=nt=At.alpha),k.forEach((c,d)=>{if(d>0&&c.show&&(Os(
 d,!1),Os(d,!0),c._paths==null)){let f=nt;nt!=c.alpha&&(h.globalAlpha=nt=c.alpha);let y=r==2?[0,e[d][0].length-1]:Ja(e[d]);c._paths=c.paths(o,d,y[0],y[1]),nt!=f&&
 (h.globalAlpha=nt=f)}}),k.forEach((c,d)=>{if(d>0&&c.show){let f=nt;nt!=c.alpha&&(h.globalAlpha=nt=c.alpha),c._paths!=null&&Fs(d,!1);{let y=c._paths!=null?c._paths.
-gaps:null,b=c.points.show(o,d,Ie,ze,y),v=c.points.filter(o,d,b,y);(b||v)&&(c.points._paths=c.points.paths(o,d,Ie,ze,v),Fs(d,!0))}nt!=f&&(h.globalAlpha=nt=f),We(
+gaps:null,w=c.points.show(o,d,Ie,ze,y),v=c.points.filter(o,d,w,y);(w||v)&&(c.points._paths=c.points.paths(o,d,Ie,ze,v),Fs(d,!0))}nt!=f&&(h.globalAlpha=nt=f),We(
 "drawSeries",d)}}),l&&(h.globalAlpha=nt=1)}}function Os(l,c){let d=c?k[l].points:k[l];d._stroke=d.stroke(o,l),d._fill=d.fill(o,l)}function Fs(l,c){let d=c?k[l].
-points:k[l],{stroke:f,fill:y,clip:b,flags:v,_stroke:P=d._stroke,_fill:C=d._fill,_width:N=d.width}=d._paths;N=ye(N*pe,3);let O=null,U=N%2/2;c&&C==null&&(C=N>0?"#\
+points:k[l],{stroke:f,fill:y,clip:w,flags:v,_stroke:P=d._stroke,_fill:C=d._fill,_width:N=d.width}=d._paths;N=ye(N*pe,3);let O=null,U=N%2/2;c&&C==null&&(C=N>0?"#\
 fff":P);let Q=d.pxAlign==1&&U>0;if(Q&&h.translate(U,U),!c){let ue=rt-N/2,le=dt-N/2,oe=tt+N,J=wt+N;O=new Path2D,O.rect(ue,le,oe,J)}c?Mr(P,N,d.dash,d.cap,C,f,y,v,
-b):Qa(l,P,N,d.dash,d.cap,C,f,y,v,O,b),Q&&h.translate(-U,-U)}function Qa(l,c,d,f,y,b,v,P,C,N,O){let U=!1;C!=0&&j.forEach((Q,ue)=>{if(Q.series[0]==l){let le=k[Q.series[1]],
-oe=e[Q.series[1]],J=(le._paths||fo).band;$t(J)&&(J=Q.dir==1?J[0]:J[1]);let $,ve=null;le.show&&J&&iu(oe,Ie,ze)?(ve=Q.fill(o,ue)||b,$=le._paths.clip):J=null,Mr(c,
-d,f,y,ve,v,P,C,N,O,$,J),U=!0}}),U||Mr(c,d,f,y,b,v,P,C,N,O)}let Us=Wn|os;function Mr(l,c,d,f,y,b,v,P,C,N,O,U){Ds(l,c,d,f,y),(C||N||U)&&(h.save(),C&&h.clip(C),N&&
-h.clip(N)),U?(P&Us)==Us?(h.clip(U),O&&h.clip(O),vo(y,v),xo(l,b,c)):P&os?(vo(y,v),h.clip(U),xo(l,b,c)):P&Wn&&(h.save(),h.clip(U),O&&h.clip(O),vo(y,v),h.restore(),
-xo(l,b,c)):(vo(y,v),xo(l,b,c)),(C||N||U)&&h.restore()}function xo(l,c,d){d>0&&(c instanceof Map?c.forEach((f,y)=>{h.strokeStyle=wo=y,h.stroke(f)}):c!=null&&l&&h.
-stroke(c))}function vo(l,c){c instanceof Map?c.forEach((d,f)=>{h.fillStyle=wn=f,h.fill(d)}):c!=null&&l&&h.fill(c)}function Xa(l,c,d,f){let y=_[l],b;if(f<=0)b=[0,
-0];else{let v=y._space=y.space(o,l,c,d,f),P=y._incrs=y.incrs(o,l,c,d,f,v);b=Ep(c,d,P,f,v)}return y._found=b}function Tr(l,c,d,f,y,b,v,P,C,N){let O=v%2/2;M==1&&h.
-translate(O,O),Ds(P,v,C,N,P),h.beginPath();let U,Q,ue,le,oe=y+(f==0||f==3?-b:b);d==0?(Q=y,le=oe):(U=y,ue=oe);for(let J=0;J<l.length;J++)c[J]!=null&&(d==0?U=ue=l[J]:
+w):Qa(l,P,N,d.dash,d.cap,C,f,y,v,O,w),Q&&h.translate(-U,-U)}function Qa(l,c,d,f,y,w,v,P,C,N,O){let U=!1;C!=0&&j.forEach((Q,ue)=>{if(Q.series[0]==l){let le=k[Q.series[1]],
+oe=e[Q.series[1]],J=(le._paths||fo).band;$t(J)&&(J=Q.dir==1?J[0]:J[1]);let $,ve=null;le.show&&J&&iu(oe,Ie,ze)?(ve=Q.fill(o,ue)||w,$=le._paths.clip):J=null,Mr(c,
+d,f,y,ve,v,P,C,N,O,$,J),U=!0}}),U||Mr(c,d,f,y,w,v,P,C,N,O)}let Us=Wn|os;function Mr(l,c,d,f,y,w,v,P,C,N,O,U){Ds(l,c,d,f,y),(C||N||U)&&(h.save(),C&&h.clip(C),N&&
+h.clip(N)),U?(P&Us)==Us?(h.clip(U),O&&h.clip(O),vo(y,v),xo(l,w,c)):P&os?(vo(y,v),h.clip(U),xo(l,w,c)):P&Wn&&(h.save(),h.clip(U),O&&h.clip(O),vo(y,v),h.restore(),
+xo(l,w,c)):(vo(y,v),xo(l,w,c)),(C||N||U)&&h.restore()}function xo(l,c,d){d>0&&(c instanceof Map?c.forEach((f,y)=>{h.strokeStyle=wo=y,h.stroke(f)}):c!=null&&l&&h.
+stroke(c))}function vo(l,c){c instanceof Map?c.forEach((d,f)=>{h.fillStyle=wn=f,h.fill(d)}):c!=null&&l&&h.fill(c)}function Xa(l,c,d,f){let y=_[l],w;if(f<=0)w=[0,
+0];else{let v=y._space=y.space(o,l,c,d,f),P=y._incrs=y.incrs(o,l,c,d,f,v);w=Ep(c,d,P,f,v)}return y._found=w}function Tr(l,c,d,f,y,w,v,P,C,N){let O=v%2/2;M==1&&h.
+translate(O,O),Ds(P,v,C,N,P),h.beginPath();let U,Q,ue,le,oe=y+(f==0||f==3?-w:w);d==0?(Q=y,le=oe):(U=y,ue=oe);for(let J=0;J<l.length;J++)c[J]!=null&&(d==0?U=ue=l[J]:
 Q=le=l[J],h.moveTo(U,Q),h.lineTo(ue,le));h.stroke(),M==1&&h.translate(-O,-O)}function ec(l){let c=!0;return _.forEach((d,f)=>{if(!d.show)return;let y=T[d.scale];
-if(y.min==null){d._show&&(c=!1,d._show=!1,xn(!1));return}else d._show||(c=!1,d._show=!0,xn(!1));let b=d.side,v=b%2,{min:P,max:C}=y,[N,O]=Xa(f,P,C,v==0?ee:F);if(O==
+if(y.min==null){d._show&&(c=!1,d._show=!1,xn(!1));return}else d._show||(c=!1,d._show=!0,xn(!1));let w=d.side,v=w%2,{min:P,max:C}=y,[N,O]=Xa(f,P,C,v==0?ee:F);if(O==
 0)return;let U=y.distr==2,Q=d._splits=d.splits(o,f,P,C,N,O,U),ue=y.distr==2?Q.map($=>xt[$]):Q,le=y.distr==2?xt[Q[1]]-xt[Q[0]]:N,oe=d._values=d.values(o,d.filter(
-o,ue,f,O,le),f,O,le);d._rotate=b==2?d.rotate(o,oe,f,O):0;let J=d._size;d._size=bt(d.size(o,oe,f,l)),J!=null&&d._size!=J&&(c=!1)}),c}function tc(l){let c=!0;return _s.
+o,ue,f,O,le),f,O,le);d._rotate=w==2?d.rotate(o,oe,f,O):0;let J=d._size;d._size=bt(d.size(o,oe,f,l)),J!=null&&d._size!=J&&(c=!1)}),c}function tc(l){let c=!0;return _s.
 forEach((d,f)=>{let y=d(o,f,en,l);y!=Ht[f]&&(c=!1),Ht[f]=y}),c}function nc(){for(let l=0;l<_.length;l++){let c=_[l];if(!c.show||!c._show)continue;let d=c.side,f=d%
-2,y,b,v=c.stroke(o,l),P=d==0||d==3?-1:1,[C,N]=c._found;if(c.label!=null){let Ze=c.labelGap*P,lt=Ne((c._lpos+Ze)*pe);Rs(c.labelFont[0],v,"center",d==2?"top":Li),
-h.save(),f==1?(y=b=0,h.translate(lt,Ne(dt+wt/2)),h.rotate((d==3?-Bo:Bo)/2)):(y=Ne(rt+tt/2),b=lt);let on=xl(c.label)?c.label(o,l,C,N):c.label;h.fillText(on,y,b),
+2,y,w,v=c.stroke(o,l),P=d==0||d==3?-1:1,[C,N]=c._found;if(c.label!=null){let Ze=c.labelGap*P,lt=Ne((c._lpos+Ze)*pe);Rs(c.labelFont[0],v,"center",d==2?"top":Li),
+h.save(),f==1?(y=w=0,h.translate(lt,Ne(dt+wt/2)),h.rotate((d==3?-Bo:Bo)/2)):(y=Ne(rt+tt/2),w=lt);let on=xl(c.label)?c.label(o,l,C,N):c.label;h.fillText(on,y,w),
 h.restore()}if(N==0)continue;let O=T[c.scale],U=f==0?tt:wt,Q=f==0?rt:dt,ue=c._splits,le=O.distr==2?ue.map(Ze=>xt[Ze]):ue,oe=O.distr==2?xt[ue[1]]-xt[ue[0]]:C,J=c.
-ticks,$=c.border,ve=J.show?J.size:0,Ee=Ne(ve*pe),Ge=Ne((c.alignTo==2?c._size-ve-c.gap:c.gap)*pe),fe=c._rotate*-Bo/180,Ae=A(c._pos*pe),st=(Ee+Ge)*P,Je=Ae+st;b=f==
+ticks,$=c.border,ve=J.show?J.size:0,Ee=Ne(ve*pe),Ge=Ne((c.alignTo==2?c._size-ve-c.gap:c.gap)*pe),fe=c._rotate*-Bo/180,Ae=A(c._pos*pe),st=(Ee+Ge)*P,Je=Ae+st;w=f==
 0?Je:0,y=f==1?Je:0;let mt=c.font[0],vt=c.align==1?Fn:c.align==2?Gr:fe>0?Fn:fe<0?Gr:f==0?"center":d==3?Gr:Fn,Lt=fe||f==1?"middle":d==2?"top":Li;Rs(mt,v,vt,Lt);let it=c.
-font[1]*c.lineGap,gt=ue.map(Ze=>A(a(Ze,O,U,Q))),St=c._values;for(let Ze=0;Ze<St.length;Ze++){let lt=St[Ze];if(lt!=null){f==0?y=gt[Ze]:b=gt[Ze],lt=""+lt;let on=lt.
+font[1]*c.lineGap,gt=ue.map(Ze=>A(a(Ze,O,U,Q))),St=c._values;for(let Ze=0;Ze<St.length;Ze++){let lt=St[Ze];if(lt!=null){f==0?y=gt[Ze]:w=gt[Ze],lt=""+lt;let on=lt.
 indexOf(`
-`)==-1?[lt]:lt.split(/\n/gm);for(let Qe=0;Qe<on.length;Qe++){let ni=on[Qe];fe?(h.save(),h.translate(y,b+Qe*it),h.rotate(fe),h.fillText(ni,0,0),h.restore()):h.fillText(
-ni,y,b+Qe*it)}}}J.show&&Tr(gt,J.filter(o,le,l,N,oe),f,d,Ae,Ee,ye(J.width*pe,3),J.stroke(o,l),J.dash,J.cap);let Dt=c.grid;Dt.show&&Tr(gt,Dt.filter(o,le,l,N,oe),f,
+`)==-1?[lt]:lt.split(/\n/gm);for(let Qe=0;Qe<on.length;Qe++){let ni=on[Qe];fe?(h.save(),h.translate(y,w+Qe*it),h.rotate(fe),h.fillText(ni,0,0),h.restore()):h.fillText(
+ni,y,w+Qe*it)}}}J.show&&Tr(gt,J.filter(o,le,l,N,oe),f,d,Ae,Ee,ye(J.width*pe,3),J.stroke(o,l),J.dash,J.cap);let Dt=c.grid;Dt.show&&Tr(gt,Dt.filter(o,le,l,N,oe),f,
 f==0?2:1,f==0?dt:rt,f==0?wt:tt,ye(Dt.width*pe,3),Dt.stroke(o,l),Dt.dash,Dt.cap),$.show&&Tr([Ae],[1],f==0?1:0,f==0?1:2,f==1?dt:rt,f==1?wt:tt,ye($.width*pe,3),$.stroke(
 o,l),$.dash,$.cap)}We("drawAxes")}function xn(l){k.forEach((c,d)=>{d>0&&(c._paths=null,l&&(r==1?(c.min=null,c.max=null):c.facets.forEach(f=>{f.min=null,f.max=null})))})}
 let So=!1,Pr=!1,Jn=[];function oc(){Pr=!1;for(let l=0;l<Jn.length;l++)We(...Jn[l]);Jn.length=0}function vn(){So||(xu(Is),So=!0)}function rc(l,c=!1){So=!0,Pr=c,l(
 o),Is(),c&&Jn.length>0&&queueMicrotask(oc)}o.batch=rc;function Is(){if(fr&&(qa(),fr=!1),hn&&(Wa(),hn=!1),go){if(ke(x,Fn,be),ke(x,"top",Re),ke(x,ao,ee),ke(x,co,F),
-ke(w,Fn,be),ke(w,"top",Re),ke(w,ao,ee),ke(w,co,F),ke(g,ao,Ot),ke(g,co,qt),m.width=Ne(Ot*pe),m.height=Ne(qt*pe),_.forEach(({_el:l,_show:c,_size:d,_pos:f,side:y})=>{
-if(l!=null)if(c){let b=y===3||y===0?d:0,v=y%2==1;ke(l,v?"left":"top",f-b),ke(l,v?"width":"height",d),ke(l,v?"top":"left",v?Re:be),ke(l,v?"height":"width",v?F:ee),
+ke(b,Fn,be),ke(b,"top",Re),ke(b,ao,ee),ke(b,co,F),ke(g,ao,Ot),ke(g,co,qt),m.width=Ne(Ot*pe),m.height=Ne(qt*pe),_.forEach(({_el:l,_show:c,_size:d,_pos:f,side:y})=>{
+if(l!=null)if(c){let w=y===3||y===0?d:0,v=y%2==1;ke(l,v?"left":"top",f-w),ke(l,v?"width":"height",d),ke(l,v?"top":"left",v?Re:be),ke(l,v?"height":"width",v?F:ee),
 Qr(l,ln)}else at(l,ln)}),wo=wn=gr=br=wr=xr=vr=Sr=yr=null,nt=1,Xn(!0),be!=fn||Re!=Jt||ee!=Et||F!=Zt){xn(!1);let l=ee/Et,c=F/Zt;if(Ue&&!Qt&&H.left>=0){H.left*=l,H.
 top*=c,Sn&&Rt(Sn,Ne(H.left),0,ee,F),kn&&Rt(kn,0,Ne(H.top),ee,F);for(let d=0;d<ht.length;d++){let f=ht[d];f!=null&&(yn[d]*=l,bn[d]*=c,Rt(f,bt(yn[d]),bt(bn[d]),ee,
 F))}}if(xe.show&&!yo&&xe.left>=0&&xe.width>0){xe.left*=l,xe.width*=l,xe.top*=c,xe.height*=c;for(let d in Dr)ke(Pn,d,xe[d])}fn=be,Jt=Re,Et=ee,Zt=F}We("setSize"),
@@ -414,80 +414,81 @@ go=!1}Ot>0&&qt>0&&(h.clearRect(0,0,m.width,m.height),We("drawClear"),G.forEach(l
 show&&X.live&&ft&&(_r(),ft=!1),u||(u=!0,o.status=1,We("ready")),qn=!1,So=!1}o.redraw=(l,c)=>{hn=c||!1,l!==!1?Wt(D,E.min,E.max):vn()};function Er(l,c){let d=T[l];
 if(d.from==null){if(Be==0){let f=d.range(o,c.min,c.max,l);c.min=f[0],c.max=f[1]}if(c.min>c.max){let f=c.min;c.min=c.max,c.max=f}if(Be>1&&c.min!=null&&c.max!=null&&
 c.max-c.min<1e-16)return;l==D&&d.distr==2&&Be>0&&(c.min=Tt(c.min,e[0]),c.max=Tt(c.max,e[0]),c.min==c.max&&c.max++),W[l]=c,fr=!0,vn()}}o.setScale=Er;let Ar,Cr,Sn,
-kn,zs,Hs,Mn,Tn,Vs,Ws,we,Te,Vt=!1,$e=H.drag,He=$e.x,Ve=$e.y;Ue&&(H.x&&(Ar=yt(Bc,w)),H.y&&(Cr=yt($c,w)),E.ori==0?(Sn=Ar,kn=Cr):(Sn=Cr,kn=Ar),we=H.left,Te=H.top);let xe=o.
-select=Le({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Pn=xe.show?yt(Gc,xe.over?w:x):null;function ko(l,c){if(xe.show){for(let d in l)xe[d]=l[d],d in
+kn,zs,Hs,Mn,Tn,Vs,Ws,we,Te,Vt=!1,$e=H.drag,He=$e.x,Ve=$e.y;Ue&&(H.x&&(Ar=yt(Bc,b)),H.y&&(Cr=yt($c,b)),E.ori==0?(Sn=Ar,kn=Cr):(Sn=Cr,kn=Ar),we=H.left,Te=H.top);let xe=o.
+select=Le({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Pn=xe.show?yt(Gc,xe.over?b:x):null;function ko(l,c){if(xe.show){for(let d in l)xe[d]=l[d],d in
 Dr&&ke(Pn,d,l[d]);c!==!1&&We("setSelect")}}o.setSelect=ko;function sc(l){if(k[l].show)Pe&&Qr(Me[l],ln);else if(Pe&&at(Me[l],ln),Ue){let d=gn?ht[0]:ht[l];d!=null&&
-Rt(d,-10,-10,ee,F)}}function Wt(l,c,d){Er(l,{min:c,max:d})}function Ct(l,c,d,f){c.focus!=null&&uc(l),c.show!=null&&k.forEach((y,b)=>{b>0&&(l==b||l==null)&&(y.show=
-c.show,sc(b),r==2?(Wt(y.facets[0].scale,null,null),Wt(y.facets[1].scale,null,null)):Wt(y.scale,null,null),vn())}),d!==!1&&We("setSeries",l,c),f&&eo("setSeries",
+Rt(d,-10,-10,ee,F)}}function Wt(l,c,d){Er(l,{min:c,max:d})}function Ct(l,c,d,f){c.focus!=null&&uc(l),c.show!=null&&k.forEach((y,w)=>{w>0&&(l==w||l==null)&&(y.show=
+c.show,sc(w),r==2?(Wt(y.facets[0].scale,null,null),Wt(y.facets[1].scale,null,null)):Wt(y.scale,null,null),vn())}),d!==!1&&We("setSeries",l,c),f&&eo("setSeries",
 o,l,c)}o.setSeries=Ct;function ic(l,c){Le(j[l],c)}function lc(l,c){l.fill=se(l.fill||null),l.dir=ae(l.dir,-1),c=c??j.length,j.splice(c,0,l)}function ac(l){l==null?
 j.length=0:j.splice(l,1)}o.addBand=lc,o.setBand=ic,o.delBand=ac;function cc(l,c){k[l].alpha=c,Ue&&ht[l]!=null&&(ht[l].style.opacity=c),Pe&&Me[l]&&(Me[l].style.opacity=
-c)}let Ft,Gt,tn,En={focus:!0};function uc(l){if(l!=tn){let c=l==null,d=At.alpha!=1;k.forEach((f,y)=>{if(r==1||y>0){let b=c||y==0||y==l;f._focus=c?null:b,d&&cc(y,
-b?1:At.alpha)}}),tn=l,d&&vn()}}Pe&&mn&&qe(Oi,ie,l=>{H._lock||(Xt(l),tn!=null&&Ct(null,En,!0,Ce.setSeries))});function _t(l,c,d){let f=T[c];d&&(l=l/pe-(f.ori==1?
-Re:be));let y=ee;f.ori==1&&(y=F,l=y-l),f.dir==-1&&(l=y-l);let b=f._min,v=f._max,P=l/y,C=b+(v-b)*P,N=f.distr;return N==3?zn(10,C):N==4?au(C,f.asinh):N==100?f.bwd(
+c)}let Ft,Gt,tn,En={focus:!0};function uc(l){if(l!=tn){let c=l==null,d=At.alpha!=1;k.forEach((f,y)=>{if(r==1||y>0){let w=c||y==0||y==l;f._focus=c?null:w,d&&cc(y,
+w?1:At.alpha)}}),tn=l,d&&vn()}}Pe&&mn&&qe(Oi,ie,l=>{H._lock||(Xt(l),tn!=null&&Ct(null,En,!0,Ce.setSeries))});function _t(l,c,d){let f=T[c];d&&(l=l/pe-(f.ori==1?
+Re:be));let y=ee;f.ori==1&&(y=F,l=y-l),f.dir==-1&&(l=y-l);let w=f._min,v=f._max,P=l/y,C=w+(v-w)*P,N=f.distr;return N==3?zn(10,C):N==4?au(C,f.asinh):N==100?f.bwd(
 C):C}function pc(l,c){let d=_t(l,D,c);return Tt(d,e[0],Ie,ze)}o.valToIdx=l=>Tt(l,e[0]),o.posToIdx=pc,o.posToVal=_t,o.valToPos=(l,c,d)=>T[c].ori==0?s(l,T[c],d?tt:
 ee,d?rt:0):i(l,T[c],d?wt:F,d?dt:0),o.setCursor=(l,c,d)=>{we=l.left,Te=l.top,nn(null,c,d)};function Gs(l,c){ke(Pn,Fn,xe.left=l),ke(Pn,ao,xe.width=c)}function Bs(l,c){
 ke(Pn,"top",xe.top=l),ke(Pn,co,xe.height=c)}let Zn=E.ori==0?Gs:Bs,Qn=E.ori==1?Gs:Bs;function dc(){if(Pe&&X.live)for(let l=r==2?1:0;l<k.length;l++){if(l==0&&te)continue;
 let c=X.values[l],d=0;for(let f in c)ot[l][d++].firstChild.nodeValue=c[f]}}function _r(l,c){if(l!=null&&(l.idxs?l.idxs.forEach((d,f)=>{ce[f]=d}):du(l.idx)||ce.fill(
 l.idx),X.idx=ce[0]),Pe&&X.live){for(let d=0;d<k.length;d++)(d>0||r==1&&!te)&&fc(d,ce[d]);dc()}ft=!1,c!==!1&&We("setLegend")}o.setLegend=_r;function fc(l,c){let d=k[l],
 f=l==0&&Y==2?xt:e[l],y;te?y=d.values(o,l,c)??De:(y=d.value(o,c==null?null:f[c],l,c),y=y==null?De:{_:y}),X.values[l]=y}function nn(l,c,d){Vs=we,Ws=Te,[we,Te]=H.move(
-o,we,Te),H.left=we,H.top=Te,Ue&&(Sn&&Rt(Sn,Ne(we),0,ee,F),kn&&Rt(kn,0,Ne(Te),ee,F));let f,y=Ie>ze;Ft=ge,Gt=null;let b=E.ori==0?ee:F,v=E.ori==1?ee:F;if(we<0||Be==
+o,we,Te),H.left=we,H.top=Te,Ue&&(Sn&&Rt(Sn,Ne(we),0,ee,F),kn&&Rt(kn,0,Ne(Te),ee,F));let f,y=Ie>ze;Ft=ge,Gt=null;let w=E.ori==0?ee:F,v=E.ori==1?ee:F;if(we<0||Be==
 0||y){f=H.idx=null;for(let P=0;P<k.length;P++){let C=ht[P];C!=null&&Rt(C,-10,-10,ee,F)}mn&&Ct(null,En,!0,l==null&&Ce.setSeries),X.live&&(ce.fill(f),ft=!0)}else{
-let P,C,N;r==1&&(P=E.ori==0?we:Te,C=_t(P,D),f=H.idx=Tt(C,e[0],Ie,ze),N=I(e[0][f],E,b,0));let O=-10,U=-10,Q=0,ue=0,le=!0,oe="",J="";for(let $=r==2?1:0;$<k.length;$++){
+let P,C,N;r==1&&(P=E.ori==0?we:Te,C=_t(P,D),f=H.idx=Tt(C,e[0],Ie,ze),N=I(e[0][f],E,w,0));let O=-10,U=-10,Q=0,ue=0,le=!0,oe="",J="";for(let $=r==2?1:0;$<k.length;$++){
 let ve=k[$],Ee=ce[$],Ge=Ee==null?null:r==1?e[$][Ee]:e[$][1][Ee],fe=H.dataIdx(o,$,f,C),Ae=fe==null?null:r==1?e[$][fe]:e[$][1][fe];if(ft=ft||Ae!=Ge||fe!=Ee,ce[$]=
-fe,$>0&&ve.show){let st=fe==null?-10:fe==f?N:I(r==1?e[0][fe]:e[$][0][fe],E,b,0),Je=Ae==null?-10:K(Ae,r==1?T[ve.scale]:T[ve.facets[1].scale],v,0);if(mn&&Ae!=null){
+fe,$>0&&ve.show){let st=fe==null?-10:fe==f?N:I(r==1?e[0][fe]:e[$][0][fe],E,w,0),Je=Ae==null?-10:K(Ae,r==1?T[ve.scale]:T[ve.facets[1].scale],v,0);if(mn&&Ae!=null){
 let mt=E.ori==1?we:Te,vt=Oe(At.dist(o,$,fe,Je,mt));if(vt<Ft){let Lt=At.bias;if(Lt!=0){let it=_t(mt,ve.scale),gt=Ae>=0?1:-1,St=it>=0?1:-1;St==gt&&(St==1?Lt==1?Ae>=
 it:Ae<=it:Lt==1?Ae<=it:Ae>=it)&&(Ft=vt,Gt=$)}else Ft=vt,Gt=$}}if(ft||gn){let mt,vt;E.ori==0?(mt=st,vt=Je):(mt=Je,vt=st);let Lt,it,gt,St,Dt,Ze,lt=!0,on=Ye.bbox;if(on!=
 null){lt=!1;let Qe=on(o,$);gt=Qe.left,St=Qe.top,Lt=Qe.width,it=Qe.height}else gt=mt,St=vt,Lt=it=Ye.size(o,$);if(Ze=Ye.fill(o,$),Dt=Ye.stroke(o,$),gn)$==Gt&&Ft<=
 At.prox&&(O=gt,U=St,Q=Lt,ue=it,le=lt,oe=Ze,J=Dt);else{let Qe=ht[$];Qe!=null&&(yn[$]=gt,bn[$]=St,Wi(Qe,Lt,it,lt),Hi(Qe,Ze,Dt),Rt(Qe,bt(gt),bt(St),ee,F))}}}}if(gn){
 let $=At.prox,ve=tn==null?Ft<=$:Ft>$||Gt!=tn;if(ft||ve){let Ee=ht[0];Ee!=null&&(yn[0]=O,bn[0]=U,Wi(Ee,Q,ue,le),Hi(Ee,oe,J),Rt(Ee,bt(O),bt(U),ee,F))}}}if(xe.show&&
 Vt)if(l!=null){let[P,C]=Ce.scales,[N,O]=Ce.match,[U,Q]=l.cursor.sync.scales,ue=l.cursor.drag;if(He=ue._x,Ve=ue._y,He||Ve){let{left:le,top:oe,width:J,height:$}=l.
-select,ve=l.scales[U].ori,Ee=l.posToVal,Ge,fe,Ae,st,Je,mt=P!=null&&N(P,U),vt=C!=null&&O(C,Q);mt&&He?(ve==0?(Ge=le,fe=J):(Ge=oe,fe=$),Ae=T[P],st=I(Ee(Ge,U),Ae,b,
-0),Je=I(Ee(Ge+fe,U),Ae,b,0),Zn(Pt(st,Je),Oe(Je-st))):Zn(0,b),vt&&Ve?(ve==1?(Ge=le,fe=J):(Ge=oe,fe=$),Ae=T[C],st=K(Ee(Ge,Q),Ae,v,0),Je=K(Ee(Ge+fe,Q),Ae,v,0),Qn(Pt(
+select,ve=l.scales[U].ori,Ee=l.posToVal,Ge,fe,Ae,st,Je,mt=P!=null&&N(P,U),vt=C!=null&&O(C,Q);mt&&He?(ve==0?(Ge=le,fe=J):(Ge=oe,fe=$),Ae=T[P],st=I(Ee(Ge,U),Ae,w,
+0),Je=I(Ee(Ge+fe,U),Ae,w,0),Zn(Pt(st,Je),Oe(Je-st))):Zn(0,w),vt&&Ve?(ve==1?(Ge=le,fe=J):(Ge=oe,fe=$),Ae=T[C],st=K(Ee(Ge,Q),Ae,v,0),Je=K(Ee(Ge+fe,Q),Ae,v,0),Qn(Pt(
 st,Je),Oe(Je-st))):Qn(0,v)}else Rr()}else{let P=Oe(Vs-zs),C=Oe(Ws-Hs);if(E.ori==1){let Q=P;P=C,C=Q}He=$e.x&&P>=$e.dist,Ve=$e.y&&C>=$e.dist;let N=$e.uni;N!=null?
 He&&Ve&&(He=P>=N,Ve=C>=N,!He&&!Ve&&(C>P?Ve=!0:He=!0)):$e.x&&$e.y&&(He||Ve)&&(He=Ve=!0);let O,U;He&&(E.ori==0?(O=Mn,U=we):(O=Tn,U=Te),Zn(Pt(O,U),Oe(U-O)),Ve||Qn(
-0,v)),Ve&&(E.ori==1?(O=Mn,U=we):(O=Tn,U=Te),Qn(Pt(O,U),Oe(U-O)),He||Zn(0,b)),!He&&!Ve&&(Zn(0,0),Qn(0,0))}if($e._x=He,$e._y=Ve,l==null){if(d){if(ti!=null){let[P,
+0,v)),Ve&&(E.ori==1?(O=Mn,U=we):(O=Tn,U=Te),Qn(Pt(O,U),Oe(U-O)),He||Zn(0,w)),!He&&!Ve&&(Zn(0,0),Qn(0,0))}if($e._x=He,$e._y=Ve,l==null){if(d){if(ti!=null){let[P,
 C]=Ce.scales;Ce.values[0]=P!=null?_t(E.ori==0?we:Te,P):null,Ce.values[1]=C!=null?_t(E.ori==1?we:Te,C):null}eo(Br,o,we,Te,ee,F,f)}if(mn){let P=d&&Ce.setSeries,C=At.
 prox;tn==null?Ft<=C&&Ct(Gt,En,!0,P):Ft>C?Ct(null,En,!0,P):Gt!=tn&&Ct(Gt,En,!0,P)}}ft&&(X.idx=f,_r()),c!==!1&&We("setCursor")}let Bt=null;Object.defineProperty(o,
-"rect",{get(){return Bt==null&&Xn(!1),Bt}});function Xn(l=!1){l?Bt=null:(Bt=w.getBoundingClientRect(),We("syncRect",Bt))}function $s(l,c,d,f,y,b,v){H._lock||Vt&&
-l!=null&&l.movementX==0&&l.movementY==0||(Lr(l,c,d,f,y,b,v,!1,l!=null),l!=null?nn(null,!0,!0):nn(c,!0,!1))}function Lr(l,c,d,f,y,b,v,P,C){if(Bt==null&&Xn(!1),Xt(
+"rect",{get(){return Bt==null&&Xn(!1),Bt}});function Xn(l=!1){l?Bt=null:(Bt=b.getBoundingClientRect(),We("syncRect",Bt))}function $s(l,c,d,f,y,w,v){H._lock||Vt&&
+l!=null&&l.movementX==0&&l.movementY==0||(Lr(l,c,d,f,y,w,v,!1,l!=null),l!=null?nn(null,!0,!0):nn(c,!0,!1))}function Lr(l,c,d,f,y,w,v,P,C){if(Bt==null&&Xn(!1),Xt(
 l),l!=null)d=l.clientX-Bt.left,f=l.clientY-Bt.top;else{if(d<0||f<0){we=-10,Te=-10;return}let[N,O]=Ce.scales,U=c.cursor.sync,[Q,ue]=U.values,[le,oe]=U.scales,[J,
-$]=Ce.match,ve=c.axes[0].side%2==1,Ee=E.ori==0?ee:F,Ge=E.ori==1?ee:F,fe=ve?b:y,Ae=ve?y:b,st=ve?f:d,Je=ve?d:f;if(le!=null?d=J(N,le)?a(Q,T[N],Ee,0):-10:d=Ee*(st/fe),
+$]=Ce.match,ve=c.axes[0].side%2==1,Ee=E.ori==0?ee:F,Ge=E.ori==1?ee:F,fe=ve?w:y,Ae=ve?y:w,st=ve?f:d,Je=ve?d:f;if(le!=null?d=J(N,le)?a(Q,T[N],Ee,0):-10:d=Ee*(st/fe),
 oe!=null?f=$(O,oe)?a(ue,T[O],Ge,0):-10:f=Ge*(Je/Ae),E.ori==1){let mt=d;d=f,f=mt}}C&&(c==null||c.cursor.event.type==Br)&&((d<=1||d>=ee-1)&&(d=rn(d,ee)),(f<=1||f>=
-F-1)&&(f=rn(f,F))),P?(zs=d,Hs=f,[Mn,Tn]=H.move(o,d,f)):(we=d,Te=f)}let Dr={width:0,height:0,left:0,top:0};function Rr(){ko(Dr,!1)}let js,Ks,Ys,qs;function Js(l,c,d,f,y,b,v){
-Vt=!0,He=Ve=$e._x=$e._y=!1,Lr(l,c,d,f,y,b,v,!0,!1),l!=null&&(qe($r,Jr,Zs,!1),eo(Ri,o,Mn,Tn,ee,F,null));let{left:P,top:C,width:N,height:O}=xe;js=P,Ks=C,Ys=N,qs=O}
-function Zs(l,c,d,f,y,b,v){Vt=$e._x=$e._y=!1,Lr(l,c,d,f,y,b,v,!1,!0);let{left:P,top:C,width:N,height:O}=xe,U=N>0||O>0,Q=js!=P||Ks!=C||Ys!=N||qs!=O;if(U&&Q&&ko(xe),
+F-1)&&(f=rn(f,F))),P?(zs=d,Hs=f,[Mn,Tn]=H.move(o,d,f)):(we=d,Te=f)}let Dr={width:0,height:0,left:0,top:0};function Rr(){ko(Dr,!1)}let js,Ks,Ys,qs;function Js(l,c,d,f,y,w,v){
+Vt=!0,He=Ve=$e._x=$e._y=!1,Lr(l,c,d,f,y,w,v,!0,!1),l!=null&&(qe($r,Jr,Zs,!1),eo(Ri,o,Mn,Tn,ee,F,null));let{left:P,top:C,width:N,height:O}=xe;js=P,Ks=C,Ys=N,qs=O}
+function Zs(l,c,d,f,y,w,v){Vt=$e._x=$e._y=!1,Lr(l,c,d,f,y,w,v,!1,!0);let{left:P,top:C,width:N,height:O}=xe,U=N>0||O>0,Q=js!=P||Ks!=C||Ys!=N||qs!=O;if(U&&Q&&ko(xe),
 $e.setScale&&U&&Q){let ue=P,le=N,oe=C,J=O;if(E.ori==1&&(ue=C,le=O,oe=P,J=N),He&&Wt(D,_t(ue,D),_t(ue+le,D)),Ve)for(let $ in T){let ve=T[$];$!=D&&ve.from==null&&ve.
-min!=ge&&Wt($,_t(oe+J,$),_t(oe,$))}Rr()}else H.lock&&(H._lock=!H._lock,nn(c,!0,l!=null));l!=null&&(dn($r,Jr),eo($r,o,we,Te,ee,F,null))}function hc(l,c,d,f,y,b,v){
+min!=ge&&Wt($,_t(oe+J,$),_t(oe,$))}Rr()}else H.lock&&(H._lock=!H._lock,nn(c,!0,l!=null));l!=null&&(dn($r,Jr),eo($r,o,we,Te,ee,F,null))}function hc(l,c,d,f,y,w,v){
 if(H._lock)return;Xt(l);let P=Vt;if(Vt){let C=!0,N=!0,O=10,U,Q;E.ori==0?(U=He,Q=Ve):(U=Ve,Q=He),U&&Q&&(C=we<=O||we>=ee-O,N=Te<=O||Te>=F-O),U&&C&&(we=we<Mn?0:ee),
-Q&&N&&(Te=Te<Tn?0:F),nn(null,!0,!0),Vt=!1}we=-10,Te=-10,ce.fill(null),nn(null,!0,!0),P&&(Vt=P)}function Qs(l,c,d,f,y,b,v){H._lock||(Xt(l),mr(),Rr(),l!=null&&eo(
+Q&&N&&(Te=Te<Tn?0:F),nn(null,!0,!0),Vt=!1}we=-10,Te=-10,ce.fill(null),nn(null,!0,!0),P&&(Vt=P)}function Qs(l,c,d,f,y,w,v){H._lock||(Xt(l),mr(),Rr(),l!=null&&eo(
 Fi,o,we,Te,ee,F,null))}function Xs(){_.forEach(Ap),hr(o.width,o.height,!0)}an($o,In,Xs);let An={};An.mousedown=Js,An.mousemove=$s,An.mouseup=Zs,An.dblclick=Qs,An.
-setSeries=(l,c,d,f)=>{let y=Ce.match[2];d=y(o,c,d),d!=-1&&Ct(d,f,!0,!1)},Ue&&(qe(Ri,w,Js),qe(Br,w,$s),qe(Ni,w,l=>{Xt(l),Xn(!1)}),qe(Oi,w,hc),qe(Fi,w,Qs),rs.add(
+setSeries=(l,c,d,f)=>{let y=Ce.match[2];d=y(o,c,d),d!=-1&&Ct(d,f,!0,!1)},Ue&&(qe(Ri,b,Js),qe(Br,b,$s),qe(Ni,b,l=>{Xt(l),Xn(!1)}),qe(Oi,b,hc),qe(Fi,b,Qs),rs.add(
 o),o.syncRect=Xn);let Mo=o.hooks=t.hooks||{};function We(l,c,d){Pr?Jn.push([l,c,d]):l in Mo&&Mo[l].forEach(f=>{f.call(null,o,c,d)})}(t.plugins||[]).forEach(l=>{
 for(let c in l.hooks)Mo[c]=(Mo[c]||[]).concat(l.hooks[c])});let ei=(l,c,d)=>d,Ce=Le({key:null,setSeries:!1,filters:{pub:Ki,sub:Ki},scales:[D,k[1]?k[1].scale:null],
-match:[Yi,Yi,ei],values:[null,null]},H.sync);Ce.match.length==2&&Ce.match.push(ei),H.sync=Ce;let ti=Ce.key,Nr=Bl(ti);function eo(l,c,d,f,y,b,v){Ce.filters.pub(l,
-c,d,f,y,b,v)&&Nr.pub(l,c,d,f,y,b,v)}Nr.sub(o);function mc(l,c,d,f,y,b,v){Ce.filters.sub(l,c,d,f,y,b,v)&&An[l](null,c,d,f,y,b,v)}o.pub=mc;function gc(){Nr.unsub(
+match:[Yi,Yi,ei],values:[null,null]},H.sync);Ce.match.length==2&&Ce.match.push(ei),H.sync=Ce;let ti=Ce.key,Nr=Bl(ti);function eo(l,c,d,f,y,w,v){Ce.filters.pub(l,
+c,d,f,y,w,v)&&Nr.pub(l,c,d,f,y,w,v)}Nr.sub(o);function mc(l,c,d,f,y,w,v){Ce.filters.sub(l,c,d,f,y,w,v)&&An[l](null,c,d,f,y,w,v)}o.pub=mc;function gc(){Nr.unsub(
 o),rs.delete(o),Yt.clear(),Xr($o,In,Xs),p.remove(),ie?.remove(),We("destroy")}o.destroy=gc;function Or(){We("init",t,e),Ls(e||t.data,!1),W[D]?Er(D,W[D]):mr(),yo=
 xe.show&&(xe.width>0||xe.height>0),Qt=ft=!0,hr(t.width,t.height)}return k.forEach(Cs),_.forEach(Ya),n?n instanceof HTMLElement?(n.appendChild(p),Or()):n(o,Or):Or(),
 o}Fe.assign=Le;Fe.fmtNum=ps;Fe.rangeNum=jo;Fe.rangeLog=qo;Fe.rangeAsinh=cs;Fe.orient=un;Fe.pxRatio=pe;Fe.join=wu;Fe.fmtDate=fs,Fe.tzDate=_u;Fe.sync=Bl;{Fe.addGap=
 dp,Fe.clipGaps=Qo;let t=Fe.paths={points:Jl};t.linear=Ql,t.stepped=mp,t.bars=gp,t.spline=bp}var nr=128,na=50,Cp=.25,_p=t=>[t.ray,t.truth,t.sensor,t.noReturn],or=(t,e)=>({font:Ur,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
 frame,width:1,size:4}});function oa(t,e,n){let o=null,r=null,s=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&s()>0&&o.setSize({width:s(),height:nr})).
 observe(t),i=>s()<=0?null:((!o||i||r!==n())&&(o?.destroy(),o=e(),o.setSize({width:s(),height:nr}),r=n()),o)}function ra(t,e){let{session:n}=t,o=S("div",{className:"\
-chart",role:"img","aria-label":"Trace: log joint by sweep"}),r="all",s=t.segmented("Trace",[["all","All sweeps"],["first",`First ${na}`]],()=>r,x=>{r=x,p=null,n.
-changed()}),i=0,a=-1/0,u=-1,p=null,h=oa(o,()=>{let x=_p(e()),w=Array.from({length:i},(M,A)=>({label:`chain ${A+1}`,stroke:x[A%x.length],width:1,points:{show:!1}}));
-return new Fe({width:100,height:nr,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},scales:{x:{time:!1,range:(M,A,L)=>[A,Math.max(L,A+1)]},y:{range:(M,A,L)=>Rp(Math.
-max(A,a),L)}},axes:[or(e,26),or(e,52)],series:[{label:"sweep"},...w],hooks:{draw:[M=>Np(M,u,e())]}},[[],...w.map(()=>[])],o)},e),g=S("div",{className:"charted"},
-s,o);return t.each(()=>{let x=n.shown,w=x?.traced?.length?x.trace.length/x.traced.length:0;if(V(g,"hidden",w===0),!x||!w)return;let M=x.layer==="draw"&&n.draws.
-count?(n.draw+1)*x.sweeps/n.draws.count:-1,A=h(w!==i&&(i=w,!0));A&&(p===x&&u===M&&A.data[0].length||([p,u]=[x,M],a=r==="all"?Dp(x,w):-1/0,A.setData(Lp(x,w,r))))}),
-g}function Lp({trace:t,traced:e},n,o){let r=o==="all"?e.length:e.filter(s=>s<=na).length;return[e.slice(0,r),...Array.from({length:n},(s,i)=>t.slice(i*e.length,
-i*e.length+r))]}function Dp({trace:t,traced:e},n){let o=e.length,r=e.findIndex(s=>s>=Cp*e[o-1]);return Math.min(...Array.from({length:n},(s,i)=>Math.min(...t.slice(
-i*o+r,(i+1)*o))))}function Rp(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function Np(t,e,n){if(e<0)return;let{left:o,top:r,width:s,height:i}=t.bbox,a=t.valToPos(
-e,"x",!0);a<o||a>o+s||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,r,2,i),t.ctx.restore())}function sa(t,e){let{session:n}=t,o=S("div",{className:"ch\
-art",role:"img","aria-label":"Histogram of the particles' weights"}),r=S("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),
-s=S("div",{className:"charted"},r,o),a=oa(o,()=>new Fe({width:100,height:nr,legend:{show:!1},cursor:{show:!1},scales:{x:{time:!1,range:(p,m,h)=>[m,h]},y:{distr:3,
-range:(p,m,h)=>[.5,Math.max(10,2*h)]}},axes:[or(e,26),{...or(e,52),values:(p,m)=>m.map(h=>h>=1?String(h):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Fe.
-paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),u=null;return t.each(()=>{let p=n.shown;V(s,"hidden",!p?.weights);let m=p?.weights&&a(!1);
-if(!p?.weights||!m||u===p&&m.data[0].length)return;u=p;let h=[...p.weights],g=-(p.lowest??-1)/h.length,x=[...h.map((w,M)=>(p.lowest??-1)+M*g),0];m.setData([x,[...h.
-map(w=>w||null),null]])}),s}var Op=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Fp=["Draw walls, and drag the robot: a beam reads the first wall that it \
+chart",role:"img","aria-label":"Trace: log joint by sweep"}),r="all",s=t.segmented("Trace",[["all","All sweeps"],["first",`First ${na}`]],()=>r,b=>{r=b,p=null,n.
+changed()}),i=0,a=-1/0,u=-1,p=null,h=oa(o,()=>{let b=_p(e()),M=Array.from({length:i},(A,L)=>({label:`chain ${L+1}`,stroke:b[L%b.length],width:1,points:{show:!1}}));
+return new Fe({width:100,height:nr,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(A,L,k)=>[L,Math.max(k,L+1)]},y:{
+range:(A,L,k)=>Rp(Math.max(L,a),k)}},axes:[or(e,26),or(e,52)],series:[{label:"sweep"},...M],hooks:{draw:[A=>Np(A,u,e())]}},[[],...M.map(()=>[])],o)},e),g=S("spa\
+n",{className:"caption",textContent:"log joint by sweep"}),x=S("div",{className:"charted"},S("div",{className:"buttons"},s,g),o);return t.each(()=>{let b=n.shown,
+M=b?.traced?.length?b.trace.length/b.traced.length:0;if(V(x,"hidden",M===0),!b||!M)return;let A=b.layer==="draw"&&n.draws.count?(n.draw+1)*b.sweeps/n.draws.count:
+-1,L=h(M!==i&&(i=M,!0));L&&(p===b&&u===A&&L.data[0].length||([p,u]=[b,A],a=r==="all"?Dp(b,M):-1/0,L.setData(Lp(b,M,r))))}),x}function Lp({trace:t,traced:e},n,o){
+let r=o==="all"?e.length:e.filter(s=>s<=na).length;return[e.slice(0,r),...Array.from({length:n},(s,i)=>t.slice(i*e.length,i*e.length+r))]}function Dp({trace:t,traced:e},n){
+let o=e.length,r=e.findIndex(s=>s>=Cp*e[o-1]);return Math.min(...Array.from({length:n},(s,i)=>Math.min(...t.slice(i*o+r,(i+1)*o))))}function Rp(t,e){let n=Math.
+max(.06*(e-t),.5);return[t-n,e+n]}function Np(t,e,n){if(e<0)return;let{left:o,top:r,width:s,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+s||(t.ctx.save(),t.
+ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,r,2,i),t.ctx.restore())}function sa(t,e){let{session:n}=t,o=S("div",{className:"chart",role:"img","aria-label":"Histogra\
+m of the particles' weights"}),r=S("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),s=S("div",{className:"charted"},r,o),
+a=oa(o,()=>new Fe({width:100,height:nr,legend:{show:!1},cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(p,m,h)=>[m,h]},y:{distr:3,range:(p,m,h)=>[
+.5,Math.max(10,2*h)]}},axes:[or(e,26),{...or(e,52),values:(p,m)=>m.map(h=>h>=1?String(h):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Fe.paths.bars?.({size:[
+.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),u=null;return t.each(()=>{let p=n.shown;V(s,"hidden",!p?.weights);let m=p?.weights&&a(!1);if(!p?.weights||!m||
+u===p&&m.data[0].length)return;u=p;let h=[...p.weights],g=-(p.lowest??-1)/h.length,x=[...h.map((b,M)=>(p.lowest??-1)+M*g),0];m.setData([x,[...h.map(b=>b||null),
+null]])}),s}var Op=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Fp=["Draw walls, and drag the robot: a beam reads the first wall that it \
 hits, with noise. Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (draw), and where doubt remains\
  (entropy). No beam has been where it is hatched.","While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact\
  in the long run."],Up="Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom\
@@ -584,40 +585,40 @@ let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=S("div",{className:"segmented",r
 io",name:i,value:u,onchange:()=>r(u)});a.append(S("label",{title:p},h,m?Kt(m):null,S("span",{textContent:p}))),this.each(()=>{V(h,"checked",o()===u),s&&V(h,"dis\
 abled",!s(u))})}return a}section(e,...n){let o=`${this.prefix}-${e}`;return S("section",{"aria-labelledby":o},S("h2",{id:o,textContent:e}),...n)}row(e,n){return n.
 id=`${this.prefix}-${e.replace(/\W/g,"")}`,S("div",{className:"row"},S("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:r,step:s,log:i=!1,unit:a=""}){
-let u=`${this.prefix}-${e}`,p=w=>i?1e3*Math.log(w/o)/Math.log(r/o):w,m=w=>{if(!i)return w;let M=o*(r/o)**(w/1e3),A=M<100?1:10**(Math.floor(Math.log10(M))-1);return Se(
+let u=`${this.prefix}-${e}`,p=b=>i?1e3*Math.log(b/o)/Math.log(r/o):b,m=b=>{if(!i)return b;let M=o*(r/o)**(b/1e3),A=M<100?1:10**(Math.floor(Math.log10(M))-1);return Se(
 Math.round(M/A)*A,o,r)},h=S("label",{for:u}),g=S("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,max:r,step:s}}),x=S("input",{type:"number",min:String(
 o),max:String(r),step:String(s)});return g.addEventListener("input",()=>this.set({[e]:m(Number(g.value))})),g.addEventListener("change",()=>this.endDrag()),x.addEventListener(
-"change",()=>{let w=Number(x.value);x.value===""||!Number.isFinite(w)?x.value=String(this.session.document?.[e]):this.set({[e]:i?Math.round(Se(w,o,r)):Se(w,o,r)}),
-this.endDrag()}),this.each(()=>{let w=this.session.document?.[e]??o;V(h,"textContent",n()),kt(x,"aria-label",`${n()}, number`),m(Number(g.value))!==w&&(g.value=
-String(p(w))),kt(g,"aria-valuetext",`${w}${a}`);let M=100*(p(w)-Number(g.min))/(Number(g.max)-Number(g.min));g.style.setProperty("--fill",`${Se(M,0,100)}%`),so(
-x)||V(x,"value",String(w))}),S("div",{className:"row slider"},h,g,x)}select(e,n,o,r,s){let i=S("select",{onchange:()=>r(i.value)});for(let[a,u]of Object.entries(
+"change",()=>{let b=Number(x.value);x.value===""||!Number.isFinite(b)?x.value=String(this.session.document?.[e]):this.set({[e]:i?Math.round(Se(b,o,r)):Se(b,o,r)}),
+this.endDrag()}),this.each(()=>{let b=this.session.document?.[e]??o;V(h,"textContent",n()),kt(x,"aria-label",`${n()}, number`),m(Number(g.value))!==b&&(g.value=
+String(p(b))),kt(g,"aria-valuetext",`${b}${a}`);let M=100*(p(b)-Number(g.min))/(Number(g.max)-Number(g.min));g.style.setProperty("--fill",`${Se(M,0,100)}%`),so(
+x)||V(x,"value",String(b))}),S("div",{className:"row slider"},h,g,x)}select(e,n,o,r,s){let i=S("select",{onchange:()=>r(i.value)});for(let[a,u]of Object.entries(
 n))i.append(S("option",{value:a,textContent:u}));return this.each(()=>{V(i,"value",o()),s&&V(i,"disabled",!s())}),this.row(e,i)}numberInput(e,n,o,r={}){let s=S(
 "input",{type:"number",...r}),{min:i=-1/0,max:a=1/0}=r;return s.addEventListener("change",()=>{s.value!==""&&Number.isFinite(Number(s.value))&&o(Se(Number(s.value),
 i,a))}),this.each(()=>{so(s)||V(s,"value",String(n()))}),this.row(e,s)}checkbox(e,n,o,r=""){let s=S("input",{type:"checkbox",onchange:()=>o(s.checked)});return this.
 each(()=>V(s,"checked",n())),S("label",{className:"check",title:r},s,S("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,
 r=S("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},Kt("close")),s=S("div",{className:"title"},S("h2",{id:o,textContent:e}),
 r),i=S("dialog",{"aria-labelledby":o},s,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),
-i}};var ed=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"]],td={2:"2 a second",10:"10 a second",30:"30 a second",1e3:"full speed"},lr=class{constructor(e){
-this.session=e}playing=!1;drawsPerSecond=10;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.session.hasDraws)return;this.session.act({type:"view",layer:e,
-chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.act({type:"view",layer:"draw",chain:n,draw:e})}play(e){if(this.playing=e,e){let{
-draw:n,draws:o}=this.session;this.showDraw(n>=o.count-1?0:n)}this.session.changed()}playFromStart(){this.showDraw(0),this.playing=!0,this.session.changed()}step(){
-!this.playing||this.session.shown?.layer!=="draw"||setTimeout(()=>{if(!this.playing)return;let{draw:e,draws:n}=this.session;e+1>=n.count?this.play(!1):this.showDraw(
-e+1)},1e3/this.drawsPerSecond)}};function va(t,e,n){let{session:o}=t,r=t.segmented("Show",ed,()=>o.view.layer,u=>e.showLayer(u),u=>u!=="draw"||o.hasDraws),s=(u,p)=>t.
-checkbox(u,()=>n[p],m=>{n[p]=m,o.changed()}),i=s("True walls","truth");t.visible(i,()=>!o.document||o.document.source.kind==="simulation");let a=S("div",{className:"\
-checks",role:"group","aria-label":"Marks"},i,s("Rays","rays"),s("Readings","readings"));return t.section("View",r,nd(t,e),a)}function nd(t,e){let{session:n}=t,o=S(
-"input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener("input",()=>{e.play(!1),e.showDraw(Number(o.value))});let r=t.button("play","\
-Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),s=S("output"),i=S("select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(
-n.draw,Number(i.value))),t.each(()=>{let{chains:p,count:m}=n.draws;V(o,"max",String(Math.max(0,m-1))),V(o,"disabled",m===0),V(o,"value",String(n.draw));let h=m?
-`${n.draw+1} of ${m}`:"none kept";kt(o,"aria-valuetext",h),o.style.setProperty("--fill",`${m>1?100*n.draw/(m-1):0}%`),V(s,"textContent",h),i.length!==Math.max(1,
-p)&&i.replaceChildren(...Array.from({length:Math.max(1,p)},(x,w)=>S("option",{value:String(w),textContent:`chain ${w+1}`}))),V(i,"value",String(n.view.chain)),V(
-i,"disabled",p<2),m<2&&e.playing&&e.play(!1);let g=e.playing?"Pause the draws":"Play the draws";r.getAttribute("aria-label")!==g&&(r.setAttribute("aria-label",g),
-r.replaceChildren(Kt(e.playing?"pause":"play")))});let a=S("select",{"aria-label":"Speed"});for(let[p,m]of Object.entries(td))a.append(S("option",{value:p,textContent:m}));
-a.value=String(e.drawsPerSecond),a.addEventListener("change",()=>e.drawsPerSecond=Number(a.value));let u=t.button(null,"From the first sweep",()=>e.playFromStart(),
-{text:"From the first",when:()=>n.draws.count>1});return t.each(()=>V(a,"disabled",n.draws.count<2)),S("div",{className:"player"},r,o,s,S("div",{className:"butt\
-ons wide"},i,a,u))}function Sa(t){let{session:e}=t,n=S("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=S("output");n.addEventListener("input",
-()=>e.act({type:"scan",index:Number(n.value)}));let r=t.section("Scan",S("div",{className:"player bare"},n,o));return t.each(()=>{let s=e.document?.source.kind===
-"simulation"?0:e.document?.source.scans??0;V(r,"hidden",s<2),V(n,"max",String(Math.max(0,s-1))),so(n)||V(n,"value",String(e.scan?.index??0)),n.style.setProperty(
-"--fill",`${100*Number(n.value)/Math.max(1,s-1)}%`),V(o,"textContent",`${Number(n.value)+1} / ${s}`)}),r}function ka(t,e,n){let{shown:o,status:r}=t,s=o?.layer==="draw"?"draw":t.view.layer==="entropy"?"entropy":"mean";return{document:t.effectiveDocument(),generation:t.
+i}};var ed=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"]],td={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},lr=class{constructor(e){this.session=e}playing=!1;drawsPerSecond=10;showLayer(e){
+if(e!=="draw")this.play(!1);else if(!this.session.hasDraws)return;this.session.act({type:"view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.
+view.chain){this.session.act({type:"view",layer:"draw",chain:n,draw:e})}play(e){if(this.playing=e,e){let{draw:n,draws:o}=this.session;this.showDraw(n>=o.count-1?
+0:n)}this.session.changed()}playFromStart(){this.showDraw(0),this.playing=!0,this.session.changed()}step(){!this.playing||this.session.shown?.layer!=="draw"||setTimeout(
+()=>{if(!this.playing)return;let{draw:e,draws:n}=this.session;e+1>=n.count?this.play(!1):this.showDraw(e+1)},1e3/this.drawsPerSecond)}};function va(t,e,n){let{session:o}=t,
+r=t.segmented("Show",ed,()=>o.view.layer,u=>e.showLayer(u),u=>u!=="draw"||o.hasDraws),s=(u,p)=>t.checkbox(u,()=>n[p],m=>{n[p]=m,o.changed()}),i=s("True walls","\
+truth");t.visible(i,()=>!o.document||o.document.source.kind==="simulation");let a=S("div",{className:"checks",role:"group","aria-label":"Marks"},i,s("Rays","ray\
+s"),s("Readings","readings"));return t.section("View",r,nd(t,e),a)}function nd(t,e){let{session:n}=t,o=S("input",{type:"range",min:0,step:1,"aria-label":"Draw n\
+umber"});o.addEventListener("input",()=>{e.play(!1),e.showDraw(Number(o.value))});let r=t.button("play","Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.
+count>1}),s=S("output"),i=S("select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,Number(i.value))),t.each(()=>{let{chains:p,count:m}=n.
+draws;V(o,"max",String(Math.max(0,m-1))),V(o,"disabled",m===0),V(o,"value",String(n.draw));let h=m?`${n.draw+1} of ${m}`:"none kept";kt(o,"aria-valuetext",h),o.
+style.setProperty("--fill",`${m>1?100*n.draw/(m-1):0}%`),V(s,"textContent",h),i.length!==Math.max(1,p)&&i.replaceChildren(...Array.from({length:Math.max(1,p)},(x,b)=>S(
+"option",{value:String(b),textContent:`chain ${b+1}`}))),V(i,"value",String(n.view.chain)),V(i,"disabled",p<2),m<2&&e.playing&&e.play(!1);let g=e.playing?"Pause\
+ the draws":"Play the draws";r.getAttribute("aria-label")!==g&&(r.setAttribute("aria-label",g),r.replaceChildren(Kt(e.playing?"pause":"play")))});let a=S("selec\
+t",{"aria-label":"Speed"});for(let[p,m]of Object.entries(td))a.append(S("option",{value:p,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener("\
+change",()=>e.drawsPerSecond=Number(a.value));let u=t.button(null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1});
+return t.each(()=>V(a,"disabled",n.draws.count<2)),S("div",{className:"player"},r,o,s,S("div",{className:"buttons wide"},i,a,u))}function Sa(t){let{session:e}=t,
+n=S("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=S("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let r=t.
+section("Scan",S("div",{className:"player bare"},n,o));return t.each(()=>{let s=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;V(r,"hidden",
+s<2),V(n,"max",String(Math.max(0,s-1))),so(n)||V(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,s-1)}%`),V(o,
+"textContent",`${Number(n.value)+1} / ${s}`)}),r}function ka(t,e,n){let{shown:o,status:r}=t,s=o?.layer==="draw"?"draw":t.view.layer==="entropy"?"entropy":"mean";return{document:t.effectiveDocument(),generation:t.
 generation,painted:o&&{generation:o.generation,layer:s,approximate:o.approximate,sweeps:o.sweeps,method:o.method,rhat:o.rhat,verdict:o.verdict,trace:o.trace,traced:o.
 traced,weights:o.weights,ess:o.ess,chain:o.chain,draw:o.draw},probability:o?.p??new Uint8Array(0),observed:o?.observed??new Uint8Array(0),walls:t.walls,sensors:t.
 document?.sensors??[],scan:t.scan,status:{text:r.text,level:r.level},connected:t.connection.connected,worker:t.worker,running:t.running,draws:t.draws,view:t.view,
@@ -646,23 +647,23 @@ return this.packed.version!==this.wallsVersion&&(this.packed={version:this.walls
 text}}portableDocument(){let e=this.effectiveDocument();return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.
 shown=this.next,this.next=null,!0)}painted(){this.counts.paints++,this.shown&&this.latency.painted(this.shown.generation)}remaining_s(){return this.shown&&this.
 sampling?this.progress.remaining_s(this.shown):null}onstatus(e){if(this.connection=e,e.connected){let n=this.everConnected?this.portableDocument():this.adopt;this.
-pending=[],this.latency.forget(),this.bring(n),this.everConnected?this.say("Connected again"):this.notice&&this.say(this.notice.text,this.notice.level),this.everConnected=
-!0,Ta()}else this.everConnected&&(this.say("Connection lost","error"),ks(this.portableDocument()));this.changed()}receive(e,n){switch(e.type){case"welcome":this.
-generation=-1,this.recorded=!!e.recorded,this.latency.forget(),this.next=null;break;case"state":this.receiveState(e);break;case"scan":if(e.generation>=this.generation){
-let{pose:o,angles:r,ranges:s,exact:i,hit:a}=n;this.scan={ids:e.ids??[],index:e.index??null,pose:o,angles:r,ranges:s,exact:i,hit:a}}break;case"field":this.receiveField(
-e,n);break;case"cell":this.cell={x:e.x,y:e.y,beams:e.beams};break;case"status":this.status.say(e.text,e.level??"info",this.acted);break;case"error":this.receiveError(
-e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,
-"info",this.acted);break}this.changed()}receiveError(e){let n=e.refused?.seq??null;n!==null&&n===this.broughtAt&&(this.broughtAt=null,this.act({type:"hello"})),
-this.status.say([e.text,e.remedy].filter(Boolean).join("; "),"error",this.acted),this.pending=this.pending.filter(o=>o.seq!==n),n!==null&&this.latency.refused(n),
-this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,this.generation=Math.max(this.generation,e.generation),this.latency.confirmed(e.generation,
-e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;return}this.generation=
-e.generation;let o=n.p,{trace:r,traced:s,weights:i}=n,a=n.observed,u=this.next??this.shown,m=u&&u.p.length===o.length&&u.bits.every((h,g)=>h===a[g])?{observed:u.
-observed,bits:u.bits}:{observed:to(a,o.length),bits:a};this.next={...e,p:o,trace:r,traced:s,weights:i,...m},this.progress.hear(this.next)}rebuild(){if(!this.state)
-return;let{document:e}=this.state,[n,o]=e.grid.shape,r=this.confirmedWalls;if((e.walls!==r.text||r.walls.length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:to(
-Ut(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(s=>({...s}))},(this.confirmedWalls!==r||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),
-this.wallsVersion++,this.wallsAhead=!1),this.state.view&&!this.pending.some(s=>s.type==="view")){let{layer:s,chain:i,draw:a}=this.state.view;this.view={layer:s??
-"mean",chain:i??0,draw:a??null}}for(let s of this.pending)this.foresee(s)}foresee(e){!this.document||!this.state||(_a(this,e),e.type==="walls"&&(this.wallsVersion++,
-this.wallsAhead=!0))}};var La='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
+pending=[],this.latency.forget(),this.bring(n),this.view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connec\
+ted again"):this.notice&&this.say(this.notice.text,this.notice.level),this.everConnected=!0,Ta()}else this.everConnected&&(this.say("Connection lost","error"),ks(
+this.portableDocument()));this.changed()}receive(e,n){switch(e.type){case"welcome":this.generation=-1,this.recorded=!!e.recorded,this.latency.forget(),this.next=
+null;break;case"state":this.receiveState(e);break;case"scan":if(e.generation>=this.generation){let{pose:o,angles:r,ranges:s,exact:i,hit:a}=n;this.scan={ids:e.ids??
+[],index:e.index??null,pose:o,angles:r,ranges:s,exact:i,hit:a}}break;case"field":this.receiveField(e,n);break;case"cell":this.cell={x:e.x,y:e.y,beams:e.beams};break;case"\
+status":this.status.say(e.text,e.level??"info",this.acted);break;case"error":this.receiveError(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);
+break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,"info",this.acted);break}this.changed()}receiveError(e){let n=e.refused?.
+seq??null;n!==null&&n===this.broughtAt&&(this.broughtAt=null,this.act({type:"hello"})),this.status.say([e.text,e.remedy].filter(Boolean).join("; "),"error",this.
+acted),this.pending=this.pending.filter(o=>o.seq!==n),n!==null&&this.latency.refused(n),this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,
+this.generation=Math.max(this.generation,e.generation),this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){
+if(e.generation<this.generation){this.counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:r,traced:s,weights:i}=n,a=n.observed,u=this.next??this.
+shown,m=u&&u.p.length===o.length&&u.bits.every((h,g)=>h===a[g])?{observed:u.observed,bits:u.bits}:{observed:to(a,o.length),bits:a};this.next={...e,p:o,trace:r,traced:s,
+weights:i,...m},this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.shape,r=this.confirmedWalls;if((e.walls!==
+r.text||r.walls.length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:to(Ut(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(s=>({...s}))},(this.confirmedWalls!==
+r||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,this.wallsAhead=!1),this.state.view&&!this.pending.some(s=>s.type==="view")){
+let{layer:s,chain:i,draw:a}=this.state.view;this.view={layer:s??"mean",chain:i??0,draw:a??null}}for(let s of this.pending)this.foresee(s)}foresee(e){!this.document||
+!this.state||(_a(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var La='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
 ca Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji";line-height: 1.5;width: min-content;}.u-t\
 itle {text-align: center;font-size: 18px;font-weight: bold;}.u-wrap {position: relative;user-select: none;}.u-over, .u-under {position: absolute;}.u-under {over\
 flow: hidden;}.uplot canvas {display: block;position: relative;width: 100%;height: 100%;}.u-axis {position: absolute;}.u-legend {font-size: 14px;margin: auto;te\
@@ -879,17 +880,17 @@ choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?Io.dark
 hatch:a,unobserved:u}=n;for(let[p,m]of Object.entries({truth:o,ray:r,miss:s,sensor:i,hatch:a,unobserved:u}))this.app.style.setProperty(`--${p}`,m);this.dressed(
 this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Ra[this.choice];try{localStorage.setItem(Na,this.choice)}catch{}this.dress()}destroy(){this.media.
 removeEventListener("change",this.listen)}};function id(){try{return localStorage.getItem(Na)}catch{return null}}function dr(t,e,{embedded:n=!1,adopt:o=null,notice:r=null}={}){let s=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(La+Da),s.adoptedStyleSheets=
-[i],t.toggleAttribute("data-embedded",n);let a=0,u=()=>{a||=requestAnimationFrame(Ue)},p=new ur(e,u,o,r),m=new _n,h=new Do(p),g=new Lo(p,h),x=new lr(p),w=new ir(
+[i],t.toggleAttribute("data-embedded",n);let a=0,u=()=>{a||=requestAnimationFrame(Ue)},p=new ur(e,u,o,r),m=new _n,h=new Do(p),g=new Lo(p,h),x=new lr(p),b=new ir(
 p,h,g,ie,q=>x.showLayer(q),n),M=[new Rn,new On,new Nn,new Fo],A=M.map(({name:q})=>S("canvas",{className:q})),L=A[A.length-1];Object.assign(L,{tabIndex:0,role:"a\
-pplication"});let k=new zo(M,A);new Oo(L,p,m,h,g,n);let _=new Ro(L,p,m,h,g),T={truth:!0,rays:!0,readings:!0},j=ca(w),D=Ci(w),Z={chip:fa(w),banner:ha(w)},G=S("ma\
-in",{className:"stage"},...A,Z.chip,Z.banner),R=()=>X.theme,z=ua(w,R),E=ma(w);L.setAttribute("aria-describedby",E.readout.id);let Y=aa(w),I={help:ia(w),new:la(w),
-share:Y.dialog},[K,W,ne,B]=[ya(w),ba(w),wa(w),xa(w)],Ke=[ga(w,ra(w,R),sa(w,R)),va(w,x,T),Sa(w),K,W,ne,B],he=S("aside",{"aria-label":"Controls"},...Ke),re=()=>p.
-recorded||p.document?.source.kind==="run";w.visible(K,()=>p.editable),w.visible(W,()=>!re()),w.visible(ne,()=>!re()),w.visible(B,()=>!re()),w.each(()=>{V(D,"ine\
+pplication"});let k=new zo(M,A);new Oo(L,p,m,h,g,n);let _=new Ro(L,p,m,h,g),T={truth:!0,rays:!0,readings:!0},j=ca(b),D=Ci(b),Z={chip:fa(b),banner:ha(b)},G=S("ma\
+in",{className:"stage"},...A,Z.chip,Z.banner),R=()=>X.theme,z=ua(b,R),E=ma(b);L.setAttribute("aria-describedby",E.readout.id);let Y=aa(b),I={help:ia(b),new:la(b),
+share:Y.dialog},[K,W,ne,B]=[ya(b),ba(b),wa(b),xa(b)],Ke=[ga(b,ra(b,R),sa(b,R)),va(b,x,T),Sa(b),K,W,ne,B],he=S("aside",{"aria-label":"Controls"},...Ke),re=()=>p.
+recorded||p.document?.source.kind==="run";b.visible(K,()=>p.editable),b.visible(W,()=>!re()),b.visible(ne,()=>!re()),b.visible(B,()=>!re()),b.each(()=>{V(D,"ine\
 rt",!p.document),V(he,"inert",!p.document)});let ce=S("div",{className:"app"},j.element,D,G,z,he,E.element,...Object.values(I));s.replaceChildren(ce);let X=new pr(
 ce,q=>{j.nameTheme(q),u()}),H=()=>{let q=p.editable&&h.tool==="sensor"?h.sensor?.id??null:null;return{session:p,view:m,look:{theme:X.theme,...T,hover:h.hover,cursor:h.
 cursor,selected:q}}},Pe="";function Ue(){a=0;let q=p.take();p.document&&String(p.shape)!==Pe&&(Pe=String(p.shape),m.fit(p.shape),h.cursor=h.hover=null,L.setAttribute(
 "aria-label",`Map, ${p.shape[0]} by ${p.shape[1]} cells`)),k.paint(H()),q&&(p.painted(),x.step());let{x:te,y:De}=m.transform;Z.chip.style.transform=`translate(${Math.
-max(te,je.left)}px, ${Math.max(De-28,6)}px)`,kt(L,"data-tool",p.editable?h.tool:"pan"),w.refresh()}let me=new ResizeObserver(()=>{let{width:q,height:te}=G.getBoundingClientRect();
+max(te,je.left)}px, ${Math.max(De-28,6)}px)`,kt(L,"data-tool",p.editable?h.tool:"pan"),b.refresh()}let me=new ResizeObserver(()=>{let{width:q,height:te}=G.getBoundingClientRect();
 !q||!te||(m.resize(q,te,devicePixelRatio||1),m.fitted&&m.fit(p.shape),cancelAnimationFrame(a),Ue())});me.observe(G);async function ie(q){if(q==="in"||q==="out")
 m.zoom(q==="in"?1.4:1/1.4,m.middle,p.shape);else if(q==="fit")m.fit(p.shape);else if(q==="help")I.help.showModal();else if(q==="new")I.new.showModal();else if(q===
 "theme")X.next();else if(q==="add")_.addSensor();else if(q==="share"){let te=p.portableDocument();te&&Y.show(location.origin+location.pathname+await ii(te))}else if(q===
@@ -902,19 +903,19 @@ let De=L.getBoundingClientRect(),Nt=m.fromGrid({x:q+.5,y:te+.5},p.shape[1]);retu
 0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},r=4+e;for(let{name:s,dtype:i,shape:a}of n.buffers){let u=a.reduce((p,m)=>p*m,1)*Ms[i].BYTES_PER_ELEMENT;
 o[s]=new Ms[i](t.slice(r,r+u)),r+=Math.ceil(u/Oa)*Oa}return[n,o]}function Ua(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:r},s)=>{let{buffer:i,byteOffset:a,
 byteLength:u}=e[s];n[o]=new Ms[r](i.slice(a,a+u))}),n}function Ia(t){let{document:e,scans:n,settings:o={},log_joint:r=[]}=t,s=e.grid.shape[0]*e.grid.shape[1],i=t.draws?.count??0,a=e.source.kind!=="simulation",u=Ut(
-t.mean),p=Ut(t.observed),m=null,h=0,g={layer:"mean",chain:0,draw:null},x=R=>a?[R[h]]:R,w=R=>Float32Array.from(x(R).flat(),z=>z??1/0),M=n.angles.length,A=to(Ut(n.
+t.mean),p=Ut(t.observed),m=null,h=0,g={layer:"mean",chain:0,draw:null},x=R=>a?[R[h]]:R,b=R=>Float32Array.from(x(R).flat(),z=>z??1/0),M=n.angles.length,A=to(Ut(n.
 hit),n.pose.length*M),L=()=>a?A.subarray(h*M,(h+1)*M):A,k=Float32Array.from(r.flat()),_=(o.sweeps??i)/Math.max(1,i),T=Float32Array.from(r[0]??[],(R,z)=>(z+1)*_),
 j=R=>{let z={chains:t.draws?.chains??0,count:m?i:0},E={generation:1,can_undo:!1,can_redo:!1,live:!1,running:!1};G.onmessage({type:"state",document:e,seq:R,...E,
-draws:z,view:g},{})},D=()=>{let R=Float64Array.from(x(n.pose).flat(),Number),z={type:"scan",generation:1,ids:a?[h]:n.ids,index:a?h:null},E=n.exact?.length?w(n.exact):
-new Float32Array(0);G.onmessage(z,{pose:R,angles:Float32Array.from(n.angles),ranges:w(n.ranges),exact:E,hit:L()})},Z=()=>{let R=g.layer==="draw"&&m?ld(m,g.chain*
+draws:z,view:g},{})},D=()=>{let R=Float64Array.from(x(n.pose).flat(),Number),z={type:"scan",generation:1,ids:a?[h]:n.ids,index:a?h:null},E=n.exact?.length?b(n.exact):
+new Float32Array(0);G.onmessage(z,{pose:R,angles:Float32Array.from(n.angles),ranges:b(n.ranges),exact:E,hit:L()})},Z=()=>{let R=g.layer==="draw"&&m?ld(m,g.chain*
 i+(g.draw??i-1),s):null,z=r[g.chain]?.[(g.layer==="draw"?g.draw:null)??i-1]??null,E=R?{...g,draw:g.draw??i-1}:{layer:g.layer==="draw"?"mean":g.layer},Y=o.sweeps??
 i,I={sweeps:Y,total:Y,ess:o.ess,rhat:o.rhat,verdict:o.verdict,log_joint:z},K=o.method??e.method,W={p:R??u,observed:p,trace:k,traced:T};G.onmessage({type:"field",
 generation:1,...E,method:K,approximate:!1,...I},W)},G={...jn(),open:()=>G.onstatus({connected:!0}),send:R=>{if(R.type==="hello"){if(G.onmessage({type:"welcome",
 version:1,recorded:!0},{}),j(R.seq),D(),Z(),!i||!t.draws)return;Po(Ut(t.draws.data)).then(z=>{m=z,j(R.seq)})}else if(R.type==="view")g={layer:R.layer,chain:R.chain??
 g.chain,draw:R.draw??null},j(R.seq),Z();else if(R.type==="scan")h=R.index,j(R.seq),D();else if(R.type==="inspect"){let z=ad(e,n.angles,x(n.pose),x(n.ranges),R.x,
 R.y);G.onmessage({type:"cell",x:R.x,y:R.y,beams:z},{})}},close:()=>{}};return G}function ld(t,e,n){let o=e*n;return Uint8Array.from({length:n},(r,s)=>t[o+s>>3]>>
-7-(o+s&7)&1?255:0)}function ad({grid:t},e,n,o,r,s){let{origin:i,resolution:a}=t,u=[i[0]+r*a,i[1]+s*a],p=0;return n.forEach((m,h)=>{let[g,x,w]=m.map(Number);e.forEach(
-(M,A)=>{let[L,k]=[Math.cos(M+w),Math.sin(M+w)],_=[(u[0]-g)/L,(u[0]+a-g)/L,(u[1]-x)/k,(u[1]+a-x)/k],T=Math.max(0,Math.min(_[0],_[1]),Math.min(_[2],_[3])),j=Math.
+7-(o+s&7)&1?255:0)}function ad({grid:t},e,n,o,r,s){let{origin:i,resolution:a}=t,u=[i[0]+r*a,i[1]+s*a],p=0;return n.forEach((m,h)=>{let[g,x,b]=m.map(Number);e.forEach(
+(M,A)=>{let[L,k]=[Math.cos(M+b),Math.sin(M+b)],_=[(u[0]-g)/L,(u[0]+a-g)/L,(u[1]-x)/k,(u[1]+a-x)/k],T=Math.max(0,Math.min(_[0],_[1]),Math.min(_[2],_[3])),j=Math.
 min(o[h][A]??1/0,Math.max(_[0],_[1]),Math.max(_[2],_[3]));T<j&&p++})}),p}var Ts=250,cd=8e3;function za(t){let e=null,n=Ts,o=0,r=!1;function s(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let u=new WebSocket(a),p=!1;e=u,u.binaryType="arraybuffer",u.onopen=()=>{p=!0,n=Ts,i.onstatus({connected:!0})},u.onmessage=({data:m})=>{typeof m==
 "string"?i.onmessage(JSON.parse(m),{}):i.onmessage(...Fa(m))},u.onclose=()=>{if(r||e!==u)return;o=window.setTimeout(s,n);let m={connected:!1,retryIn_ms:n};i.onstatus(
