@@ -1,9 +1,14 @@
 """The page says how far its numbers can be trusted, and what to do where they cannot."""
 
+import base64
+
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from page_driver import act, document, settled, snapshot, until
+
+import bayesmap as bm
+from bayesmap.posterior.diagnostics import bulk_ess
 
 CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, "prior": 0.05, "method": "gibbs"}
 """A noisy sensor beside rare walls: single-site chains keep a wall at (7, 12) that is not there."""
@@ -11,8 +16,6 @@ CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, 
 
 def with_walls(**changes):
     """The same with some walls drawn near y = 14, after which two chains that start alike agree on a wrong answer."""
-    import base64
-
     cells = np.unpackbits(np.frombuffer(base64.b64decode(document()["walls"]), np.uint8), count=441).reshape(21, 21)
     cells[4:9, 14] = 1
     return document(walls=base64.b64encode(np.packbits(cells.ravel()).tobytes()).decode(), **{**CLOSE, **changes})
@@ -82,21 +85,17 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
 
 
 def test_effective_draws_are_those_of_the_whole_trace(open_page, server):
-    import bayesmap.posterior.diagnostics as diagnostics
-
     page = open_page(server, document(sweeps=15_000))
     page.get_by_role("button", name="Run", exact=True).click()
     until(page, "!s.running && s.draws.count === 15000 && s.painted.sweeps === 15000")
     page.get_by_role("button", name="Export").click()
     with page.expect_download() as waiting:
         page.get_by_role("button", name="Saved run").click()
-    import bayesmap as bm
-
     path = waiting.value.path().with_suffix(".nc")
     waiting.value.save_as(path)
     log_joint = bm.load(path).log_joint
     assert log_joint.shape == (2, 15_000)
-    assert snapshot(page)["painted"]["ess"] == pytest.approx(diagnostics.bulk_ess(log_joint), rel=0.01)
+    assert snapshot(page)["painted"]["ess"] == pytest.approx(bulk_ess(log_joint), rel=0.01)
 
 
 def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page, server):
