@@ -1,8 +1,8 @@
 """Makes the pages of the tutorial of their notebooks: prose, code, what each cell prints, and figures.
 
 Run `python docs/tutorial/render.py` from the repository's root for all pages, or name some:
-`python docs/tutorial/render.py localization`. Measured times differ from run to run, so in lines that begin with `time:`
-numbers are rounded.
+`python docs/tutorial/render.py localization`. Measured times differ from run to run, so in lines that begin with
+`time:` numbers are rounded.
 """
 
 import contextlib
