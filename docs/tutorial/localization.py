@@ -144,8 +144,8 @@ def effective_sample_size(log_weights):
 print(f"{N_PRIOR} poses from the prior: effective sample size {effective_sample_size(log_weights):.1f}")
 
 # %% [markdown]
-# On the first page a million maps were worth one. Here a hundred thousand poses are worth a handful. That is no longer
-# hopeless, but most of the work is wasted on places that the readings rule out.
+# On the first page a million maps were worth one. Here a hundred thousand poses are worth little more than one: nearly
+# all of them are at places that the readings rule out. But a pose is three numbers, and three numbers can be searched.
 #
 # ## A grid of poses
 #
@@ -193,13 +193,13 @@ def proposed(key, n):
 
 
 poses, weights = proposed(jrand.key(2), 40_000)
-evidence = [float(jax.scipy.special.logsumexp(w) - jnp.log(len(w))) for w in (log_weights, weights)]
 print(f"{len(poses)} poses from the proposal: effective sample size {effective_sample_size(weights):.0f}")
-print(f"log p(readings), from the mean weight: {evidence[0]:.2f} by the prior, {evidence[1]:.2f} by the proposal")
+evidence = [jax.scipy.special.logsumexp(w) - jnp.log(len(w)) for w in (weights, proposed(jrand.key(20), 40_000)[1])]
+print(f"log p(readings), from the mean weight: {evidence[0]:.2f}, and {evidence[1]:.2f} with other random numbers")
 
 # %% [markdown]
-# Fewer than half as many poses as we drew from the prior, and they are worth hundreds of times as many. Draw from them
-# by weight, and we have the posterior:
+# Fewer than half as many poses as we drew from the prior, and they are worth more than a thousand times as many. Draw
+# from them by weight, and we have the posterior:
 
 # %%
 N = 2_000
@@ -219,10 +219,9 @@ print(f"poses near the true one: {share_right:.0%}")
 print(f"near another place, {other[0]:.1f} m, {other[1]:.1f} m, {other[2]:.1f} rad: {share_other:.0%}")
 
 # %% tags=["hide-input"]
-assert effective_sample_size(log_weights) < 100
+assert effective_sample_size(weights) > 1000 * effective_sample_size(log_weights)
 assert effective_sample_size(on_grid) < 100
-assert effective_sample_size(weights) > 1000
-assert abs(evidence[0] - evidence[1]) < 1.0
+assert abs(evidence[0] - evidence[1]) < 0.2
 assert share_right > 0.2
 assert share_other > 0.2
 assert share_right + share_other > 0.95
@@ -237,15 +236,15 @@ for ax in axes:
 show(figure, "pose-posterior.png", "Where the robot may be after one scan. The arrow is where it is.")
 
 # %% [markdown]
-# Two places explain the scan about equally well, and the posterior says so. A method that returned a single best pose
+# Two places explain the scan, the wrong one even a little better, and the posterior says so. A method that returned a single best pose
 # would have had to guess.
 #
 # ## The robot moves
 #
-# Now it turns on the spot, and then drives a bend. It knows what it told its wheels, a distance and a turn, but the wheels slip: the new pose is
-# normally distributed around the commanded one. After each move it measures again. A generative function of one step
-# takes the pose and the command, and returns the new pose; `scan` strings steps together, so that each takes the pose
-# at which the one before has ended.
+# Now it turns on the spot, and then drives a bend. It knows what it told its wheels, a distance and a turn, but the
+# wheels slip: the new pose is normally distributed around the commanded one. After each move it measures again. A
+# generative function of one step takes the pose and the command, and returns the new pose; `scan` strings steps
+# together, so that each takes the pose at which the one before has ended.
 
 # %%
 N_STEPS, SLIP = 15, jnp.array([0.1, 0.1, 0.05])
@@ -343,7 +342,11 @@ for ax, t in zip(axes, (0, 1, 5, N_STEPS), strict=True):
     way = np.concatenate([true_pose[None], true_path[:t]])
     ax.plot(*way[:, :2].T, color=TRUTH, linewidth=1)
     viz.draw_sensor(ax, way[-1])
-show(figure, "filter.png", "The particles after some steps. Line and arrow: the way that the robot took, and where it is.")
+show(
+    figure,
+    "filter.png",
+    "The particles after some steps. Line and arrow: the way that the robot took, and where it is.",
+)
 
 # %% [markdown]
 # One step, and the wrong place is ruled out: from there, the readings would have been others.
@@ -405,7 +408,7 @@ spread = {"filtered": filtered[..., :2].std(axis=1), "smoothed": smoothed[:, 1:,
 for name, mean in (("filtered", filtered.mean(axis=1)), ("smoothed", smoothed[:, 1:].mean(axis=0))):
     error = jnp.sqrt((distance_m(mean)[3:-1] ** 2).mean())
     claimed = jnp.sqrt((spread[name][3:-1] ** 2).sum(axis=-1).mean())
-    print(f"{name}: {error:.2f} m off from step 4 on (root mean square); the posterior's own spread says {claimed:.2f} m")
+    print(f"{name}: {error:.3f} m off from step 4 on (root mean square); its own spread says {claimed:.3f} m")
 
 # %% [markdown]
 # The two places of the beginning were indistinguishable then; looking back, there is no doubt.
@@ -470,12 +473,13 @@ begin += 0.2 * jrand.normal(jrand.key(8), (8, *begin.shape)) * jnp.array([1.0, 1
 by_edits = chain(jrand.split(jrand.key(9), 8), begin)[:, 100:]
 apart = jnp.linalg.norm(by_edits.mean(axis=(0, 1))[:, :2] - smoothed.mean(axis=0)[:, :2], axis=-1)
 print(f"mean places by particles and by edits are {apart.mean():.3f} m apart on average, {apart.max():.3f} m at most")
-print(f"their spreads: {smoothed[..., :2].std(axis=0).mean():.3f} m and {by_edits[..., :2].std(axis=(0, 1)).mean():.3f} m")
+spreads = smoothed[..., :2].std(axis=0).mean(), by_edits[..., :2].std(axis=(0, 1)).mean()
+print(f"their spreads: {spreads[0]:.3f} m and {spreads[1]:.3f} m")
 
 # %% tags=["hide-input"]
 assert near(smoothed[:, 0], true_pose).mean() > 0.99
-assert apart.max() < 0.05
-assert abs(smoothed[..., :2].std(axis=0).mean() - by_edits[..., :2].std(axis=(0, 1)).mean()) < 0.015
+assert apart.max() < 0.08
+assert abs(spreads[0] - spreads[1]) < 0.015
 assert (spread["smoothed"][:-1] ** 2).sum() < 0.9 * (spread["filtered"][:-1] ** 2).sum()
 figure, axes = on_the_map("filtered: step by step", "smoothed: 40 trajectories", size_in=4.0)
 for t in range(N_STEPS):
