@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
-from bayesmap.gen.closure import Closure
+from bayesmap.gen.closure import GenerativeFunctionClosure
 from bayesmap.gen.densities import flip
 from bayesmap.gen.generative_function import GenerativeFunction
 from bayesmap.gen.pytree import Pytree, dataclass, static
@@ -196,7 +196,7 @@ def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
 
 @gen
 def _poses_map_and_readings(pose_prior: GenerativeFunction, prior: _Walls, sensor: PoseSensor) -> Any:
-    poses = (pose_prior if isinstance(pose_prior, Closure) else pose_prior()) @ "poses"
+    poses = (pose_prior if isinstance(pose_prior, GenerativeFunctionClosure) else pose_prior()) @ "poses"
     walls = prior.draw() @ "walls"
     readings = sensor(walls, poses) @ "readings"
     return poses, walls, readings
