@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from bayesmap.sim import worlds as worlds
     from bayesmap.sim.forward import ranges as ranges
     from bayesmap.sim.forward import simulate as simulate
+    from bayesmap.sim.odometry import OdometryNoise as OdometryNoise
+    from bayesmap.sim.odometry import simulate_odometry as simulate_odometry
     from bayesmap.space.grid import Grid as Grid
     from bayesmap.space.scans import Reading as Reading
     from bayesmap.space.scans import Scans as Scans
@@ -46,6 +48,7 @@ _HOME = {
     "Grid": "bayesmap.space.grid",
     "Independent": "bayesmap.cells.binary",
     "MapWidget": "bayesmap.app.widget",
+    "OdometryNoise": "bayesmap.sim.odometry",
     "Reading": "bayesmap.space.scans",
     "Run": "bayesmap.result",
     "Scans": "bayesmap.space.scans",
@@ -59,6 +62,7 @@ _HOME = {
     "read_log": "bayesmap.io.logs",
     "score": "bayesmap.result",
     "simulate": "bayesmap.sim.forward",
+    "simulate_odometry": "bayesmap.sim.odometry",
     "worlds": "bayesmap.sim.worlds",
 }
 

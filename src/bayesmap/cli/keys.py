@@ -112,6 +112,9 @@ SIMULATE = (
     Key("fov", float, None, "Field of view in degrees.", "360 in the tutorial, else 180", metavar="DEGREES"),
     Key("max_range", float, None, "Of the sensor.", "42 in the tutorial, else 30", metavar="METRES"),
     Key("sensor", str, "default", "Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL"),
+    Key("odometry", str, "true", "Poses of the log: true, typical, or with numbers (see above).", metavar="ODOMETRY"),
+    Key("laser", str, "0,0,0", "Where the laser sits on the robot.", metavar="X,Y,DEGREES"),
+    Key("speed", float, 0.5, "Of the robot with --odometry, for the stamps.", metavar="M_PER_S"),
     SEED,
 )
 
