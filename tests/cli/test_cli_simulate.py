@@ -11,7 +11,7 @@ from bayesmap.cli.odometry import odometry_of
 from bayesmap.errors import BadInput
 from bayesmap.io.logs import describe_log
 from bayesmap.sim.odometry import OdometryNoise
-from bayesmap.space.se2 import between, compose, interpolate
+from bayesmap.space.planar import between, compose, interpolate
 
 SMALL = ("--world", "building", "--size", "12x8", "--resolution", "0.25", "--scans", "15", "--angles", "60")
 

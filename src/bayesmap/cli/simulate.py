@@ -75,7 +75,7 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
     from bayesmap.io.carmen_writer import write_carmen
     from bayesmap.io.map_server import write_map
     from bayesmap.sim.forward import simulate
-    from bayesmap.space.se2 import compose
+    from bayesmap.space.planar import compose
 
     base = world.poses
     laser = compose(base, np.array(mount)) if any(mount) else base
@@ -142,7 +142,7 @@ def _write_truth(
     from bayesmap.io.relations import write_relations
     from bayesmap.io.tum import write_trajectory
     from bayesmap.sim.relations import related_pairs
-    from bayesmap.space.se2 import between
+    from bayesmap.space.planar import between
 
     outputs = [write_trajectory(trajectory, laser, stamps_s)]
     start, end = related_pairs(base, seed)

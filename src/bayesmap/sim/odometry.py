@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
+from bayesmap.space.planar import between, compose, interpolate, wrapped
 from bayesmap.space.scans import as_poses
-from bayesmap.space.se2 import between, compose, interpolate, wrap
 
 STANDING_M = 1e-9
 """A shorter straight has no direction: the step is one turn."""
@@ -129,8 +129,8 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
     distance = np.hypot(steps[:, 0], steps[:, 1])
     first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
     backwards = np.abs(first) > math.pi / 2  # a robot that reverses does not turn about first
-    first = np.where(backwards, wrap(first + math.pi), first)
-    last = wrap(steps[:, 2] - first)
+    first = np.where(backwards, wrapped(first + math.pi), first)
+    last = wrapped(steps[:, 2] - first)
     signed = np.where(backwards, -distance, distance)
 
     turned = np.abs(first) + np.abs(last)
@@ -145,7 +145,7 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
     slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance + turned))
     reported = reported + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
     last = last + np.where(slipped, noise.slip_rad * normals[:, 3], 0.0)
-    return np.stack([reported * np.cos(first), reported * np.sin(first), wrap(first + last)], axis=-1)
+    return np.stack([reported * np.cos(first), reported * np.sin(first), wrapped(first + last)], axis=-1)
 
 
 def _accumulated(start: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.space.se2 import between, compose, interpolate, inverse, wrap
+from bayesmap.space.planar import between, compose, interpolate, inverse, wrapped
 
 NUMBER = st.floats(-50, 50)
 POSE = st.tuples(NUMBER, NUMBER, NUMBER).map(np.array)
@@ -34,7 +34,7 @@ def test_between_leads_from_one_to_the_other(a, b):
 
 @pytest.mark.parametrize(("angle", "same"), [(np.pi, -np.pi), (-np.pi, -np.pi), (7.0, 7.0 - 2 * np.pi), (0.5, 0.5)])
 def test_angles_are_wrapped_into_one_turn(angle, same):
-    assert wrap(np.array(angle)) == pytest.approx(same)
+    assert wrapped(np.array(angle)) == pytest.approx(same)
 
 
 def test_shapes_broadcast():
@@ -44,5 +44,5 @@ def test_shapes_broadcast():
 def test_poses_in_between_lie_on_the_way_by_the_shorter_turn():
     stamps, poses = np.array([0.0, 2.0]), np.array([[0.0, 0.0, 3.0], [2.0, 0.0, -3.0]])
     middle = interpolate(stamps, poses, np.array([1.0]))[0]
-    assert abs(wrap(middle[2] - np.pi)) < 1e-9
+    assert abs(wrapped(middle[2] - np.pi)) < 1e-9
     np.testing.assert_allclose(interpolate(stamps, poses, np.array([-5.0, 7.0])), poses)
