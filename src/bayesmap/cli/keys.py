@@ -22,7 +22,7 @@ PICTURES = (
     "figure", "mean", "entropy", "width", "deviation", "draw", "residuals", "surprise", "log-odds", "surfaces", "trace",
     "weights", "animation",
 )  # fmt: skip
-EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "geotiff")
+EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "trajectory", "g2o", "geotiff")
 
 
 @dataclass(frozen=True)
