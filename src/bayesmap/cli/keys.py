@@ -153,6 +153,7 @@ EXPORT = (
 
 SCORE = (
     Key("holdout", int, 10, "Every n-th scan was held out when the run was made.", metavar="N"),
+    Key("resolution", float, 0.1, "Of the map that is inferred for a trajectory without one, metres."),
     *READING,
     SEED,
 )
