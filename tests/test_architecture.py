@@ -25,7 +25,7 @@ LEVELS = (
     {"samplers"},
     {"run"},
     {"posterior"},
-    {"io", "viz"},
+    {"io", "viz", "localize"},
     {"result"},
     {"field_result"},  # the same for maps whose cells stop some beams
     {"loading"},

@@ -158,6 +158,12 @@ SCORE = (
     SEED,
 )
 
+LOCALIZE = (
+    Key("beam_weight", float, None, "How much of an independent observation a beam is.", "see docs/localization.md"),
+    *READING,
+    SEED,
+)
+
 SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "infer": INFER,
     "simulate": SIMULATE,
@@ -165,5 +171,6 @@ SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "render": RENDER,
     "export": EXPORT,
     "score": SCORE,
+    "localize": LOCALIZE,
 }
 """The tables of a configuration file: one a command."""

@@ -15,11 +15,14 @@ from bayesmap.space.trajectory import ellipses
 
 Floats = NDArray[np.float64]
 
-NEAR_M, NEAR_RAD = 0.3, np.radians(10.0)
+NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)
 """Poses closer than this, one by one, belong to one mode."""
 
 FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])
 """No mode is narrower: so few weighted poses cannot say it."""
+
+LINKING = 0.995
+"""Share of the weight whose poses link others into modes."""
 
 LEAST_MODE = 1e-4
 """Modes less likely than this are not listed."""
@@ -79,6 +82,7 @@ class PoseBelief:
         p_lost: probability that it is not: the scan is as a scan anywhere else, or the map outdated.
         nats_per_beam: log density of the scan's readings under the best pose, by their number.
         stamp_s: when, or None.
+        mode_of: which mode each pose belongs to, (N,); None: poses near each other make one.
     """
 
     poses: Floats
@@ -86,11 +90,12 @@ class PoseBelief:
     p_lost: float
     nats_per_beam: float
     stamp_s: float | None = None
+    mode_of: NDArray[np.intp] | None = None
 
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The places where the robot may be, the likeliest first."""
-        label = _clusters(self.poses, self.weights)
+        label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         found = []
         for one in np.unique(label):
             own = label == one
@@ -188,13 +193,15 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
 
 
 def _clusters(poses: Floats, weights: Floats) -> NDArray[np.intp]:
-    """Labels of poses that are linked by steps of less than `NEAR_M` and `NEAR_RAD`; the weightless join the nearest."""
+    """Labels of poses that are linked by steps of less than `NEAR_M` and `NEAR_RAD`; weightless ones join the nearest."""
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     turn = NEAR_M / NEAR_RAD
     seat = np.column_stack([poses[:, :2], turn * np.sin(poses[:, 2]), turn * np.cos(poses[:, 2])])
-    heavy = np.flatnonzero(weights > 1e-9 * weights.max())
+    order = np.argsort(-weights, kind="stable")
+    # Those that hold nearly all weight: strays between two modes must not link them.
+    heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING * weights.sum())) + 1]
     tree = cKDTree(seat[heavy])
     _, own = connected_components(tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix"), directed=False)
     label = np.empty(len(poses), dtype=np.intp)

@@ -9,7 +9,7 @@ anywhere.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,14 @@ from scipy.special import expit, logsumexp
 
 from bayesmap.localize.belief import PoseBelief
 from bayesmap.localize.known_map import KnownMap
-from bayesmap.localize.particles import Places, Population, adapted, draw_population
+from bayesmap.localize.particles import (
+    Places,
+    Population,
+    adapted,
+    draw_population,
+    groups_of,
+    proposal_log_density,
+)
 from bayesmap.localize.search import search
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import wrapped
@@ -28,6 +35,9 @@ CANDIDATES = 24
 KEPT = 5
 """Places that are weighed with all beams and draws, at most."""
 
+ROUNDS, NEARLY = 5, 0.6
+"""Places are adapted so often at most, or until weights hardly have to be tempered."""
+
 FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
 """How far a searched pose may be from the best one near it."""
 
@@ -37,6 +47,9 @@ UNIFORM_DRAWS = 3000
 LOST_AT_FIRST = 0.02
 GETS_LOST, IS_FOUND = 1e-3, 0.05
 """Chance, a scan, that a robot on the map is lost, and that a lost one is back."""
+
+FIT_WEIGHT = 0.15
+"""How much of an independent observation a beam is for the question whether a scan fits the map at all."""
 
 CARRIED = 1e-3
 """Chance, a scan, that the robot was carried to anywhere on the map."""
@@ -84,9 +97,7 @@ class Prior:
         return np.asarray(np.logaddexp(own, flat + np.log(self.uniform)))
 
 
-def update(
-    known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool
-) -> PoseBelief:
+def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
     """The posterior of a scan's pose.
 
     Args:
@@ -98,20 +109,25 @@ def update(
     """
 
     def target(thin: int, draws: int | None) -> _Target:
-        return _Target(known, prior, scan, thin, draws)
+        return _Target(known, prior, scan, thin, draws, known.beam_weight)
 
     thin = max(1, len(scan.angles_rad) // 60)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
+    group = None
     if starts is None:
         population = _everywhere(known, target(thin, 1), rng)
     else:
         if len(starts.means) > 1:
-            rough = draw_population(starts, target(thin, 1), 16, rng)
-            starts = adapted(starts, rough).best(2 * KEPT)
-        middle = draw_population(starts, target(thin, 1), 24, rng)
-        starts = adapted(starts, middle).best(KEPT)
-        population = draw_population(starts, target(1, None), 40 if len(starts.means) == 1 else 24, rng)
-    return _belief(known, prior, scan, population)
+            starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
+            starts = starts.best(2 * KEPT)
+        for _ in range(ROUNDS):
+            starts, power = adapted(starts, draw_population(starts, target(thin, 1), 32, rng))
+            starts = starts.best(KEPT)
+            if power > NEARLY:
+                break
+        population = draw_population(starts, target(1, None), 64 if len(starts.means) == 1 else 40, rng)
+        group = groups_of(starts, population.poses)
+    return _belief(known, prior, scan, population, group, rng)
 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> Places | None:
@@ -141,6 +157,7 @@ class _Target:
     scan: Scan
     thin: int
     draws: int | None
+    weight: float
 
     def __call__(self, poses: Floats) -> Floats:
         density = np.array(self.prior.log_density(poses, self.known))
@@ -148,7 +165,7 @@ class _Target:
         if possible.any():
             scan = self.scan
             density[possible] += self.known.log_likelihood(
-                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws
+                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws, self.weight
             )
         return density
 
@@ -163,16 +180,53 @@ def _everywhere(known: KnownMap, target: _Target, rng: np.random.Generator) -> P
     return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp))
 
 
-def _belief(known: KnownMap, prior: Prior, scan: Scan, population: Population) -> PoseBelief:
-    evidence = population.log_evidence
-    elsewhere = known.log_elsewhere(scan.ranges_m)
+def _belief(
+    known: KnownMap,
+    prior: Prior,
+    scan: Scan,
+    population: Population,
+    group: NDArray[np.intp] | None,
+    rng: np.random.Generator,
+) -> PoseBelief:
+    """The posterior of a population, with the chance of being lost."""
+    weights = population.weights
+    if not np.isfinite(population.log_evidence):
+        weights = np.full(len(population.poses), 1.0 / len(population.poses))
+    if group is None:
+        group = np.zeros(len(weights), dtype=np.intp)  # spread over the whole map: one mode
+    unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group)
+    if not np.isfinite(scan.ranges_m).any():
+        return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
+    evidence, fit = _fit(known, prior, scan, unsure, rng)
+    elsewhere = known.log_elsewhere(scan.ranges_m, max(FIT_WEIGHT, known.beam_weight))
     with np.errstate(divide="ignore"):
         odds = np.log(prior.lost) - np.log1p(-prior.lost) + elsewhere - evidence
-    weights = population.weights if np.isfinite(evidence) else np.full(len(population.poses), 1 / len(population.poses))
-    best = population.poses[[int(np.argmax(weights))]]
+    return replace(unsure, p_lost=float(expit(odds)), nats_per_beam=fit)
+
+
+def _fit(
+    known: KnownMap, prior: Prior, scan: Scan, belief: PoseBelief, rng: np.random.Generator
+) -> tuple[float, float]:
+    """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam at the best pose.
+
+    With beams that weigh `FIT_WEIGHT`: whether a scan fits at all is clearer than where exactly it does.
+    """
+    weight = max(FIT_WEIGHT, known.beam_weight)
+    thin = max(1, len(scan.angles_rad) // 60)
+    target = _Target(known, prior, scan, thin, 1, weight)
+    mode = belief.modes[0]
+    shrunk = mode.covariance * known.beam_weight / weight + 1e-8 * np.eye(3)
+    places = Places(mode.mean[None], shrunk[None], np.zeros(1))
+    population = draw_population(places, target, 32, rng)
+    for _ in range(ROUNDS):
+        places, power = adapted(places, population)
+        population = draw_population(places, target, 32, rng)
+        if power > NEARLY:
+            break
+    best = population.poses[[int(np.argmax(population.log_weights + proposal_log_density(places, population.poses)))]]
     beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
-    fit = known.log_likelihood(best, scan.angles_rad, scan.ranges_m, scan.limits)[0] / known.beam_weight / beams
-    return PoseBelief(population.poses, weights, float(expit(odds)), float(fit), scan.stamp_s)
+    top = known.log_likelihood(best, scan.angles_rad, scan.ranges_m, scan.limits, weight=weight)[0]
+    return population.log_evidence, float(top / weight / beams)
 
 
 def _mixture_log_density(places: Places, poses: Floats) -> Floats:

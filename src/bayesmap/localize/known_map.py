@@ -28,7 +28,7 @@ DRAWS = 4
 PASSABLE = 0.3
 """A robot may be in observed cells that stop fewer beams than this."""
 
-BEAM_WEIGHT = 0.15
+BEAM_WEIGHT = 0.03
 """How much of an independent observation a beam is: its log-likelihood counts by so much. Beams of one scan err
 together, by what the map has wrong and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4) advise
 such a power. Set so that modes come true as often as they say, on the Intel log and in simulated offices
@@ -63,9 +63,7 @@ class KnownMap:
     beam_weight: float = BEAM_WEIGHT
 
     @classmethod
-    def of_run(
-        cls, run: Any, *, draws: int = DRAWS, beam_weight: float = BEAM_WEIGHT, device: str = "cpu"
-    ) -> KnownMap:
+    def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float = BEAM_WEIGHT, device: str = "cpu") -> KnownMap:
         """The map of a run that `bayesmap.infer` or `bayesmap.load` gave.
 
         Args:
@@ -77,7 +75,6 @@ class KnownMap:
         Raises:
             BadInput: a run without draws, or a sensor model of the user's own.
         """
-        from bayesmap.kernels.pose_weights import pack_map
         from bayesmap.posterior.predictor import predictor_of
 
         predictor = predictor_of(run.posterior)
@@ -88,16 +85,52 @@ class KnownMap:
                 if number in wanted:
                     chosen.append(state.copy())
                 number += 1
-        seen, occupancy = np.asarray(run.observed), np.asarray(run.occupancy, dtype=np.float64)
-        free: NDArray[np.bool_] = np.logical_and(seen, occupancy < PASSABLE)
+        return cls.of_draws(
+            np.stack(chosen), run.grid, predictor.sensor, run.posterior.scans, occupancy=np.asarray(run.occupancy),
+            observed=np.asarray(run.observed), hit_depth=predictor.hit_depth, beam_weight=beam_weight, device=device,
+        )  # fmt: skip
+
+    @classmethod
+    def of_draws(
+        cls,
+        states: NDArray[np.float32],
+        grid: Grid,
+        sensor: SensorModel,
+        scans: Scans,
+        *,
+        occupancy: Floats,
+        observed: NDArray[np.bool_],
+        hit_depth: float = 0.5,
+        beam_weight: float = BEAM_WEIGHT,
+        device: str = "cpu",
+    ) -> KnownMap:
+        """A map by its draws, from wherever they come.
+
+        Args:
+            states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
+            grid: of the map.
+            sensor: the law of a reading.
+            scans: typical ones, for what readings are like anywhere.
+            occupancy: mean chance that each cell stops a beam, (nx, ny).
+            observed: cells of which something is known, (nx, ny).
+            hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
+            beam_weight: see `BEAM_WEIGHT`.
+            device: where to compute.
+
+        Raises:
+            BadInput: no free cell, or a sensor model of the user's own.
+        """
+        from bayesmap.kernels.pose_weights import pack_map
+
+        known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
+        free: NDArray[np.bool_] = np.logical_and(observed, known < PASSABLE)
         if not free.any():
             raise BadInput("localize: the map has no free cell in which a robot could be")
-        scans = run.posterior.scans
         return cls(
-            grid=run.grid,
-            packed=pack_map(np.stack(chosen), run.grid, predictor.hit_depth, device),
-            sensor=_compilable(predictor.sensor),
-            field=likelihood_field(np.where(seen, occupancy, 0.0), run.grid, free),
+            grid=grid,
+            packed=pack_map(states, grid, hit_depth, device),
+            sensor=_compilable(sensor),
+            field=likelihood_field(known, grid, free),
             free=free,
             elsewhere=_anywhere(scans),
             max_range_m=scans.max_range_m,
@@ -111,14 +144,20 @@ class KnownMap:
 
     def is_free(self, poses: Floats) -> NDArray[np.bool_]:
         """Which poses lie in free cells, (P,)."""
-        cells = np.floor(self.grid.to_cells(poses[:, :2])).astype(int)
-        inside = (cells >= 0).all(axis=1) & (cells < self.grid.shape).all(axis=1)
-        x, y = np.where(inside[:, None], cells, 0).T
-        return np.logical_and(inside, self.free[x, y])
+        x, y = np.floor(self.grid.to_cells(poses[:, :2])).astype(int).T
+        nx, ny = self.grid.shape
+        inside = (x >= 0) & (y >= 0) & (x < nx) & (y < ny)
+        return np.asarray(inside & self.free.ravel()[np.where(inside, x * ny + y, 0)], dtype=np.bool_)
 
     def log_likelihood(
-        self, poses: Floats, angles_rad: Floats, ranges_m: Floats, limits: RangeLimits, thin: int = 1,
+        self,
+        poses: Floats,
+        angles_rad: Floats,
+        ranges_m: Floats,
+        limits: RangeLimits,
+        thin: int = 1,
         draws: int | None = None,
+        weight: float | None = None,
     ) -> Floats:
         """Log-likelihood of a scan at each pose, averaged over draws of the map, each beam by its weight, (P,).
 
@@ -131,6 +170,7 @@ class KnownMap:
             limits: of the sensor.
             thin: look at every so many-th beam.
             draws: and at so many draws only.
+            weight: of a beam; the map's own if None.
         """
         from bayesmap.kernels.pose_weights import scan_log_likelihood
 
@@ -138,15 +178,15 @@ class KnownMap:
             self.packed, poses, angles_rad[::thin], ranges_m[::thin], self.sensor, limits, draws=draws, threads=1
         )
         used = max(1, int((~np.isnan(ranges_m[::thin])).sum()))
-        scale = self.beam_weight * int((~np.isnan(ranges_m)).sum()) / used
+        scale = (self.beam_weight if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
         return np.asarray(logsumexp(scale * found, axis=1) - np.log(found.shape[1]))
 
-    def log_elsewhere(self, ranges_m: Floats) -> float:
+    def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
         """The same for a scan that was taken somewhere else: each reading by how common it is."""
         hit = np.isfinite(ranges_m)
         bins = np.clip((ranges_m[hit] / self.max_range_m * BINS).astype(int), 0, BINS - 1)
         total = self.elsewhere[bins].sum() + np.isposinf(ranges_m).sum() * self.elsewhere[BINS]
-        return float(self.beam_weight * (total + np.isneginf(ranges_m).sum() * self.elsewhere[0]))
+        return float(weight * (total + np.isneginf(ranges_m).sum() * self.elsewhere[0]))
 
 
 def _anywhere(scans: Scans) -> Floats:

@@ -126,8 +126,8 @@ def localize(
 
     Args:
         run: a run with draws, or a `KnownMap` of one, which saves preparing it again.
-        scans: one, or several in order of time. Their poses are taken for odometry: only the motion from one to the next
-            is looked at, not the poses themselves.
+        scans: one, or several in order of time. Their poses are taken for odometry: only the motion from one to the
+            next is looked at, not the poses themselves.
         prior: of the first scan's pose; None: it may be anywhere in the map.
         odometry: how far off motions are; by default that of a usual robot.
         independent: locate each scan by itself, as if nothing were known of motions.

@@ -22,6 +22,13 @@ DOF = 5.0
 LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])
 """A proposal is never narrower than this."""
 
+OVERLAP = 2.0
+SAME = np.array([0.2, 0.2, np.radians(7.0)])
+"""Places closer than this in all three are one mode in any case."""
+
+COUNTING = 0.3
+"""Share of a place's draws that must count; weights are tempered until they do."""
+
 NEGLIGIBLE_NATS = 15.0
 
 
@@ -95,20 +102,40 @@ def draw_population(
     return Population(poses, np.minimum(log_weights, most), np.repeat(np.arange(count), each))
 
 
+def groups_of(places: Places, poses: Floats) -> NDArray[np.intp]:
+    """Labels of poses by place, places that overlap (closer than `OVERLAP` standard deviations) taken together, (P,)."""
+    from scipy.sparse.csgraph import connected_components
+
+    off = places.means[:, None] - places.means
+    off[..., 2] = wrapped(off[..., 2])
+    both = np.linalg.inv(places.covariances[:, None] + places.covariances)
+    near = np.einsum("kli,klij,klj->kl", off, both, off) < OVERLAP**2
+    near |= (np.abs(off) < SAME).all(axis=2)
+    _, group = connected_components(near, directed=False)
+    return np.asarray(group[_student_logs(places, poses).argmax(axis=1)], dtype=np.intp)
+
+
 def proposal_log_density(places: Places, poses: Floats) -> Floats:
     """Log density of the mixture of Student distributions, all places alike, (P,)."""
+    return np.asarray(logsumexp(_student_logs(places, poses), axis=1) - np.log(len(places.means)))
+
+
+def _student_logs(places: Places, poses: Floats) -> Floats:
+    """Log density of each place's Student distribution, (P, K)."""
     off = poses[:, None] - places.means
     off[..., 2] = wrapped(off[..., 2])
     inverse = np.linalg.inv(places.covariances)
     squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
     constant = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
-    logs = constant + 0.5 * np.linalg.slogdet(inverse)[1] - 0.5 * (DOF + 3) * np.log1p(squared / DOF)
-    return np.asarray(logsumexp(logs, axis=1) - np.log(len(places.means)))
+    return np.asarray(constant + 0.5 * np.linalg.slogdet(inverse)[1] - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
 
 
-def adapted(places: Places, population: Population, widen: float = 1.5) -> Places:
-    """Places moved to where their draws have their weight."""
-    count = len(places.means)
+def adapted(places: Places, population: Population, widen: float = 1.5) -> tuple[Places, float]:
+    """Places moved to where their draws have their weight, and the least power that weights were tempered by.
+
+    A power of 1 says that the proposals are near the target; less, that another round will bring them nearer.
+    """
+    count, least = len(places.means), 1.0
     means, covariances, log_mass = places.means.copy(), places.covariances.copy(), np.full(count, -np.inf)
     for k in range(count):
         own = population.place == k
@@ -119,8 +146,8 @@ def adapted(places: Places, population: Population, widen: float = 1.5) -> Place
         # Tempered until several draws count: one that outweighs all others says nothing of a spread.
         power = 1.0
         weights = np.exp(logs - top)
-        while 1.0 / (weights**2).sum() < 6.0 and power > 1e-3:
-            power *= 0.7
+        while 1.0 / (weights**2).sum() < COUNTING * own.sum() and power > 1e-3:
+            power *= 0.8
             weights = np.exp(power * logs - logsumexp(power * logs))
         off = population.poses[own] - means[k]
         off[:, 2] = wrapped(off[:, 2])
@@ -129,4 +156,5 @@ def adapted(places: Places, population: Population, widen: float = 1.5) -> Place
         covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(LEAST_SD**2)
         means[k] += shift
         log_mass[k] = top
-    return Places(means, covariances, log_mass)
+        least = min(least, power)
+    return Places(means, covariances, log_mass), least

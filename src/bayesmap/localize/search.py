@@ -21,6 +21,9 @@ HEADINGS = 90
 POINTS = 48
 """Of a scan, in the coarse search: about evenly spaced by beams."""
 
+FEWEST = 8
+"""Fewer points fall on walls anywhere."""
+
 FINE_POINTS = 90
 BLOCK = 4
 """Coarse cells to a side of the squares of which the best position is kept, for every heading."""
@@ -63,12 +66,12 @@ def search(field: Field, angles_rad: Floats, ranges_m: Floats, most: int) -> Can
         most: so many poses at most, all more than `APART_M` or `APART_RAD` from each other.
 
     Returns:
-        Candidates; none for a scan without hits.
+        Candidates; none for a scan with fewer hits than `FEWEST`.
     """
     points = end_points(angles_rad, ranges_m, POINTS)
-    if len(points) == 0 or not field.open.any():
+    coarse = _coarse_poses(field, points) if len(points) >= FEWEST else np.empty((0, 3))
+    if len(coarse) == 0:
         return Candidates(np.empty((0, 3)), np.empty(0))
-    coarse = _coarse_poses(field, points)
     return refine(field, end_points(angles_rad, ranges_m, FINE_POINTS), coarse, most)
 
 
