@@ -25,7 +25,7 @@ LEVELS = (
     {"samplers"},
     {"run"},
     {"posterior"},
-    {"io", "viz", "localize"},
+    {"io", "viz", "localization"},
     {"result"},
     {"field_result"},  # the same for maps whose cells stop some beams
     {"loading"},

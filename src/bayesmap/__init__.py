@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from bayesmap.field_result import FieldRun as FieldRun
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.loading import load as load
-    from bayesmap.localize.known_map import KnownMap as KnownMap
-    from bayesmap.localize.localize import Near as Near
-    from bayesmap.localize.localize import localize as localize
+    from bayesmap.localization.known_map import KnownMap as KnownMap
+    from bayesmap.localization.localize import Near as Near
+    from bayesmap.localization.localize import localize as localize
     from bayesmap.programs.mapping import mapping_model as mapping_model
     from bayesmap.result import Run as Run
     from bayesmap.result import score as score
@@ -50,10 +50,9 @@ _HOME = {
     "Gaussian": "bayesmap.sensors.noise",
     "Grid": "bayesmap.space.grid",
     "Independent": "bayesmap.cells.binary",
-    "Independent": "bayesmap.cells.priors",
-    "KnownMap": "bayesmap.localize.known_map",
+    "KnownMap": "bayesmap.localization.known_map",
     "MapWidget": "bayesmap.app.widget",
-    "Near": "bayesmap.localize.localize",
+    "Near": "bayesmap.localization.localize",
     "OdometryNoise": "bayesmap.sim.odometry",
     "Reading": "bayesmap.space.scans",
     "Run": "bayesmap.result",
@@ -63,7 +62,7 @@ _HOME = {
     "Surface": "bayesmap.cells.surface",
     "infer": "bayesmap.api",
     "load": "bayesmap.loading",
-    "localize": "bayesmap.localize.localize",
+    "localize": "bayesmap.localization.localize",
     "mapping_model": "bayesmap.programs.mapping",
     "ranges": "bayesmap.sim.forward",
     "read_log": "bayesmap.io.logs",

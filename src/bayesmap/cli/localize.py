@@ -18,8 +18,8 @@ from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
-    from bayesmap.localize.belief import PoseBelief
-    from bayesmap.localize.localize import Localization, Near
+    from bayesmap.localization.belief import PoseBelief
+    from bayesmap.localization.localize import Localization, Near
 
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 
@@ -60,8 +60,8 @@ def command(
     values = call.values()
     from bayesmap.io.logs import read_log
     from bayesmap.loading import load
-    from bayesmap.localize.known_map import BEAM_WEIGHT, KnownMap
-    from bayesmap.localize.localize import localize
+    from bayesmap.localization.known_map import BEAM_WEIGHT, KnownMap
+    from bayesmap.localization.localize import localize
 
     target = None if output is None else _target(output, force)
     near, corners = _near(prior), _area(area)
@@ -155,7 +155,7 @@ def _numbers(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[f
 
 
 def _near(text: str | None) -> Near | None:
-    from bayesmap.localize.localize import Near
+    from bayesmap.localization.localize import Near
 
     if text is None:
         return None

@@ -95,7 +95,7 @@ def score_map(call: Call, path: str, placed: Placed, seed: int) -> tuple[Fitted,
 def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
     """The posterior over surfaces given a trajectory, from the training scans."""
     from bayesmap.api import infer
-    from bayesmap.cells.cell_priors import Surface
+    from bayesmap.cells.surface import Surface
     from bayesmap.space.grid import Grid
 
     grid = Grid.covering(placed.train, values["resolution"])

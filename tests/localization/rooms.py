@@ -3,7 +3,7 @@
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.localize.known_map import KnownMap
+from bayesmap.localization.known_map import KnownMap
 
 LASER = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.02, p_no_return=0.01, p_short=0.01)
 ANGLES = np.arange(36) * 2 * np.pi / 36

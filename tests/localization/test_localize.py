@@ -5,8 +5,8 @@ import pytest
 from rooms import ANGLES, LASER, known, offset, scan_from, walls_of
 
 import bayesmap as bm
-from bayesmap.localize.known_map import KnownMap
-from bayesmap.localize.localize import Near, localize
+from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.localize import Near, localize
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import between, compose
 

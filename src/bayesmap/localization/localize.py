@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
-from bayesmap.localize.belief import Mode, PoseBelief, Region
-from bayesmap.localize.filter import CARRIED, GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
-from bayesmap.localize.known_map import KnownMap
-from bayesmap.localize.particles import LEAST_SD, Places
+from bayesmap.localization.belief import Mode, PoseBelief, Region
+from bayesmap.localization.filter import CARRIED, GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
+from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.particles import LEAST_SD, Places
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.se2 import rotation
 from bayesmap.sensors.model import RangeLimits

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.localize.field import Field
+from bayesmap.localization.field import Field
 from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from rooms import ANGLES, offset, scan_from, walls_of
 
-from bayesmap.localize.field import likelihood_field
-from bayesmap.localize.search import APART_M, APART_RAD, HEADINGS, POINTS, _coarse_poses, end_points, refine, search
+from bayesmap.localization.field import likelihood_field
+from bayesmap.localization.search import APART_M, APART_RAD, HEADINGS, POINTS, _coarse_poses, end_points, refine, search
 from bayesmap.space.planar import wrapped
 
 

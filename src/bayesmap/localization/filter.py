@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit, logsumexp
 
-from bayesmap.localize.belief import PoseBelief
-from bayesmap.localize.known_map import KnownMap
-from bayesmap.localize.particles import (
+from bayesmap.localization.belief import PoseBelief
+from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.particles import (
     Places,
     Population,
     adapted,
@@ -25,7 +25,7 @@ from bayesmap.localize.particles import (
     groups_of,
     proposal_log_density,
 )
-from bayesmap.localize.search import search
+from bayesmap.localization.search import search
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import wrapped
 

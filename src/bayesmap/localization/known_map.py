@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.special import logsumexp
 
 from bayesmap.errors import BadInput
-from bayesmap.localize.field import Field, likelihood_field
+from bayesmap.localization.field import Field, likelihood_field
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.noise import Gaussian

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.localize.belief import PoseBelief
+from bayesmap.localization.belief import PoseBelief
 
 
 def belief(p_lost=0.0, count=3000):
