@@ -3,7 +3,8 @@
 A point of scan i, moved into the frame of scan j, is paired with the nearest point of j, which is looked for among the
 beams that point that way (Blais and Levine 1995; Censi 2008 for planar scans). Its residual e is its distance from the
 wall there, along the mean of the two normals, with Geman and McClure's weight (1 + e^2 / c^2)^-2. Where neither has a
-normal the residual is the offset itself, in x and y, and weighs less: points of such surfaces are not the same points.
+normal the residual is the offset itself, in x and y, and weighs less: returns of one surface lie apart by the distance
+between beams there, and those of two scans are not the same points.
 
 With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives of
 half the cost by z (Gauss and Newton's). ``slack`` is what normals that are known with errors add to H although they
@@ -84,6 +85,22 @@ def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int
 
 
 @wp.func
+def neighbour_distance(scene: Scene, j: int, beam: int) -> float:
+    """How far the nearer of the points of the next beams is, from 0.1 to 2 m: returns of a surface lie so far apart."""
+    beams = scene.kind.shape[1]
+    nearest = float(2.0)
+    here = scene.points[j, beam]
+    for side in range(2):
+        c = beam - 1 + 2 * side
+        if scene.full_circle != 0:
+            c = (c + beams) % beams
+        if c >= 0 and c < beams:
+            if scene.kind[j, c] != wp.uint8(0):
+                nearest = wp.min(nearest, wp.length(scene.points[j, c] - here))
+    return wp.max(nearest, 0.1)
+
+
+@wp.func
 def pair_scans(
     scene: Scene,
     weights: wp.array2d(dtype=wp.float32),
@@ -160,7 +177,6 @@ def pair_scans(
             e = ux * dx + uy * dy
             w = 1.0 / (1.0 + e * e / (scale * scale))
             w = w * w
-            full = w
             w = w * weights[i, b]
             j2 = uy * rx - ux * ry
             h00 += w * ux * ux
@@ -184,9 +200,7 @@ def pair_scans(
             total += w
             matched += 1
         elif not own and not theirs:
-            # Two returns of something without a wall's direction: half a beam's width apart at least.
-            away = wp.sqrt(x * x + y * y)
-            apart = wp.max(0.05, 0.5 * scene.step * away)
+            apart = 0.5 * neighbour_distance(scene, j, other)
             e2 = dx * dx + dy * dy
             w = 1.0 / (1.0 + e2 / (scale * scale + apart * apart))
             w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)

@@ -88,6 +88,8 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, thr
     from scipy.spatial import cKDTree
 
     count = len(poses)
+    if count < 2:
+        return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
     tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
     # A heading that differs by half a turn is as far as 3 m.
     distance, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
@@ -172,8 +174,8 @@ def align(
             on_progress(number + 1)
         if share >= 1.0 and number > rounds // 2 + 1 and np.abs(step).max() < 2e-4:
             break
-    matched = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
-    matched /= np.maximum(np.bincount(pairs.source, minlength=count), 1)
+    shares = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
+    matched = shares / np.maximum(np.bincount(pairs.source, minlength=count), 1)
     assert gaussian is not None
     return Alignment(poses, pairs, sigma, gaussian, matched)
 

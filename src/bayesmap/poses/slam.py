@@ -97,6 +97,7 @@ class _Run:
         self.scans, self.threads, self.device = scans, threads, device
         self.stages, self.progress = stages, progress
         self.motions, self.impossible = stated_motions(scans.poses, scans.stamps_s)
+        self.stated = scans.poses
         self.no_odometry = no_odometry
 
     def geometry(self, angles_rad: Floats) -> ScanGeometry:
@@ -109,6 +110,7 @@ class _Run:
         angles, ratio = scans.angles_rad, 1.0
         geometry = self.geometry(angles)
         track = self.front_end(geometry)
+        self.go_backwards(track.against)
         keys = track.keys
         closed = self.stages.get("loops", lambda: self.loops(geometry, track))
         half_width_m = grid_half_width(geometry)
@@ -164,6 +166,15 @@ class _Run:
 
         return Track(**self.stages.get("front-end", compute))  # type: ignore[arg-type]
 
+    def go_backwards(self, against: NDArray[np.bool_]) -> None:
+        """Take motions that scans contradict in their direction the other way round."""
+        if not self.no_odometry and against.any():
+            self.motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
+            poses = [self.stated[0]]
+            for motion in self.motions:
+                poses.append(compose(poses[-1], motion))
+            self.stated = np.array(poses)
+
     def loops(self, geometry: ScanGeometry, track: Track) -> Arrays:
         closed = close_loops(
             geometry, track, on_progress=lambda done: self.progress("loops", done, 3), threads=self.threads
@@ -176,7 +187,8 @@ class _Run:
     def first_factors(self, track: Track) -> Factors:
         if self.no_odometry:
             return chain_factors(track)
-        return corrected_factors(self.scans, self.motions, self.impossible, track.keys, track.slope, track.noise_ratios)
+        return corrected_factors(
+            self.stated, self.scans.stamps_s, self.motions, self.impossible, track.keys, track.slope, track.noise_ratios)
 
     def odometry(self, aligned: Alignment, keys: NDArray[np.intp], track: Track) -> tuple[OdometryFit | None, Factors]:
         if self.no_odometry:
@@ -184,9 +196,9 @@ class _Run:
         order = np.arange(len(keys) - 1)
         covariance = aligned.gaussian.relative_covariances(order, order + 1)
         variance = np.diagonal(covariance, axis1=1, axis2=2)
-        fit = fit_odometry(self.scans.poses, self.scans.stamps_s, aligned.poses, keys, variance)
+        fit = fit_odometry(self.stated, self.scans.stamps_s, aligned.poses, keys, variance)
         return fit, corrected_factors(
-            self.scans, self.motions, self.impossible, keys, fit.slope, fit.ratios, lag_s=fit.lag_s
+            self.stated, self.scans.stamps_s, self.motions, self.impossible, keys, fit.slope, fit.ratios, lag_s=fit.lag_s
         )
 
     def align(
