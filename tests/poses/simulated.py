@@ -45,7 +45,9 @@ def path_around(laps=1.2, step_m=0.15, width_m=9.0, depth_m=7.0, corridor_m=2.0)
 def scans_of(walls, poses, beams=180, noise_m=0.01, seed=0, max_range_m=12.0, full=False):
     """Scans of a laser at true poses."""
     rng = np.random.default_rng(seed)
-    angles = np.linspace(-np.pi, np.pi, beams, endpoint=False) if full else -np.pi / 2 + np.pi / beams * np.arange(beams)
+    angles = (
+        np.linspace(-np.pi, np.pi, beams, endpoint=False) if full else -np.pi / 2 + np.pi / beams * np.arange(beams)
+    )
     starts = np.repeat(poses[:, :2], beams, axis=0) / RESOLUTION
     directions = (poses[:, 2:3] + angles).ravel()
     distance, _ = cast(walls, starts, directions, max_range_m / RESOLUTION)
@@ -61,7 +63,10 @@ def odometry_of(poses, seed=1, noise=1.0, turn_bias=0.0, scale=1.0):
     travelled = np.hypot(motions[:, 0], motions[:, 1])
     wrong = motions * np.array([scale, scale, 1.0])
     wrong[:, 2] += turn_bias * travelled
-    sigma = np.stack([0.05 * travelled + 0.002, 0.05 * travelled + 0.002, 0.05 * np.abs(motions[:, 2]) + 0.03 * travelled + 0.001], -1)
+    sigma = np.stack(
+        [0.05 * travelled + 0.002, 0.05 * travelled + 0.002, 0.05 * np.abs(motions[:, 2]) + 0.03 * travelled + 0.001],
+        -1,
+    )
     wrong = wrong + noise * sigma * rng.normal(size=wrong.shape)
     result = [np.array([1.0, 2.0, 0.5])]
     for motion in wrong:

@@ -3,7 +3,15 @@
 import numpy as np
 
 from bayesmap.poses.graph import (
-    ANCHOR, RIDGE, Factors, factorised, normal_equations, optimise, quadratic, relative_covariances, solve_step,
+    ANCHOR,
+    RIDGE,
+    Factors,
+    factorised,
+    normal_equations,
+    optimise,
+    quadratic,
+    relative_covariances,
+    solve_step,
 )
 from bayesmap.poses.se2 import between_jacobians, retract
 from bayesmap.space.planar import between, compose
@@ -74,7 +82,9 @@ def test_the_optimum_has_no_slope():
 
 def test_a_wrong_loop_is_not_believed():
     wrong = Factors(np.array([0]), np.array([6]), np.array([[9.0, 4.0, 1.0]]), np.eye(3)[None] / 0.02**2)
-    both = Factors(*(np.concatenate([getattr(LOOP, n), getattr(wrong, n)]) for n in ("first", "second", "relative", "information")))
+    both = Factors(
+        *(np.concatenate([getattr(LOOP, n), getattr(wrong, n)]) for n in ("first", "second", "relative", "information"))
+    )
     poses, weights = optimise(POSES, CHAIN, both)
     assert weights[-1] < 0.01
     assert (weights[:3] > 0.5).all()

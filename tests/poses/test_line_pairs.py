@@ -1,6 +1,7 @@
 """Point-to-line pairs: derivatives, and what errors of normals add to them."""
 
 import numpy as np
+from simulated import path_around, ring, scans_of
 
 from bayesmap.kernels.line_pairs import pair_sums
 from bayesmap.poses.alignment import without_slack
@@ -8,7 +9,6 @@ from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.se2 import transform
 from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
-from simulated import path_around, ring, scans_of
 
 TRUTH = path_around()
 ANGLES, RANGES = scans_of(ring(), TRUTH[:12], noise_m=0.005)
@@ -61,7 +61,7 @@ def kernel(i, j, z):
 
 def test_sums_equal_the_plain_formula():
     for i, j in ((3, 1), (5, 2), (11, 8)):
-        z = between(TRUTH[j], TRUTH[i]) + [0.02, -0.03, 0.01]
+        z = between(TRUTH[j], TRUTH[i]) + np.array([0.02, -0.03, 0.01])
         second, first, cost = plain(i, j, z)
         found_second, _, found_first, totals = kernel(i, j, z)
         np.testing.assert_allclose(found_second, second, rtol=2e-3, atol=2e-2)

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from simulated import off, recording
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
-from simulated import off, recording
 
 SCANS, TRUTH = recording(turn_bias=0.03, noise=2.0)
 
@@ -46,7 +46,10 @@ def test_scans_out_of_order_give_the_same_poses(trajectory):
     shuffled = np.random.default_rng(3).permutation(len(SCANS))
     again = infer_trajectory(SCANS.select(shuffled), threads=1)
     np.testing.assert_array_equal(again.poses, trajectory.poses)
-    np.testing.assert_array_equal(SCANS.stamps_s[np.argsort(shuffled)][again.order.argsort()], SCANS.stamps_s[shuffled.argsort()][again.order.argsort()])
+    np.testing.assert_array_equal(
+        SCANS.stamps_s[np.argsort(shuffled)][again.order.argsort()],
+        SCANS.stamps_s[shuffled.argsort()][again.order.argsort()],
+    )
 
 
 def test_covariances_are_symmetric_and_grow_with_the_way(trajectory):
@@ -108,7 +111,9 @@ def test_an_interrupted_run_goes_on_where_it_was(tmp_path, trajectory):
     with pytest.raises(Enough):
         infer_trajectory(SCANS, threads=1, checkpoint=tmp_path, on_progress=stop)
     seen = []
-    result = infer_trajectory(SCANS, threads=1, checkpoint=tmp_path, on_progress=lambda stage, done, of: seen.append(stage))
+    result = infer_trajectory(
+        SCANS, threads=1, checkpoint=tmp_path, on_progress=lambda stage, done, of: seen.append(stage)
+    )
     assert "front end" not in seen
     np.testing.assert_array_equal(result.poses, trajectory.poses)
 
@@ -119,7 +124,9 @@ def test_an_empty_hall_leaves_odometry_as_it_is():
     ranges[0, 0] = 5.0
     scans = replace(SCANS.select(slice(0, 30)), ranges_m=ranges)
     result = infer_trajectory(scans, threads=1)
-    np.testing.assert_allclose(between(result.poses[0], result.poses[20]), between(scans.poses[0], scans.poses[20]), atol=0.02)
+    np.testing.assert_allclose(
+        between(result.poses[0], result.poses[20]), between(scans.poses[0], scans.poses[20]), atol=0.02
+    )
 
 
 def test_bad_input_is_refused():

@@ -9,8 +9,8 @@ odometry's stamps are late by ``lag``, its motion is that of another interval. B
 and what is left is the noise. From B follow the laser's place on the robot and the scale of odometry.
 
 Angles: a scan with a wrong angle between its beams is stretched around the laser, and neighbouring scans no longer fit.
-The step is that of the lowest residual. The first beam's angle stays as stated: turning all beams is the same as turning
-the laser on the robot, which B tells.
+The step is that of the lowest residual. The first beam's angle stays as stated: to turn all beams is to turn the
+laser on the robot, which B tells.
 """
 
 from __future__ import annotations
@@ -119,11 +119,16 @@ def fit_odometry(
             design[:, 9] = change[:, axis]
             normal += design.T @ (design * weight[:, axis : axis + 1])
             moment += design.T @ (error[:, axis] * weight[:, axis])
-        coefficients = np.linalg.solve(normal, moment)
+        coefficients = np.asarray(np.linalg.solve(normal, moment), np.float64)
         coefficients[9] = np.clip(coefficients[9], -MOST_LAG_S, MOST_LAG_S)
         covariance = np.linalg.inv(normal)
         rest = _left(error, motion, change, coefficients)
-        ratio = np.array([_ratio(rest[:, :2], base[:, :2], laser_variance[:, :2]), _ratio(rest[:, 2:], base[:, 2:], laser_variance[:, 2:])])
+        ratio = np.array(
+            [
+                _ratio(rest[:, :2], base[:, :2], laser_variance[:, :2]),
+                _ratio(rest[:, 2:], base[:, 2:], laser_variance[:, 2:]),
+            ]
+        )
     deviation = np.sqrt(np.diag(covariance))
     return OdometryFit(
         coefficients[:9].reshape(3, 3), deviation[:9].reshape(3, 3), float(coefficients[9]) if timed else 0.0,
@@ -132,7 +137,7 @@ def fit_odometry(
 
 
 def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:
-    rest = error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change
+    rest: Floats = error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change
     rest[:, 2] = wrapped(rest[:, 2])
     return rest
 
@@ -164,8 +169,10 @@ def angle_step_ratio(
     Args:
         scans: S scans.
         poses: (S, 3).
-        source, target: pairs of scans that overlap.
+        source: of pairs of scans that overlap.
+        target: of the same pairs.
         farthest_m: hits beyond are left out.
+        threads: to compute with; by default all cores.
 
     Returns:
         The factor; 1 where no scans are turned against each other.

@@ -107,6 +107,7 @@ def follow(
         stamps_s: (S,), needed where there is no odometry.
         impossible: motions that no robot can have made, (S - 1,): they are taken to be unknown.
         on_progress: called with the number of scans that are done.
+        threads: to compute with; by default all cores.
     """
     count = len(geometry)
     half_width_m = grid_half_width(geometry)
@@ -236,7 +237,7 @@ def _place(
     usual: float,
     threads: int | None,
 ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
-    """Poses, information by the laser in their own frames, scores, and whether the motion was against what is stated."""
+    """Poses, information by the laser in their own frames, scores, and whether motions were against those stated."""
     points = [geometry.points_of(int(scan), POINTS) for scan in batch]
     sigma = np.sqrt(variance)
     half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
@@ -270,10 +271,10 @@ def _place(
     certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
     turn = rotation(predicted[:, 2])
     prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)
-    found, told, _ = refine_scans(
+    placed, told, _ = refine_scans(
         geometry, None, batch.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(near),
         np.tile(near, jobs).astype(np.int32), np.tile(poses[near], (jobs, 1)), start, predicted, prior_information,
         POINT_SIGMA_M, STEPS, REACH_M, SCALE_M, ALIKE, threads=threads,
     )  # fmt: skip
-    back = rotation(found[:, 2])
-    return found, np.swapaxes(back, 1, 2) @ told @ back, score, turned
+    own = rotation(placed[:, 2])
+    return placed, np.swapaxes(own, 1, 2) @ told @ own, score, turned

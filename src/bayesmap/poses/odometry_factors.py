@@ -85,7 +85,7 @@ def composed(
         relative[active] = compose(relative[active], motion)
     relative[:, 2] = wrapped(relative[:, 2])
     order = np.arange(len(keys) - 1)
-    factors = Factors(order, order + 1, relative, np.linalg.inv(covariance + np.eye(3) * 1e-9))
+    factors = Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64))
     if rejected is None:
         return factors
     bad = np.concatenate([[0], np.cumsum(rejected)])

@@ -60,11 +60,11 @@ class Calibration:
 class Trajectory:
     """Poses of all scans with their uncertainty.
 
-    The uncertainty is that of a Gaussian (Student's t with 4 degrees of freedom) over the poses of key scans, in which the
-    scans between them move with the key scan nearest in time, plus their own.
+    The uncertainty is that of a Gaussian (Student's t with 4 degrees of freedom) over the poses of key scans; scans
+    between them move with the key scan nearest in time, plus an uncertainty of their own.
 
     Attributes:
-        poses: of the laser, in the map's frame: the first scan's pose is the origin unless odometry stated another; (S, 3).
+        poses: of the laser, in the map's frame, in which the first scan is where odometry stated it; (S, 3).
         stamps_s: (S,), ascending, or None.
         keys: indices of the key scans, (K,).
         gaussian: over the poses of the key scans.
