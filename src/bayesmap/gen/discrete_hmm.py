@@ -54,7 +54,7 @@ class _Posterior(Distribution):
         config, observations = args
         start, move, emit = _log_probabilities(config)
         steps = start[value[0]] + move[value[:-1], value[1:]].sum()
-        return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)  # type: ignore[no-any-return]
+        return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)
 
     def data_logpdf(self, config: DiscreteHMMConfiguration, observations: IntArray) -> Score:
         """The log probability of the observations."""

@@ -77,13 +77,12 @@ def particle_filter(
 
     start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
     inputs = (jnp.arange(n), xs, vectorise(constraint, n))
-    carry = (start, jnp.zeros(k), None)
+    carry: Any = (start, jnp.zeros(k), None)
     if not history:
         shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
         carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
-    (states, log_weights, particles), kept = jax.lax.scan(step, carry, inputs, length=n)
-    if history:
-        particles = _trajectories(kernel, args, n, states, *kept)
+    (states, log_weights, last), kept = jax.lax.scan(step, carry, inputs, length=n)
+    particles: Any = _trajectories(kernel, args, n, states, *kept) if history else last
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
 
@@ -107,5 +106,5 @@ def _trajectories(
 
     inner, carries, y = jax.tree.map(ordered, (traces, carries, y))
     model = scan(n=n)(kernel)
-    each = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (model, args))
-    return ScanTrace(*each, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))
+    fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (model, args))
+    return ScanTrace(fn, args, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))
