@@ -71,7 +71,7 @@ def particle_filter(
             after, y = trace.get_retval()
             return (trace if not history else trace.with_args(None)), weight, after, y
 
-        traces, weights, after, y = jax.vmap(move)(jax.random.split(move_key, k), states)
+        traces, weights, after, y = jax.vmap(move)(_streams(move_key, k), states)
         kept = (traces, states, y, parents) if history else None
         return (after, log_weights + weights, None if history else traces), kept
 
@@ -85,6 +85,19 @@ def particle_filter(
     particles: Any = _trajectories(kernel, args, n, states, *kept) if history else last
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
+
+
+def _streams(key: PRNGKey, k: int) -> PRNGKey:
+    """`k` keys for as many streams, as `jax.random.split` gives them, but without a draw for each.
+
+    Threefry's streams are independent for any two keys (Salmon et al., Parallel random numbers: as easy as 1, 2, 3,
+    2011), so keys may count.
+    """
+    if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
+        return jax.random.split(key, k)
+    first, second = jax.random.key_data(key)
+    words = jnp.stack([jnp.broadcast_to(first, (k,)), second + jnp.arange(k, dtype=second.dtype)], axis=1)
+    return jax.random.wrap_key_data(words, impl="threefry2x32")
 
 
 def _trajectories(
