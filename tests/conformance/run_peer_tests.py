@@ -1,6 +1,6 @@
 """Run GenJAX 0.10.3's own tests on `bayesmap.gen`; print which do not pass.
 
-    .venv/bin/python tests/conformance/run_peer_tests.py [FOLDER OR FILE OF THEM ...]
+.venv/bin/python tests/conformance/run_peer_tests.py [FOLDER OR FILE OF THEM ...]
 """
 
 import os
