@@ -9,7 +9,7 @@ BIN := .venv/bin
 INSTALL := PIP_CONSTRAINT=constraints.txt $(BIN)/python -m pip install --quiet
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: demo test lint docs bench clean
+.PHONY: demo test lint page docs bench clean
 .DEFAULT_GOAL := demo
 
 .venv/core: pyproject.toml constraints.txt
@@ -37,18 +37,22 @@ lint: .venv/dev           ## style and types; the page's too where there is npm
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	@if ! command -v npm >/dev/null; then echo "skipped: the page's types, for want of npm"; \
-	elif ! $(MAKE) --no-print-directory tools/node_modules; then echo "skipped: the page's types, npm cannot install TypeScript"; \
-	else tools/node_modules/.bin/tsc --project tools; fi
+	elif ! $(MAKE) --no-print-directory page/node_modules; then echo "skipped: the page's types, npm cannot install TypeScript"; \
+	else npm --prefix page run --silent check && npm --prefix page run --silent fresh; fi
 
 docs: .venv/docs          ## the site, in build/site; it works without a network
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 
-tools/node_modules: tools/package-lock.json
-	npm --prefix tools ci --silent
+page: page/node_modules   ## build the page's one file from its sources; node is needed for this alone
+	npm --prefix page run --silent check
+	npm --prefix page run --silent build
+
+page/node_modules: page/package-lock.json
+	npm --prefix page ci --silent
 	@touch $@
 
 bench: .venv/dev          ## speed against peers and against the committed baseline; DEVICE=cuda:0 for a GPU
 	$(BIN)/python -m benchmarks.run --device $(or $(DEVICE),cpu) $(BENCH)
 
 clean:                    ## remove what the commands above made
-	rm -rf .venv .bench runs build dist tools/node_modules .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf .venv .bench runs build dist page/node_modules .pytest_cache .ruff_cache .mypy_cache .hypothesis

@@ -93,7 +93,7 @@ def drag(page: Any, seconds: float, name: str) -> None:
     page.evaluate("bayesmap.snapshot().events.eventToPaint_ms.length = 0")
     found = page.evaluate(
         """([seconds, rate]) => new Promise((done) => {
-          const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas");
+          const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas[role=application]");
           const s = bayesmap.snapshot();
           const { resolution, origin } = s.document.grid;
           const robot = s.sensors[0];

@@ -25,7 +25,7 @@ LEVELS = (
     {"samplers"},
     {"run"},
     {"posterior"},
-    {"io", "viz"},
+    {"io", "viz", "localization"},
     {"result"},
     {"field_result"},  # the same for maps whose cells stop some beams
     {"loading"},
@@ -180,8 +180,6 @@ SCRIPTS = [
     for path in sorted(folder.rglob(f"*.{ending}"))
     if "node_modules" not in path.parts
 ]
-KNOWN_LONG = {"mapview.js"}
-"""As above: on its way out, to be deleted here when it is short, or built of short ones."""
 
 
 def too_long(path):
@@ -191,7 +189,7 @@ def too_long(path):
 
 
 def test_scripts_of_the_page_are_short():
-    assert {path.name for path in SCRIPTS if too_long(path)} == KNOWN_LONG
+    assert {path.name for path in SCRIPTS if too_long(path)} == set()
 
 
 def test_a_long_script_is_noticed(tmp_path):

@@ -27,6 +27,7 @@ import jax
 import jax.numpy as jnp
 import jax.random as jrand
 import numpy as np
+from drawing import panels, show
 
 # %% Functions that draw tags=["hide-input"]
 from drawing import panels, show

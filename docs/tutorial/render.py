@@ -1,8 +1,8 @@
 """Makes the pages of the tutorial of their notebooks: prose, code, what each cell prints, and figures.
 
 Run `python docs/tutorial/render.py` from the repository's root for all pages, or name some:
-`python docs/tutorial/render.py localization`. Measured times differ from run to run, so in lines that begin with `time:`
-numbers are rounded.
+`python docs/tutorial/render.py localization`. Measured times differ from run to run, so in lines that begin with
+`time:` numbers are rounded.
 """
 
 import contextlib
@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 HERE = Path(__file__).parent
-PAGES = ("mapping", "gibbs", "kernels")
+PAGES = ("mapping", "gibbs", "kernels", "localization", "both")
 """In the order in which they are read: each `NAME.py` makes `NAME.md`."""
 FOLDED = 'tags=["hide-input"]'
 """On the line that begins a cell: its code is folded away, as Jupyter Book does it; what it prints is shown."""

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from bayesmap.errors import BadInput as BadInput
     from bayesmap.from_odometry import slam as slam
     from bayesmap.io.logs import read_log as read_log
+    from bayesmap.localization.known_map import KnownMap as KnownMap
+    from bayesmap.localization.localize import Near as Near
+    from bayesmap.localization.localize import localize as localize
     from bayesmap.poses.prior import Known as Known
     from bayesmap.poses.prior import Odometry as Odometry
     from bayesmap.poses.prior import Uncertain as Uncertain
@@ -37,6 +40,8 @@ if TYPE_CHECKING:
     from bayesmap.sim import worlds as worlds
     from bayesmap.sim.forward import ranges as ranges
     from bayesmap.sim.forward import simulate as simulate
+    from bayesmap.sim.odometry import OdometryNoise as OdometryNoise
+    from bayesmap.sim.odometry import simulate_odometry as simulate_odometry
     from bayesmap.space.grid import Grid as Grid
     from bayesmap.space.scans import Reading as Reading
     from bayesmap.space.scans import Scans as Scans
@@ -49,7 +54,10 @@ _HOME = {
     "Gaussian": "bayesmap.sensors.noise",
     "Grid": "bayesmap.space.grid",
     "Independent": "bayesmap.cells.binary",
+    "KnownMap": "bayesmap.localization.known_map",
     "MapWidget": "bayesmap.app.widget",
+    "Near": "bayesmap.localization.localize",
+    "OdometryNoise": "bayesmap.sim.odometry",
     "Reading": "bayesmap.space.scans",
     "Run": "bayesmap.result",
     "Scans": "bayesmap.space.scans",
@@ -58,6 +66,7 @@ _HOME = {
     "Surface": "bayesmap.cells.surface",
     "infer": "bayesmap.api",
     "load": "bayesmap.result",
+    "localize": "bayesmap.localization.localize",
     "mapping_model": "bayesmap.programs.mapping",
     "ranges": "bayesmap.sim.forward",
     "read_log": "bayesmap.io.logs",
@@ -67,6 +76,7 @@ _HOME = {
     "Known": "bayesmap.poses.prior",
     "Uncertain": "bayesmap.poses.prior",
     "Odometry": "bayesmap.poses.prior",
+    "simulate_odometry": "bayesmap.sim.odometry",
     "worlds": "bayesmap.sim.worlds",
 }
 

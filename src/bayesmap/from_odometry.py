@@ -64,24 +64,18 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
     # All trajectories share the first pose: it is the frame of the map.
     drawn = found.draw(chains, seed)[:, keys]
     starts = compose(poses[0], between(drawn[:, :1], drawn))
-    return KeyScans(scans, _prior_of(in_time, found), starts)
+    return KeyScans(scans, _prior_of(found), starts)
 
 
-def _prior_of(log: Scans, found: Trajectory) -> PosePrior:
-    keys, fit = found.keys, found.calibration.odometry
-    if fit is None:
-        still = np.zeros((len(keys) - 1, 3))
-        return Motions(still, still + np.array([FREE_M, FREE_M, FREE_RAD]))
-    from bayesmap.poses.odometry_factors import corrected_factors
-    from bayesmap.poses.odometry_motion import stated_motions
-
-    motions, impossible = stated_motions(log.poses, log.stamps_s)
-    factors = corrected_factors(log, motions, impossible, keys, fit.slope, fit.ratios, lag_s=fit.lag_s)
-    relative = np.zeros((len(keys) - 1, 3))
-    sigmas = relative + np.array([FREE_M, FREE_M, FREE_RAD])  # where the log jumps, nothing is stated
-    covariance = np.linalg.inv(factors.information)
-    relative[factors.first] = factors.relative
-    sigmas[factors.first] = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+def _prior_of(found: Trajectory) -> PosePrior:
+    """Odometry between the key scans; where it says nothing, a robot may have gone anywhere nearby."""
+    relative = np.zeros((len(found.keys) - 1, 3))
+    sigmas = relative + np.array([FREE_M, FREE_M, FREE_RAD])
+    factors = found.odometry
+    if factors is not None:
+        covariance = np.linalg.inv(factors.information)
+        relative[factors.first] = factors.relative
+        sigmas[factors.first] = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
     return Motions(relative, sigmas)
 
 

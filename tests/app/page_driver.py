@@ -59,7 +59,7 @@ def served(*arguments):
             process.wait(20)
 
 
-DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/gibbs|block/.test(s.document.method)"
+DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/auto|gibbs|block/.test(s.document.method)"
 
 
 def document(**changes):

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.document import BOUNDS, Document, Refused, Sensor, WallMap, parse_document
+from bayesmap.app.document import BOUNDS, Document, Refused, Sensor, WallMap
+from bayesmap.app.parsing import parse_document, parse_simulation
 from bayesmap.app.scanning import simulate_document, standard_noise
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.space.grid import Grid
@@ -38,7 +39,10 @@ def documents(draw):
         noise=draw(st.floats(0, 5)),
         angles=draw(st.integers(10, 1000)),
         max_range=draw(st.floats(0.1, 10_000)),
-        method=draw(st.sampled_from(["gibbs", "block", "propagate", "importance"])),
+        fov=draw(st.floats(0.1, 6.28)),
+        readings=draw(st.sampled_from(["noisy", "exact"])),
+        start=draw(st.sampled_from(["auto", "prior", "empty"])),
+        method=draw(st.sampled_from(["auto", "gibbs", "block", "propagate", "importance"])),
         order=draw(st.sampled_from(["raster", "radial", "random"])),
         sweeps=draw(st.integers(1, 100_000)),
         seed=draw(st.integers(0, 2**31 - 1)),
@@ -95,12 +99,34 @@ GOOD = tutorial_document().to_json()
         ("method", "exact", "method"),
         ("method", ["gibbs"], "method"),
         ("order", None, "order"),
-        ("source", {"kind": "log", "name": "/etc/passwd"}, "file"),
+        ("source", {"kind": "log", "name": "/etc/passwd"}, "scans"),
+        ("source", {"kind": "log", "name": "", "scans": 3}, "name"),
+        ("source", {"kind": "folder"}, "kind"),
+        ("fov", 7.0, "field of view"),
+        ("max_range", -5, "longest range"),
+        ("start", "here", "start"),
+        ("readings", 3, "readings"),
     ],
 )
 def test_what_a_document_may_not_hold_is_refused_by_name(key, value, named):
     with pytest.raises(Refused, match=named):
         parse_document({**GOOD, key: value})
+
+
+def test_a_document_of_a_file_names_it_and_holds_its_settings_alone():
+    source = {"kind": "log", "name": "office.log", "scans": 7}
+    found = parse_document({**GOOD, "source": source, "walls": "", "sensors": [], "prior": 0.25, "noise": 99})
+    assert (found.source.name, found.source.scans, found.prior) == ("office.log", 7, 0.25)
+    assert not found.walls.cells.any()
+    with pytest.raises(Refused, match="file"):
+        parse_simulation({**GOOD, "source": source})
+
+
+@pytest.mark.parametrize(("prior", "sampler"), [(0.5, "gibbs"), (0.21, "gibbs"), (0.2, "block"), (0.9, "block")])
+def test_the_method_follows_the_prior_unless_it_is_named(prior, sampler):
+    document = replace(tutorial_document(), prior=prior)
+    assert document.sampler == sampler
+    assert replace(document, method="gibbs").sampler == "gibbs"
 
 
 @pytest.mark.parametrize("name", BOUNDS)

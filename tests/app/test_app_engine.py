@@ -207,7 +207,7 @@ def test_the_scan_says_where_beams_truly_end():
     header, buffers = heard.last("scan")
     assert header["ids"] == [1]
     assert {name: a.shape for name, a in buffers.items()} == {
-        "pose": (1, 3), "angles": (100,), "ranges": (1, 100), "exact": (1, 100)
+        "pose": (1, 3), "angles": (100,), "ranges": (1, 100), "exact": (1, 100), "hit": (1, 100)
     }  # fmt: skip
     assert np.abs(buffers["ranges"] - buffers["exact"]).max() < 0.06  # noise of 0 is taken as 0.01
 

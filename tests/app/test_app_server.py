@@ -66,7 +66,7 @@ def test_the_page_and_its_module_are_served_with_a_policy(address):
     status, text, headers = get(address, f"/mapview.js?{token}")
     assert status == 200
     assert headers["Content-Type"].startswith("text/javascript")
-    assert "export function mount" in text
+    assert " as mount," in text
     assert get(address, f"/elsewhere?{token}")[0] == 404
 
 

@@ -1,12 +1,14 @@
 """The session: what actions do, what is refused, one step of undo a gesture, and pictures in order."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from acted_session import Acted
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.tasks import Cancel, Export, Inspect, Look, ShowScan
+from bayesmap.app.tasks import Cancel, Export, Inspect, Look, Report, ShowScan
 from bayesmap.app.worlds import new_document, tutorial_document
 
 
@@ -30,6 +32,36 @@ def test_hello_with_a_document_adopts_it():
     generation = acted.session.generation
     acted.act("hello", document=document.to_json())  # the same again, as after a lost connection
     assert acted.session.generation == generation
+
+
+def test_a_link_to_the_file_on_show_brings_its_settings_and_nothing_else():
+    acted = Acted(of_a_log())
+    generation = acted.session.generation
+    acted.act("hello", document=json_of(acted.session.document))
+    assert acted.session.generation == generation
+    acted.act("hello", document={**json_of(acted.session.document), "prior": 0.25, "max_range": 7.0})
+    assert acted.session.document == replace(of_a_log(), prior=0.25)
+
+
+@pytest.mark.parametrize("brought", ["another log", "a drawn map"])
+def test_a_link_to_something_else_is_answered_by_what_to_start(brought):
+    acted = Acted(of_a_log())
+    document = tutorial_document() if brought == "a drawn map" else of_a_log("other.log")
+    answers = acted.act("hello", document=json_of(document))
+    assert [m["type"] for m in answers] == ["status", "state"]
+    assert ("other.log" if brought == "another log" else "without a file") in acted.text
+    assert acted.session.document == of_a_log()
+
+
+def of_a_log(name="office.log"):
+    from bayesmap.app.document import Source, WallMap
+
+    drawn = tutorial_document()
+    return replace(drawn, walls=WallMap.none(drawn.grid.shape), sensors=(), source=Source("log", name, 9))
+
+
+def json_of(document):
+    return {**document.to_json(), "walls": ""} if not document.simulated else document.to_json()
 
 
 def test_a_stroke_is_one_step_of_undo():
@@ -161,8 +193,41 @@ def test_questions_go_to_the_worker():
     acted.act("view", layer="draw", chain=1, draw=5)
     acted.act("export", what="map")
     acted.act("cancel")
-    assert acted.tasks[-4:] == [Inspect(1, 3, 4), Look("draw", 1, 5), Export(1, "map"), Cancel()]
+    assert acted.tasks[-4:] == [Inspect(1, 3, 4), Look("draw", 1, 5, 1), Export(1, "map"), Cancel()]
     assert acted.state["view"] == {"layer": "draw", "chain": 1, "draw": 5}
+
+
+def test_each_page_has_its_own_view():
+    acted = Acted()
+    acted.picture()
+    for client in (1, 2):
+        acted.session.join(client)
+        acted.act("hello", client=client)
+    acted.act("view", client=2, layer="draw", chain=0, draw=3)
+    assert acted.state["view"] == {"layer": "draw", "chain": 0, "draw": 3}
+    acted.act("cancel")
+    assert acted.state["view"]["layer"] == "mean"  # as the first page sees it
+    report = Report({"type": "field", "generation": acted.session.generation}, {}, None)
+    assert [effect.client for effect in acted.session.hear(report)] == [1]
+    report = Report({"type": "field", "generation": acted.session.generation}, {}, 2)
+    assert [effect.client for effect in acted.session.hear(report)] == [2]
+    left = acted.session.leave(2)
+    assert left[0].task == Look("mean", client=2)  # nobody is shown that draw any more
+
+
+def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
+    acted = Acted()
+    acted.picture()
+    acted.session.join(2)
+    acted.act("set", patch={"prior": 0.3})
+    acted.act("set", client=2, patch={"prior": 0.4})
+    acted.act("undo")
+    assert "another tab" in acted.text
+    assert acted.session.document.prior == 0.4
+    assert not acted.state["can_undo"]
+    acted.session.leave(2)
+    acted.act("undo")
+    assert acted.session.document.prior == 0.3
 
 
 def test_the_document_is_exported_without_the_worker():
@@ -188,7 +253,7 @@ def test_a_worker_that_died_is_given_everything_again():
     assert [m["type"] for m in lost] == ["worker", "status"]
     acted.hear("ready", None, document=None)
     assert acted.inferred[-1].document.prior == 0.1
-    assert acted.tasks[-2] == Look("entropy", None, None)
+    assert acted.tasks[-2] == Look("entropy", None, None, 1)
 
 
 def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():

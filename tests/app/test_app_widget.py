@@ -110,7 +110,7 @@ def test_a_document_that_is_none_is_bad_input():
 
 def test_the_module_travels_with_the_widget():
     widget = bm.MapWidget()
-    assert "export default" in widget._esm
+    assert " as default," in widget._esm
     with pytest.raises(bm.BadInput, match="live page"):
         widget.to_html()
     widget.close()

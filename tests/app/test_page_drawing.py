@@ -1,6 +1,9 @@
 """Walls under the hand: no gaps, one stroke one step of undo, and the picture follows."""
 
+import io
+
 import numpy as np
+import pytest
 from page_driver import (
     NO_WALLS,
     act,
@@ -13,6 +16,7 @@ from page_driver import (
     snapshot,
     until,
 )
+from PIL import Image
 
 
 def blank(open_page, server):
@@ -89,6 +93,34 @@ def test_the_right_button_erases_while_drawing(page):
     assert snapshot(page)["walls"][2, 2] == 0
 
 
+def test_a_click_on_a_wall_removes_it_and_a_stroke_from_one_draws_on(page):
+    settled(page)
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    before = snapshot(page)["walls"]
+    assert before[12, 4]
+    act(page, lambda: page.mouse.click(*centre(page, 12, 4)))
+    after = settled(page)["walls"]
+    assert not after[12, 4]
+    assert before.sum() - after.sum() == 1
+    act(page, lambda: page.mouse.click(*centre(page, 12, 4)))
+    assert np.array_equal(settled(page)["walls"], before)
+    act(page, lambda: press_and_drag(page, [(12, 4), (15, 4)]))
+    drawn = settled(page)["walls"]
+    assert drawn[12:16, 4].all()
+    assert drawn.sum() - before.sum() == 3
+
+
+def test_a_click_shows_no_frame_around_the_map_and_a_key_does(page):
+    settled(page)
+    outline = """() => getComputedStyle(document.querySelector("[data-bayesmap]").shadowRoot
+      .querySelector("canvas[role=application]")).outlineStyle"""
+    page.keyboard.press("p")
+    page.mouse.click(*centre(page, 10, 14))
+    assert page.evaluate(outline) == "none"
+    page.keyboard.press("ArrowUp")
+    assert page.evaluate(outline) != "none"
+
+
 def test_no_wall_is_drawn_onto_the_robot(open_page, server):
     page = blank(open_page, server)
     press_and_drag(page, [(5, 10), (15, 10)])
@@ -156,3 +188,47 @@ def test_the_read_out_tells_of_the_cell_under_the_pointer(page):
     page.mouse.move(*centre(page, 20, 20))
     page.get_by_text("Cell 20, 20").wait_for()
     assert "unobserved" in page.get_by_text("Cell 20, 20").inner_text()
+
+
+def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
+    settled(page)
+
+    def painted_by(action):
+        page.wait_for_timeout(300)
+        before = snapshot(page)["layers"]
+        action()
+        page.wait_for_timeout(300)
+        return {name for name, count in snapshot(page)["layers"].items() if count > before[name]}
+
+    page.mouse.move(*centre(page, 10, 14))
+    assert painted_by(lambda: page.mouse.move(*centre(page, 12, 15))) == {"cursor"}
+    page.mouse.move(600, 20)
+    assert painted_by(lambda: page.get_by_role("checkbox", name="Rays").uncheck()) == {"rays"}
+    assert painted_by(lambda: page.get_by_role("checkbox", name="True walls").uncheck()) == {"marks"}
+    assert painted_by(lambda: page.get_by_role("radio", name="Entropy").check()) == {"field"}
+    page.get_by_role("radio", name="Mean").check()
+    assert painted_by(lambda: page.keyboard.press("+")) == {"field", "rays", "marks", "cursor"}
+
+
+@pytest.mark.parametrize("height", [860, 861, 777])
+def test_zoom_and_cursors_leave_nothing_behind(open_page, server, height):
+    page = open_page(server, document(), viewport={"width": 1280, "height": height})
+    settled(page)
+    stage = page.locator("main.stage")
+    before = picture_of(page, stage)
+    page.get_by_role("radio", name="Pan").check()
+    page.mouse.move(*centre(page, 10, 1))
+    for turn in (-240, -240, -240, 240, -100):
+        page.mouse.wheel(0, turn)
+        press_and_drag(page, [(10, 10), (10, 12), (9, 8)])
+        page.mouse.move(480, height - 60)
+        page.wait_for_timeout(40)
+    page.mouse.move(600, 20)
+    page.keyboard.press("0")
+    page.get_by_role("radio", name="Draw", exact=True).check()
+    page.wait_for_timeout(200)
+    assert np.array_equal(picture_of(page, stage), before)
+
+
+def picture_of(page, element):
+    return np.asarray(Image.open(io.BytesIO(page.screenshot(clip=element.bounding_box()))).convert("RGB"))

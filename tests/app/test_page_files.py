@@ -1,11 +1,12 @@
 """A log and a saved run in the page: scans and draws to look through, nothing to draw on."""
 
+import json
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-from page_driver import served, snapshot, until
+from page_driver import act, document, fragment, served, snapshot, until
 
 import bayesmap as bm
 
@@ -63,8 +64,72 @@ def test_a_saved_run_shows_its_mean_and_its_draws(open_page, tmp_path):
         shown = snapshot(page)
         assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
         page.get_by_role("radio", name="One draw").check()
-        page.get_by_label("Chain").select_option("1")
+        page.get_by_label("Chain", exact=True).select_option("1")
         page.get_by_role("slider", name="Draw number").fill("14")
         until(page, "s.painted.layer === 'draw' && s.painted.draw === 14 && s.painted.chain === 1")
         assert np.array_equal(snapshot(page)["probability"] > 0, run.draws[1, 14])
-        assert not page.get_by_role("button", name="Run", exact=True).is_visible()
+        for name in ("Run", "Clear inference"):
+            assert not page.get_by_role("button", name=name, exact=True).is_visible()
+        assert set(np.unique(shown["scan"]["hit"])) == {0, 1}  # no return is read with noise, and none for a hit
+        out = np.isclose(shown["scan"]["ranges"], 42, atol=1.0)
+        assert np.array_equal(shown["scan"]["hit"] == 0, out)
+
+
+@pytest.mark.parametrize("kind", ["log", "run"])
+def test_a_share_link_of_a_file_opens_and_a_lost_connection_is_found_again(open_page, log, tmp_path, kind):
+    file = log
+    if kind == "run":
+        file = tmp_path / "run.nc"
+        command = ["infer", log, "-o", tmp_path, "--cells", "binary", "--draws", "5", "--warmup", "5", "--force"]
+        subprocess.run([sys.executable, "-m", "bayesmap", *command], check=True, capture_output=True)
+    with served(file) as (address, _):
+        page = open_page(address)
+        until(page, "s.painted")
+        if kind == "log":
+            act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.3") or page.keyboard.press("Tab"))
+        page.get_by_role("button", name="Share").click()
+        link = page.get_by_role("textbox", name="Link").input_value()
+        page.keyboard.press("Escape")
+        other = page.context.new_page()
+        other.goto(link)
+        until(other, "s.painted && s.connected && s.status.text === 'Ready'")
+        assert snapshot(other)["document"] == snapshot(page)["document"]
+        other.evaluate(CUT_ONCE)
+        other.get_by_role("radio", name="Entropy").check()
+        other.get_by_role("status").get_by_text("Connected again").wait_for()
+        until(other, "s.connected && s.painted.generation === s.generation && s.seq.confirmed === s.seq.sent")
+        assert snapshot(other)["document"] == snapshot(page)["document"]
+
+
+CUT_ONCE = """
+() => {
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (data) { this.close(); WebSocket.prototype.send = send; };
+}
+"""
+
+
+def test_a_link_to_another_file_says_what_to_start(open_page, server):
+    elsewhere = document(source={"kind": "log", "name": "office.log.gz", "scans": 910}, walls="", sensors=[])
+    page = open_page(server + fragment(elsewhere))
+    page.get_by_role("status").get_by_text("start bayesmap app with office.log.gz").wait_for()
+    assert snapshot(page)["document"]["source"] == {"kind": "simulation"}
+
+
+def test_an_exported_document_is_opened_by_the_command(open_page, tmp_path):
+    path = tmp_path / "document.json"
+    path.write_text(json.dumps(document(prior=0.125)))
+    with served(path) as (address, _):
+        assert snapshot(open_page(address))["document"] == document(prior=0.125)
+
+
+@pytest.mark.parametrize(
+    "text", ["{", '{"version": 7}', '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}']
+)
+def test_a_file_that_is_no_document_is_refused_by_name(tmp_path, text):
+    path = tmp_path / "document.json"
+    path.write_text(text)
+    command = [sys.executable, "-m", "bayesmap", "app", path, "--no-browser"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 3
+    assert "document.json" in done.stderr

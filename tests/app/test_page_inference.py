@@ -14,7 +14,9 @@ def run(page):
 def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, server):
     page = open_page(server, document(sweeps=20))
     run(page)
-    until(page, "!s.running && s.draws.count === 20 && s.painted.sweeps === 20")
+    until(
+        page, "!s.running && s.draws.count === 20 && s.painted.sweeps === 20 && s.painted.generation === s.generation"
+    )
     shown = snapshot(page)
     mean = shown["probability"] / 255
     chains = shown["draws"]["chains"]
@@ -22,7 +24,7 @@ def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, ser
     slider = page.get_by_role("slider", name="Draw number")
     total = np.zeros((21, 21))
     for chain in range(chains):
-        page.get_by_label("Chain").select_option(str(chain))
+        page.get_by_label("Chain", exact=True).select_option(str(chain))
         for draw in range(20):
             slider.fill(str(draw))
             until(page, f"s.painted.layer === 'draw' && s.painted.draw === {draw} && s.painted.chain === {chain}")
@@ -49,7 +51,7 @@ def test_draws_are_played_one_after_another(open_page, server):
 def test_cancel_keeps_the_partial_chain(open_page, server):
     page = open_page(server, document(sweeps=100_000, angles=1000))
     run(page)
-    until(page, "s.running && !s.painted.approximate && s.painted.sweeps > 0")
+    until(page, "s.running && s.painted.method === 'gibbs' && s.painted.generation === s.generation")
     assert page.get_by_role("progressbar").evaluate("(bar) => bar.value") < 1
     page.get_by_role("button", name="Cancel").click()
     until(page, "!s.running && s.draws.count > 0 && s.draws.count === s.painted.sweeps")

@@ -1,8 +1,9 @@
 """The page opens, paints a posterior, asks nobody else, and says what it is to everybody."""
 
+import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page_driver import brightness_at, colour_at, document, settled, snapshot
+from page_driver import act, brightness_at, colour_at, document, settled, snapshot, until
 
 
 def test_the_first_picture_is_the_posterior_of_the_tutorial(page):
@@ -83,6 +84,15 @@ def test_a_second_page_shows_the_same(open_page, server, page):
     assert snapshot(other)["document"] == settled(page)["document"]
 
 
-def test_a_link_that_is_no_document_is_no_trouble(open_page, server):
-    page = open_page(server + "#m=nonsense")
-    assert snapshot(page)["document"]["version"] == 1
+def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, server, page):
+    other = open_page(server)
+    other.get_by_role("radio", name="One draw").check()
+    until(other, "s.painted.layer === 'draw'")
+    act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.45") or page.keyboard.press("Tab"))
+    assert settled(page)["painted"]["layer"] == "mean"
+    until(other, "s.document.prior === 0.45 && s.painted.layer === 'draw' && s.painted.generation === s.generation")
+    assert other.get_by_role("button", name="Undo").is_disabled()
+    other.get_by_role("radio", name="Mean").check()
+    until(other, "s.painted.layer === 'mean'")
+    assert np.array_equal(settled(other)["probability"], settled(page)["probability"])
+    act(page, lambda: page.get_by_role("button", name="Undo").click())

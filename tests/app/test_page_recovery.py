@@ -74,3 +74,55 @@ def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_pag
     until(page, "s.connected && s.seq.confirmed === s.seq.sent && !s.walls[12 * 21 + 4]")
     shown = settled(page)
     assert shown["document"]["prior"] == 0.3
+
+
+def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_meanwhile(open_page, browser):
+    with served() as (address, process):
+        page = open_page(address, document(walls=NO_WALLS), quiet=False)
+        port = address.split(":")[2].split("/")[0]
+        settled(page)
+        process.kill()
+        process.wait()
+        page.get_by_role("alert").get_by_text("Connection lost").wait_for()
+        page.get_by_role("radio", name="Draw", exact=True).check()
+        press_and_drag(page, [(4, 8), (8, 8)])
+    with served("--port", port) as (address, _):
+        page.get_by_role("alert").get_by_text("started again, with another address").wait_for()
+        other = page.context.new_page()
+        other.goto(address)
+        page.get_by_role("alert").wait_for(state="hidden")
+        until(page, "s.connected && s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation")
+        until(other, "s.walls.reduce((a, b) => a + b, 0) === 5")
+        assert settled(page)["walls"][4:9, 8].all()
+        page.reload()  # its address has the new token
+        until(page, "s.connected && s.painted")
+
+
+def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
+    with served() as (address, process):
+        page = open_page(address, document(walls=NO_WALLS), quiet=False)
+        port = address.split(":")[2].split("/")[0]
+        settled(page)
+        process.kill()
+        process.wait()
+        page.get_by_role("alert").get_by_text("Connection lost").wait_for()
+        page.get_by_role("radio", name="Draw", exact=True).check()
+        press_and_drag(page, [(4, 8), (8, 8)])
+        other = page.context.new_page()
+        page.close()
+    with served("--port", port) as (address, _):
+        other.goto(address)
+        until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
+        other.get_by_role("status").get_by_text("drawn here when the connection was lost").wait_for()
+        other.goto("about:blank")
+        other.goto(address)
+        until(other, "s.painted && s.status.text === 'Ready'")  # and is kept no longer
+
+
+def test_what_was_said_goes_with_the_next_action(page):
+    settled(page)
+    while snapshot(page)["status"]["text"] != "Nothing to redo":
+        page.keyboard.press("Control+y")
+        page.wait_for_timeout(50)
+    act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.3") or page.keyboard.press("Tab"))
+    until(page, "s.status.text === 'Ready'")

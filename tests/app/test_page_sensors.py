@@ -77,6 +77,8 @@ def test_sensors_are_added_turned_and_removed(sensors):
     assert both["observed"].sum() > alone["observed"].sum()
     assert both["scan"]["ranges"].size == 2 * 100
     green = brightness_at(page, 8, 5)
+    assert not page.get_by_label("heading").is_visible()  # in a full circle all headings are alike
+    act(page, lambda: page.get_by_label("Field of view").fill("180") or page.keyboard.press("Tab"))
     act(page, lambda: page.get_by_label("heading").fill("90") or page.keyboard.press("Tab"))
     assert settled(page)["sensors"][1]["yaw"] == pytest.approx(np.pi / 2)
     act(page, lambda: page.get_by_role("button", name="Remove the sensor").click())
@@ -125,7 +127,39 @@ def test_a_refusal_is_said_until_something_else_is_done(open_page, server):
 
 
 def test_a_heading_is_any_number_of_turns(open_page, server):
-    page = open_page(server, document())
+    page = open_page(server, document(fov=np.pi))
     act(page, lambda: page.get_by_label("heading").fill("720090") or page.keyboard.press("Tab"))
     assert settled(page)["sensors"][0]["yaw"] == pytest.approx(np.pi / 2)
     assert snapshot(page)["status"]["level"] == "info"
+
+
+def test_a_field_of_view_is_about_the_heading(open_page, server):
+    page = open_page(server, document(angles=11, fov=np.pi / 2))
+    scan = settled(page)["scan"]
+    assert scan["angles"] == pytest.approx(np.linspace(-np.pi / 4, np.pi / 4, 11), abs=1e-6)
+
+
+def test_sensors_that_are_added_stand_apart_and_in_the_open(open_page, server):
+    page = open_page(server, document())
+    for count in (2, 3, 4):
+        page.get_by_role("button", name="Add a sensor").click()
+        until(page, f"s.sensors.length === {count} && s.seq.confirmed === s.seq.sent")
+    shown = snapshot(page)
+    places = np.array([(sensor["x"], sensor["y"]) for sensor in shown["sensors"]])
+    apart = np.hypot(*(places[:, None] - places[None]).T) + 99 * np.eye(4)
+    assert apart.min() >= 4
+    for x, y in places[1:].astype(int):
+        assert not shown["walls"][max(0, x - 1) : x + 2, max(0, y - 1) : y + 2].any()
+
+
+def test_exact_and_noisy_readings_are_compared_at_a_choice(open_page, server):
+    page = open_page(server, document(noise=1.0))
+    noisy = settled(page)
+    act(page, lambda: page.get_by_role("combobox", name="Readings").select_option("exact"))
+    exact = settled(page)
+    assert np.array_equal(exact["scan"]["ranges"], exact["scan"]["exact"])
+    assert not np.array_equal(noisy["scan"]["ranges"], noisy["scan"]["exact"])
+    act(page, lambda: page.get_by_role("combobox", name="Readings").select_option("noisy"))
+    again = settled(page)
+    assert np.array_equal(again["scan"]["ranges"], noisy["scan"]["ranges"])
+    assert np.array_equal(again["probability"], noisy["probability"])

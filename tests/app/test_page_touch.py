@@ -73,3 +73,23 @@ def test_everything_fits_and_fingers_find_it(phone):
     low, high = centre(phone, 0, 0), centre(phone, 20, 20)
     assert 0 < low[0] < high[0] < 390
     assert 0 < high[1] < low[1] < 844 * 0.6
+
+
+@pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
+def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, height):
+    page = open_page(server, document(), **{**PHONE, "viewport": {"width": width, "height": height}})
+    settled(page)
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    for role, name in (
+        ("radio", "Draw"),
+        ("radio", "Pan"),
+        ("button", "Whole map"),
+        ("button", "Export"),
+        ("button", "Run"),
+    ):
+        box = page.get_by_role(role, name=name, exact=True).bounding_box()
+        assert box["x"] >= 0
+        assert box["y"] >= 0
+        assert box["x"] + box["width"] <= width
+        assert box["y"] + box["height"] <= height
+    assert 21 * snapshot(page)["transform"]["scale"] > 0.7 * min(width, height)

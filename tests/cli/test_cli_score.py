@@ -123,7 +123,7 @@ def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
         (("RUN", "LOG", "--holdout", "0"), 3, "--holdout 0 leaves nothing to score"),
         (("RUN", "LOG", "--holdout", "1"), 3, "--holdout must be 2 or more, for every n-th scan, or 0, got 1"),
         (("RUN", "LOG", "--picture", "scores.txt"), 3, "end its name in one of .png, .pdf, .svg"),
-        (("RUN",), 2, "Missing argument"),
+        (("RUN",), 2, "give LOG, whose held-out scans score the run"),
     ],
 )
 def test_what_it_refuses(office, heldout_run, arguments, code, message):

@@ -16,6 +16,8 @@ import pytest
 import bayesmap.gen
 from bayesmap.gen import flags
 
+run_branch = importlib.import_module("bayesmap.gen.switch").run_branch  # `bayesmap.gen.switch` is the combinator
+
 PUBLIC = {
     "genjax": "bayesmap.gen",
     "genjax.typing": "bayesmap.gen.typing",
@@ -47,9 +49,14 @@ PRIVATE = {
 
 
 def _multi_switch(idx: Any, branches: Any, arguments: Any) -> list[Any]:
-    """GenJAX's name for running one of several functions, as `switch` does it here."""
+    """GenJAX's name for running one of several functions, here the part of `switch` that does so."""
     runs = [lambda f=f, args=args: (f(*args), ()) for f, args in zip(branches, arguments, strict=True)]
-    return list(importlib.import_module("bayesmap.gen.switch").run_branch(idx, runs)[0])
+    return list(run_branch(idx, runs)[0])
+
+
+def _tree_choose(idx: Any, values: Any) -> Any:
+    """GenJAX's name for one of several values, in their common dtype; an index beyond the last goes round."""
+    return run_branch(idx % len(values), [lambda value=value: ((), value) for value in values])[1]
 
 
 INTERNAL = {
@@ -57,6 +64,7 @@ INTERNAL = {
         and_=flags.both, or_=flags.either, xor_=flags.exactly_one, not_=flags.negation, where=flags.where
     ),
     "multi_switch": _multi_switch,
+    "tree_choose": _tree_choose,
 }
 
 

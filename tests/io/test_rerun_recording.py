@@ -8,6 +8,7 @@ from map_case import GRID, observed, occupancy, scans
 
 from bayesmap.errors import BadInput
 from bayesmap.io.rerun_recording import UNKNOWN_COLOR, to_pixels, write_rerun
+from bayesmap.space.trajectory import Trajectory
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}
 
@@ -95,3 +96,16 @@ def test_without_rerun_the_remedy_is_named(tmp_path, monkeypatch):
     with pytest.raises(BadInput, match=r"pip install 'bayesmap\[rerun\]'"):
         write_rerun(tmp_path / "floor.rrd", LAYERS, GRID)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
+    poses = np.array([[-1.0, 2.2, 0.0], [-0.5, 2.6, 1.0]])
+    covariances = np.stack([np.diag([0.01, 0.04, 0.01]), np.diag([0.01, 0.01, 0.01])])
+    there = Trajectory(poses, covariances=covariances)
+    columns = columns_of(write_rerun(tmp_path / "walk.rrd", LAYERS, GRID, trajectory=there))
+    ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
+    np.testing.assert_allclose(line, to_pixels(poses[:, :2], GRID), rtol=1e-6)
+    (outlines,) = find(columns, "/ellipses", "LineStrips2D:strips")
+    assert len(outlines) == 2
+    width, height = np.ptp(np.array(outlines[0]), axis=0)
+    assert height / width == pytest.approx(2.0, rel=0.02)

@@ -16,4 +16,6 @@ def test_the_example_runs():
     np.testing.assert_allclose(names["score"], run.log_joint[0, -1], rtol=1e-5)
     change = names["edited"].get_score() - names["trace"].get_score()
     np.testing.assert_allclose(names["weight"], change, rtol=1e-3, atol=0.5)  # scores near -1e6, in float32
+    moved = names["both"].assess(names["after"].get_choices(), ())[0]
+    np.testing.assert_allclose(names["pose_weight"], moved - names["start"].get_score(), rtol=1e-3, atol=0.05)
     assert model.simulate(names["key"], ()).get_choices()["readings"].shape == (100,)

@@ -18,8 +18,17 @@ from bayesmap.space.grid import Grid
 
 VERSION = 1
 CELLS = ("binary", "reflectivity", "surface")
-METHODS = ("gibbs", "block", "propagate", "importance")
+METHODS = ("auto", "gibbs", "block", "propagate", "importance")
+CHAIN_METHODS = ("gibbs", "block")
+"""Methods that are Markov chains."""
+
 ORDERS = ("raster", "radial", "random")
+STARTS = ("auto", "prior", "empty")
+READINGS = ("noisy", "exact")
+RARE_WALLS = 0.2
+"""Where walls are at most this probable a priori, or free cells, single-site moves seldom leave a wrong map: a wall has
+to go before its neighbour can come. Method "auto" then is 2 x 2 blocks."""
+
 SMALLEST_NOISE_M = 0.01
 """A noise of 0 is taken as this: a density needs a width."""
 
@@ -28,13 +37,29 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
     "noise": (0.0, 5.0),
     "angles": (10, 1000),
     "max_range": (0.1, 10_000.0),
+    "fov": (math.pi / 36, 2 * math.pi),
     "sweeps": (1, 100_000),
     "seed": (0, 2**31 - 1),
 }
 """Smallest and largest value of every number that a slider sets."""
 
-SETTINGS = (*BOUNDS, "cells", "method", "order")
 WHOLE = ("angles", "sweeps", "seed")
+CHOICES: Mapping[str, tuple[str, ...]] = {
+    "cells": CELLS, "method": METHODS, "order": ORDERS, "start": STARTS, "readings": READINGS,
+}  # fmt: skip
+"""What a setting that is no number may be."""
+
+WORDS: Mapping[str, str] = {"max_range": "longest range (m)", "noise": "noise (m)", "fov": "field of view (rad)"}
+"""How settings are called where their name is no word."""
+
+KINDS = ("simulation", "run", "log")
+FIXED_BY_FILE: Mapping[str, tuple[str, ...]] = {
+    "simulation": (),
+    "log": ("noise", "angles", "max_range", "fov", "readings"),
+    "run": (*BOUNDS, *CHOICES),
+}
+"""Settings that are facts where the readings come from a file."""
+
 SIDE = (2, 500)
 SENSORS = (1, 32)
 LARGEST_COORDINATE_M = 1e6
@@ -49,6 +74,11 @@ LIMITS: dict[str, Any] = {
     "methods": list(METHODS),
     "orders": list(ORDERS),
 }
+
+
+def settings_of(kind: str) -> tuple[str, ...]:
+    """Names of the settings that a page can change, for a source of a kind."""
+    return tuple(name for name in (*BOUNDS, *CHOICES) if name not in FIXED_BY_FILE[kind])
 
 
 class Refused(BadInput):
@@ -84,6 +114,11 @@ class WallMap:
     def text(self) -> str:
         """Base64 of the packed bits, C order, most significant bit first."""
         return base64.b64encode(np.packbits(self.cells.ravel()).tobytes()).decode()
+
+    @classmethod
+    def none(cls, shape: tuple[int, int]) -> WallMap:
+        """A map without walls."""
+        return cls(np.zeros(shape, dtype=np.bool_))
 
     @classmethod
     def parse(cls, text: str, shape: tuple[int, int]) -> WallMap:
@@ -153,9 +188,12 @@ class Document:
     noise: float = 0.2
     angles: int = 100
     max_range: float = 42.0
+    fov: float = 2 * math.pi
+    readings: str = "noisy"
     cells: str = "binary"
     method: str = "gibbs"
     order: str = "radial"
+    start: str = "auto"
     sweeps: int = 1000
     seed: int = 0
     source: Source = field(default_factory=Source)
@@ -164,6 +202,13 @@ class Document:
     def simulated(self) -> bool:
         """Whether the readings follow from walls and sensors."""
         return self.source.kind == "simulation"
+
+    @property
+    def sampler(self) -> str:
+        """The method, with "auto" resolved: single-site Gibbs, or blocks where walls are rare or everywhere."""
+        if self.method != "auto":
+            return self.method
+        return "block" if min(self.prior, 1 - self.prior) <= RARE_WALLS else "gibbs"
 
     def sensor_cells(self) -> dict[tuple[int, int], int]:
         """The cells in which sensors stand, with their ids."""
@@ -186,107 +231,16 @@ class Document:
             "noise": self.noise,
             "angles": self.angles,
             "max_range": self.max_range,
+            "fov": self.fov,
+            "readings": self.readings,
             "cells": self.cells,
             "method": self.method,
             "order": self.order,
+            "start": self.start,
             "sweeps": self.sweeps,
             "seed": self.seed,
             "source": self.source.to_json(),
         }
-
-
-def parse_document(value: object) -> Document:
-    """The document of some JSON values that anybody may have sent: simulations only.
-
-    Raises:
-        Refused: anything that a document may not hold; the message names the key.
-    """
-    if not isinstance(value, dict):
-        raise Refused("document: not an object", "send one as in docs/app.md")
-    if value.get("version") != VERSION:
-        raise Refused(f"document: version {value.get('version')!r}", f"this page reads version {VERSION}")
-    if not isinstance(source := value.get("source", {"kind": "simulation"}), dict):
-        raise Refused("source: not an object")
-    if source.get("kind") != "simulation":
-        raise Refused("document: shows a file", "start bayesmap app with that file")
-    grid = parse_grid(value.get("grid"))
-    walls = value.get("walls")
-    if not isinstance(walls, str):
-        raise Refused("walls: not a text", "send the packed bits of the map in base64")
-    sensors = value.get("sensors")
-    if not isinstance(sensors, list) or not SENSORS[0] <= len(sensors) <= SENSORS[1]:
-        raise Refused(f"sensors: not a list of {SENSORS[0]} to {SENSORS[1]}")
-    settings = {name: parse_setting(name, value[name]) for name in SETTINGS if name in value}
-    document = Document(
-        grid=grid,
-        walls=WallMap.parse(walls, grid.shape),
-        sensors=tuple(_parse_sensor(sensor) for sensor in sensors),
-        **settings,
-    )
-    if len({sensor.id for sensor in document.sensors}) != len(sensors):
-        raise Refused("sensors: two have the same id")
-    for sensor in document.sensors:
-        check_stand(document, sensor)
-    return document
-
-
-def parse_grid(value: object) -> Grid:
-    """A grid that may be drawn on.
-
-    Raises:
-        Refused: not a grid, or a side outside its limits.
-    """
-    if not isinstance(value, dict):
-        raise Refused("grid: not an object")
-    shape = parse_shape(value.get("shape"))
-    resolution = number("grid: resolution", value.get("resolution", 1.0), 1e-3, 1e3)
-    origin = value.get("origin", [0.0, 0.0])
-    if not isinstance(origin, list) or len(origin) != 2:
-        raise Refused("grid: origin is not two numbers")
-    x, y = (number("grid: origin", v, -LARGEST_COORDINATE_M, LARGEST_COORDINATE_M) for v in origin)
-    return Grid(shape, resolution, (x, y))
-
-
-def parse_shape(value: object) -> tuple[int, int]:
-    """Cells along x and y.
-
-    Raises:
-        Refused: not two whole numbers within the limits.
-    """
-    if not isinstance(value, list) or len(value) != 2:
-        raise Refused("shape: not two whole numbers", f"give {SIDE[0]} to {SIDE[1]} cells a side")
-    nx, ny = (int(number("shape", v, *SIDE, whole=True)) for v in value)
-    return nx, ny
-
-
-def parse_setting(name: str, value: object) -> Any:
-    """The value of a slider or a choice.
-
-    Raises:
-        Refused: an unknown name, or a value outside its limits.
-    """
-    for choice, allowed in (("cells", CELLS), ("method", METHODS), ("order", ORDERS)):
-        if name == choice:
-            if value not in allowed:
-                raise Refused(f"{name}: {_short(value)} is not known", f"there are: {', '.join(allowed)}")
-            return value
-    if name not in BOUNDS:
-        raise Refused(f"set: no setting {_short(name)}", f"there are: {', '.join(SETTINGS)}")
-    found = number(name, value, *BOUNDS[name], whole=name in WHOLE)
-    return int(found) if name in WHOLE else found
-
-
-def number(name: str, value: object, least: float, most: float, *, whole: bool = False) -> float:
-    """A number within limits.
-
-    Raises:
-        Refused: no number, not finite, outside the limits, or not whole where it must be.
-    """
-    good = isinstance(value, int | float) and not isinstance(value, bool) and least <= value <= most
-    if not good or (whole and value != int(value)):  # type: ignore[call-overload]
-        kind = "a whole number" if whole else "a number"
-        raise Refused(f"{name}: {_short(value)} is not {kind} from {least:g} to {most:g}")
-    return float(value)  # type: ignore[arg-type]
 
 
 def check_stand(document: Document, sensor: Sensor) -> None:
@@ -302,19 +256,6 @@ def check_stand(document: Document, sensor: Sensor) -> None:
         raise Refused(f"the sensor cannot stand in the wall at cell ({cell[0]}, {cell[1]})", "move it to a free cell")
 
 
-def _parse_sensor(value: object) -> Sensor:
-    if not isinstance(value, dict):
-        raise Refused("sensors: one is not an object")
-    x, y = (number(f"sensor: {k}", value.get(k), -LARGEST_COORDINATE_M, LARGEST_COORDINATE_M) for k in ("x", "y"))
-    yaw = number("sensor: yaw", value.get("yaw", 0.0), -1e3, 1e3)
-    return Sensor(int(number("sensor: id", value.get("id"), 1, 2**31 - 1, whole=True)), x, y, wrap(yaw))
-
-
 def wrap(yaw_rad: float) -> float:
     """The same direction in [-pi, pi]; a number that lies there is not touched."""
     return yaw_rad if abs(yaw_rad) <= math.pi else math.remainder(yaw_rad, 2 * math.pi)
-
-
-def _short(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 40 else text[:37] + "..."

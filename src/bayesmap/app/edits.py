@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.app.document import SENSORS, Document, Refused, Sensor, WallMap, check_stand, wrap
+from bayesmap.app.document import FIXED_BY_FILE, SENSORS, Document, Refused, Sensor, WallMap, check_stand, wrap
 from bayesmap.app.worlds import new_document
 
 Message = Mapping[str, Any]
@@ -70,7 +70,7 @@ def _sensor(document: Document, message: Message) -> tuple[Document, str]:
 
 def _clear(document: Document, message: Message) -> tuple[Document, str]:
     _need_simulation(document)
-    return replace(document, walls=WallMap(np.zeros(document.grid.shape, dtype=np.bool_))), ""
+    return replace(document, walls=WallMap.none(document.grid.shape)), ""
 
 
 def _new(document: Document, message: Message) -> tuple[Document, str]:
@@ -81,13 +81,6 @@ def _need_simulation(document: Document) -> None:
     if not document.simulated:
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
 
-
-FIXED_BY_FILE: Mapping[str, tuple[str, ...]] = {
-    "simulation": (),
-    "log": ("noise", "angles", "max_range"),
-    "run": ("prior", "noise", "angles", "max_range", "method", "order", "sweeps", "seed"),
-}
-"""Settings that are facts where the readings come from a file."""
 
 EDITS: Mapping[str, Edit] = {"set": _set, "walls": _walls, "sensor": _sensor, "clear": _clear, "new": _new}
 """Messages that change the document, `clear` of walls among them."""

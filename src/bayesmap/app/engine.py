@@ -14,13 +14,15 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bayesmap.app.document import Document
+from bayesmap.app.document import CHAIN_METHODS, Document
 from bayesmap.app.opened import Opened
 from bayesmap.app.preview import Preview
 from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
-from bayesmap.app.stream import CHAINS, Stream
+from bayesmap.app.starting import starts
+from bayesmap.app.stream import Stream
 from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
 from bayesmap.app.weighing import Weighing
 from bayesmap.cells.kinds import BUILT_IN
@@ -28,8 +30,7 @@ from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fitting
 from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.propagate import ROUNDS, Marginals
-from bayesmap.samplers.start import start_map
+from bayesmap.samplers.propagate import ROUNDS
 
 PREVIEW_SECONDS = 0.020
 FEWEST_ROUNDS = 3
@@ -52,7 +53,7 @@ class Engine:
         self._opened = opened
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
-        self._look = Look("mean")
+        self._looks: dict[int | None, Look] = {}  # of pages that are shown a draw
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
@@ -74,9 +75,11 @@ class Engine:
         elif isinstance(task, Cancel):
             self._cancel()
         elif isinstance(task, Look):
-            self._look = task
+            self._looks.pop(task.client, None)
+            if task.layer == "draw":
+                self._looks[task.client] = task
             if self._result is not None:
-                self._frame()
+                self._show(task)
         elif isinstance(task, ShowScan):
             if self._scene is not None and self._opened is not None:
                 self._rays(self._scene, task.index)
@@ -110,7 +113,7 @@ class Engine:
     # Jobs
 
     def _work(self, task: Infer) -> Iterator[None]:
-        document = task.document
+        document = replace(task.document, method=task.document.sampler)
         if document.source.kind == "run":
             assert self._opened is not None
             self._scene, self._scene_of = self._opened.scene(document), document
@@ -131,17 +134,18 @@ class Engine:
         if task.mode == "run" and document.method == "importance":
             yield from self._weigh(scene, document)
             return
-        if task.mode == "run" and document.method in ("gibbs", "block") and document.simulated:
-            yield from self._sweep(scene, document, None, keep=True)
+        if task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
+            yield from self._sweep(scene, document, starts(scene.problem, document, None), keep=True)
             return
         preview = Preview(scene.problem)
         yield from self._propagate(scene, document, preview)
-        if task.mode == "preview" or document.method not in ("gibbs", "block"):
+        if task.mode == "preview" or document.method not in CHAIN_METHODS:
             self._finish()
         else:
             if time.perf_counter() - self._began > PREVIEW_SECONDS / 2:
                 yield from _pause(PAUSE_SECONDS)
-            yield from self._sweep(scene, document, preview.marginals(), keep=task.mode == "run")
+            begun = starts(scene.problem, document, preview)
+            yield from self._sweep(scene, document, begun, keep=task.mode == "run")
 
     def _readings(self, document: Document) -> Scene:
         """The scene of a document; what did not change is not made again."""
@@ -172,15 +176,13 @@ class Engine:
             if shown >= 0 or self._elapsed() > PREVIEW_SECONDS:
                 yield
 
-    def _sweep(self, scene: Scene, document: Document, beliefs: Marginals | None, *, keep: bool) -> Iterator[None]:
-        """Chains of walls from the prior or from beliefs, with a frame now and then and one at the end."""
+    def _sweep(self, scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
+        """Chains of walls from these maps, with a frame now and then and one at the end."""
         yield
-        problem, kind = scene.problem, "prior" if beliefs is None else "propagate"
-        starts = [start_map(problem, kind, chain, document.seed, beliefs) for chain in range(CHAINS)]  # type: ignore[arg-type]
+        problem = scene.problem
         name = problem.prior.methods[document.method]
-        sampler, _ = sampler_of(name, problem.grid, document.order, np.stack(starts), ROUNDS)  # type: ignore[arg-type]
-        model = scene.model(problem.prior)
-        stream = Stream(model, sampler, problem, document.sweeps, document.seed, keep=keep)
+        sampler, _ = sampler_of(name, problem.grid, document.order, begun, ROUNDS)  # type: ignore[arg-type]
+        stream = Stream(scene.model(problem.prior), sampler, problem, document.sweeps, document.seed, keep=keep)
         yield from self._stream(scene, document, stream)
 
     def _sweep_fitted(self, scene: Scene, document: Document, *, keep: bool) -> Iterator[None]:
@@ -232,9 +234,11 @@ class Engine:
 
     # Reports
 
-    def _report(self, kind: str, buffers: dict[str, Any] | None = None, **fields: Any) -> None:
+    def _report(
+        self, kind: str, buffers: dict[str, Any] | None = None, client: int | None = None, **fields: Any
+    ) -> None:
         assert self._task is not None
-        self._tell(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}))
+        self._tell(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}, client))
 
     def _finish(self) -> None:
         draws = {"chains": 0, "count": 0} if self._result is None else self._result.draws()
@@ -242,9 +246,16 @@ class Engine:
 
     def _frame(self) -> None:
         assert self._result is not None
-        header, buffers = self._result.field(self._look)
+        for look in (Look("mean"), *self._looks.values()):
+            self._show(look)
         self._framed = time.perf_counter()
-        self._report("field", buffers, **header, milliseconds=round(1e3 * (self._framed - self._began), 1))
+
+    def _show(self, look: Look) -> None:
+        """A field for one page, or for all that are not shown a draw."""
+        assert self._result is not None
+        header, buffers = self._result.field(look)
+        spent = round(1e3 * (time.perf_counter() - self._began), 1)
+        self._report("field", buffers, client=look.client, **header, milliseconds=spent)
 
     def _rays(self, scene: Scene, scan: int | None) -> None:
         header, buffers = rays(scene, scan)

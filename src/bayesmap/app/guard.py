@@ -9,12 +9,15 @@ from collections.abc import Iterable
 from urllib.parse import parse_qs, urlsplit
 
 from starlette.datastructures import MutableHeaders
-from starlette.responses import PlainTextResponse
+from starlette.responses import HTMLResponse, PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from bayesmap.app.door import PAGE, SCRIPT_HASH
+
+WRONG_TOKEN = "the token is missing or wrong: open the address that bayesmap app printed"
 HEADERS = {
     "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self'{sockets}; "
+        "default-src 'none'; script-src {scripts}; style-src 'self' 'unsafe-inline'; connect-src 'self'{sockets}; "
         "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     ),
     "Referrer-Policy": "no-referrer",
@@ -61,10 +64,15 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 host = _header(scope, b"host")
                 for name, value in HEADERS.items():
-                    headers[name] = value.format(sockets=f" ws://{host}" if why is None else "")
+                    sockets, scripts = (f" ws://{host}", "'self'") if why is None else ("", f"'{SCRIPT_HASH}'")
+                    headers[name] = value.format(sockets=sockets, scripts=scripts)
             await send(message)
 
-        answer: ASGIApp = self.app if why is None else PlainTextResponse(f"{why}\n", status_code=403)
+        answer: ASGIApp = self.app
+        if why is WRONG_TOKEN and scope.get("path") == "/":
+            answer = HTMLResponse(PAGE, status_code=403)
+        elif why is not None:
+            answer = PlainTextResponse(f"{why}\n", status_code=403)
         await answer(scope, receive, with_headers if scope["type"] == "http" else send)
 
     def objection(self, scope: Scope) -> str | None:
@@ -78,7 +86,7 @@ class Guard:
                 return "requests from other pages are refused"
         given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])
         if not secrets.compare_digest(given[-1].encode(), self.token):
-            return "the token is missing or wrong: open the address that bayesmap app printed"
+            return WRONG_TOKEN
         return None
 
     def knows(self, host: str) -> bool:

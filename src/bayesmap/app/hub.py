@@ -90,7 +90,7 @@ class Hub:
     def leave(self, client: int) -> None:
         """A page has gone."""
         self._pages.pop(client, None)
-        self.session.leave(client)
+        self._do(self.session.leave(client))
 
     def receive(self, client: int, data: str | bytes) -> None:
         """A message as it came from a page."""

@@ -10,14 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import (
-    LARGEST_COORDINATE_M,
-    Refused,
-    number,
-    parse_document,
-    parse_setting,
-    parse_shape,
-)
+from bayesmap.app.document import LARGEST_COORDINATE_M, Refused
+from bayesmap.app.parsing import number, parse_document, parse_setting, parse_shape
 from bayesmap.app.worlds import WORLDS
 
 MAX_BYTES = 1 << 20

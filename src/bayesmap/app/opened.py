@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -9,7 +10,8 @@ from typing import Protocol
 
 import numpy as np
 
-from bayesmap.app.document import LARGEST_SIDE_OF_FILE, METHODS, Document, Source, WallMap
+from bayesmap.app.document import LARGEST_SIDE_OF_FILE, METHODS, Document, Refused, Source, WallMap
+from bayesmap.app.parsing import parse_simulation
 from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
 from bayesmap.cells.binary import Independent
@@ -96,6 +98,19 @@ class OpenedRun:
         return Result(self._scene, self.document, str(self.run.posterior.settings.get("method", "gibbs")), run=self.run)
 
 
+def read_document(path: str) -> Document:
+    """A document that the page exported (``.json``).
+
+    Raises:
+        BadInput: no JSON, or not a document; the message names the file.
+    """
+    try:
+        return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
+    except (OSError, ValueError, RecursionError) as error:
+        why = error.strerror if isinstance(error, OSError) else error if isinstance(error, Refused) else "not JSON"
+        raise BadInput(f"{path}: {why}; give a document that the page has exported") from None
+
+
 def open_file(path: str) -> Opened:
     """Open a saved run (``.nc``) or a log.
 
@@ -151,7 +166,7 @@ def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Documen
         raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {LARGEST_SIDE_OF_FILE}")
     return Document(
         grid=grid,
-        walls=WallMap(np.zeros(grid.shape, dtype=np.bool_)),
+        walls=WallMap.none(grid.shape),
         sensors=(),
         prior=float(prior),
         angles=len(scans.angles_rad),

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.result import LEVELS, Result
+from bayesmap.app.scanning import hits
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -87,7 +88,10 @@ def record(result: Result) -> dict[str, Any]:
             "data": _text(_deflate(np.packbits(bits.ravel()).tobytes())),
         },
         "log_joint": _numbers(joint, 2),
-        "settings": {"method": result.method, **{name: statistics[name] for name in ("sweeps", "ess", "rhat")}},
+        "settings": {
+            "method": result.method,
+            **{name: statistics[name] for name in ("sweeps", "ess", "rhat", "verdict")},
+        },
     }
 
 
@@ -116,6 +120,7 @@ def _scans(result: Result) -> dict[str, Any]:
         "angles": [round(float(angle), 7) for angle in scans.angles_rad],
         "ranges": _numbers(scans.ranges_m[some], DECIMALS_M),
         "exact": _numbers(exact, DECIMALS_M),
+        "hit": _text(np.packbits(hits(scene)[some].ravel()).tobytes()),
     }
 
 

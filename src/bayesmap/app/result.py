@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
+from bayesmap.app.judging import Verdict, difference, judge_chains, judge_particles
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
@@ -21,6 +22,13 @@ from bayesmap.result import Run
 from bayesmap.samplers.importance import Particles
 
 LEVELS = 255
+TRACED = 300
+FIRST_SWEEPS = 100
+"""Points of a trace that are sent with every picture: so many over all of it, and each of the first sweeps."""
+
+WEIGHT_BINS = 24
+MOST_NATS = 60.0
+"""Weights that are less than exp(-60) of the largest are counted there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,28 +115,58 @@ class Result:
         return None
 
     def statistics(self) -> dict[str, Any]:
-        """Sweeps, effective sample size, R-hat and log joint of the field's header."""
+        """Sweeps, effective sample size, R-hat, log joint and verdict of the field's header."""
         sweeps, total, ess, rhat, joint = 0, 0, math.nan, math.nan, math.nan
+        verdict: Verdict | None = None
         if self.stream is not None:
             sweeps, total = self.stream.sweep, self.stream.total
             mixing = self.stream.mixing()
             ess, rhat, joint = mixing.ess, mixing.rhat, mixing.log_joint
+            apart = difference(self.stream.means(), self.stream.observed())
+            verdict = judge_chains(rhat, ess, sweeps, apart)
         elif self.preview is not None:
             sweeps = self.preview.rounds
         elif self.particles is not None:
             sweeps, total = len(self.particles.log_weights), self.total
             ess = self.particles.effective_sample_size
+            verdict = judge_particles(ess)
         elif self.run is not None:
             sweeps = total = self.run.posterior.sweep
             if self.run.log_joint.size:
-                ess, rhat = bulk_ess(self.run.log_joint), split_rhat(self.run.log_joint)
                 joint = float(self.run.log_joint[:, -1].mean())
+                if np.ptp(self.run.log_joint) > 0:
+                    ess, rhat = bulk_ess(self.run.log_joint), split_rhat(self.run.log_joint)
+                verdict = judge_chains(rhat, ess, sweeps, None)
         numbers = {"ess": ess, "rhat": rhat, "log_joint": joint}
         finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
-        return {"sweeps": sweeps, "total": total, **finite}
+        return {"sweeps": sweeps, "total": total, **finite, "verdict": None if verdict is None else asdict(verdict)}
 
-    def field(self, look: Look) -> tuple[dict[str, Any], dict[str, NDArray[np.uint8]]]:
+    def trace(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Log joint of every chain, (chains, n), and the sweeps or kept draws that these are of, counted from 1, (n,).
+
+        The first sweeps are all there; the later ones are evenly spread.
+        """
+        joint = self.log_joint()
+        count = joint.shape[1]
+        later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
+        some = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
+        return joint[:, some - 1].astype(np.float32), some.astype(np.float32)
+
+    def weights(self) -> tuple[NDArray[np.float32], float] | None:
+        """How many particles weigh how much, or None without particles.
+
+        Counts in bins of equal width up to the largest log weight, and where the first begins, relative to it (nats).
+        """
+        if self.particles is None:
+            return None
+        below = self.particles.log_weights - self.particles.log_weights.max()
+        lowest = -float(min(MOST_NATS, max(1.0, -below.min())))
+        counts, _ = np.histogram(np.maximum(below, lowest), WEIGHT_BINS, (lowest, 0.0))
+        return counts.astype(np.float32), lowest
+
+    def field(self, look: Look) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
         """Header and buffers of the message `field`, but for its generation and its time."""
+        trace, traced = self.trace()
         header: dict[str, Any] = {
             "layer": look.layer,
             "method": self.method,
@@ -136,6 +174,9 @@ class Result:
             **self.statistics(),
             "draws": self.draws(),
         }
+        buffers: dict[str, NDArray[Any]] = {"trace": trace, "traced": traced}
+        if (weights := self.weights()) is not None:
+            buffers["weights"], header["lowest"] = weights
         one = self.draw(look) if look.layer == "draw" else None
         if one is not None:
             drawn, header["chain"], header["draw"] = one
@@ -143,4 +184,4 @@ class Result:
         else:
             header["layer"] = "mean" if look.layer == "draw" else look.layer
             p = np.rint(self.mean() * LEVELS).astype(np.uint8)
-        return header, {"p": p, "observed": np.packbits(self.observed().ravel())}
+        return header, {"p": p, "observed": np.packbits(self.observed().ravel()), **buffers}

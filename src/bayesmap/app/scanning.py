@@ -16,12 +16,13 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import SensorModel
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.noise import AdditiveNoise, Gaussian
 from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 STREAM_NOISE = 11
+BLUR_SIGMAS = 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +54,11 @@ class Scene:
         return replace(self, problem=self.problem.under(Independent(p_wall)))
 
 
-def fan(angles: int) -> NDArray[np.float64]:
-    """Angles of a full turn, (A,)."""
-    return np.arange(angles) * 2 * math.pi / angles
+def fan(angles: int, fov_rad: float = 2 * math.pi) -> NDArray[np.float64]:
+    """Angles of a full turn, from ahead on, or of a fan about it, both ends included, (A,)."""
+    if fov_rad >= 2 * math.pi:
+        return np.arange(angles) * 2 * math.pi / angles
+    return np.linspace(-fov_rad / 2, fov_rad / 2, angles)
 
 
 def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
@@ -64,12 +67,13 @@ def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
 
 
 def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
-    """Scans of all sensors, and the noise-free ranges, (S, A)."""
+    """Scans of all sensors, and the noise-free ranges, (S, A); exact readings are those."""
     poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
-    angles = fan(document.angles)
+    angles = fan(document.angles, document.fov)
     exact = ranges(document.walls.cells, document.grid, poses, angles, document.max_range)
     noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
-    readings = exact + max(document.noise, SMALLEST_NOISE_M) * noise
+    sigma_m = max(document.noise, SMALLEST_NOISE_M) if document.readings == "noisy" else 0.0
+    readings = exact + sigma_m * noise
     return Scans(poses, angles, readings, max_range_m=document.max_range), exact
 
 
@@ -92,6 +96,7 @@ def same_readings(before: Document, after: Document) -> bool:
         cells=before.cells,
         method=before.method,
         order=before.order,
+        start=before.start,
         sweeps=before.sweeps,
     )
 
@@ -120,6 +125,21 @@ def touched(table: BeamTable) -> Touched:
     return Touched(cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.no_hit))
 
 
+def hits(scene: Scene) -> NDArray[np.bool_]:
+    """Which beams met something, (S, A): known in a simulation, else a finite reading below the longest range.
+
+    Additive noise also blurs the longest range, which is what a beam without a return reads: readings within five
+    standard deviations of it are taken for such.
+    """
+    limit = scene.scans.max_range_m
+    if len(scene.exact_m):
+        return np.asarray(scene.exact_m < limit)
+    sensor = scene.sensor
+    blur = getattr(sensor, "sigma_m", getattr(sensor, "scale_m", 0.0)) if isinstance(sensor, AdditiveNoise) else 0.0
+    ranges_m = scene.scans.ranges_m
+    return np.asarray(np.isfinite(ranges_m) & (ranges_m < limit - BLUR_SIGMAS * blur))
+
+
 def rays(scene: Scene, scan: int | None) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     """Header and buffers of the message `scan`: all scans of a simulation, one of a file."""
     some = slice(None) if scan is None else slice(scan, scan + 1)
@@ -132,4 +152,5 @@ def rays(scene: Scene, scan: int | None) -> tuple[dict[str, Any], dict[str, NDAr
         "angles": scene.scans.angles_rad.astype(np.float32),
         "ranges": scene.scans.ranges_m[some].astype(np.float32),
         "exact": exact.astype(np.float32),
+        "hit": hits(scene)[some].astype(np.uint8),
     }

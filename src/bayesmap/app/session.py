@@ -12,6 +12,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from bayesmap.app.adopting import adopted
 from bayesmap.app.document import LIMITS, VERSION, Document, Refused
 from bayesmap.app.edits import EDITS, edit, gesture_of, merged
 from bayesmap.app.history import History
@@ -51,7 +52,6 @@ class Session:
         live: whether edits restart Gibbs.
         running: whether a run is under way.
         draws: {"chains", "count"} of the present result.
-        view: which field is shown.
     """
 
     def __init__(self, document: Document) -> None:
@@ -60,7 +60,7 @@ class Session:
         self.live = True
         self.running = False
         self.draws = {"chains": 0, "count": 0}
-        self.view: dict[str, Any] = {"layer": "mean"}
+        self._views: dict[int, Look] = {}  # of pages that are shown something else than the mean
         self.scan = 0
         self.worker_ready = False
         self._mode: Mode = "live"
@@ -101,13 +101,16 @@ class Session:
     def join(self, client: int) -> Effects:
         """A page has connected; it answers with hello."""
         self._seqs[client] = 0
+        mean: Effects = [ToWorker(Look("mean", client=client))] if self._views.pop(client, None) is not None else []
         welcome = {"type": "welcome", "version": VERSION, "limits": LIMITS, "base": ""}
         worker = {"type": "worker", "state": "ready" if self.worker_ready else "starting"}
-        return [ToPage(welcome, {}, client), ToPage(worker, {}, client)]
+        return [*mean, ToPage(welcome, {}, client), ToPage(worker, {}, client)]
 
-    def leave(self, client: int) -> None:
-        """A page has gone."""
+    def leave(self, client: int) -> Effects:
+        """A page has gone: the worker need not draw for it any more, and anybody may undo its steps."""
         self._seqs.pop(client, None)
+        look = self._views.pop(client, None)
+        return [*([ToWorker(Look("mean", client=client))] if look is not None else []), self._state()]
 
     def _flush(self) -> Effects:
         if self._waiting is None:
@@ -131,18 +134,22 @@ class Session:
     def _edit(self, client: int, message: Message) -> Effects:
         before = self.document
         after, remark = edit(before, message)
-        self.history = self.history.push(after, gesture_of(message, client))
+        self.history = self.history.push(after, gesture_of(message, client), client)
         effects: Effects = [self._status(remark, "warning", client)] if remark else []
         return effects + ([self._state()] if self.document is before else self._restart())
 
     def _on_hello(self, client: int, message: Message) -> Effects:
         effects: Effects = []
         document = message.get("document")
-        if document is not None and document != self.document:
-            if self.document.simulated:
-                self.history = self.history.push(document)
-                return self._restart()
-            effects.append(self._status(f"this page shows {self.document.source.name}", "warning", client))
+        if document is not None:
+            try:
+                document = adopted(self.document, document)
+            except Refused as refusal:
+                effects.append(self._status(f"{refusal.text}; {refusal.remedy}", "warning", client))
+            else:
+                self.history = self.history.push(document, author=client)
+                if self.document is document:
+                    return self._restart()
         effects.append(replace(self._state(), client=client))
         return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
 
@@ -150,14 +157,23 @@ class Session:
         return self._restart("clear")
 
     def _on_undo(self, client: int, message: Message) -> Effects:
-        return self._step(client, self.history.undo(), "undo")
+        return self._step(client, self.history.undo(), self.history.undoes, "undo")
 
     def _on_redo(self, client: int, message: Message) -> Effects:
-        return self._step(client, self.history.redo(), "redo")
+        return self._step(client, self.history.redo(), self.history.redoes, "redo")
 
-    def _step(self, client: int, history: History[Document], name: str) -> Effects:
+    def _may_step(self, client: int, author: object) -> bool:
+        """Whether the next step back or forth is this page's, or of one that has gone."""
+        return author == client or author not in self._seqs
+
+    def _step(self, client: int, history: History[Document], author: object, name: str) -> Effects:
         if history is self.history:
             return [self._status(f"nothing to {name}", "info", client), self._state()]
+        if not self._may_step(client, author):
+            return [
+                self._status(f"the last step was made in another tab: {name} it there", "info", client),
+                self._state(),
+            ]
         self.history = history
         return self._restart()
 
@@ -176,8 +192,8 @@ class Session:
         return self._restart() if self.live else [ToWorker(Cancel()), self._state()]
 
     def _on_view(self, client: int, message: Message) -> Effects:
-        self.view = {k: message[k] for k in ("layer", "chain", "draw") if k in message}
-        return [ToWorker(self._look()), self._state()]
+        self._views[client] = Look(message["layer"], message.get("chain"), message.get("draw"), client)
+        return [ToWorker(self._views[client]), self._state()]
 
     def _on_scan(self, client: int, message: Message) -> Effects:
         scans = self.document.source.scans
@@ -219,9 +235,16 @@ class Session:
             self.running = False
             return [self._status(header["text"], "error"), self._state(), *self._picture_is_out()]
         message = ToPage(header, report.buffers, report.client)
-        if kind in REPLAYED:
+        if kind in REPLAYED and report.client is None:
             self._last[kind] = message
-        return [message, *self._picture_is_out()] if kind == "field" else [message]
+        return [*self._shown(message), *self._picture_is_out()] if kind == "field" else [message]
+
+    def _shown(self, field: ToPage) -> Effects:
+        """A field goes to the page that asked for it, or to all but those that are shown a draw."""
+        drawing = {client for client, look in self._views.items() if look.layer == "draw"}
+        if field.client is not None or not drawing:
+            return [field]
+        return [replace(field, client=client) for client in self._seqs if client not in drawing]
 
     def worker_lost(self) -> Effects:
         """The worker died; another is being started."""
@@ -234,7 +257,7 @@ class Session:
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
-        ready: Effects = [ToPage({"type": "worker", "state": "ready"})]
+        ready: Effects = [ToPage({"type": "worker", "state": "ready"}), *map(ToWorker, self._views.values())]
         again: Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
         return [*ready, *self._restart(again)]
 
@@ -258,10 +281,7 @@ class Session:
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = Infer(self.generation, self.document, self._mode, self.scan)
         # The state first: a page must know of a generation before it sees the picture.
-        return [self._state(), ToWorker(self._look()), ToWorker(task)]
-
-    def _look(self) -> Look:
-        return Look(self.view["layer"], self.view.get("chain"), self.view.get("draw"))
+        return [self._state(), ToWorker(task)]
 
     def _state(self) -> ToPage:
         """The present state, with the number of each page's last message in it: see `addressed`."""
@@ -269,14 +289,19 @@ class Session:
             "type": "state",
             "document": self.document.to_json(),
             "generation": self.generation,
-            "can_undo": self.history.can_undo,
-            "can_redo": self.history.can_redo,
             "live": self.live,
             "running": self.running,
             "draws": self.draws,
-            "view": {"layer": self.view["layer"], "chain": self.view.get("chain"), "draw": self.view.get("draw")},
             "scan": self.scan,
-            "seqs": dict(self._seqs),
+            "pages": {
+                client: {
+                    "seq": seq,
+                    "view": _as_json(self._views.get(client, Look("mean"))),
+                    "can_undo": self.history.can_undo and self._may_step(client, self.history.undoes),
+                    "can_redo": self.history.can_redo and self._may_step(client, self.history.redoes),
+                }
+                for client, seq in self._seqs.items()
+            },
         }
         return ToPage(header)
 
@@ -285,10 +310,16 @@ class Session:
 
 
 def addressed(header: Mapping[str, Any], client: int) -> Mapping[str, Any]:
-    """A message as one page is to see it: in a state, the number of its own last message that was applied."""
+    """A message as one page is to see it: in a state, its own last message that was applied, its view, its undo."""
     if header["type"] != "state":
         return header
-    return {**{name: value for name, value in header.items() if name != "seqs"}, "seq": header["seqs"].get(client, 0)}
+    unknown = {"seq": 0, "view": _as_json(Look("mean")), "can_undo": False, "can_redo": False}
+    own = header["pages"].get(client, unknown)
+    return {**{name: value for name, value in header.items() if name != "pages"}, **own}
+
+
+def _as_json(look: Look) -> dict[str, Any]:
+    return {"layer": look.layer, "chain": look.chain, "draw": look.draw}
 
 
 def refusal(refused: Refused, kind: str | None = None, seq: int | None = None) -> dict[str, Any]:

@@ -25,8 +25,8 @@ STEP_SECONDS = 0.015
 DRAW_BYTES = 128 << 20
 """Of the kept draws of a run; more sweeps than fit are thinned."""
 
-DIAGNOSED = 2000
-"""Sweeps of each chain, evenly spread, of which R-hat and effective sample size are computed."""
+DIAGNOSIS_SHARE = 0.1
+"""Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,9 @@ class Stream:
         )  # fmt: skip
         self.seconds, self.counted = 0.0, 0
         self._latest = empty
-        self._sum = np.zeros(model.grid.shape)
+        self._sums = np.zeros((CHAINS, *model.grid.shape))
+        self._rhat = self._ess = math.nan
+        self._diagnose_at, self._diagnosed = 0.0, 0
         self._informed = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = np.zeros((CHAINS, self.total))
         self._log_prior = np.zeros((CHAINS, self.total))
@@ -88,7 +90,9 @@ class Stream:
         latest = replace(self._latest, arrays=info.draws)
         if latest.count:
             self._latest = latest
-            self._sum += self.model.cells.mean_map(latest) * latest.count
+            for chain in range(CHAINS):
+                one = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
+                self._sums[chain] += self.model.cells.mean_map(one) * latest.count
             self.counted += latest.count
         if self.keep:
             self._record.add(info, before)
@@ -108,8 +112,12 @@ class Stream:
         Where draws are not kept, cells that no beam says anything of have the prior's mean exactly: what their draws
         average to.
         """
-        mean = self._sum / max(1, self.counted)
+        mean = self._sums.mean(axis=0) / max(1, self.counted)
         return mean if self.keep else np.where(self._informed[0] > 0, mean, self.model.cells.mean_stop(self.model.grid))
+
+    def means(self) -> NDArray[np.float64]:
+        """The same of each chain, (chains, nx, ny)."""
+        return self._sums / max(1, self.counted)
 
     def observed(self) -> NDArray[np.bool_]:
         """Cells of which a beam said something in at least half of the maps at which the chains paused, (nx, ny)."""
@@ -128,12 +136,16 @@ class Stream:
         return self._log_likelihood[:, : self.sweep] + self._log_prior[:, : self.sweep]
 
     def mixing(self) -> Mixing:
-        """Diagnostics of the sweeps so far."""
+        """Diagnostics of all sweeps, while the chains run of those until a moment ago; NaN where nothing changed."""
         joint = self.log_joint()
-        every = -(-joint.shape[1] // DIAGNOSED)
-        some = joint[:, ::every] if every > 1 else joint
         last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
-        return Mixing(rhat(some), bulk_ess(some), last)
+        now = time.perf_counter()
+        if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
+            constant = joint.size == 0 or float(np.ptp(joint)) == 0.0
+            self._rhat, self._ess = (math.nan, math.nan) if constant else (rhat(joint), bulk_ess(joint))
+            self._diagnosed = self.sweep
+            self._diagnose_at = math.inf if self.done else now + (time.perf_counter() - now) / DIAGNOSIS_SHARE
+        return Mixing(self._rhat, self._ess, last)
 
     def chains(self) -> Chains:
         """Everything, as the library's runner leaves it."""

@@ -1,4 +1,4 @@
-"""Starts the worker, watches it, starts another when it dies. Two threads: no end of the pipe blocks the caller."""
+"""Starts the worker, watches it, starts another when it dies or hangs; threads, so that no pipe blocks the caller."""
 
 from __future__ import annotations
 
@@ -12,12 +12,17 @@ import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 
-from bayesmap.app.tasks import Infer, Report, Task
+from bayesmap.app.tasks import ALIVE_SECONDS, Infer, Report, Task
 
 QUICK_DEATH_SECONDS = 5.0
 """A worker that lived no longer than this is not restarted at once, lest it die forever."""
 
 LONGEST_PAUSE_SECONDS = 8.0
+SILENT_SECONDS = 15.0
+"""A worker that has given no sign of life for so long is replaced."""
+
+SLOW_BIRTH_SECONDS = 60.0
+"""A new one has so much longer: a cold disk has to load Python and its libraries first."""
 
 
 class Supervisor:
@@ -27,17 +32,24 @@ class Supervisor:
         on_report: given every report, on a thread of the supervisor's.
         on_lost: called when a worker has died, before another starts.
         path: the file that the worker opens.
+        silence_s: how long a worker may give no sign of life.
     """
 
     def __init__(
-        self, on_report: Callable[[Report], None], on_lost: Callable[[], None], path: str | None = None
+        self,
+        on_report: Callable[[Report], None],
+        on_lost: Callable[[], None],
+        path: str | None = None,
+        silence_s: float = SILENT_SECONDS,
     ) -> None:
         self._on_report, self._on_lost, self._path = on_report, on_lost, path
+        self._silence_s = silence_s
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
         self._pipe: Connection | None = None
+        self._heard = 0.0
 
     @property
     def pid(self) -> int | None:
@@ -46,7 +58,7 @@ class Supervisor:
 
     def start(self) -> None:
         """Start the worker and the threads."""
-        for run in (self._listen, self._pass_on):
+        for run in (self._listen, self._pass_on, self._watch):
             threading.Thread(target=run, name=f"bayesmap{run.__name__}", daemon=True).start()
 
     def send(self, task: Task) -> None:
@@ -78,6 +90,7 @@ class Supervisor:
                     command, pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
                 )
             self._pipe = Connection(ours.detach())
+            self._heard = time.monotonic() + SLOW_BIRTH_SECONDS
             return self._pipe
 
     def _listen(self) -> None:
@@ -88,6 +101,9 @@ class Supervisor:
             with contextlib.suppress(EOFError, OSError):
                 while True:
                     report = pipe.recv()
+                    self._heard = time.monotonic()
+                    if report.header["type"] == "alive":
+                        continue
                     self._on_report(report)
                     if report.header["type"] == "unusable":
                         return
@@ -103,6 +119,14 @@ class Supervisor:
             quick = time.monotonic() - born < QUICK_DEATH_SECONDS
             pause = min(LONGEST_PAUSE_SECONDS, max(0.25, 2 * pause)) if quick else 0.0
             self._stopping.wait(pause)
+
+    def _watch(self) -> None:
+        """End a worker that is stopped or hangs; `_listen` then meets the end of its pipe."""
+        while not self._stopping.wait(ALIVE_SECONDS):
+            with self._lock:
+                process = self._process
+                if process is not None and time.monotonic() - self._heard > self._silence_s:
+                    process.kill()
 
     def _pass_on(self) -> None:
         """Write tasks; of several that wait and begin a generation, only the last."""

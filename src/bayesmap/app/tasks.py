@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
 
+ALIVE_SECONDS = 1.0
+"""From one sign of life of the worker's to the next."""
+
 Mode = Literal["preview", "live", "run", "clear"]
 
 
@@ -37,11 +40,19 @@ class Cancel:
 
 @dataclass(frozen=True)
 class Look:
-    """Which field to send from now on; one is sent at once."""
+    """Which field a page is sent from now on; one is sent at once.
+
+    Attributes:
+        layer: "mean", "entropy" or "draw".
+        chain: whose draw.
+        draw: its number, or None for the last.
+        client: the page.
+    """
 
     layer: str
     chain: int | None = None
     draw: int | None = None
+    client: int | None = None
 
 
 @dataclass(frozen=True)
@@ -77,7 +88,7 @@ class Report:
 
     Attributes:
         header: the message; of type scan, field, cell, download or status, which the page knows, or ready, finished or
-            failed, which are the session's.
+            failed, which are the session's, or alive, which is the supervisor's.
         buffers: arrays by name.
         client: who asked, where it is for one page alone.
     """

@@ -10,8 +10,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from bayesmap.app.document import Document, Refused, parse_document
+from bayesmap.app.document import Document, Refused
 from bayesmap.app.messages import Buffers, as_array, check, seq_of
+from bayesmap.app.parsing import parse_simulation
 from bayesmap.app.recording import run_to_html, static
 from bayesmap.app.session import Effects, Session, ToWorker, addressed, refusal
 from bayesmap.app.supervisor import Supervisor
@@ -53,7 +54,7 @@ class MapWidget(anywidget.AnyWidget):
     ) -> None:
         super().__init__(**options)
         self._run = run
-        first = tutorial_document(seed) if document is None else parse_document(dict(document))
+        first = tutorial_document(seed) if document is None else parse_simulation(dict(document))
         self._session = Session(_shown(run, first))
         self._later = _on_this_loop()
         self.on_msg(self._receive)

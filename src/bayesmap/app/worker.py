@@ -6,14 +6,35 @@ import contextlib
 import os
 import signal
 import sys
+import threading
+import time
 from multiprocessing.connection import Connection
 from typing import Any
 
-from bayesmap.app.tasks import Infer, Report, Task
+from bayesmap.app.tasks import ALIVE_SECONDS, Infer, Report, Task
 from bayesmap.errors import BadInput
 
 NICE = 10
 """The page and its server come first: a picture that cannot be painted is no use."""
+
+
+class Telling:
+    """The worker's end of the pipe for several threads: reports, and a sign of life while nothing is reported."""
+
+    def __init__(self, pipe: Connection) -> None:
+        self._pipe, self._lock = pipe, threading.Lock()
+        threading.Thread(target=self._live, name="bayesmap_alive", daemon=True).start()
+
+    def __call__(self, report: Report) -> None:
+        """Send a report."""
+        with self._lock:
+            self._pipe.send(report)
+
+    def _live(self) -> None:
+        with contextlib.suppress(OSError):
+            while True:
+                self(Report({"type": "alive"}))
+                time.sleep(ALIVE_SECONDS)
 
 
 def serve(pipe: Connection, path: str | None) -> None:
@@ -25,14 +46,15 @@ def serve(pipe: Connection, path: str | None) -> None:
     from bayesmap.app.engine import Engine
     from bayesmap.app.opened import open_file
 
+    tell = Telling(pipe)
     try:
         opened = open_file(path) if path is not None else None
     except (BadInput, OSError) as error:
-        pipe.send(Report({"type": "unusable", "text": str(error)}))
+        tell(Report({"type": "unusable", "text": str(error)}))
         return
     _warm()
-    engine = Engine(pipe.send, opened)
-    pipe.send(Report({"type": "ready", "document": None if opened is None else opened.document}))
+    engine = Engine(tell, opened)
+    tell(Report({"type": "ready", "document": None if opened is None else opened.document}))
     while True:
         tasks: list[Task] = []
         while pipe.poll(0 if engine.busy or tasks else None):

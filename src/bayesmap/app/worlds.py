@@ -17,7 +17,9 @@ ROOM_CELLS = 6
 def tutorial_document(seed: int = 0) -> Document:
     """The tutorial's map and robot."""
     walls, (x, y, yaw) = tutorial()
-    return Document(TUTORIAL_GRID, WallMap(walls), (Sensor(1, float(x), float(y), float(yaw)),), seed=seed)
+    return Document(
+        TUTORIAL_GRID, WallMap(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
+    )
 
 
 def new_document(world: str, shape: tuple[int, int], before: Document) -> Document:
@@ -48,8 +50,11 @@ def new_document(world: str, shape: tuple[int, int], before: Document) -> Docume
         noise=noise,
         angles=min(1000, max(10, before.angles)),
         max_range=2.0 * max(shape) * grid.resolution,
+        fov=before.fov,
+        readings=before.readings,
         method=before.method,
         order=before.order,
+        start=before.start,
         sweeps=before.sweeps,
         seed=before.seed,
     )

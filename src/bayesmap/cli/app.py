@@ -10,7 +10,7 @@ from bayesmap.cli.talk import write_out
 
 
 @takes(None)
-@click.argument("file", metavar="[RUN.nc | LOG]", required=False)
+@click.argument("file", metavar="[RUN.nc | LOG | DOCUMENT.json]", required=False)
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
@@ -18,20 +18,27 @@ from bayesmap.cli.talk import write_out
 def command(call: Call, file: str | None, host: str, port: int, no_browser: bool, seed: int) -> None:
     r"""Draw walls, drag the robot, watch the posterior live, in the browser.
 
-    Begins with the tutorial's map; with a saved run (.nc) its draws and scans can be looked through, with a log the map
-    is inferred while you watch. Prints the address of the page when it is ready; Ctrl-C ends the server, with exit
-    code 0. Nothing is fetched from the network, and nobody without the token in the address can reach the page.
+    Begins with the tutorial's map, or with a document that the page has exported; with a saved run (.nc) its draws and
+    scans can be looked through, with a log the map is inferred while you watch. Prints the address of the page when it
+    is ready; Ctrl-C ends the server, with exit code 0. Nothing is fetched from the network, and nobody without the
+    token in the address can reach the page.
 
     \b
     bayesmap app
     bayesmap app runs/office/run.nc --no-browser --port 8000
     bayesmap app office.log.gz
+    bayesmap app document.json
     """
     if file is not None:
-        need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
+        need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
+    from bayesmap.app.opened import read_document
     from bayesmap.app.server import serve
     from bayesmap.app.worlds import tutorial_document
+
+    first = tutorial_document(seed)
+    if file is not None and file.endswith(".json"):
+        first, file = read_document(file), None
 
     call.talk.say("starting the worker ..." if file is None else f"opening {file} ...")
 
@@ -46,4 +53,4 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
 
             webbrowser.open(address)
 
-    serve(tutorial_document(seed), path=file, host=host, port=port, on_ready=ready)
+    serve(first, path=file, host=host, port=port, on_ready=ready)

@@ -27,7 +27,10 @@ def command(call: Call, run_file: str, output: str | None, force: bool) -> None:
                         --format gridmap: all layers, as grid_map has them
     .tif                GeoTIFF, a band a layer (needs bayesmap[geotiff])
     .rrd                layers and scans for rerun (needs bayesmap[rerun])
-    .tum                the scans' poses, as evo reads them
+    .tum                the poses, as evo reads them; covariances beside them
+    .g2o                the poses as a graph with information matrices
+    --format trajectory nav_msgs/Path, and PoseWithCovarianceStamped, in a
+                        recording
 
     The layers are mean, entropy and, where a cell's state is a number, the bounds of its 90 % interval.
     """

@@ -101,6 +101,7 @@ def _run(
 
 
 def stem(log: str) -> str:
+    """What a run of a log is called."""
     name = os.path.basename(os.path.normpath(log))
     for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz"):
         name = name.removesuffix(ending)
@@ -125,6 +126,7 @@ def saved(folder: Folder) -> Run | None:
 
 
 def read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
+    """Read a log by a command's settings, and say what is in it."""
     from bayesmap.io.logs import describe_log
 
     reading = describe_log(log, max_range_m=values["max_range"], **options_of(values))
@@ -224,6 +226,7 @@ def _score(talk: Talk, run: Run, heldout: Scans | None, every: int) -> dict[str,
 
 
 def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
+    """The JSON document of a run and its log."""
     from bayesmap.cli.document import run_document
 
     return {
@@ -235,6 +238,7 @@ def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, out
 
 
 def report(talk: Talk, document: dict[str, Any]) -> None:
+    """Say what the JSON document holds."""
     from bayesmap.cli.document import work_done
 
     seconds, joint = document["seconds"], document["log_joint"]

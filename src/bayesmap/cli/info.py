@@ -28,14 +28,19 @@ def command(call: Call, file: str) -> None:
     bayesmap info runs/office/run.nc --json
     """
     need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
-    document = _saved_run(file) if _is_saved_run(file) else _log(file)
+    document = _saved_run(file) if is_saved_run(file) else _log(file)
     if call.talk.as_json:
         call.talk.result(document, [])
     else:
         write_out("\n".join(_lines(document)) + "\n")
 
 
-def _is_saved_run(file: str) -> bool:
+def is_saved_run(file: str) -> bool:
+    """Whether a file begins as saved runs do.
+
+    Raises:
+        BadInput: it cannot be read.
+    """
     from bayesmap.io.logs import SAVED_RUNS
 
     if not Path(file).is_file():

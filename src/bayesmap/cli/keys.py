@@ -22,7 +22,7 @@ PICTURES = (
     "figure", "mean", "entropy", "width", "deviation", "draw", "residuals", "surprise", "log-odds", "surfaces", "trace",
     "weights", "animation",
 )  # fmt: skip
-EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "geotiff")
+EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "trajectory", "g2o", "geotiff")
 
 
 @dataclass(frozen=True)
@@ -127,6 +127,9 @@ SIMULATE = (
     Key("fov", float, None, "Field of view in degrees.", "360 in the tutorial, else 180", metavar="DEGREES"),
     Key("max_range", float, None, "Of the sensor.", "42 in the tutorial, else 30", metavar="METRES"),
     Key("sensor", str, "default", "Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL"),
+    Key("odometry", str, "true", "Poses of the log: true, typical, or with numbers (see above).", metavar="ODOMETRY"),
+    Key("laser", str, "0,0,0", "Where the laser sits on the robot.", metavar="X,Y,DEGREES"),
+    Key("speed", float, 0.5, "Of the robot with --odometry, for the stamps.", metavar="M_PER_S"),
     SEED,
 )
 
@@ -165,6 +168,13 @@ EXPORT = (
 
 SCORE = (
     Key("holdout", int, 10, "Every n-th scan was held out when the run was made.", metavar="N"),
+    Key("resolution", float, 0.1, "Of the map that is inferred for a trajectory without one, metres."),
+    *READING,
+    SEED,
+)
+
+LOCALIZE = (
+    Key("beam_weight", float, None, "How much of an independent observation a beam is.", "see docs/localization.md"),
     *READING,
     SEED,
 )
@@ -177,5 +187,6 @@ SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "render": RENDER,
     "export": EXPORT,
     "score": SCORE,
+    "localize": LOCALIZE,
 }
 """The tables of a configuration file: one a command."""

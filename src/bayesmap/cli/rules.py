@@ -32,6 +32,7 @@ NONE_OR_MORE = Rule(lambda n: n >= 0, "a whole number of 0 or more")
 EVERY = Rule(lambda n: n == 0 or n >= 2, "2 or more, for every n-th scan, or 0")
 LENGTH = Rule(lambda x: 0 < x < math.inf, "a positive number of metres")
 SPACING = Rule(lambda x: 0 <= x < math.inf, "0 or a positive number of metres")
+SPEED = Rule(lambda x: 0 < x < math.inf, "a positive number of metres a second")
 DURATION = Rule(lambda x: x >= 0, "0 or a positive number of seconds")
 CODE = Rule(lambda x: not math.isnan(x), "the log's number in metres, or inf if it has none")
 SHARE = Rule(lambda x: 0 <= x <= 1, "a number from 0 to 1")
@@ -49,11 +50,13 @@ RULES = {
     "rounds": ONE_OR_MORE,
     "seed": NONE_OR_MORE,
     "prior": SHARE,
+    "beam_weight": Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most"),
     "hit_depth": SHARE,
     "holdout": EVERY,
     "threads": ONE_OR_MORE,
     "checkpoint_every": DURATION,
     "scans": ONE_OR_MORE,
+    "speed": SPEED,
     "chain": ONE_OR_MORE,
     "frames": ONE_OR_MORE,
     "occupied_thresh": SHARE,

@@ -67,7 +67,7 @@ def world_of(values: dict[str, Any], poses: Sequence[str]) -> World:
         click.UsageError: a file, but no pose.
     """
     name, resolution = values["world"], values["resolution"]
-    given = [_pose(text) for text in poses]
+    given = [pose_of(text) for text in poses]
     if name == "tutorial":
         return _tutorial(resolution, given)
     if name == "building":
@@ -131,11 +131,16 @@ def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_],
     return walls, Grid(walls.shape, resolution or 1.0)
 
 
-def _pose(text: str) -> tuple[float, float, float]:
+def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
+    """A pose as typed, in metres and degrees, in metres and radians.
+
+    Raises:
+        click.BadParameter: something else; the message names the flag.
+    """
     try:
         x, y, degrees = (float(part) for part in text.split(","))
     except ValueError:
-        raise click.BadParameter(f"{text!r} is not X,Y,DEGREES", param_hint="'--pose'") from None
+        raise click.BadParameter(f"{text!r} is not X,Y,DEGREES", param_hint=f"'{flag}'") from None
     return x, y, math.radians(degrees)
 
 

@@ -1,5 +1,6 @@
 """The exact posterior of a discrete hidden Markov model's states, as a distribution."""
 
+import dataclasses
 from typing import Any
 
 import jax
@@ -26,6 +27,12 @@ class DiscreteHMMConfiguration(Pytree):
     adjacency_distance_obs: int = static()
     sigma_trans: float = static()
     sigma_obs: float = static()
+
+    def __post_init__(self) -> None:
+        # GenJAX's programs give arrays, which no tree's definition can hold.
+        for field in dataclasses.fields(self):
+            number = float if field.name.startswith("sigma") else int
+            object.__setattr__(self, field.name, number(getattr(self, field.name)))
 
     def transition_tensor(self) -> Array:
         """Logits of the next state, (from, to)."""
@@ -54,7 +61,7 @@ class _Posterior(Distribution):
         config, observations = args
         start, move, emit = _log_probabilities(config)
         steps = start[value[0]] + move[value[:-1], value[1:]].sum()
-        return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)  # type: ignore[no-any-return]
+        return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)
 
     def data_logpdf(self, config: DiscreteHMMConfiguration, observations: IntArray) -> Score:
         """The log probability of the observations."""

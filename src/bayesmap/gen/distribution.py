@@ -63,7 +63,7 @@ class Distribution(GenerativeFunction):
         """A new value in the dtypes of the one that it replaces, so that both can be branches of `lax.cond`."""
         return jax.tree.map(lambda v, o: jnp.asarray(v, jnp.result_type(o)), value, old)
 
-    def simulate(self, key: PRNGKey, args: Arguments) -> DistributionTrace:
+    def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
         _check_tuple(args)
         score, value = self.random_weighted(key, *args)
         return DistributionTrace(self, args, value, score)
@@ -105,8 +105,8 @@ class Distribution(GenerativeFunction):
                 discard = ChoiceMap.choice(old if given is None else Mask(old, given))
                 return new, new.score - trace.score, Diff.unknown_change(value), Update(discard)
             case Regenerate(selection) if selection.check():
-                new = self.simulate(key, args)
-                new = new.replace(value=self.like(new.value, old))
+                score, value = self.random_weighted(key, *args)
+                new = DistributionTrace(self, args, self.like(value, old), score)
                 return new, jnp.zeros(()), Diff.unknown_change(new.value), Update(ChoiceMap.choice(old))
             case Regenerate():
                 return self._rescore(key, trace, argdiffs)

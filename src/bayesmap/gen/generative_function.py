@@ -109,7 +109,7 @@ class Trace(Outlined, Pytree):
         trace, weight, retdiff, backward = self.edit(key, Update(constraint), argdiffs)
         if not isinstance(backward, Update):
             raise TypeError(f"This update is undone by {type(backward).__name__}, not by choices; use edit")
-        return trace, weight, retdiff, backward.constraint  # type: ignore[return-value]
+        return trace, weight, retdiff, backward.constraint
 
     def project(self, key: PRNGKey, selection: Selection) -> Weight:
         """The selected choices' part of the score."""
@@ -120,7 +120,7 @@ def in_dtypes_of(old: Any, new: Any) -> Any:
     """A trace in the dtypes of the one that it replaces, so that both can be branches of `lax.cond`."""
     leaves, treedef = jax.tree.flatten(new)
     dtypes = map(jnp.result_type, jax.tree.leaves(old))
-    return treedef.unflatten([jnp.asarray(x, dtype) for x, dtype in zip(leaves, dtypes, strict=True)])
+    return jax.tree.unflatten(treedef, [jnp.asarray(x, dtype) for x, dtype in zip(leaves, dtypes, strict=True)])
 
 
 class GenerativeFunction(Fluent, Pytree):

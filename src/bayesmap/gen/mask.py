@@ -110,7 +110,7 @@ class Mask(Pytree):
 
 
 def _check_same_shapes(a: Mask, b: Mask) -> None:
-    if jax.tree.structure(a.value) != jax.tree.structure(b.value):
+    if bool(jax.tree.structure(a.value) != jax.tree.structure(b.value)):  # type: ignore[operator]
         raise ValueError("Cannot combine masks with different tree structures")
     for x, y in zip(jax.tree.leaves((a.value, a.flag)), jax.tree.leaves((b.value, b.flag)), strict=True):
         if jnp.shape(x) != jnp.shape(y):

@@ -153,7 +153,7 @@ class PythonicPytree(Pytree):
     def __add__(self, other: Any) -> Self:
         if not isinstance(other, type(self)):
             raise TypeError(f"Cannot add {type(self).__name__} and {type(other).__name__}")
-        return jax.tree.map(lambda a, b: jnp.concatenate([a, b]), self, other)
+        return jax.tree.map(lambda a, b: jnp.concatenate([a, b]), self, other)  # type: ignore[no-any-return]
 
     def prepend(self, element: Any) -> Self:
         """The sequence with one more element before the first."""

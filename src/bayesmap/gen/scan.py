@@ -52,7 +52,9 @@ class Scan(GenerativeFunction):
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
         sizes = dict.fromkeys(jnp.shape(leaf)[0] for leaf in jax.tree.leaves(args[1]))
         if len(sizes) > 1:
-            raise ValueError(f"scan got values with different leading axis sizes: {', '.join(map(str, sizes))}.")
+            raise ValueError(
+                f"scan got values with different leading axis sizes: {', '.join(f'{size}' for size in sizes)}."
+            )
         if self.n is None and not sizes:
             raise TypeError("scan needs n= where there are no inputs")
         return self.n if self.n is not None else next(iter(sizes))

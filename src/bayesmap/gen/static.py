@@ -114,7 +114,7 @@ class _Edit(_Run):
         self.weight += weight
         self.returned[path] = Diff.tangents(retdiff)
         self.backward[path] = back
-        return trace
+        return trace  # type: ignore[no-any-return]
 
 
 def _flow_of_body(old: StaticTrace, args: Arguments) -> Dataflow | None:

@@ -47,7 +47,7 @@ class SwitchTrace(Trace):
         all_args = [None] * len(self.branches) if self.args is None else self.args[1:]
         branches = [t.with_args(a) for t, a in zip(self.branches, all_args, strict=True)]
         if is_concrete(self.index) and jnp.ndim(self.index) == 0:
-            return branches[int(self.index)].get_inner_trace(address)  # type: ignore[no-any-return]
+            return branches[int(self.index)].get_inner_trace(address)
         found = {}
         for k, trace in enumerate(branches):
             with suppress(AddressError):
@@ -59,7 +59,7 @@ class SwitchTrace(Trace):
         chosen = next(iter(found.values()))
         for k, trace in found.items():
             chosen = where(self.index == k, trace, chosen)
-        return chosen  # type: ignore[no-any-return]
+        return chosen
 
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:

@@ -39,7 +39,7 @@ class Is:
         return cls(condition)
 
 
-ScalarShaped = Is[lambda value: jnp.shape(value) == ()]  # type: ignore[valid-type, name-defined]
+ScalarShaped = Is(lambda value: jnp.shape(value) == ())
 ScalarFlag: TypeAlias = Annotated[Flag, ScalarShaped]
 ScalarInt: TypeAlias = Annotated[IntArray, ScalarShaped]
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
 from bayesmap.io.returns import decode
-from bayesmap.space.scans import Scans
+from bayesmap.space.scans import Scans, as_poses
 
 HOST = "bayesmap"
 NO_RETURN_CODE_M = 81.83
@@ -29,7 +29,7 @@ _FLASER_STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5}
 _ANGLE_TOLERANCE_RAD = 1e-6
 
 
-def write_carmen(path: str | os.PathLike[str], scans: Scans) -> str:
+def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: NDArray[np.float64] | None = None) -> str:
     """Write scans as a CARMEN log, whole or not at all; gzipped if the name ends in .gz.
 
     Ranges keep a tenth of a millimetre. A reading that is too close or invalid becomes 0, which is read back as
@@ -37,7 +37,8 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans) -> str:
 
     Args:
         path: the log to write.
-        scans: with stamps, or they are taken a second apart.
+        scans: with stamps, or they are taken a second apart; their poses are the laser's.
+        robot_poses: of the robot's base, shape (S, 3), in the same frame; the laser's if None.
 
     Returns:
         The kind of message that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
@@ -62,14 +63,17 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans) -> str:
     text.write("# CARMEN log, written by bayesmap\n")
     # Laser type, first angle, field of view, step, maximum range, accuracy, remission mode.
     head = f"0 {first!r} {step * (len(scans.angles_rad) - 1)!r} {step!r} {scans.max_range_m!r} 0.01 0"
-    for pose, row, stamp in zip(scans.poses, numbers, stamps, strict=True):
+    bases = scans.poses if robot_poses is None else as_poses(robot_poses)
+    if len(bases) != len(scans):
+        raise BadInput(f"log: {len(bases)} poses of the robot for {len(scans)} scans")
+    for pose, base, row, stamp in zip(scans.poses, bases, numbers, stamps, strict=True):
         beams = f"{len(row)} " + " ".join(_short(v) for v in row)
-        where = " ".join(f"{v:.6f}" for v in pose)
+        where, robot = (" ".join(f"{v:.6f}" for v in place) for place in (pose, base))
         end = f"{stamp:.6f} {HOST} {stamp - stamps[0]:.6f}\n"
         if kind == "FLASER":
-            text.write(f"FLASER {beams} {where} {where} {end}")
+            text.write(f"FLASER {beams} {where} {robot} {end}")
         else:
-            text.write(f"ROBOTLASER1 {head} {beams} 0 {where} {where} 0 0 0 0 0 {end}")
+            text.write(f"ROBOTLASER1 {head} {beams} 0 {where} {robot} 0 0 0 0 0 {end}")
     content = text.getvalue().encode("ascii")
     with write_whole(path) as partial:
         # No time stamp and no name in the header: the same scans give the same bytes.

@@ -13,6 +13,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
+from bayesmap.poses.agreement import look_like_odometry
 from bayesmap.space.scans import Scans
 
 
@@ -63,8 +64,8 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
         end_s=None if stamps is None else float(stamps[-1]),
         topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()],
         sensors=[{**scans_summary(reading.scans), **_account(reading)}],
-        suggestion=_command(name, skip=bool(reading.skipped)),
-        notes=reading.notes,
+        suggestion=_command(name, raw=look_like_odometry(reading.scans), skip=bool(reading.skipped)),
+        notes=(*reading.notes, *_about_poses(reading.scans)),
     )
 
 
@@ -107,6 +108,7 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         if best is None
         else _command(
             name,
+            raw=best["raw_odometry"],
             scan_topic=best["topic"] if len(scan_topics) > 1 else None,
             pose_topic=best["pose_topic"],
             skip=bool(recording.notes) or best["skipped"] > 0,
@@ -128,7 +130,8 @@ def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
         except BadInput as problem:
             first = first or problem
             continue
-        return {**account, "pose_topic": pose_topic, **scans_summary(reading.scans), **_account(reading)}
+        found = {**account, "pose_topic": pose_topic, **scans_summary(reading.scans), **_account(reading)}
+        return {**found, "notes": [*found["notes"], *_about_poses(reading.scans)]}
     reason = str(first).removeprefix(f"{recording.path}: ")
     return {**account, "scans": topic.count, "beams": None, "error": reason}
 
@@ -142,8 +145,16 @@ def _account(reading: LogReading) -> dict[str, Any]:
         "skipped": len(reading.skipped),
         "no_return_m": reading.no_return_m,
         "max_range_origin": reading.max_range_origin,
+        "raw_odometry": look_like_odometry(reading.scans),
         "notes": list(reading.notes),
     }
+
+
+def _about_poses(scans: Scans) -> list[str]:
+    """What to do with poses under which the same wall stands in several places."""
+    if not look_like_odometry(scans):
+        return []
+    return ["the poses look like raw odometry, with which scans of one place disagree: use bayesmap slam"]
 
 
 def scans_summary(scans: Scans) -> dict[str, Any]:
@@ -167,8 +178,10 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
     }
 
 
-def _command(path: str, *, scan_topic: str | None = None, pose_topic: str | None = None, skip: bool = False) -> str:
-    words = ["bayesmap", "infer", path]
+def _command(
+    path: str, *, raw: bool = False, scan_topic: str | None = None, pose_topic: str | None = None, skip: bool = False
+) -> str:
+    words = ["bayesmap", "slam" if raw else "infer", path]
     words += ["--scan-topic", scan_topic] if scan_topic else []
     words += ["--pose-topic", pose_topic] if pose_topic else []
     words += ["--skip-bad-lines"] if skip else []

@@ -5,7 +5,9 @@
     occupancy-grid   .bag, .mcap, .db3, or a folder    nav_msgs/OccupancyGrid in a recording
     gridmap          the same, if asked for            grid_map_msgs/GridMap: all layers in a recording
     rerun            .rrd                              layers, trajectory and scans for the rerun viewer
-    tum              .tum                              the scans' poses
+    tum              .tum                              the poses, and their covariances beside them
+    trajectory       as occupancy-grid, if asked for   nav_msgs/Path, and poses with covariances, in a recording
+    g2o              .g2o                              the poses as a graph with information matrices
     geotiff          .tif, .tiff                       all layers, a band each
 
 The layers are ``mean``, ``entropy`` in bits, and, where a cell's state is a number with an interval (reflectivity),
@@ -18,7 +20,7 @@ from __future__ import annotations
 import contextlib
 import os
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +29,10 @@ from bayesmap.errors import BadInput
 from bayesmap.io.recording_writer import ENDINGS, FOLDER
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
+from bayesmap.space.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from bayesmap.io.g2o_writer import Edges
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {
@@ -35,9 +41,13 @@ FORMATS = {
     "gridmap": (),
     "rerun": (".rrd",),
     "tum": (".tum",),
+    "trajectory": (),
+    "g2o": (".g2o",),
     "geotiff": (".tif", ".tiff"),
 }
 """Formats, and the endings by which each is chosen; a name without ending is an occupancy grid in a folder."""
+
+TRAJECTORIES = ("tum", "trajectory", "g2o")
 
 THRESHOLDED = ("map-server", "occupancy-grid")
 """Formats that turn probabilities into per cent, and take a mode and thresholds."""
@@ -114,6 +124,59 @@ def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
     return layers
 
 
+def trajectory_of(run: object, scans: Scans) -> Trajectory:
+    """Where a run says that the sensor was: its draws of poses where it has some, else the poses of its scans."""
+    draws = getattr(run, "poses", None)
+    if isinstance(draws, np.ndarray) and draws.ndim == 4 and draws.shape[0] * draws.shape[1] > 1:
+        return Trajectory.of_draws(draws, scans.stamps_s)
+    return Trajectory(scans.poses, scans.stamps_s)
+
+
+def export_trajectory(
+    path: str | os.PathLike[str],
+    trajectory: Trajectory,
+    *,
+    format: str | None = None,
+    edges: Edges | None = None,
+    frame: str = "map",
+) -> tuple[Path, ...]:
+    """Write a trajectory in another program's format; what was there of that name is replaced.
+
+    Args:
+        path: .tum, .g2o, or a recording (.bag, .mcap, .db3 or a folder).
+        trajectory: of a map's scans, of `bayesmap.localize`, or of anything else.
+        format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
+        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.g2o_writer.chain_edges`).
+        frame: of a recording.
+
+    Returns:
+        The paths of what was written: beside NAME.tum, NAME-covariances.txt where covariances are known.
+
+    Raises:
+        BadInput: another ending or format, no pose, a graph of a trajectory without covariances, or a file that cannot
+            be written.
+    """
+    ending = Path(path).suffix.lower()
+    chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
+    if chosen == "g2o":
+        from bayesmap.io.g2o_writer import chain_edges, write_g2o
+
+        return (write_g2o(path, trajectory.poses, chain_edges(trajectory) if edges is None else edges),)
+    if chosen == "tum":
+        from bayesmap.io.tum import covariances_path, write_covariances, write_trajectory
+
+        written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s),)
+        if trajectory.covariances is None:
+            return written
+        beside = covariances_path(path)
+        return (*written, write_covariances(beside, trajectory.covariances, trajectory.stamps_s))
+    if chosen != "trajectory":
+        raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
+    from bayesmap.io.trajectory_recording import write_trajectory_recording
+
+    return (write_trajectory_recording(path, trajectory, frame=frame),)
+
+
 def export_run(
     path: str | os.PathLike[str],
     run: Mapped,
@@ -168,11 +231,10 @@ def export_run(
     if chosen == "rerun":
         from bayesmap.io.rerun_recording import write_rerun
 
-        return (write_rerun(path, layers_of(run), grid, observed, scans=scans),)
-    if chosen == "tum":
-        from bayesmap.io.tum import write_trajectory
-
-        return (write_trajectory(path, scans.poses, scans.stamps_s),)
+        there = trajectory_of(run, scans)
+        return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=there),)
+    if chosen in TRAJECTORIES:
+        return export_trajectory(path, trajectory_of(run, scans), format=chosen)
     from bayesmap.io.geotiff import write_geotiff
 
     return (write_geotiff(path, layers_of(run), grid, observed),)

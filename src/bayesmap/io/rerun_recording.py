@@ -2,7 +2,8 @@
 
     /map/NAME      picture of a layer: mean: dark is wall; others: yellow is 1, dark blue 0; sand where no beam reached
     /values/NAME   the layer's numbers, a tensor (row from the top, column), NaN where no beam reached
-    /trajectory    the scans' poses, a line
+    /trajectory    the poses, a line
+    /ellipses      regions that hold their positions with 95 % probability, where that is known
     /sensor, /scan position and hits of each scan, on the timelines ``scan`` (its number) and ``stamp`` (where known)
     /about         where the pixels are in the map's frame, in words
 
@@ -25,6 +26,7 @@ from bayesmap.io.atomic import write_whole
 from bayesmap.io.layers import as_layers
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
+from bayesmap.space.trajectory import Trajectory, ellipses
 
 EPOCH_FROM_S = 1e8
 """Later stamps are dates, earlier ones count from some start."""
@@ -33,6 +35,7 @@ SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213,
 WALL_COLORS = ((250, 250, 248), (20, 31, 66))
 UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))
 """Of 0 to 1, in straight lines: those of `bayesmap.viz.palette`, near enough."""
+LEVEL = 0.95
 UNKNOWN_COLOR = (214, 201, 176)
 """Not transparent: the viewer shows that as black."""
 
@@ -44,6 +47,7 @@ def write_rerun(
     observed: ArrayLike | None = None,
     *,
     scans: Scans | None = None,
+    trajectory: Trajectory | None = None,
 ) -> Path:
     """Write layers, and the scans that they came from, for the rerun viewer, whole or not at all.
 
@@ -53,6 +57,7 @@ def write_rerun(
         grid: the grid of the map.
         observed: cells that some beam reached, shape (nx, ny); all by default.
         scans: drawn over the layers; none by default.
+        trajectory: drawn instead of the scans' poses, with its ellipses.
 
     Returns:
         The path.
@@ -68,7 +73,7 @@ def write_rerun(
         raise BadInput(f"{path}: .rrd needs rerun-sdk: pip install 'bayesmap[rerun]'") from None
 
     checked = as_layers(layers, grid, observed)
-    drawn = ["/trajectory", "/sensor", "/scan"]
+    drawn = ["/trajectory", "/ellipses", "/sensor", "/scan"]
     views = [rrb.Spatial2DView(origin="/", contents=[f"/map/{name}", *drawn], name=name) for name in checked]
     target = Path(path)
     with write_whole(target) as partial:
@@ -86,6 +91,9 @@ def write_rerun(
             recording.log(f"values/{name}", tensor, static=True)
         if scans is not None and len(scans):
             _log_scans(rr, recording, scans, grid)
+            trajectory = Trajectory(scans.poses) if trajectory is None else trajectory
+        if trajectory is not None and len(trajectory):
+            _log_trajectory(rr, recording, trajectory, grid)
         recording.flush()
         recording.disconnect()
     return target
@@ -99,8 +107,6 @@ def to_pixels(points_world: NDArray[np.float64], grid: Grid) -> NDArray[np.float
 
 def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
     at = to_pixels(scans.poses[:, :2], grid)
-    line = rr.LineStrips2D([at], colors=[TRAJECTORY_COLOR], radii=[0.3])
-    recording.log("trajectory", line, static=True)
     times = [rr.TimeColumn("scan", sequence=np.arange(len(scans)))]
     if scans.stamps_s is not None:
         kind = "timestamp" if scans.stamps_s.min() > EPOCH_FROM_S else "duration"
@@ -111,6 +117,15 @@ def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
     recording.log("scan", rr.Points2D.from_fields(colors=[SCAN_COLOR], radii=[0.6]), static=True)
     recording.send_columns("sensor", times, rr.Points2D.columns(positions=at))
     recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=hits))
+
+
+def _log_trajectory(rr: Any, recording: Any, trajectory: Trajectory, grid: Grid) -> None:
+    line = rr.LineStrips2D([to_pixels(trajectory.poses[:, :2], grid)], colors=[TRAJECTORY_COLOR], radii=[0.3])
+    recording.log("trajectory", line, static=True)
+    if trajectory.covariances is not None:
+        outlines = ellipses(trajectory.poses[:, :2], trajectory.covariances[:, :2, :2], LEVEL)
+        drawn = rr.LineStrips2D(list(to_pixels(outlines, grid)), colors=[TRAJECTORY_COLOR], radii=[0.1])
+        recording.log("ellipses", drawn, static=True)
 
 
 def _picture(values: NDArray[np.float32], colors: tuple[tuple[int, int, int], ...]) -> NDArray[np.uint8]:

@@ -2,6 +2,9 @@
 
 A line a pose, ``timestamp tx ty tz qx qy qz qw``: seconds, metres, and a unit quaternion; lines that begin with ``#``
 are comments. A pose in the plane has tz = qx = qy = 0 and (qz, qw) = (sin, cos) of half its yaw.
+
+TUM has no place for covariances; they go into a file beside it, a line a pose with the same stamps:
+``timestamp xx xy xyaw yy yyaw yawyaw`` in m^2, m rad and rad^2, along the axes of the world.
 """
 
 from __future__ import annotations
@@ -10,11 +13,16 @@ import os
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
+from bayesmap.io.lines import read_lines
 from bayesmap.space.scans import as_poses
+from bayesmap.space.trajectory import Trajectory
+
+UPRIGHT = 0.1
+"""Sine of half the angle by which a pose may be tilted and still be one in the plane."""
 
 
 def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
@@ -49,3 +57,82 @@ def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamp
     with write_whole(target) as partial:
         partial.write_text("\n".join(lines) + "\n", encoding="ascii")
     return target
+
+
+def covariances_path(path: str | os.PathLike[str]) -> Path:
+    """Where the covariances of a trajectory lie: ``walk.tum`` has ``walk-covariances.txt`` beside it."""
+    target = Path(path)
+    return target.with_name(f"{target.stem}-covariances.txt")
+
+
+def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
+    """Write the covariances of a trajectory's poses, whole or not at all.
+
+    Args:
+        path: the file to write.
+        covariances: of x, y and yaw in world axes, shape (S, 3, 3).
+        stamps_s: time of each pose in seconds, shape (S,); 0, 1, 2 and so on if None.
+
+    Raises:
+        BadInput: shapes that do not fit, numbers that are not finite, or a file that cannot be written.
+    """
+    values = np.asarray(covariances, dtype=np.float64)
+    if values.ndim != 3 or values.shape[1:] != (3, 3) or len(values) == 0 or not np.isfinite(values).all():
+        raise BadInput(f"trajectory: covariances must be finite, (S, 3, 3), got shape {values.shape}")
+    stamps = np.arange(len(values), dtype=np.float64) if stamps_s is None else np.asarray(stamps_s, dtype=np.float64)
+    if stamps.shape != (len(values),) or not np.isfinite(stamps).all():
+        raise BadInput(f"trajectory: give one finite stamp a pose, ({len(values)},), got shape {stamps.shape}")
+    upper = values[:, *np.triu_indices(3)]
+    lines = ["# timestamp xx xy xyaw yy yyaw yawyaw"]
+    lines += [f"{stamp:.9f} " + " ".join(f"{v:.9e}" for v in row) for stamp, row in zip(stamps, upper, strict=True)]
+    target = Path(path)
+    with write_whole(target) as partial:
+        partial.write_text("\n".join(lines) + "\n", encoding="ascii")
+    return target
+
+
+def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
+    """Read a TUM trajectory, in order of time, with the covariances that `write_covariances` put beside it, if any.
+
+    Raises:
+        BadInput: a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the plane,
+            or covariances of another trajectory; the message names the line.
+    """
+    name = os.fspath(path)
+    rows = _rows(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?")
+    quaternion = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
+    tilted = np.hypot(quaternion[:, 0], quaternion[:, 1]) > UPRIGHT
+    if tilted.any():
+        raise BadInput(f"{name}: pose {int(np.argmax(tilted))} is tilted out of the plane of the map")
+    qx, qy, qz, qw = quaternion.T
+    yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy**2 + qz**2))
+    order = np.argsort(rows[:, 0], kind="stable")
+    covariances, beside = None, covariances_path(path)
+    if beside.is_file():
+        table = _rows(os.fspath(beside), 7, "timestamp xx xy xyaw yy yyaw yawyaw")
+        if len(table) != len(rows) or np.abs(table[:, 0] - rows[:, 0]).max() > 1e-6:
+            raise BadInput(f"{beside}: its stamps are not those of {name}; delete it, or write both anew")
+        covariances = np.empty((len(rows), 3, 3))
+        covariances[:, *np.triu_indices(3)] = table[:, 1:]
+        covariances[:, *np.tril_indices(3)] = np.swapaxes(covariances, 1, 2)[:, *np.tril_indices(3)]
+        covariances = covariances[order]
+    return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances)
+
+
+def _rows(name: str, columns: int, form: str) -> NDArray[np.float64]:
+    """The numbers of a text file with so many columns; comments and blank lines are left out."""
+    rows = []
+    for number, line in read_lines(name):
+        words = line.replace(b",", b" ").split()
+        if not words or words[0].startswith(b"#"):
+            continue
+        try:
+            row = [float(word) for word in words]
+        except ValueError:
+            row = []
+        if len(row) != columns or not np.isfinite(row).all():
+            raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {form}")
+        rows.append(row)
+    if not rows:
+        raise BadInput(f"{name}: there is no pose in it")
+    return np.array(rows)

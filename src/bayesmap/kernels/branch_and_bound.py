@@ -254,16 +254,24 @@ def search(
     """The best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
 
     Args:
-        pyramid, origins, resolution: the grids.
-        points: all jobs' points one after the other, in the sensor's frame, shape (N, 2); job j has those from
-            point_offsets[j] to point_offsets[j + 1].
+        pyramid: of the grids, on the device.
+        origins: of the grids, shape (grids, 2).
+        resolution: of the grids, metres a cell.
+        points: all jobs' points one after the other, in the sensor's frame, shape (N, 2).
+        point_offsets: job j has the points from point_offsets[j] to point_offsets[j + 1].
+        grid_of_job: shape (J,).
         centres: x and y of the middle of each window, shape (J, 2).
         half_cells: half the windows' widths, shape (J, 2).
-        angles_rad, angle_costs: of all rows; job j has those from row_offsets[j] to row_offsets[j + 1].
+        angles_rad: of all rows.
+        angle_costs: what each angle costs, in units of the score.
+        row_offsets: job j has the rows from row_offsets[j] to row_offsets[j + 1].
         least: scores must exceed this, shape (J,).
         across: what a squared cell off the centre costs, shape (J,).
+        modes: poses a job.
         apart: each further mode is more than so many rows, cells and cells away from those before, in one of the three.
         strands: threads that share a job.
+        device: where the pyramid is.
+        threads: to compute with; by default all cores.
     """
     count = len(grid_of_job)
     top = pyramid.shape[1] - 1

@@ -94,11 +94,18 @@ def draw_grids(
     """Grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
     Args:
-        points, kind: of all scans, (S, B), on the device.
+        points: of all scans, (S, B), on the device.
+        kind: of all scans, (S, B), on the device.
         offsets: grid g is made of entries offsets[g] .. offsets[g + 1], shape (grids + 1,).
-        scan, poses_world: of each entry.
+        scan: of each entry.
+        poses_world: of each entry, shape (entries, 3).
         origins: corner of each grid, shape (grids, 2).
+        resolution: metres a cell.
         stamp: what a point puts around itself, odd square.
+        shape: of a grid, cells.
+        levels: of the pyramid.
+        device: where the points are.
+        threads: to compute with; by default all cores.
         pyramid: an array of the right shape to write into.
     """
     grids = len(offsets) - 1

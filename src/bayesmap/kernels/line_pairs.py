@@ -3,10 +3,11 @@
 A point of scan i, moved into the frame of scan j, is paired with the nearest point of j, which is looked for among the
 beams that point that way (Blais and Levine 1995; Censi 2008 for planar scans). Its residual e is its distance from the
 wall there, along the mean of the two normals, with Geman and McClure's weight (1 + e^2 / c^2)^-2. Where neither has a
-normal the residual is the offset itself, in x and y, and weighs less: points of such surfaces are not the same points.
+normal the residual is the offset itself, in x and y, and weighs less: returns of one surface lie apart by the distance
+between beams there, and those of two scans are not the same points.
 
-With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives of
-half the cost by z (Gauss and Newton's). ``slack`` is what normals that are known with errors add to H although they
+With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives
+of half the cost by z (Gauss and Newton's). ``slack`` is what normals that are known with errors add to H although they
 tell nothing: sum w spread T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's
 angle for points of unit variance. Along a corridor H is slack and nothing else.
 """
@@ -81,6 +82,22 @@ def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int
             closest = d
             found = c
     return found
+
+
+@wp.func
+def neighbour_distance(scene: Scene, j: int, beam: int) -> float:
+    """How far the nearer of the points of the next beams is, from 0.1 to 2 m: returns of a surface lie so far apart."""
+    beams = scene.kind.shape[1]
+    nearest = float(2.0)
+    here = scene.points[j, beam]
+    for side in range(2):
+        c = beam - 1 + 2 * side
+        if scene.full_circle != 0:
+            c = (c + beams) % beams
+        if c >= 0 and c < beams:
+            if scene.kind[j, c] != wp.uint8(0):
+                nearest = wp.min(nearest, wp.length(scene.points[j, c] - here))
+    return wp.max(nearest, 0.1)
 
 
 @wp.func
@@ -160,7 +177,6 @@ def pair_scans(
             e = ux * dx + uy * dy
             w = 1.0 / (1.0 + e * e / (scale * scale))
             w = w * w
-            full = w
             w = w * weights[i, b]
             j2 = uy * rx - ux * ry
             h00 += w * ux * ux
@@ -184,9 +200,7 @@ def pair_scans(
             total += w
             matched += 1
         elif not own and not theirs:
-            # Two returns of something without a wall's direction: half a beam's width apart at least.
-            away = wp.sqrt(x * x + y * y)
-            apart = wp.max(0.05, 0.5 * scene.step * away)
+            apart = 0.5 * neighbour_distance(scene, j, other)
             e2 = dx * dx + dy * dy
             w = 1.0 / (1.0 + e2 / (scale * scale + apart * apart))
             w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)
@@ -264,53 +278,6 @@ def sum_pairs(
     totals[p, 3] = wp.float64(sums.seen)
 
 
-@wp.kernel
-def count_matches(
-    first: int,
-    scene: Scene,
-    offsets: wp.array(dtype=wp.int32),
-    target: wp.array(dtype=wp.int32),
-    relative: wp.array(dtype=wp.vec3d),
-    reach: float,
-    scale: float,
-    alike: float,
-    counts: wp.array2d(dtype=wp.float32),
-):
-    """One thread a scan: with how many others is each beam matched, weighted by how well."""
-    i = first + wp.tid()
-    for b in range(scene.kind.shape[1]):
-        counts[i, b] = 0.0
-    for p in range(offsets[i], offsets[i + 1]):
-        z = relative[p]
-        j = target[p]
-        cosine = float(wp.cos(z[2]))
-        sine = float(wp.sin(z[2]))
-        for b in range(scene.kind.shape[1]):
-            if scene.kind[i, b] == wp.uint8(0):
-                continue
-            q = scene.points[i, b]
-            x = cosine * q[0] - sine * q[1] + float(z[0])
-            y = sine * q[0] + cosine * q[1] + float(z[1])
-            other = nearest_point(scene, j, x, y, reach)
-            if other < 0:
-                continue
-            if scene.kind[i, b] != scene.kind[j, other]:
-                continue
-            d = wp.vec2f(x, y) - scene.points[j, other]
-            e2 = d[0] * d[0] + d[1] * d[1]
-            if scene.kind[i, b] == wp.uint8(2):
-                n = scene.normals[i, b]
-                m = scene.normals[j, other]
-                nx = cosine * n[0] - sine * n[1]
-                ny = sine * n[0] + cosine * n[1]
-                if nx * m[0] + ny * m[1] < alike:
-                    continue
-                e = m[0] * d[0] + m[1] * d[1]
-                e2 = e * e
-            w = 1.0 / (1.0 + e2 / (scale * scale))
-            counts[i, b] = counts[i, b] + w * w
-
-
 def scene_of(geometry: Any, stride: int = 1) -> Any:
     """The kernels' view of a `bayesmap.poses.scan_geometry.ScanGeometry`."""
     scene = Scene()
@@ -350,22 +317,3 @@ def pair_sums(
     inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, second, slack, gradient, totals]
     launch(sum_pairs, count, inputs, device, threads)
     return second.numpy(), slack.numpy(), gradient.numpy(), totals.numpy()
-
-
-def match_counts(
-    geometry: Any,
-    offsets: NDArray[np.int32],
-    target: NDArray[np.int32],
-    relative: NDArray[np.float64],
-    reach_m: float,
-    scale_m: float,
-    alike: float,
-    threads: int | None = None,
-) -> NDArray[np.float32]:
-    """With how many of its partners each beam is matched, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
-    device = geometry.device
-    counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
-    inputs = [scene_of(geometry), devices.to_device(offsets, wp.int32, device)]
-    inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
-    launch(count_matches, len(geometry), [*inputs, reach_m, scale_m, alike, counts], device, threads)
-    return np.asarray(counts.numpy())

@@ -152,11 +152,14 @@ def points_and_normals(
     Args:
         ranges_m: readings, shape (S, B); beams in the order of their angles.
         angles_rad: shape (B,), ascending.
-        nearest_m, farthest_m: readings between them are points.
+        nearest_m: readings below are no points.
+        farthest_m: neither are those above.
         step_rad: angle between neighbouring beams.
         full_circle: whether the last beam's neighbour is the first.
         reach_m: how far to either side a wall's direction is fitted at first.
         noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
+        device: "cpu" or a CUDA device.
+        threads: to compute with; by default all cores.
     """
     device = devices.resolve(device)
     scans, beams = ranges_m.shape

@@ -42,7 +42,7 @@ def refine(
     information: wp.array(dtype=wp.mat33d),
     totals: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a job: minimise the prior's and the pairs' cost; reach and scale shrink from the first step to the last.
+    """One thread a job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
     Coordinates are x, y and yaw in the world's axes. Information is that of the pairs alone, without slack.
     """

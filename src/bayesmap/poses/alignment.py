@@ -5,7 +5,7 @@ quadratic cost over relative poses, odometry is added, and the sparse system is 
 reach of the pairs shrinks from decimetres to the noise (bundle adjustment of Lu and Milios 1997, with lines).
 
 Two things keep the laser from claiming too much. A beam that is matched with m others counts 1 / (2 (m + 1)) in each
-pair: it is one measurement, not m. And what errors of normals add to the information along a corridor is taken off again
+pair: it is one measurement, not m. What errors of normals add to the information along a corridor is taken off again
 (`bayesmap.kernels.line_pairs`, ``slack``), so that there odometry decides.
 """
 
@@ -17,7 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.line_pairs import match_counts, pair_sums
+from bayesmap.kernels.line_pairs import pair_sums
+from bayesmap.kernels.match_counts import match_counts
 from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
@@ -84,13 +85,16 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, thr
         geometry: S scans.
         poses: (S, 3).
         reach_m: how far apart the sensors of two scans may be.
+        threads: to compute with; by default all cores.
     """
     from scipy.spatial import cKDTree
 
     count = len(poses)
+    if count < 2:
+        return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
     tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
     # A heading that differs by half a turn is as far as 3 m.
-    distance, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
+    _, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
     source = np.repeat(np.arange(count), near.shape[1])
     target = near.ravel()
     plain = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
@@ -143,9 +147,11 @@ def align(
         odometry: relative poses of scans by odometry, or none.
         pairs: the scans to compare.
         rounds: of Gauss-Newton.
-        reach_m, scale_m: at the first round, and from the middle one on.
+        reach_m: how far paired points lie apart, at the first round, and from the middle one on.
+        scale_m: Geman and McClure's c, likewise.
         reselect: chooses pairs anew from the poses in the middle of the rounds.
         on_progress: called with the number of rounds that are done.
+        threads: to compute with; by default all cores.
     """
     count, sigma = len(poses), 0.01
     weights = np.ones((count, geometry.beams), np.float32)
@@ -172,8 +178,8 @@ def align(
             on_progress(number + 1)
         if share >= 1.0 and number > rounds // 2 + 1 and np.abs(step).max() < 2e-4:
             break
-    matched = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
-    matched /= np.maximum(np.bincount(pairs.source, minlength=count), 1)
+    shares = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
+    matched = shares / np.maximum(np.bincount(pairs.source, minlength=count), 1)
     assert gaussian is not None
     return Alignment(poses, pairs, sigma, gaussian, matched)
 
@@ -201,11 +207,12 @@ def _laser(
     )
     told, gradient = without_slack(second, slack, first, sigma)
     scaled = 1.0 / sigma**2
-    return Quadratic(pairs.target, pairs.source, relative, told * scaled, gradient * scaled), totals
+    ends = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
+    return Quadratic(*ends, relative, told * scaled, gradient * scaled), totals
 
 
 def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
-    """Second derivatives without what errors of normals add, and first derivatives with the same minimum, (M, 3, 3), (M, 3).
+    """Second derivatives without what errors of normals add, (M, 3, 3), and first ones with the same minimum, (M, 3).
 
     The minimum of the quadratic stays where it was; along directions that only slack holds the cost becomes flat.
     """

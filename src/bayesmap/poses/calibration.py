@@ -9,8 +9,8 @@ odometry's stamps are late by ``lag``, its motion is that of another interval. B
 and what is left is the noise. From B follow the laser's place on the robot and the scale of odometry.
 
 Angles: a scan with a wrong angle between its beams is stretched around the laser, and neighbouring scans no longer fit.
-The step is that of the lowest residual. The first beam's angle stays as stated: turning all beams is the same as turning
-the laser on the robot, which B tells.
+The step is that of the lowest residual. The first beam's angle stays as stated: to turn all beams is to turn the
+laser on the robot, which B tells.
 """
 
 from __future__ import annotations
@@ -33,8 +33,11 @@ VELOCITY_OVER_S = 0.4
 SLOPE_SIGMA = 0.15
 LAG_SIGMA_S = 0.2
 MOST_LAG_S = 0.5
-PAIRS = 240
+PAIRS = 400
 """Of scans that are turned against each other, for the angle between beams."""
+
+REGULAR_WITHIN = 0.004
+"""To so much of itself the angle between beams can be told from residuals."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,11 +119,16 @@ def fit_odometry(
             design[:, 9] = change[:, axis]
             normal += design.T @ (design * weight[:, axis : axis + 1])
             moment += design.T @ (error[:, axis] * weight[:, axis])
-        coefficients = np.linalg.solve(normal, moment)
+        coefficients = np.asarray(np.linalg.solve(normal, moment), np.float64)
         coefficients[9] = np.clip(coefficients[9], -MOST_LAG_S, MOST_LAG_S)
         covariance = np.linalg.inv(normal)
         rest = _left(error, motion, change, coefficients)
-        ratio = np.array([_ratio(rest[:, :2], base[:, :2], laser_variance[:, :2]), _ratio(rest[:, 2:], base[:, 2:], laser_variance[:, 2:])])
+        ratio = np.array(
+            [
+                _ratio(rest[:, :2], base[:, :2], laser_variance[:, :2]),
+                _ratio(rest[:, 2:], base[:, 2:], laser_variance[:, 2:]),
+            ]
+        )
     deviation = np.sqrt(np.diag(covariance))
     return OdometryFit(
         coefficients[:9].reshape(3, 3), deviation[:9].reshape(3, 3), float(coefficients[9]) if timed else 0.0,
@@ -129,7 +137,7 @@ def fit_odometry(
 
 
 def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:
-    rest = error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change
+    rest: Floats = error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change
     rest[:, 2] = wrapped(rest[:, 2])
     return rest
 
@@ -161,8 +169,10 @@ def angle_step_ratio(
     Args:
         scans: S scans.
         poses: (S, 3).
-        source, target: pairs of scans that overlap.
+        source: of pairs of scans that overlap.
+        target: of the same pairs.
         farthest_m: hits beyond are left out.
+        threads: to compute with; by default all cores.
 
     Returns:
         The factor; 1 where no scans are turned against each other.
@@ -185,19 +195,25 @@ def angle_step_ratio(
         start = place.copy()
         start[:, 2] -= 0.5 * (factor - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
         _, _, totals = refine_scans(
-            geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 12, (0.2, 0.15),
-            (0.05, 0.05), 0.7, threads=threads,
+            geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 10, (0.2, 0.15),
+            (0.05, 0.03), 0.7, threads=threads,
         )  # fmt: skip
-        unexplained = 1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)
-        return float(np.median(unexplained))
+        return float(np.mean(1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)))
 
-    best, step = 1.0, 0.01
-    for _ in range(3):
-        tried = best + step * np.arange(-2, 3)
-        values = np.array([residual(float(f)) for f in tried])
-        k = int(np.clip(np.argmin(values), 1, 3))
-        below, here, above = values[k - 1 : k + 2]
-        bend = below - 2.0 * here + above
-        best = float(tried[k] + step * np.clip(0.5 * (below - above) / bend if bend > 0 else 0.0, -1.0, 1.0))
-        step /= 3.0
-    return best
+    factors = 1.0 + np.linspace(-0.0125, 0.0125, 11)
+    values = np.array([residual(float(f)) for f in factors])
+    bend, tilt, _ = np.polyfit(factors - 1.0, values, 2)
+    if bend <= 0.0:
+        return 1.0
+    found = 1.0 - tilt / (2.0 * bend)
+    if abs(found - 1.0) > 0.0125:
+        return 1.0  # outside what was tried: not a matter of the angle
+    return _regular(found, float(np.degrees(np.median(np.diff(scans.angles_rad)))))
+
+
+def _regular(factor: float, stated_deg: float) -> float:
+    """The factor that makes the step a multiple of an eighth of a degree, as lasers have, where that is as likely."""
+    step = factor * stated_deg
+    regular = round(8.0 * step) / 8.0
+    near = regular > 0 and abs(step / regular - 1.0) < REGULAR_WITHIN
+    return regular / stated_deg if near else factor

@@ -7,23 +7,16 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-FAR_BELOW = 5.0
-"""Robust standard deviations below the median at which a scan is flagged."""
-
-ALWAYS = 0.3
-"""A scan of which others explain less than this is flagged whatever the rest look like."""
+FAR_BELOW = 0.55
+"""Times the usual share: a scan that is explained less is flagged."""
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Scans that are explained far worse than usual, (S,): key scans and the others are compared among themselves."""
-    flagged = explained < ALWAYS
+    flagged = np.zeros(len(explained), np.bool_)
     is_key = np.zeros(len(explained), np.bool_)
     is_key[keys] = True
     for group in (is_key, ~is_key):
-        if group.sum() < 10:
-            continue
-        values = explained[group]
-        middle = np.median(values)
-        spread = 1.4826 * np.median(np.abs(values - middle))
-        flagged[group] |= values < middle - FAR_BELOW * max(spread, 0.02)
-    return np.asarray(flagged)
+        if group.any():
+            flagged[group] = explained[group] < FAR_BELOW * np.median(explained[group])
+    return flagged

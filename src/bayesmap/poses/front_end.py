@@ -37,6 +37,9 @@ WINDOW = 12
 BATCH = 12
 """Scans matched to the same key scans at once, at most."""
 
+UNUSUAL = 0.04
+"""A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
+
 POOR_SCORE = 0.45
 """Below this a wider window is searched."""
 
@@ -69,6 +72,7 @@ class Track:
         odometry_variance: of the motion from the key scan before, x, y and yaw, (S, 3).
         scores: how well the key scans explain each scan, from 0 to 1, (S,); 1 for the first.
         keys: indices of the key scans, ascending.
+        against: scans before which the robot went backwards although odometry states ahead, or the other way, (S,).
         slope: the systematic error of odometry that was found, (3, 3).
         broken: scans whose motion from the one before nothing confirms, (S,).
         noise_ratios: how many times larger than an ordinary robot's odometry's noise is, position and heading, (2,).
@@ -80,6 +84,7 @@ class Track:
     scores: Floats
     keys: NDArray[np.intp]
     broken: NDArray[np.bool_]
+    against: NDArray[np.bool_]
     slope: Floats
     noise_ratios: Floats
 
@@ -102,6 +107,7 @@ def follow(
         stamps_s: (S,), needed where there is no odometry.
         impossible: motions that no robot can have made, (S - 1,): they are taken to be unknown.
         on_progress: called with the number of scans that are done.
+        threads: to compute with; by default all cores.
     """
     count = len(geometry)
     half_width_m = grid_half_width(geometry)
@@ -109,12 +115,12 @@ def follow(
     spread, scores = np.zeros((count, 3)), np.ones(count)
     odometry = RunningOdometry()
     keys, grid, drawn = [0], None, -1
-    broken = np.zeros(count, np.bool_)
+    broken, against = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     extra = np.zeros((max(count - 1, 0), 3))
     if motions is not None and impossible is not None and impossible.any():
         motions = np.where(impossible[:, None], 0.0, motions)
         extra[impossible] = UNKNOWN**2
-    since_key = np.zeros(3)
+    since_key, usual = np.zeros(3), 0.6
     i = 0
     while i < count - 1:
         if drawn != keys[-1]:
@@ -125,7 +131,13 @@ def follow(
         batch = _batch(i, count, motions, poses[i], poses[keys[-1]])
         predicted, variance = _predict(poses, i, batch, motions, stamps_s, odometry)
         variance = variance + np.cumsum(extra[i : i + len(batch)], axis=0)
-        found, told, score = _place(geometry, grid, window, poses, batch, predicted, variance, threads)
+        backwards = None
+        if motions is not None:
+            stated = odometry.corrected(motions[i : i + len(batch)]) * [-1.0, -1.0, 1.0]
+            backwards = _chained(poses[i], stated)
+        found, told, score, turned = _place(
+            geometry, grid, window, poses, batch, predicted, variance, backwards, usual, threads
+        )
         for k, scan in enumerate(batch):
             poses[scan], information[scan], scores[scan] = found[k], told[k], score[k]
             step = variance[k] - (variance[k - 1] if k else 0.0)
@@ -136,8 +148,10 @@ def follow(
             spread[scan] = since_key
             if motions is not None:
                 left = np.diag(np.linalg.inv(told[k] + np.diag(1.0 / variance[k])))
-                if score[k] > KEY_SCORE and not extra[scan - 1].any():
+                if score[k] > max(KEY_SCORE, usual - 0.25) and not turned[k] and not extra[scan - 1].any():
                     odometry.learn(motions[scan - 1], between(poses[scan - 1], poses[scan]), left + 1e-5)
+            against[scan] = turned[k]
+            usual += 0.05 * (score[k] - usual)
             i = int(scan)
             moved = between(poses[keys[-1]], poses[scan])
             far = np.hypot(moved[0], moved[1]) > KEY_DISTANCE_M or abs(moved[2]) > KEY_TURN_RAD
@@ -147,7 +161,7 @@ def follow(
                 break
         if on_progress is not None:
             on_progress(i + 1)
-    return Track(poses, information, spread, scores, np.array(keys), broken, odometry.slope, odometry.ratios)
+    return Track(poses, information, spread, scores, np.array(keys), broken, against, odometry.slope, odometry.ratios)
 
 
 def grid_half_width(geometry: ScanGeometry) -> float:
@@ -200,12 +214,15 @@ def _predict(
         sigma = np.array([0.05 + 0.5 * min(gap, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap, 1.0)])
         return compose(poses[i], last * share)[None], sigma[None] ** 2
     stated = motions[i : i + len(batch)]
-    corrected = odometry.corrected(stated)
-    predicted = np.empty((len(batch), 3))
-    here = poses[i]
-    for k, motion in enumerate(corrected):
-        here = predicted[k] = compose(here, motion)
-    return predicted, np.cumsum(odometry.variances(stated), axis=0)
+    return _chained(poses[i], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
+
+
+def _chained(start: Floats, motions: Floats) -> Floats:
+    """Poses after each of some motions, (N, 3)."""
+    poses, here = np.empty((len(motions), 3)), start
+    for k, motion in enumerate(motions):
+        here = poses[k] = compose(here, motion)
+    return poses
 
 
 def _place(
@@ -216,9 +233,11 @@ def _place(
     batch: NDArray[np.intp],
     predicted: Floats,
     variance: Floats,
+    reversed_: Floats | None,
+    usual: float,
     threads: int | None,
-) -> tuple[Floats, Floats, Floats]:
-    """Poses, information by the laser in their own frames, and scores of the scans of a batch."""
+) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
+    """Poses, information by the laser in their own frames, scores, and whether motions were against those stated."""
     points = [geometry.points_of(int(scan), POINTS) for scan in batch]
     sigma = np.sqrt(variance)
     half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
@@ -227,6 +246,17 @@ def _place(
     pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
     best = match(grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull, threads=threads)
     start, score = best.poses[:, 0], best.scores[:, 0]
+    predicted, turned = predicted.copy(), np.zeros(len(batch), np.bool_)
+    doubtful = np.nonzero(score < usual - UNUSUAL)[0]
+    if reversed_ is not None and len(doubtful):
+        back = match(
+            grid, [points[k] for k in doubtful], reversed_[doubtful], half_m[doubtful], half_rad[doubtful],
+            least=score[doubtful] + 0.5 * UNUSUAL, pull=pull, threads=threads,
+        )  # fmt: skip
+        better = back.found[:, 0]
+        start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
+        predicted[doubtful[better]] = reversed_[doubtful[better]]
+        turned[doubtful[better]] = True
     poor = np.nonzero(score < POOR_SCORE)[0]
     if len(poor):
         wide = match(
@@ -241,10 +271,10 @@ def _place(
     certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
     turn = rotation(predicted[:, 2])
     prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)
-    found, told, _ = refine_scans(
+    placed, told, _ = refine_scans(
         geometry, None, batch.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(near),
         np.tile(near, jobs).astype(np.int32), np.tile(poses[near], (jobs, 1)), start, predicted, prior_information,
         POINT_SIGMA_M, STEPS, REACH_M, SCALE_M, ALIKE, threads=threads,
     )  # fmt: skip
-    back = rotation(found[:, 2])
-    return found, np.swapaxes(back, 1, 2) @ told @ back, score
+    own = rotation(placed[:, 2])
+    return placed, np.swapaxes(own, 1, 2) @ told @ own, score, turned

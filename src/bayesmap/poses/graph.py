@@ -1,7 +1,8 @@
 """Pose graphs: relative poses with information, solved by sparse Gauss-Newton.
 
-The cost is the sum over factors of e^T W e / 2 with e = between(x_first, x_second) - relative (Lu and Milios 1997; Grisetti
-et al. 2010, "A tutorial on graph-based SLAM"); each step solves H d = -g with SciPy's sparse LU, d in the poses' own frames.
+The cost is the sum over factors of e^T W e / 2 with e = between(x_first, x_second) - relative (Lu and Milios 1997;
+Grisetti et al. 2010, "A tutorial on graph-based SLAM"); each step solves H d = -g with SciPy's sparse LU, d in the
+poses' own frames.
 """
 
 from __future__ import annotations

@@ -25,7 +25,11 @@ LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
-ROUNDS = (Search(5.0, np.radians(45.0), passes=2, spacing_m=2.0), Search(4.0, np.radians(30.0)), Search(2.0, np.radians(20.0)))
+ROUNDS = (
+    Search(5.0, np.radians(45.0), passes=2, spacing_m=2.0),
+    Search(4.0, np.radians(30.0)),
+    Search(2.0, np.radians(20.0)),
+)
 """After each round windows shrink with the covariance; these are their limits."""
 
 
@@ -63,9 +67,9 @@ def chain_of(track: Track) -> Factors:
 
 
 def poses_between_keys(track_poses: Floats, keys: NDArray[np.intp], key_poses: Floats) -> Floats:
-    """All scans' poses, (S, 3), from new poses of the keys: each keeps its motion from the key before, and the rest of
+    """All scans' poses, (S, 3), from new poses of the keys.
 
-    the motion's change up to the next key is spread along the way.
+    Each keeps its motion from the key before; what that misses the next key by is spread along the way.
     """
     count = len(track_poses)
     before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
@@ -96,6 +100,7 @@ def close_loops(
         geometry: of all scans.
         track: what the front end found.
         on_progress: called with the number of rounds that are done.
+        threads: to compute with; by default all cores.
     """
     chain = chain_of(track)
     poses = track.poses[track.keys]

@@ -68,7 +68,10 @@ def likelihood_grids(
         poses_world: for each grid, the poses of those scans, shape (scans, 3), in the frame of the grid.
         centres: middle of each grid, shape (grids, 2).
         half_width_m: from the middle to each side.
+        resolution: width of a cell, metres.
+        sigma_m: of the likelihood.
         levels: of the pyramid: blocks of up to 2^(levels - 1) cells are bounded at once.
+        threads: to compute with; by default all cores.
         reuse: grids of the same number, size and levels that are no longer needed: their memory is written over.
     """
     from bayesmap.kernels.likelihood_grid import draw_grids

@@ -36,11 +36,11 @@ MODES = 2
 ALIKE = 0.7
 
 NEAR_M, CLEAR_M = 0.15, 0.4
-"""A point within the first of the other submap's is matched; one that stands so far before what others saw contradicts."""
+"""A point so near the other submap's is matched; one that stands so far before what others saw contradicts."""
 
 LEAST_MATCHED = 0.2
 MOST_AGAINST = 0.15
-"""Of the points of two submaps' middle scans, at least so many match; of those that say anything, at most so many contradict."""
+"""Of the points at two submaps' middles at least so many match; of those that tell, at most so many contradict."""
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
 """Standard deviations that a closure has at least: submaps are bent."""
@@ -121,6 +121,8 @@ def find_closures(
         poses: of the keys, (K, 3).
         solver: the factorised matrix of the graph of the keys, for relative covariances.
         half_width_m: of submaps' grids.
+        search: how far to look.
+        threads: to compute with; by default all cores.
     """
     along = path_m(poses)
     first, second, sigma = _candidates(along, poses, _middles(geometry, keys, poses), solver, half_width_m, search)
@@ -168,7 +170,9 @@ def _candidates(
     Of each visit of a place two are tried: the one from the most similar pose, and the one that looks at the same
     spot, which of a laser that sees half a circle may stand opposite.
     """
-    sought = np.unique(np.searchsorted(along, np.arange(0.0, along[-1] + search.spacing_m, search.spacing_m)).clip(0, len(along) - 1))
+    sought = np.unique(
+        np.searchsorted(along, np.arange(0.0, along[-1] + search.spacing_m, search.spacing_m)).clip(0, len(along) - 1)
+    )
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
     distance = np.hypot(*(poses[sought[earlier], :2] - poses[sought[later], :2]).T)
     near = distance < search.most_m + min(0.7 * half_width_m, 8.0)
@@ -270,15 +274,18 @@ def _agrees(
         one.append(np.repeat(a, len(b)))
         two.append(np.tile(b, len(a)))
         job.append(np.full(len(a) * len(b), k))
-    a, b, k = np.concatenate(one), np.concatenate(two), np.concatenate(job)
-    # The pose of b in the frame of a: by way of the closure.
-    across = compose(between(poses[a], poses[first[k]]), compose(relative[k], between(poses[second[k]], poses[b])))
+    starts, ends, of = np.concatenate(one), np.concatenate(two), np.concatenate(job)
+    # The poses of the later scans in the frames of the earlier ones: by way of the closure.
+    to_first, from_second = between(poses[starts], poses[first[of]]), between(poses[second[of]], poses[ends])
+    across = compose(to_first, compose(relative[of], from_second))
     stride = max(1, geometry.beams // 90)
     counts = [
         view_counts(geometry, keys[s].astype(np.int32), keys[t].astype(np.int32), z, NEAR_M, CLEAR_M, stride, threads)
-        for s, t, z in ((b, a, across), (a, b, inverse(across)))
+        for s, t, z in ((ends, starts, across), (starts, ends, inverse(across)))
     ]
-    sums = np.array([np.bincount(k, weights=counts[0][:, c] + counts[1][:, c], minlength=len(first)) for c in range(3)])
+    sums = np.array(
+        [np.bincount(of, weights=counts[0][:, c] + counts[1][:, c], minlength=len(first)) for c in range(3)]
+    )
     matched, against, total = sums
     decided = np.maximum(matched + against, 1.0)
     return np.asarray((matched > LEAST_MATCHED * total) & (against < MOST_AGAINST * decided))

@@ -76,9 +76,11 @@ def match(
         step_rad: between angles.
         least: scores must exceed this, one number or shape (J,). Searches that cannot end early.
         pull: towards the centre; None looks at the grid alone.
-        modes: poses per job: each further one is the best that is more than ``apart_m`` (in x or in y) or
-            ``apart_rad`` away from all before it.
+        modes: poses per job: each further one is the best that lies apart from all before it.
+        apart_m: by more than this in x or in y,
+        apart_rad: or by more than this in yaw.
         strands: threads that share one job; the result does not depend on it.
+        threads: to compute with; by default all cores.
 
     Raises:
         BadInput: arrays that do not fit, or a window or step that is not positive.
@@ -135,6 +137,8 @@ def score_at(grids: LikelihoodGrids, grid: int, points: Floats, poses: Floats) -
     """The score of points at given poses of one grid, shape (P,): the plain formula, without search or pull.
 
     Args:
+        grids: the likelihood grids.
+        grid: which of them.
         points: in the sensor's frame, shape (N, 2).
         poses: in the grid's frame, shape (P, 3).
     """

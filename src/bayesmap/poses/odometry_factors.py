@@ -11,7 +11,6 @@ from bayesmap.poses.graph import Factors
 from bayesmap.poses.odometry_motion import COMMON
 from bayesmap.poses.prior import Odometry
 from bayesmap.space.planar import between, compose, wrapped
-from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 
@@ -28,7 +27,8 @@ def chain_factors(track: Track) -> Factors:
 
 
 def corrected_factors(
-    scans: Scans,
+    stated: Floats,
+    stamps_s: Floats | None,
     motions: Floats,
     impossible: NDArray[np.bool_],
     keys: NDArray[np.intp],
@@ -38,7 +38,7 @@ def corrected_factors(
 ) -> Factors:
     """Odometry from key scan to key scan, corrected for its systematic error and its lag."""
     if lag_s != 0.0:
-        late = stated_at(scans.poses, scans.stamps_s, lag_s)
+        late = stated_at(stated, stamps_s, lag_s)
         motions = between(late[:-1], late[1:])
     corrected = motions + motions @ slope.T
     corrected[:, 2] = wrapped(corrected[:, 2])
@@ -85,7 +85,7 @@ def composed(
         relative[active] = compose(relative[active], motion)
     relative[:, 2] = wrapped(relative[:, 2])
     order = np.arange(len(keys) - 1)
-    factors = Factors(order, order + 1, relative, np.linalg.inv(covariance + np.eye(3) * 1e-9))
+    factors = Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64))
     if rejected is None:
         return factors
     bad = np.concatenate([[0], np.cumsum(rejected)])

@@ -53,7 +53,7 @@ class RunningOdometry:
         self._moment = np.zeros((3, 3))
         self._squares = np.array([PRIOR_COUNT * FIRST_RATIO**2] * 2)
         self._count = PRIOR_COUNT
-        self._slope = np.zeros((3, 3))
+        self._slope: Floats = np.zeros((3, 3))
 
     @property
     def slope(self) -> Floats:
@@ -89,7 +89,7 @@ class RunningOdometry:
             gain = float(np.exp(np.mean(np.log(weight)))) * scale
             self._normal += gain * np.outer(motion, motion) * SLOPE_SIGMA**2 / scale
             self._moment += gain * np.outer(error, motion) * SLOPE_SIGMA**2 / scale
-            self._slope = np.linalg.solve(self._normal, self._moment.T).T
+            self._slope = np.asarray(np.linalg.solve(self._normal, self._moment.T).T, np.float64)
         base = COMMON.sigmas(motion) ** 2
         excess = np.maximum(rest**2 - laser_variance, 0.0) / base
         keep = 1.0 - 1.0 / MEMORY

@@ -61,6 +61,7 @@ def place_scans(
         key_poses: (K, 3); the poses of key scans are kept.
         pairs: the partners of each key scan, as positions among the keys.
         sigma_m: standard deviation of a point.
+        threads: to compute with; by default all cores.
     """
     count = len(poses)
     scans = np.setdiff1d(np.arange(count), keys)

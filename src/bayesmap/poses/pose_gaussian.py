@@ -51,7 +51,7 @@ class PoseGaussian:
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t with 4 degrees of freedom.
 
-        Draw number n depends on (seed, n) alone. A draw solves H x = sum_k J_k^T C_k e_k, where C_k C_k^T is the curvature of
+        Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, C_k C_k^T the curvature of
         part k and e_k standard normal: then x has covariance H^-1.
         """
         from bayesmap.poses.se2 import between_jacobians

@@ -69,6 +69,7 @@ def rematch(
         pairs: the partners of each scan.
         half_width_m: of the grids.
         poor_score: scans that no pose in the narrow window explains better than this are sought in a wide one.
+        threads: to compute with; by default all cores.
     """
     count = len(poses)
     scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
@@ -77,11 +78,18 @@ def rematch(
     grids: LikelihoodGrids | None = None
     for begin in range(0, len(partnered), AT_ONCE):
         some = partnered[begin : begin + AT_ONCE]
-        others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]] for k in some]
+        others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in some]
         local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(some, others, strict=True)]
         reuse = grids if grids is not None and len(grids) == len(some) else None
         grids = likelihood_grids(
-            geometry, others, local, np.zeros((len(some), 2)), half_width_m, sigma_m=SIGMA_M, threads=threads, reuse=reuse
+            geometry,
+            others,
+            local,
+            np.zeros((len(some), 2)),
+            half_width_m,
+            sigma_m=SIGMA_M,
+            threads=threads,
+            reuse=reuse,
         )
         points = [geometry.points_of(int(k), POINTS) for k in some]
         here = np.zeros((len(some), 3))

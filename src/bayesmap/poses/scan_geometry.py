@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -78,9 +78,9 @@ class ScanGeometry:
         """Some of the scans, copied."""
         from bayesmap.kernels.scan_geometry import selected
 
-        arrays = (selected(array, scans) for array in (self.points, self.normals, self.kind, self.spread))
-        return ScanGeometry(
-            *arrays, self.beam_of_angle, self.step_rad, self.full_circle, self.farthest_m, self.device
+        return replace(
+            self, points=selected(self.points, scans), normals=selected(self.normals, scans),
+            kind=selected(self.kind, scans), spread=selected(self.spread, scans),
         )  # fmt: skip
 
     def points_of(self, scan: int, most: int | None = None) -> Floats:
@@ -103,6 +103,8 @@ def scan_geometry(
         scans: their poses are not looked at.
         farthest_m: leave out hits beyond; by default the sensor's largest range.
         angles_rad: other beam angles than the scans', where they have been calibrated, shape (A,).
+        device: "cpu" or a CUDA device.
+        threads: to compute with; by default all cores.
     """
     from bayesmap.kernels.scan_geometry import points_and_normals
 

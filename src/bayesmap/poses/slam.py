@@ -32,8 +32,8 @@ Progress = Callable[[str, int, int], None]
 FARTHEST_M = 30.0
 """Hits beyond are not matched: beams are then half a metre apart and more."""
 
-ANGLE_TOLERANCE = 0.0015
-"""A relative error of the angle between beams below this is not corrected: over half a circle it turns by 0.1 degrees."""
+ANGLE_TOLERANCE = 0.003
+"""A smaller relative error of the angle between beams is not corrected: over half a circle it turns by 0.3 degrees."""
 
 MATCH_REACH = 0.8
 """Scans are compared if their sensors are no further apart than this share of the grids' half width."""
@@ -53,18 +53,18 @@ def infer_trajectory(
     """Infer where a robot was from its scans and its raw odometry.
 
     Args:
-        scans: S scans whose poses are raw odometry (of the laser). Stamps may come in bursts or out of order: scans are
-            taken in the order of time.
+        scans: S scans whose poses are raw odometry (of the laser). Stamps may come in bursts or out of order: scans
+            are taken in the order of time.
         no_odometry: do not look at the poses; the scans must come at 5 Hz or so.
         calibrate_angles: find the angle between beams, too, rather than to believe what the log states.
         seed: of whatever is random; the result is the same for any number of threads.
         threads: to compute with; by default all cores.
         device: "cpu" or a CUDA device.
-        checkpoint: a folder for finished stages: a run that is interrupted and started again with the same scans goes on.
+        checkpoint: a folder for finished stages: a run that is interrupted and started again on the same scans goes on.
         on_progress: called as (stage, done, of).
 
     Raises:
-        BadInput: fewer than two scans, scans without a single hit, or no odometry and no stamps or too few scans a second.
+        BadInput: fewer than two scans, scans without a single hit, or no odometry and too few scans a second.
     """
     _check(scans, no_odometry)
     order = np.arange(len(scans))
@@ -97,6 +97,7 @@ class _Run:
         self.scans, self.threads, self.device = scans, threads, device
         self.stages, self.progress = stages, progress
         self.motions, self.impossible = stated_motions(scans.poses, scans.stamps_s)
+        self.stated = scans.poses
         self.no_odometry = no_odometry
 
     def geometry(self, angles_rad: Floats) -> ScanGeometry:
@@ -109,6 +110,7 @@ class _Run:
         angles, ratio = scans.angles_rad, 1.0
         geometry = self.geometry(angles)
         track = self.front_end(geometry)
+        self.go_backwards(track.against)
         keys = track.keys
         closed = self.stages.get("loops", lambda: self.loops(geometry, track))
         half_width_m = grid_half_width(geometry)
@@ -119,7 +121,12 @@ class _Run:
         poses = first.poses
         if calibrate_angles:
             found = angle_step_ratio(
-                scans.select(keys), poses, first.pairs.source, first.pairs.target, farthest_m=FARTHEST_M, threads=threads
+                scans.select(keys),
+                poses,
+                first.pairs.source,
+                first.pairs.target,
+                farthest_m=FARTHEST_M,
+                threads=threads,
             )
             if abs(found - 1.0) > ANGLE_TOLERANCE:
                 ratio, poses = found, poses.copy()
@@ -133,7 +140,9 @@ class _Run:
         start = poses_between_keys(track.poses, keys, final.poses)
         placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, threads=threads)
         self.progress("placing", len(scans), len(scans))
-        residuals = Factors(closed["first"], closed["second"], closed["relative"], np.zeros((len(closed["first"]), 3, 3)))
+        residuals = Factors(
+            closed["first"], closed["second"], closed["relative"], np.zeros((len(closed["first"]), 3, 3))
+        )
         closures = LoopClosures(
             keys[closed["first"]], keys[closed["second"]], closed["relative"], residuals.errors(final.poses),
             closed["weights"],
@@ -146,9 +155,9 @@ class _Run:
         gaussian = replace(final.gaussian, poses=compose(origin, final.poses))
         noise = None if fit is None else noise_of(fit)
         return Trajectory(
-            compose(origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys), explained,
-            flag_unexplained(explained, keys), breaks, closures,
-            Calibration(ratio, angles, fit, noise, final.sigma_m), order,
+            compose(origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys),
+            explained, flag_unexplained(explained, keys), breaks, closures,
+            Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors,
         )  # fmt: skip
 
     def front_end(self, geometry: ScanGeometry) -> Track:
@@ -162,7 +171,16 @@ class _Run:
             )  # fmt: skip
             return dict(track.__dict__)
 
-        return Track(**self.stages.get("front-end", compute))  # type: ignore[arg-type]
+        return Track(**self.stages.get("front-end", compute))
+
+    def go_backwards(self, against: NDArray[np.bool_]) -> None:
+        """Take motions that scans contradict in their direction the other way round."""
+        if not self.no_odometry and against.any():
+            self.motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
+            poses = [self.stated[0]]
+            for motion in self.motions:
+                poses.append(compose(poses[-1], motion))
+            self.stated = np.array(poses)
 
     def loops(self, geometry: ScanGeometry, track: Track) -> Arrays:
         closed = close_loops(
@@ -176,7 +194,9 @@ class _Run:
     def first_factors(self, track: Track) -> Factors:
         if self.no_odometry:
             return chain_factors(track)
-        return corrected_factors(self.scans, self.motions, self.impossible, track.keys, track.slope, track.noise_ratios)
+        return corrected_factors(
+            self.stated, self.scans.stamps_s, self.motions, self.impossible, track.keys, track.slope, track.noise_ratios
+        )
 
     def odometry(self, aligned: Alignment, keys: NDArray[np.intp], track: Track) -> tuple[OdometryFit | None, Factors]:
         if self.no_odometry:
@@ -184,9 +204,16 @@ class _Run:
         order = np.arange(len(keys) - 1)
         covariance = aligned.gaussian.relative_covariances(order, order + 1)
         variance = np.diagonal(covariance, axis1=1, axis2=2)
-        fit = fit_odometry(self.scans.poses, self.scans.stamps_s, aligned.poses, keys, variance)
+        fit = fit_odometry(self.stated, self.scans.stamps_s, aligned.poses, keys, variance)
         return fit, corrected_factors(
-            self.scans, self.motions, self.impossible, keys, fit.slope, fit.ratios, lag_s=fit.lag_s
+            self.stated,
+            self.scans.stamps_s,
+            self.motions,
+            self.impossible,
+            keys,
+            fit.slope,
+            fit.ratios,
+            lag_s=fit.lag_s,
         )
 
     def align(
@@ -210,7 +237,7 @@ class _Run:
         return align(
             geometry, poses, factors, pairs, rounds=rounds, reselect=again, threads=threads,
             on_progress=lambda done: self.progress(name, done, rounds), **spans,
-        )  # type: ignore[arg-type]  # fmt: skip
+        )  # fmt: skip
 
     def improve(
         self, geometry: ScanGeometry, aligned: Alignment, factors: Factors, reach_m: float, half_width_m: float
@@ -219,9 +246,7 @@ class _Run:
         poor = 0.0
         scores = np.zeros(len(aligned.poses))
         for number in range(2):
-            again = rematch(
-                geometry, aligned.poses, aligned.pairs, half_width_m, poor_score=poor, threads=self.threads
-            )
+            again = rematch(geometry, aligned.poses, aligned.pairs, half_width_m, poor_score=poor, threads=self.threads)
             self.progress("rematch", number + 1, 2)
             scores = again.scores
             poor = 0.6 * float(np.median(again.best_scores))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.calibration import OdometryFit
+from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.se2 import between_jacobians, retract
@@ -60,11 +61,11 @@ class Calibration:
 class Trajectory:
     """Poses of all scans with their uncertainty.
 
-    The uncertainty is that of a Gaussian (Student's t with 4 degrees of freedom) over the poses of key scans, in which the
-    scans between them move with the key scan nearest in time, plus their own.
+    The uncertainty is that of a Gaussian (Student's t with 4 degrees of freedom) over the poses of key scans; scans
+    between them move with the key scan nearest in time, plus an uncertainty of their own.
 
     Attributes:
-        poses: of the laser, in the map's frame: the first scan's pose is the origin unless odometry stated another; (S, 3).
+        poses: of the laser, in the map's frame, in which the first scan is where odometry stated it; (S, 3).
         stamps_s: (S,), ascending, or None.
         keys: indices of the key scans, (K,).
         gaussian: over the poses of the key scans.
@@ -77,6 +78,7 @@ class Trajectory:
         closures: loop closures.
         calibration: of laser and odometry.
         order: for each scan its index in the log, where that was not in order of time.
+        odometry: what corrected odometry says of the motions between key scans; None where there was none.
     """
 
     poses: Floats
@@ -91,6 +93,7 @@ class Trajectory:
     closures: LoopClosures
     calibration: Calibration
     order: NDArray[np.intp]
+    odometry: Factors | None = None
 
     def __len__(self) -> int:
         return len(self.poses)

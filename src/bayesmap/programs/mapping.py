@@ -3,23 +3,29 @@
     model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
     trace, weight = model.importance(key, C["readings"].set(ranges_m), ())
 
-It describes the same joint law of walls and readings as `bayesmap.infer`, for programs of one's own.
+It describes the same joint law of walls and readings as `bayesmap.infer`, for programs of one's own. Poses may be
+unknown too: give a generative function that draws them in place of an array.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.cells.binary import Independent
+from bayesmap.errors import BadInput
+from bayesmap.gen.closure import GenerativeFunctionClosure
 from bayesmap.gen.densities import flip
+from bayesmap.gen.generative_function import GenerativeFunction
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.static import StaticGenerativeFunction, gen
 from bayesmap.programs.beam_geometry import beam_geometry
 from bayesmap.programs.beam_sensor import BeamSensor
+from bayesmap.programs.pose_sensor import PoseSensor
 from bayesmap.programs.reading_law import reading_law
 from bayesmap.programs.set_cells import SetCells as SetCells
 from bayesmap.sensors.model import RangeLimits, SensorModel
@@ -29,7 +35,7 @@ from bayesmap.space.scans import as_angles, as_poses, check_limits
 
 def mapping_model(
     grid: Grid,
-    poses: ArrayLike,
+    poses: ArrayLike | GenerativeFunction,
     angles_rad: ArrayLike,
     prior: Independent,
     sensor: SensorModel,
@@ -49,9 +55,19 @@ def mapping_model(
     and it returns both. An edit of one wall costs time in proportion to the beams through that cell. Make a model
     once, and use it many times: the beams are traced here.
 
+    If `poses` is a generative function, the poses are unknown, and it is their prior:
+
+        guesses, sigma = jnp.array([[1.0, 2.0, 0.0], [1.5, 2.0, 0.1]]), jnp.array([0.3, 0.3, 0.05])
+        poses = gen.mv_normal_diag.vmap(in_axes=(0, None))(guesses, sigma)
+
+    Then there is one more choice, "poses" (drawn first; its addresses are those of the prior), and the function returns
+    (poses, walls, readings). An edit of a pose visits the beams of that scan alone, and walks them through the map as
+    it is; an edit of a wall asks of every beam whether it crosses the cell.
+
     Args:
         grid: where the cells are.
-        poses: (x, y, yaw) in the world frame, metres and radians, shape (3,) or (S, 3).
+        poses: (x, y, yaw) in the world frame, metres and radians, shape (3,) or (S, 3); or a generative function
+            without arguments that returns such an array.
         angles_rad: beam angles in the sensor frame, shape (A,).
         prior: of the walls.
         sensor: the law of the readings: Gaussian, StudentT or BeamMixture.
@@ -62,10 +78,17 @@ def mapping_model(
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or a sensor without likelihood on JAX.
     """
+    walls = _Walls(_Fixed(prior.probabilities(grid)))
+    if isinstance(poses, GenerativeFunction):
+        _check_pose_prior(poses)
+        moving = pose_sensor_model(
+            grid, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
+        )
+        return _poses_map_and_readings.partial_apply(poses, walls, moving)
     beams = sensor_model(
         grid, poses, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
     )
-    return _map_and_readings.partial_apply(_Walls(_Fixed(prior.probabilities(grid))), beams)
+    return _map_and_readings.partial_apply(walls, beams)
 
 
 def sensor_model(
@@ -94,6 +117,43 @@ def sensor_model(
     limits = RangeLimits(float(min_range_m), float(max_range_m))
     shape = (len(angles),) if np.ndim(poses) == 1 else (len(many), len(angles))
     return BeamSensor(beam_geometry(grid, many, angles, limits, hit_depth), reading_law(sensor, limits), shape)
+
+
+def pose_sensor_model(
+    grid: Grid,
+    angles_rad: ArrayLike,
+    sensor: SensorModel,
+    *,
+    max_range_m: float,
+    min_range_m: float = 0.0,
+    hit_depth: float = 0.0,
+) -> PoseSensor:
+    """The sensor alone where poses are unknown: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
+
+    For models with priors of one's own, or with known walls (localization):
+
+        @gen
+        def model(walls):
+            pose = my_prior() @ "pose"
+            return sensor(walls, pose) @ "readings"
+
+    Arguments and errors as for `mapping_model`.
+    """
+    angles = as_angles(angles_rad)
+    check_limits(min_range_m, max_range_m)
+    limits = RangeLimits(float(min_range_m), float(max_range_m))
+    return PoseSensor(grid, tuple(angles.tolist()), reading_law(sensor, limits), float(hit_depth))
+
+
+def _check_pose_prior(prior: GenerativeFunction) -> None:
+    """Raise BadInput unless it returns poses."""
+    try:
+        drawn = jax.eval_shape(lambda key: prior.simulate(key, ()).get_retval(), jax.random.key(0))
+    except TypeError as error:
+        raise BadInput(f"mapping_model: the prior of the poses must run without arguments; it says: {error}") from None
+    shape = getattr(drawn, "shape", None)
+    if shape is None or len(shape) not in (1, 2) or shape[-1] != 3:
+        raise BadInput(f"mapping_model: the prior of the poses must return an array (3,) or (S, 3), found {drawn}")
 
 
 class _Fixed:
@@ -132,3 +192,11 @@ def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
     walls = prior.draw() @ "walls"
     readings = sensor(walls) @ "readings"
     return walls, readings
+
+
+@gen
+def _poses_map_and_readings(pose_prior: GenerativeFunction, prior: _Walls, sensor: PoseSensor) -> Any:
+    poses = (pose_prior if isinstance(pose_prior, GenerativeFunctionClosure) else pose_prior()) @ "poses"
+    walls = prior.draw() @ "walls"
+    readings = sensor(walls, poses) @ "readings"
+    return poses, walls, readings

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.noise import AdditiveNoise
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses, check_limits
 
@@ -55,6 +56,7 @@ def simulate(
     min_range_m: float = 0.0,
     seed: int = 0,
     opacity: NDArray[np.float64] | None = None,
+    typed: bool = False,
     device: str = "cpu",
 ) -> Scans:
     """Draw scans from a sensor model in a known world.
@@ -69,6 +71,9 @@ def simulate(
         min_range_m: the sensor's smallest range.
         seed: of the noise.
         opacity: chance, per cell, that a wall stops a scan's beams (1 where None): glass lets some through.
+        typed: whether a beam that meets nothing within ``max_range_m``, or reads more than that, reports no return, as
+            lasers do. If not, that is left to the sensor's law: additive noise alone reads the largest range plus
+            noise there, as in the tutorial.
         device: where to cast the rays.
 
     Raises:
@@ -103,6 +108,11 @@ def simulate(
             ]
         )
     readings = sensor.sample(rng, distances, RangeLimits(min_range_m, max_range_m))
+    if typed:
+        nothing = readings > max_range_m
+        if isinstance(sensor, AdditiveNoise):  # other sensors say by themselves what they report of nothing
+            nothing |= distances > max_range_m
+        readings = np.where(nothing, np.inf, readings)
     return Scans(many, angles, readings, max_range_m=max_range_m, min_range_m=min_range_m)
 
 

@@ -29,3 +29,28 @@ def between(first: Floats, second: Floats) -> Floats:
     dx, dy = second[..., 0] - first[..., 0], second[..., 1] - first[..., 1]
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
     return np.stack([c * dx + s * dy, c * dy - s * dx, wrapped(second[..., 2] - first[..., 2])], axis=-1)
+
+
+def inverse(pose: Floats) -> Floats:
+    """The frame in which a pose is given, as it is seen from the pose."""
+    return between(pose, np.zeros(3))
+
+
+def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
+    """Poses at other times: along the straight relative motion between neighbours; outside, the nearest end.
+
+    Args:
+        stamps_s: shape (S,), ascending; of equal stamps the later pose counts.
+        poses: shape (S, 3).
+        at_s: shape (N,).
+
+    Returns:
+        Shape (N, 3).
+    """
+    if len(stamps_s) == 1:
+        return np.repeat(poses, len(at_s), axis=0)
+    before = np.clip(np.searchsorted(stamps_s, at_s, side="right") - 1, 0, len(stamps_s) - 2)
+    gap = stamps_s[before + 1] - stamps_s[before]
+    share = np.where(gap > 0, (at_s - stamps_s[before]) / np.where(gap > 0, gap, 1.0), 1.0)
+    motion = between(poses[before], poses[before + 1])
+    return compose(poses[before], motion * np.clip(share, 0.0, 1.0)[:, None])

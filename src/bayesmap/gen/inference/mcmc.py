@@ -36,7 +36,7 @@ def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -
         wanted = request if isinstance(request, EditRequest) else request(trace)
         new, weight, _, _ = trace.edit(edit_key, wanted)
         accepted = jnp.log(jax.random.uniform(accept_key)) < weight
-        return jax.tree.map(lambda a, b: jax.lax.select(accepted, *jnp.broadcast_arrays(a, b)), new, trace), accepted
+        return jax.tree.map(lambda a, b: a if a is b else jnp.where(accepted, a, b), new, trace), accepted
 
     return kernel
 

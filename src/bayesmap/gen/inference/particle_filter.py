@@ -71,21 +71,34 @@ def particle_filter(
             after, y = trace.get_retval()
             return (trace if not history else trace.with_args(None)), weight, after, y
 
-        traces, weights, after, y = jax.vmap(move)(jax.random.split(move_key, k), states)
+        traces, weights, after, y = jax.vmap(move)(_streams(move_key, k), states)
         kept = (traces, states, y, parents) if history else None
         return (after, log_weights + weights, None if history else traces), kept
 
     start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
     inputs = (jnp.arange(n), xs, vectorise(constraint, n))
-    carry = (start, jnp.zeros(k), None)
+    carry: Any = (start, jnp.zeros(k), None)
     if not history:
         shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
         carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
-    (states, log_weights, particles), kept = jax.lax.scan(step, carry, inputs, length=n)
-    if history:
-        particles = _trajectories(kernel, args, n, states, *kept)
+    (states, log_weights, last), kept = jax.lax.scan(step, carry, inputs, length=n)
+    particles: Any = _trajectories(kernel, args, n, states, *kept) if history else last
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
+
+
+def _streams(key: PRNGKey, k: int) -> PRNGKey:
+    """`k` keys for as many streams, as `jax.random.split` gives them, but without a draw for each.
+
+    Threefry's streams are independent for any two keys (Salmon et al., Parallel random numbers: as easy as 1, 2, 3,
+    2011), so keys may count.
+    """
+    if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
+        return jax.random.split(key, k)
+    first, second = jax.random.key_data(key)
+    words = jnp.stack([jnp.broadcast_to(first, (k,)), second + jnp.arange(k, dtype=second.dtype)], axis=1)
+    keys: PRNGKey = jax.random.wrap_key_data(words, impl="threefry2x32")
+    return keys
 
 
 def _trajectories(
@@ -107,5 +120,5 @@ def _trajectories(
 
     inner, carries, y = jax.tree.map(ordered, (traces, carries, y))
     model = scan(n=n)(kernel)
-    each = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (model, args))
-    return ScanTrace(*each, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))
+    fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (model, args))
+    return ScanTrace(fn, args, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))

@@ -1,0 +1,77 @@
+// Edits of the map and of its sensors, with what can be refused at once.
+
+import { cellOf, inside } from "../geometry/cells";
+import { mostOpen, nearestFree } from "../geometry/room";
+import { LIMITS, type Pair, type Point, type Sensor } from "../protocol";
+import type { Session } from "../state/session";
+import type { Hand } from "./hand";
+
+export class Editor {
+  constructor(
+    private readonly session: Session,
+    private readonly hand: Hand,
+  ) {}
+
+  /** Whether there is a wall in a cell. */
+  isWall(cell: Point) {
+    return inside(cell, this.session.shape) && this.session.walls[cell.x * this.session.shape[1] + cell.y] === 1;
+  }
+
+  /** Sends those cells of a path that change; all of one stroke are one step of undo. */
+  setWalls(path: Point[], wall: boolean, stroke: number, event: Event) {
+    const { document, shape } = this.session;
+    if (!document) return;
+    const taken = wall ? document.sensors.map((sensor) => cellOf(sensor, document.grid)) : [];
+    const cells = new Map<number, Pair>();
+    for (const cell of path) {
+      if (!inside(cell, shape) || this.isWall(cell) === wall) continue;
+      if (taken.some((other) => other.x === cell.x && other.y === cell.y)) continue;
+      cells.set(cell.x * shape[1] + cell.y, [cell.x, cell.y]);
+    }
+    if (cells.size) this.session.act({ type: "walls", cells: [...cells.values()], wall, stroke }, event);
+  }
+
+  moveSensor(sensor: Sensor, place: { x?: number; y?: number; yaw?: number }, drag?: number, event?: Event) {
+    const { x, y, yaw } = { ...sensor, ...place };
+    if (this.refuses({ x, y })) return;
+    this.session.act({ type: "sensor", op: "move", id: sensor.id, x, y, yaw, drag }, event);
+  }
+
+  /** Another sensor: at a place in metres, in the free cell nearest to a cell, or in the most open place. */
+  addSensor(where: { world: Point } | { near: Point } | "where there is room") {
+    const { session } = this;
+    const { document } = session;
+    if (!document) return;
+    const place =
+      where === "where there is room"
+        ? mostOpen(document, session.walls)
+        : "world" in where
+          ? where.world
+          : nearestFree(document, session.walls, where.near);
+    if (!place) session.say("There is no free cell for a sensor.", "warning");
+    else if (document.sensors.length >= LIMITS.sensors) session.say(`There can be ${LIMITS.sensors} sensors at most.`, "warning");
+    else if (!this.refuses(place)) {
+      session.act({ type: "sensor", op: "add", x: place.x, y: place.y, yaw: 0 });
+      this.hand.selected = Math.max(0, ...document.sensors.map((sensor) => sensor.id)) + 1;
+    }
+  }
+
+  removeSensor() {
+    const { sensor } = this.hand;
+    if (sensor) this.session.act({ type: "sensor", op: "remove", id: sensor.id });
+  }
+
+  /** Says so where a sensor cannot stand. */
+  private refuses(world: Point) {
+    const { session } = this;
+    if (!session.document) return true;
+    const cell = cellOf(world, session.document.grid);
+    const wall = this.isWall(cell);
+    if (!wall && inside(cell, session.shape)) {
+      if (session.status.text.startsWith("A sensor cannot")) session.say("Ready");
+      return false;
+    }
+    session.say(wall ? "A sensor cannot stand in a wall." : "A sensor cannot stand outside the map.", "warning");
+    return true;
+  }
+}

@@ -1,0 +1,32 @@
+// The whole map as a file, at twice the pixels, as it looks now.
+
+import { clamp } from "../geometry/cells";
+import { FieldLayer } from "./field";
+import type { Layer, Scene } from "./layer";
+import { MarksLayer } from "./marks";
+import { RaysLayer } from "./rays";
+import { Viewport } from "./viewport";
+
+const WIDTH = 900;
+const RATIO = 2;
+
+/** A PNG of the map with its marks, without cursors. */
+export function picture({ session, look }: Scene): Promise<Blob | null> {
+  const [nx, ny] = session.shape;
+  const view = new Viewport();
+  view.resize(WIDTH, Math.round(clamp((WIDTH * ny) / nx, 300, 1800)), RATIO);
+  view.fit(session.shape);
+  const canvas = document.createElement("canvas");
+  Object.assign(canvas, { width: view.width * RATIO, height: view.height * RATIO });
+  const context = canvas.getContext("2d") as CanvasRenderingContext2D;
+  context.scale(RATIO, RATIO);
+  context.fillStyle = look.theme.ground;
+  context.fillRect(0, 0, view.width, view.height);
+  const layers: Layer[] = [new FieldLayer(), new RaysLayer(), new MarksLayer()];
+  for (const layer of layers) {
+    context.save();
+    layer.paint(context, { session, view, look: { ...look, hover: null, cursor: null, selected: null } });
+    context.restore();
+  }
+  return new Promise((done) => canvas.toBlob(done));
+}

@@ -1,0 +1,61 @@
+// The readings: a line from the sensor to where each beam was read, and a dot there.
+
+import { clamp, toCells } from "../geometry/cells";
+import { clipToMap, type Layer, type Scene } from "./layer";
+
+const ROUND_DOTS = 600;
+
+export class RaysLayer implements Layer {
+  readonly name = "rays";
+
+  depends({ session, look }: Scene) {
+    return [session.scan, session.document?.max_range, look.rays, look.readings];
+  }
+
+  paint(context: CanvasRenderingContext2D, scene: Scene) {
+    const { session, view, look } = scene;
+    const { scan, document } = session;
+    if (!scan || !document || !(look.rays || look.readings)) return;
+    clipToMap(context, scene);
+    const { scale } = view.transform;
+    const cellsAMetre = 1 / document.grid.resolution;
+    const ny = document.grid.shape[1];
+    const beams = scan.angles.length;
+    const count = scan.pose.length / 3;
+    const [hits, misses, dots] = [new Path2D(), new Path2D(), new Path2D()];
+    const radius = clamp(scale * 0.1, 1.3, 4);
+    for (let s = 0; s < count; s++) {
+      const [px, py, yaw] = scan.pose.subarray(3 * s, 3 * s + 3);
+      const from = view.fromGrid(toCells({ x: px, y: py }, document.grid), ny);
+      for (let b = 0; b < beams; b++) {
+        const range = scan.ranges[s * beams + b];
+        const hit = scan.hit[s * beams + b] === 1;
+        const length = (hit ? range : document.max_range) * cellsAMetre * scale;
+        const angle = scan.angles[b] + yaw;
+        const to = { x: from.x + length * Math.cos(angle), y: from.y - length * Math.sin(angle) };
+        const path = hit ? hits : misses;
+        path.moveTo(from.x, from.y);
+        path.lineTo(to.x, to.y);
+        if (!hit) continue;
+        if (beams * count > ROUND_DOTS) dots.rect(to.x - 0.9 * radius, to.y - 0.9 * radius, 1.8 * radius, 1.8 * radius);
+        else {
+          dots.moveTo(to.x + radius, to.y);
+          dots.arc(to.x, to.y, radius, 0, 2 * Math.PI);
+        }
+      }
+    }
+    if (look.rays) {
+      context.lineWidth = 1;
+      context.globalAlpha = clamp(28 / Math.sqrt(beams * count) / 5, 0.07, 0.45);
+      context.strokeStyle = look.theme.ray;
+      context.stroke(hits);
+      context.strokeStyle = look.theme.noReturn;
+      context.stroke(misses);
+      context.globalAlpha = 1;
+    }
+    if (look.readings) {
+      context.fillStyle = look.theme.ray;
+      context.fill(dots);
+    }
+  }
+}

@@ -1,0 +1,52 @@
+// bayesmap's page: draw walls, drag the robot, watch the posterior. One module, three homes: the page of `bayesmap
+// app` (WebSocket), the notebook widget (anywidget), and the static export (a recording inside the file).
+
+import { DAMAGED, takeFragment } from "./fragment";
+import { mount, type Handle } from "./mount";
+import { keepToken, keptDocument, onToken } from "./state/kept";
+import { recordedTransport } from "./transport/recorded";
+import { webSocketTransport } from "./transport/socket";
+import { widgetTransport, type Model } from "./transport/widget";
+
+export { mount, recordedTransport, webSocketTransport, widgetTransport };
+
+const KEPT = "This is the map that was drawn here when the connection was lost; undo leads back";
+
+/** `window.bayesmap` is the page that was shown last. */
+const expose = (handle: Handle) => Object.assign(window, { bayesmap: handle });
+
+export default {
+  /** anywidget's entry. */
+  render({ model, el }: { model: Model; el: HTMLElement }) {
+    const host = document.createElement("div");
+    el.append(host);
+    const handle = mount(host, widgetTransport(model), { embedded: true });
+    expose(handle);
+    return () => handle.destroy();
+  },
+};
+
+/** Mounts the page of the server, or the recording of a static export, where a document asks for it. */
+async function start() {
+  const host = document.querySelector<HTMLElement>("[data-bayesmap]");
+  if (!host || host.shadowRoot) return;
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync("body { margin: 0; }");
+  document.adoptedStyleSheets.push(sheet);
+  const recording = document.querySelector("script[data-recording]");
+  if (recording) {
+    expose(mount(host, recordedTransport(JSON.parse(recording.textContent ?? ""))));
+    return;
+  }
+  keepToken(new URLSearchParams(location.search).get("token"));
+  const { document: linked, damaged } = await takeFragment();
+  const kept = linked ? null : keptDocument();
+  const transport = webSocketTransport(() => new URL(location.href));
+  onToken((token) => {
+    history.replaceState(null, "", `${location.pathname}?token=${encodeURIComponent(token)}${location.hash}`);
+    transport.retry?.();
+  });
+  const notice = damaged ? ({ text: DAMAGED, level: "error" } as const) : kept ? ({ text: KEPT, level: "info" } as const) : null;
+  expose(mount(host, transport, { adopt: linked ?? kept, notice }));
+}
+start();

@@ -1,0 +1,204 @@
+// Puts the page into an element: makes its parts and ties them together.
+
+import { DAMAGED, takeFragment, toFragment } from "./fragment";
+import { Editor } from "./input/editor";
+import { Hand } from "./input/hand";
+import { MapKeys, pageKey } from "./input/keys";
+import { Pointer } from "./input/pointer";
+import { CursorLayer } from "./layers/cursor";
+import { FieldLayer } from "./layers/field";
+import { Stack, type Scene } from "./layers/layer";
+import { MarksLayer } from "./layers/marks";
+import { picture } from "./layers/picture";
+import { RaysLayer } from "./layers/rays";
+import { GUTTER, Viewport } from "./layers/viewport";
+import { bar } from "./panels/bar";
+import { traceChart, weightChart } from "./panels/chart";
+import { helpDialog, newDialog, shareDialog } from "./panels/dialogs";
+import { download, h, mark, put } from "./panels/dom";
+import { head } from "./panels/head";
+import { legend } from "./panels/legend";
+import { banner, chip, foot } from "./panels/notice";
+import { posteriorPanel } from "./panels/posterior";
+import { clearPanel, inferencePanel, modelPanel, sensorPanel } from "./panels/settings";
+import { Ui } from "./panels/ui";
+import { Player, scanPanel, viewPanel } from "./panels/view";
+import type { MapDocument, Transport } from "./protocol";
+import { snapshot } from "./snapshot";
+import { Session } from "./state/session";
+import type { Level } from "./state/status";
+import CHARTS from "uplot/dist/uPlot.min.css";
+import STYLE from "./style.css";
+import { ThemeChoice } from "./theme";
+
+export type Options = {
+  /** In a notebook. */
+  embedded?: boolean;
+  /** A document to adopt, of a share link or from before the connection was lost. */
+  adopt?: MapDocument | null;
+  /** What to say once it is connected. */
+  notice?: { text: string; level: Level } | null;
+};
+
+export function mount(element: HTMLElement, transport: Transport, { embedded = false, adopt = null, notice = null }: Options = {}) {
+  const shadow = element.shadowRoot ?? element.attachShadow({ mode: "open" });
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(CHARTS + STYLE);
+  shadow.adoptedStyleSheets = [sheet];
+  element.toggleAttribute("data-embedded", embedded);
+
+  let frame = 0;
+  const schedule = () => {
+    frame ||= requestAnimationFrame(draw);
+  };
+  const session = new Session(transport, schedule, adopt, notice);
+  const view = new Viewport();
+  const hand = new Hand(session);
+  const editor = new Editor(session, hand);
+  const player = new Player(session);
+  const ui = new Ui(session, hand, editor, command, (layer) => player.showLayer(layer), embedded);
+
+  // the map
+  const layers = [new FieldLayer(), new RaysLayer(), new MarksLayer(), new CursorLayer()];
+  const canvases = layers.map(({ name }) => h("canvas", { className: name }));
+  const canvas = canvases[canvases.length - 1]; // on top: it has the focus and the pointer
+  Object.assign(canvas, { tabIndex: 0, role: "application" });
+  const stack = new Stack(layers, canvases);
+  new Pointer(canvas, session, view, hand, editor, embedded);
+  const keys = new MapKeys(canvas, session, view, hand, editor);
+
+  // around it
+  const shown = { truth: true, rays: true, readings: true };
+  const top = head(ui);
+  const tools = bar(ui);
+  const onMap = { chip: chip(ui), banner: banner(ui) };
+  const stage = h("main", { className: "stage" }, ...canvases, onMap.chip, onMap.banner);
+  const dressed = () => themes.theme;
+  const legendOfMap = legend(ui, dressed);
+  const bottom = foot(ui);
+  canvas.setAttribute("aria-describedby", bottom.readout.id);
+  const share = shareDialog(ui);
+  const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
+  const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
+  const panels = [posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)), viewPanel(ui, player, shown), scanPanel(ui), sensors, model, inference, clear];
+  const panel = h("aside", { "aria-label": "Controls" }, ...panels);
+  const isRun = () => session.recorded || session.document?.source.kind === "run";
+  ui.visible(sensors, () => session.editable);
+  ui.visible(model, () => !isRun());
+  ui.visible(inference, () => !isRun());
+  ui.visible(clear, () => !isRun());
+  ui.each(() => {
+    put(tools, "inert", !session.document);
+    put(panel, "inert", !session.document);
+  });
+  const app = h("div", { className: "app" }, top.element, tools, stage, legendOfMap, panel, bottom.element, ...Object.values(dialogs));
+  shadow.replaceChildren(app);
+  const themes = new ThemeChoice(app, (name) => {
+    top.nameTheme(name);
+    schedule();
+  });
+
+  const scene = (): Scene => {
+    const selected = session.editable && hand.tool === "sensor" ? (hand.sensor?.id ?? null) : null;
+    return { session, view, look: { theme: themes.theme, ...shown, hover: hand.hover, cursor: hand.cursor, selected } };
+  };
+
+  // painting: once a frame at most
+  let shape = "";
+  function draw() {
+    frame = 0;
+    const fresh = session.take();
+    if (session.document && String(session.shape) !== shape) {
+      shape = String(session.shape);
+      view.fit(session.shape);
+      hand.cursor = hand.hover = null;
+      canvas.setAttribute("aria-label", `Map, ${session.shape[0]} by ${session.shape[1]} cells`);
+    }
+    stack.paint(scene());
+    if (fresh) {
+      session.painted();
+      player.step();
+    }
+    const { x, y } = view.transform;
+    onMap.chip.style.transform = `translate(${Math.max(x, GUTTER.left)}px, ${Math.max(y - 28, 6)}px)`;
+    mark(canvas, "data-tool", session.editable ? hand.tool : "pan");
+    ui.refresh();
+  }
+  const observer = new ResizeObserver(() => {
+    const { width, height } = stage.getBoundingClientRect();
+    if (!width || !height) return;
+    view.resize(width, height, devicePixelRatio || 1);
+    if (view.fitted) view.fit(session.shape);
+    cancelAnimationFrame(frame);
+    draw(); // at once: a canvas that was resized is blank
+  });
+  observer.observe(stage);
+
+  /** Does what is no message. */
+  async function command(what: string) {
+    if (what === "in" || what === "out") view.zoom(what === "in" ? 1.4 : 1 / 1.4, view.middle, session.shape);
+    else if (what === "fit") view.fit(session.shape);
+    else if (what === "help") dialogs.help.showModal();
+    else if (what === "new") dialogs.new.showModal();
+    else if (what === "theme") themes.next();
+    else if (what === "add") keys.addSensor();
+    else if (what === "share") {
+      const whole = session.portableDocument();
+      // without the token: who has it need not be told, and nobody else shall have it
+      if (whole) share.show(location.origin + location.pathname + (await toFragment(whole)));
+    } else if (what === "export png") {
+      const blob = await picture(scene());
+      if (blob) download("bayesmap.png", blob);
+      session.say("Saved bayesmap.png");
+    } else if (what.startsWith("export ")) session.act({ type: "export", what: what.slice(7) });
+    schedule();
+  }
+  session.ondownload = (name, mime, data) => download(name, new Blob([data as Uint8Array<ArrayBuffer>], { type: mime }));
+
+  const key = (event: KeyboardEvent) => {
+    if (event.defaultPrevented || !session.document || Object.values(dialogs).some((dialog) => dialog.open)) return;
+    pageKey(event, session, {
+      tool: (tool) => {
+        hand.choose(tool);
+        keys.focus();
+      },
+      layer: (layer) => player.showLayer(layer),
+      command,
+    });
+  };
+  const online = () => transport.retry?.();
+  const hash = async () => {
+    if (embedded) return;
+    const { document, damaged } = await takeFragment();
+    if (document) session.bring(document);
+    else if (damaged) session.say(DAMAGED, "error");
+  };
+  const listeners: [EventTarget, string, EventListener][] = [
+    [embedded ? element : window, "keydown", key as EventListener],
+    [window, "online", online],
+    [window, "hashchange", hash],
+  ];
+  for (const [target, type, listener] of listeners) target.addEventListener(type, listener);
+  themes.dress();
+  transport.open();
+
+  return {
+    destroy() {
+      observer.disconnect();
+      cancelAnimationFrame(frame);
+      themes.destroy();
+      for (const [target, type, listener] of listeners) target.removeEventListener(type, listener);
+      transport.close();
+      shadow.replaceChildren();
+    },
+    /** What is known and shown, for tests. */
+    snapshot: () => snapshot(session, view, stack),
+    /** Where the centre of a cell is on the page. */
+    cellToClient(x: number, y: number) {
+      const box = canvas.getBoundingClientRect();
+      const point = view.fromGrid({ x: x + 0.5, y: y + 0.5 }, session.shape[1]);
+      return { x: box.left + point.x, y: box.top + point.y };
+    },
+  };
+}
+export type Handle = ReturnType<typeof mount>;

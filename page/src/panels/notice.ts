@@ -1,0 +1,108 @@
+// What is said on and under the map: the chip, the banner, the status line and the read-out of a cell.
+
+import { centreOf, entropyBits } from "../geometry/cells";
+import { LIMITS, type MapDocument, type Point } from "../protocol";
+import type { Session } from "../state/session";
+import { h, mark, put } from "./dom";
+import type { Ui } from "./ui";
+
+const REFUSED =
+  "The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";
+
+/** Says on the map itself what is shown, that the quick answer is approximate, and that chains have not converged. */
+export function chip(ui: Ui) {
+  const { session } = ui;
+  const what = h("span", { className: "chip" });
+  const remedy = ui.button(null, "Not converged", () => tryRemedy(session)?.apply(), { text: "Not converged", className: "chip doubt" });
+  const element = h("div", { className: "chips" }, what, remedy);
+  ui.each(() => {
+    const found = tryRemedy(session);
+    put(remedy, "hidden", !found);
+    if (found) {
+      put(remedy.firstElementChild as HTMLElement, "textContent", `not converged: ${found.text}`);
+      put(remedy, "title", `${session.shown?.verdict?.why}. Click to ${found.text}.`);
+      mark(remedy, "aria-label", `Not converged: ${found.text}`);
+    }
+    const field = session.shown;
+    if (!field || !session.document) return put(element, "hidden", true);
+    const numbered = session.draws.count ? `draw ${session.draw + 1} of ${session.draws.count}` : "draw";
+    const kind = field.layer === "draw" ? numbered : session.view.layer === "entropy" ? "entropy" : "mean";
+    const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
+    const by = field.approximate ? "approximate, belief propagation" : (other ?? `${field.sweeps} sweeps`);
+    put(element, "hidden", false);
+    put(what, "textContent", `${kind} \u00b7 ${by}`);
+    put(what, "className", field.approximate ? "chip approximate" : "chip");
+  });
+  return element;
+}
+
+/** What to do where the result on show is bad; null where it is not, or nothing can be done here. */
+function tryRemedy(session: Session): { text: string; apply: () => void } | null {
+  const { shown, document } = session;
+  if (shown?.verdict?.level !== "bad" || !document || session.recorded || document.source.kind === "run") return null;
+  const set = (patch: Partial<MapDocument>) => () => session.act({ type: "set", patch });
+  if (shown.method === "gibbs" && document.source.kind === "simulation") return { text: "try blocks", apply: set({ method: "block" }) };
+  if (shown.method === "importance") return { text: "try Gibbs", apply: set({ method: "auto" }) };
+  if (session.sampling) return null;
+  const sweeps = Math.min(LIMITS.sweeps[1], 4 * document.sweeps);
+  return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : null;
+}
+
+/** Says that the connection or the worker is lost. */
+export function banner(ui: Ui) {
+  const { session } = ui;
+  const text = h("span");
+  const retry = ui.button(null, "Reconnect now", () => session.transport.retry?.(), { text: "Reconnect now" });
+  const element = h("div", { className: "banner", role: "alert", hidden: true }, text, retry);
+  ui.each(() => {
+    const lost = session.everConnected && !session.connection.connected;
+    const seconds = Math.max(1, Math.round((session.connection.retryIn_ms ?? 0) / 1000));
+    put(element, "hidden", !lost && session.worker !== "restarted");
+    put(element, "className", lost ? "banner" : "banner mild");
+    put(retry, "hidden", !lost);
+    const wait = `Connection lost. Trying again in ${seconds} s; the map is kept here.`;
+    const offline = session.connection.refused ? REFUSED : wait;
+    put(text, "textContent", lost ? offline : "The worker stopped and is being started again. The map is kept.");
+  });
+  return element;
+}
+
+/** Status and read-out, and what is said to a screen reader alone. */
+export function foot(ui: Ui) {
+  const { session, hand } = ui;
+  const readout = h("div", { className: "readout", id: `${ui.prefix}-readout` });
+  const status = h("span", { role: "status", "aria-live": "polite" });
+  const spoken = h("span", { className: "hidden", "aria-live": "polite" });
+  hand.announce = (text) => put(spoken, "textContent", text);
+  hand.describe = (cell) => describeCell(session, cell);
+  ui.each(() => {
+    const cell = hand.cursor ?? hand.hover;
+    const keys = session.editable && !matchMedia("(pointer: coarse)").matches;
+    const idle = keys ? "Point at a cell, or press ? for the keys" : "Point at a cell";
+    put(readout, "textContent", cell ? describeCell(session, cell) : idle);
+    const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
+    put(status, "textContent", doubt ? "Ready, but the chains have not converged" : session.status.text);
+    put(status, "className", doubt ? "warning" : session.status.level);
+  });
+  return { element: h("footer", {}, status, readout, spoken), readout };
+}
+
+/** What the read-out says of a cell. */
+function describeCell(session: Session, cell: Point) {
+  const { document, shown } = session;
+  if (!document) return "";
+  const { resolution, shape } = document.grid;
+  const i = cell.x * shape[1] + cell.y;
+  const digits = Math.max(1, Math.ceil(-Math.log10(resolution)) + 1);
+  const { x, y } = centreOf(cell, document.grid);
+  const parts = [`Cell ${cell.x}, ${cell.y}`, `${x.toFixed(digits)}, ${y.toFixed(digits)} m`];
+  if (shown && shown.p.length === shape[0] * shape[1]) {
+    const p = shown.p[i] / 255;
+    if (shown.layer === "draw") parts.push(p > 0.5 ? "wall in this draw" : "free in this draw");
+    else parts.push(`P(wall) ${p.toFixed(2)}`, `entropy ${entropyBits(p).toFixed(2)} bit`);
+    const beams = session.cell?.x === cell.x && session.cell.y === cell.y ? session.cell.beams : null;
+    if (!shown.observed[i]) parts.push("unobserved");
+    else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
+  }
+  return parts.join(" \u00b7 ");
+}

@@ -1,0 +1,77 @@
+// Run, cancel, how far it is, and how good it is.
+
+import type { Field } from "../protocol";
+import { sentence } from "../state/status";
+import { figure, h, put } from "./dom";
+import type { Ui } from "./ui";
+
+const UNITS: { [method: string]: string } = { importance: "particles", propagate: "rounds" };
+
+export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
+  const { session } = ui;
+  const progress = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
+  const doing = h("div", { className: "doing" });
+  ui.each(() => {
+    const field = session.shown;
+    const share = field && field.total > 0 && !field.approximate ? field.sweeps / field.total : 0;
+    put(progress, "value", share);
+    const left = session.remaining_s();
+    const unit = UNITS[field?.method ?? ""] ?? "sweeps";
+    const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
+    const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
+    put(doing, "textContent", sentence([done, state].filter(Boolean).join(", ")) || "No chain yet");
+  });
+  return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts);
+}
+
+function buttons(ui: Ui) {
+  const { session } = ui;
+  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)" });
+  const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
+    text: "Cancel",
+    title: "Cancel (Escape)",
+    when: () => session.running || session.sampling,
+  });
+  const live = ui.checkbox(
+    "Live",
+    () => Boolean(session.state?.live ?? true),
+    (on) => session.act({ type: "live", on }),
+    "Every edit restarts the chain",
+  );
+  const element = h("div", { className: "buttons" }, run, cancel, live);
+  ui.visible(element, () => !session.recorded && session.document?.source.kind !== "run");
+  return element;
+}
+
+function figures(ui: Ui) {
+  const { session } = ui;
+  const values = h("dl");
+  const add = (label: string, title: string, read: (field: Field) => string, judged = false) => {
+    const value = h("dd", { textContent: "\u2013" });
+    values.append(h("div", { title }, h("dt", { textContent: label }), value));
+    ui.each(() => {
+      put(value, "textContent", session.shown ? read(session.shown) : "\u2013");
+      if (judged) put(value, "className", session.shown?.verdict?.level ?? "");
+    });
+  };
+  add("ESS", "Effective sample size of the log joint", (field) => figure(field.ess, 0), true);
+  add("R-hat", "Agreement of the chains on the log joint; 1 is full", (field) => figure(field.rhat, 3), true);
+  add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, 1));
+  add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
+  return values;
+}
+
+/** The verdict in words. */
+function verdict(ui: Ui) {
+  const { session } = ui;
+  const element = h("div", { className: "verdict" });
+  ui.each(() => {
+    const found = session.shown?.verdict;
+    put(element, "hidden", !found);
+    if (!found) return;
+    const named = { good: "Converged", fair: "Nearly converged", bad: "Not converged" }[found.level];
+    put(element, "textContent", `${named}: ${found.why}`);
+    put(element, "className", `verdict ${found.level}`);
+  });
+  return element;
+}

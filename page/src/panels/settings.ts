@@ -1,0 +1,102 @@
+// Sensors, model, method: what the document holds besides the walls.
+
+import { LIMITS } from "../protocol";
+import { h, put } from "./dom";
+import type { Ui } from "./ui";
+
+const METHODS: Record<string, string> = {
+  auto: "Chosen by the prior",
+  gibbs: "Gibbs, cell by cell",
+  block: "Gibbs, 2 \u00d7 2 blocks",
+  propagate: "Belief propagation",
+  importance: "Importance sampling",
+};
+const READINGS = { noisy: "with noise", exact: "exact" };
+const STARTS: Record<string, string> = { auto: "as is best", prior: "draws of the prior", empty: "the empty map" };
+const ORDERS: Record<string, string> = { raster: "raster", radial: "radial", random: "random" };
+const FULL_CIRCLE = 2 * Math.PI;
+const degrees = (rad: number) => Math.round((rad * 1800) / Math.PI) / 10;
+const UNITS: { [method: string]: string } = { importance: "Particles", propagate: "Rounds" };
+
+export function sensorPanel(ui: Ui) {
+  const { session, hand, editor } = ui;
+  const list = h("select", { "aria-label": "Selected sensor" });
+  list.addEventListener("change", () => {
+    hand.selected = Number(list.value);
+    hand.choose("sensor");
+  });
+  let known = "";
+  ui.each(() => {
+    const sensors = session.document?.sensors ?? [];
+    const ids = sensors.map((sensor) => sensor.id).join();
+    if (ids !== known) list.replaceChildren(...sensors.map(({ id }) => h("option", { value: String(id), textContent: `Sensor ${id}` })));
+    known = ids;
+    put(list, "value", String(hand.sensor?.id ?? ""));
+  });
+  const place = (label: string, axis: "x" | "y") =>
+    ui.numberInput(
+      label,
+      () => Number((hand.sensor?.[axis] ?? 0).toFixed(2)),
+      (value) => hand.sensor && editor.moveSensor(hand.sensor, { [axis]: value }),
+      { step: "any" },
+    );
+  const heading = ui.numberInput(
+    "heading (\u00b0)",
+    () => Math.round(((hand.sensor?.yaw ?? 0) * 180) / Math.PI),
+    (value) => hand.sensor && editor.moveSensor(hand.sensor, { yaw: ((value % 360) * Math.PI) / 180 }),
+    { step: 5 },
+  );
+  const add = ui.button("plus", "Add a sensor", () => ui.command("add"), { text: "Add" });
+  const remove = ui.button("minus", "Remove the sensor", () => editor.removeSensor(), {
+    text: "Remove",
+    when: () => (session.document?.sensors.length ?? 0) > 1,
+  });
+  // in a full circle all headings are alike
+  ui.visible(heading, () => (session.document?.fov ?? FULL_CIRCLE) < FULL_CIRCLE);
+  const numbers = h("div", { className: "triple" }, place("x (m)", "x"), place("y (m)", "y"), heading);
+  return ui.section("Sensors", h("div", { className: "buttons" }, list, add, remove), numbers);
+}
+
+export function modelPanel(ui: Ui) {
+  const { session } = ui;
+  const [least, most] = LIMITS.max_range;
+  const [narrowest, widest] = LIMITS.fov_deg;
+  const range = ui.numberInput("Longest range (m)", () => session.document?.max_range ?? 0, (max_range) => ui.set({ max_range }), { min: least, max: most, step: "any" });
+  const simulated = [
+    ui.slider("noise", () => "Noise (m)", { low: LIMITS.noise[0], high: LIMITS.noise[1], step: 0.01, unit: " m" }),
+    ui.slider("angles", () => "Angles", { low: LIMITS.angles[0], high: LIMITS.angles[1], step: 1, log: true }),
+    range,
+    ui.numberInput(
+      "Field of view (\u00b0)",
+      () => degrees(session.document?.fov ?? FULL_CIRCLE),
+      (value) => ui.set({ fov: value >= widest ? FULL_CIRCLE : (value * Math.PI) / 180 }),
+      { min: narrowest, max: widest, step: 5 },
+    ),
+    ui.select("Readings", READINGS, () => session.document?.readings ?? "noisy", (readings) => ui.set({ readings })),
+  ];
+  for (const element of simulated) ui.visible(element, () => session.editable);
+  const prior = ui.slider("prior", () => "Prior P(wall)", { low: LIMITS.prior[0], high: LIMITS.prior[1], step: 0.01 });
+  return ui.section("Model", prior, ...simulated);
+}
+
+export function inferencePanel(ui: Ui) {
+  const { session } = ui;
+  const method = () => session.document?.method ?? "auto";
+  const isChain = () => /auto|gibbs|block/.test(method());
+  const [least, most] = LIMITS.seed;
+  return ui.section(
+    "Inference",
+    ui.select("Method", METHODS, method, (value) => ui.set({ method: value })),
+    ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto"),
+    ui.select("Start", STARTS, () => session.document?.start ?? "auto", (start) => ui.set({ start }), isChain),
+    ui.slider("sweeps", () => UNITS[method()] ?? "Sweeps", { low: LIMITS.sweeps[0], high: LIMITS.sweeps[1], step: 1, log: true }),
+    ui.numberInput("Seed", () => session.document?.seed ?? 0, (seed) => ui.set({ seed: Math.round(seed) }), { min: least, max: most, step: 1 }),
+  );
+}
+
+export function clearPanel(ui: Ui) {
+  const { session } = ui;
+  const walls = ui.button(null, "Clear walls", () => session.act({ type: "clear", what: "walls" }), { text: "Clear walls", when: () => session.editable });
+  const inference = ui.button(null, "Clear inference", () => session.act({ type: "clear", what: "inference" }), { text: "Clear inference" });
+  return ui.section("Clear", h("div", { className: "buttons" }, walls, inference));
+}

@@ -1,0 +1,171 @@
+// What every panel is given, and the controls of which panels are made.
+
+import { clamp } from "../geometry/cells";
+import type { Editor } from "../input/editor";
+import type { Hand } from "../input/hand";
+import type { Layer, MapDocument } from "../protocol";
+import type { Session } from "../state/session";
+import { focused, h, mark, put } from "./dom";
+import { icon, type IconName } from "./icons";
+
+let count = 0; // several pages may stand in one notebook
+
+type ButtonOptions = { className?: string; text?: string; when?: () => boolean; title?: string };
+type Range = { low: number; high: number; step: number; log?: boolean; unit?: string };
+type SliderKey = "prior" | "noise" | "angles" | "sweeps";
+
+export class Ui {
+  /** Makes ids of elements unique. */
+  readonly prefix = `bayesmap${count++}`;
+  private readonly updates: (() => void)[] = [];
+  // begins with a number that undo has not seen on this connection
+  private drag = Math.floor(Math.random() * 2 ** 30);
+
+  /** `command` does what is no message: zoom, help, themes, dialogs, pictures. */
+  constructor(
+    readonly session: Session,
+    readonly hand: Hand,
+    readonly editor: Editor,
+    readonly command: (what: string) => void,
+    readonly showLayer: (layer: Layer) => void,
+    readonly embedded: boolean,
+  ) {}
+
+  /** Runs after every change. */
+  each(update: () => void) {
+    this.updates.push(update);
+  }
+
+  refresh() {
+    for (const update of this.updates) update();
+  }
+
+  /** Changes settings; all changes of one slide are one step of undo. */
+  set(patch: Partial<MapDocument>) {
+    this.session.act({ type: "set", patch, drag: this.drag });
+  }
+
+  endDrag() {
+    this.drag++;
+  }
+
+  /** Hides an element unless a condition holds. */
+  visible(element: HTMLElement, when: () => boolean) {
+    this.each(() => put(element, "hidden", !when()));
+  }
+
+  button(image: IconName | null, label: string, action: () => void, { className = "", text = "", when, title }: ButtonOptions = {}) {
+    const element = h("button", { type: "button", className, title: title ?? label, onclick: action }, image && icon(image));
+    if (text) element.append(h("span", { textContent: text }));
+    if (text !== label) element.setAttribute("aria-label", label);
+    if (when) this.each(() => put(element, "disabled", !when()));
+    return element;
+  }
+
+  /** Radio buttons that look like one. */
+  segmented<T extends string>(
+    label: string,
+    options: readonly (readonly [T, string, IconName?])[],
+    current: () => T,
+    choose: (value: T) => void,
+    when?: (value: T) => boolean,
+  ) {
+    const name = `${this.prefix}-${label.replace(/\W/g, "")}`;
+    const group = h("div", { className: "segmented", role: "radiogroup", "aria-label": label });
+    for (const [value, text, image] of options) {
+      const input = h("input", { type: "radio", name, value, onchange: () => choose(value) });
+      group.append(h("label", { title: text }, input, image ? icon(image) : null, h("span", { textContent: text })));
+      this.each(() => {
+        put(input, "checked", current() === value);
+        if (when) put(input, "disabled", !when(value));
+      });
+    }
+    return group;
+  }
+
+  section(title: string, ...children: (Node | null)[]) {
+    const id = `${this.prefix}-${title}`;
+    return h("section", { "aria-labelledby": id }, h("h2", { id, textContent: title }), ...children);
+  }
+
+  /** A label beside a control. */
+  row(label: string, control: HTMLElement) {
+    control.id = `${this.prefix}-${label.replace(/\W/g, "")}`;
+    return h("div", { className: "row" }, h("label", { for: control.id, textContent: label }), control);
+  }
+
+  /** A slider with a number beside it. */
+  slider(key: SliderKey, label: () => string, { low, high, step, log = false, unit = "" }: Range) {
+    const id = `${this.prefix}-${key}`;
+    const toPosition = (v: number) => (log ? (1000 * Math.log(v / low)) / Math.log(high / low) : v);
+    const toValue = (t: number) => {
+      if (!log) return t;
+      const value = low * (high / low) ** (t / 1000);
+      const round = value < 100 ? 1 : 10 ** (Math.floor(Math.log10(value)) - 1);
+      return clamp(Math.round(value / round) * round, low, high);
+    };
+    const text = h("label", { for: id });
+    const range = h("input", { type: "range", id, ...(log ? { min: 0, max: 1000, step: 1 } : { min: low, max: high, step }) });
+    const exact = h("input", { type: "number", min: String(low), max: String(high), step: String(step) });
+    range.addEventListener("input", () => this.set({ [key]: toValue(Number(range.value)) }));
+    range.addEventListener("change", () => this.endDrag());
+    exact.addEventListener("change", () => {
+      const value = Number(exact.value);
+      if (exact.value === "" || !Number.isFinite(value)) exact.value = String(this.session.document?.[key]);
+      else this.set({ [key]: log ? Math.round(clamp(value, low, high)) : clamp(value, low, high) });
+      this.endDrag();
+    });
+    this.each(() => {
+      const value = this.session.document?.[key] ?? low;
+      put(text, "textContent", label());
+      mark(exact, "aria-label", `${label()}, number`);
+      if (toValue(Number(range.value)) !== value) range.value = String(toPosition(value));
+      mark(range, "aria-valuetext", `${value}${unit}`);
+      const fill = (100 * (toPosition(value) - Number(range.min))) / (Number(range.max) - Number(range.min));
+      range.style.setProperty("--fill", `${clamp(fill, 0, 100)}%`);
+      if (!focused(exact)) put(exact, "value", String(value));
+    });
+    return h("div", { className: "row slider" }, text, range, exact);
+  }
+
+  select<T extends string>(label: string, options: Record<T, string>, current: () => T, choose: (value: T) => void, when?: () => boolean) {
+    const element = h("select", { onchange: () => choose(element.value as T) });
+    for (const [value, text] of Object.entries<string>(options)) element.append(h("option", { value, textContent: text }));
+    this.each(() => {
+      put(element, "value", current());
+      if (when) put(element, "disabled", !when());
+    });
+    return this.row(label, element);
+  }
+
+  /** A number that is brought into its limits, `min` and `max` of the properties. */
+  numberInput(label: string, current: () => number, choose: (value: number) => void, properties: { [name: string]: any } = {}) {
+    const element = h("input", { type: "number", ...properties });
+    const { min = -Infinity, max = Infinity } = properties;
+    element.addEventListener("change", () => {
+      if (element.value !== "" && Number.isFinite(Number(element.value))) choose(clamp(Number(element.value), min, max));
+    });
+    this.each(() => {
+      if (!focused(element)) put(element, "value", String(current()));
+    });
+    return this.row(label, element);
+  }
+
+  checkbox(label: string, current: () => boolean, choose: (on: boolean) => void, title = "") {
+    const input = h("input", { type: "checkbox", onchange: () => choose(input.checked) });
+    this.each(() => put(input, "checked", current()));
+    return h("label", { className: "check", title }, input, h("span", { textContent: label }));
+  }
+
+  dialog(title: string, ...children: (Node | string)[]) {
+    const id = `${this.prefix}-dialog-${title.replace(/\W/g, "")}`;
+    const close = h("button", { type: "button", className: "plain", "aria-label": "Close", onclick: () => dialog.close() }, icon("close"));
+    const heading = h("div", { className: "title" }, h("h2", { id, textContent: title }), close);
+    const dialog: HTMLDialogElement = h("dialog", { "aria-labelledby": id }, heading, ...children);
+    dialog.addEventListener("click", (event) => {
+      if (event.target === dialog) dialog.close();
+    });
+    dialog.addEventListener("keydown", (event) => event.stopPropagation());
+    return dialog;
+  }
+}

@@ -1,0 +1,134 @@
+// Which field is shown, the draws one by one, the marks, and the scans of a file.
+
+import type { Layer } from "../protocol";
+import type { Session } from "../state/session";
+import { focused, h, mark, put } from "./dom";
+import { icon } from "./icons";
+import type { Ui } from "./ui";
+
+const LAYERS = [
+  ["mean", "Mean"],
+  ["draw", "One draw"],
+  ["entropy", "Entropy"],
+] as const;
+/** Draws a second. */
+const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30 / s", "1000": "fastest" };
+
+/** Shows draws one after another, until the last; the next is asked for when one has been painted. */
+export class Player {
+  playing = false;
+  drawsPerSecond = 10;
+
+  constructor(private readonly session: Session) {}
+
+  showLayer(layer: Layer) {
+    if (layer !== "draw") this.play(false);
+    else if (!this.session.hasDraws) return;
+    this.session.act({ type: "view", layer, chain: this.session.view.chain });
+  }
+
+  showDraw(draw: number, chain = this.session.view.chain) {
+    this.session.act({ type: "view", layer: "draw", chain, draw });
+  }
+
+  play(on: boolean) {
+    this.playing = on;
+    if (on) {
+      const { draw, draws } = this.session;
+      this.showDraw(draw >= draws.count - 1 ? 0 : draw);
+    }
+    this.session.changed();
+  }
+
+  /** Plays the first sweeps of a chain, from the first draw on. */
+  playFromStart() {
+    this.showDraw(0);
+    this.playing = true;
+    this.session.changed();
+  }
+
+  /** Called after a picture is painted. */
+  step() {
+    if (!this.playing || this.session.shown?.layer !== "draw") return;
+    setTimeout(() => {
+      if (!this.playing) return;
+      const { draw, draws } = this.session;
+      if (draw + 1 >= draws.count) this.play(false);
+      else this.showDraw(draw + 1);
+    }, 1000 / this.drawsPerSecond);
+  }
+}
+
+/** Marks that can be switched off. */
+export type Shown = { truth: boolean; rays: boolean; readings: boolean };
+
+export function viewPanel(ui: Ui, player: Player, shown: Shown) {
+  const { session } = ui;
+  const layers = ui.segmented<Layer>("Show", LAYERS, () => session.view.layer, (layer) => player.showLayer(layer), (layer) => layer !== "draw" || session.hasDraws);
+  const box = (label: string, name: keyof Shown) =>
+    ui.checkbox(label, () => shown[name], (on) => {
+      shown[name] = on;
+      session.changed();
+    });
+  const truth = box("True walls", "truth");
+  ui.visible(truth, () => !session.document || session.document.source.kind === "simulation");
+  const marks = h("div", { className: "checks", role: "group", "aria-label": "Marks" }, truth, box("Rays", "rays"), box("Readings", "readings"));
+  return ui.section("View", layers, playerControls(ui, player), marks);
+}
+
+function playerControls(ui: Ui, player: Player) {
+  const { session } = ui;
+  const slider = h("input", { type: "range", min: 0, step: 1, "aria-label": "Draw number" });
+  slider.addEventListener("input", () => {
+    player.play(false);
+    player.showDraw(Number(slider.value));
+  });
+  const play = ui.button("play", "Play the draws", () => player.play(!player.playing), { when: () => session.draws.count > 1 });
+  const count = h("output");
+  const chain = h("select", { "aria-label": "Chain" });
+  chain.addEventListener("change", () => player.showDraw(session.draw, Number(chain.value)));
+  ui.each(() => {
+    const { chains, count: n } = session.draws;
+    put(slider, "max", String(Math.max(0, n - 1)));
+    put(slider, "disabled", n === 0);
+    put(slider, "value", String(session.draw));
+    const text = n ? `${session.draw + 1} of ${n}` : "none kept";
+    mark(slider, "aria-valuetext", text);
+    slider.style.setProperty("--fill", `${n > 1 ? (100 * session.draw) / (n - 1) : 0}%`);
+    put(count, "textContent", text);
+    if (chain.length !== Math.max(1, chains)) {
+      chain.replaceChildren(...Array.from({ length: Math.max(1, chains) }, (_, c) => h("option", { value: String(c), textContent: `chain ${c + 1}` })));
+    }
+    put(chain, "value", String(session.view.chain));
+    put(chain, "disabled", chains < 2);
+    if (n < 2 && player.playing) player.play(false);
+    const label = player.playing ? "Pause the draws" : "Play the draws";
+    if (play.getAttribute("aria-label") === label) return;
+    play.setAttribute("aria-label", label);
+    play.replaceChildren(icon(player.playing ? "pause" : "play"));
+  });
+  const speed = h("select", { "aria-label": "Speed" });
+  for (const [value, text] of Object.entries(SPEEDS)) speed.append(h("option", { value, textContent: text }));
+  speed.value = String(player.drawsPerSecond);
+  speed.addEventListener("change", () => (player.drawsPerSecond = Number(speed.value)));
+  const first = ui.button(null, "From the first sweep", () => player.playFromStart(), { text: "From the first", when: () => session.draws.count > 1 });
+  ui.each(() => put(speed, "disabled", session.draws.count < 2));
+  return h("div", { className: "player" }, play, slider, count, h("div", { className: "buttons wide" }, chain, speed, first));
+}
+
+export function scanPanel(ui: Ui) {
+  const { session } = ui;
+  const slider = h("input", { type: "range", min: 0, step: 1, "aria-label": "Scan number" });
+  const count = h("output");
+  slider.addEventListener("input", () => session.act({ type: "scan", index: Number(slider.value) }));
+  const section = ui.section("Scan", h("div", { className: "player bare" }, slider, count));
+  ui.each(() => {
+    const scans = session.document?.source.kind === "simulation" ? 0 : (session.document?.source.scans ?? 0);
+    put(section, "hidden", scans < 2);
+    put(slider, "max", String(Math.max(0, scans - 1)));
+    if (!focused(slider)) put(slider, "value", String(session.scan?.index ?? 0));
+    slider.style.setProperty("--fill", `${(100 * Number(slider.value)) / Math.max(1, scans - 1)}%`);
+    put(count, "textContent", `${Number(slider.value) + 1} / ${scans}`);
+  });
+  return section;
+}

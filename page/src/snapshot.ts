@@ -1,0 +1,45 @@
+// What the page offers to tests (docs/app.md).
+
+import type { Stack } from "./layers/layer";
+import type { Viewport } from "./layers/viewport";
+import type { Session } from "./state/session";
+
+/** What is known and shown. */
+export function snapshot(session: Session, view: Viewport, stack: Stack) {
+  const { shown, status } = session;
+  const layer = shown?.layer === "draw" ? "draw" : session.view.layer === "entropy" ? "entropy" : "mean";
+  return {
+    document: session.effectiveDocument(),
+    generation: session.generation,
+    painted: shown && {
+      generation: shown.generation,
+      layer,
+      approximate: shown.approximate,
+      sweeps: shown.sweeps,
+      method: shown.method,
+      rhat: shown.rhat,
+      verdict: shown.verdict,
+      trace: shown.trace,
+      traced: shown.traced,
+      weights: shown.weights,
+      ess: shown.ess,
+      chain: shown.chain,
+      draw: shown.draw,
+    },
+    probability: shown?.p ?? new Uint8Array(0),
+    observed: shown?.observed ?? new Uint8Array(0),
+    walls: session.walls,
+    sensors: session.document?.sensors ?? [],
+    scan: session.scan,
+    status: { text: status.text, level: status.level },
+    connected: session.connection.connected,
+    worker: session.worker,
+    running: session.running,
+    draws: session.draws,
+    view: session.view,
+    seq: { sent: session.acted, confirmed: session.state?.seq ?? 0 },
+    events: { ...session.counts, eventToPaint_ms: session.latency.eventToPaint_ms },
+    layers: { ...stack.paints },
+    transform: { ...view.transform },
+  };
+}

@@ -1,0 +1,23 @@
+// Edits that are on their way show at once: what the document will be when the session has applied them.
+
+import type { MapDocument, Message, State, View } from "../protocol";
+
+/** Messages whose effect the page shows before they are confirmed. */
+export const FORESEEN = new Set(["walls", "sensor", "set", "view", "live"]);
+
+/** What an edit may change; walls are (nx, ny), one byte a cell. */
+export type Foreseen = { document: MapDocument; walls: Uint8Array; view: View; state: State };
+
+/** Applies an edit to what is shown. */
+export function foresee(shown: Foreseen, edit: Message) {
+  const { document, walls } = shown;
+  const ny = document.grid.shape[1];
+  if (edit.type === "walls") for (const [x, y] of edit.cells) walls[x * ny + y] = edit.wall ? 1 : 0;
+  else if (edit.type === "set") Object.assign(document, edit.patch);
+  else if (edit.type === "live") shown.state = { ...shown.state, live: edit.on };
+  else if (edit.type === "view") shown.view = { layer: edit.layer, chain: edit.chain ?? shown.view.chain, draw: edit.draw ?? null };
+  else if (edit.type === "sensor" && edit.op === "move") {
+    const sensor = document.sensors.find((candidate) => candidate.id === edit.id);
+    if (sensor) Object.assign(sensor, { x: edit.x, y: edit.y, yaw: edit.yaw });
+  }
+}

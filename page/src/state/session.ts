@@ -1,0 +1,274 @@
+// What the page knows: the document, the edits that are on their way, the newest field.
+
+import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
+import type { Buffers, Connection, Field, MapDocument, Message, Pair, Scan, State, Transport, View } from "../protocol";
+import { forget, keep } from "./kept";
+import { FORESEEN, foresee, type Foreseen } from "./foreseen";
+import { Latency } from "./latency";
+import { Progress } from "./progress";
+import { Status, type Level } from "./status";
+
+/** It changes by `receive` and `act`, and calls `changed` after. */
+export class Session {
+  connection: Connection = { connected: false };
+  everConnected = false;
+  /** The document with the edits that are on their way. */
+  document: MapDocument | null = null;
+  /** (nx, ny), one byte a cell, with the same edits; `wallsVersion` counts its changes. */
+  walls: Uint8Array = new Uint8Array(0);
+  wallsVersion = 0;
+  view: View = { layer: "mean", chain: 0, draw: null };
+  state: State | null = null;
+  scan: Scan | null = null;
+  /** The field on the canvas. */
+  shown: Field | null = null;
+  cell: { x: number; y: number; beams: number } | null = null;
+  worker = "starting";
+  /** Whether the page plays a recording. */
+  recorded = false;
+  /** The newest generation that was seen. */
+  generation = -1;
+  /** Number of the last message that changes something. */
+  acted = 0;
+  readonly status = new Status();
+  readonly progress = new Progress();
+  readonly latency = new Latency();
+  readonly counts = { paints: 0, stale: 0 };
+  ondownload: (name: string, mime: string, data: Uint8Array) => void = () => {};
+
+  private seq = 0;
+  private next: Field | null = null;
+  private pending: Message[] = [];
+  private confirmedWalls = { text: "", walls: this.walls };
+  private wallsAhead = false;
+  /** Number of the last hello that brought a document. */
+  private broughtAt: number | null = null;
+  private packed = { version: -1, text: "" };
+
+  /** `adopt` is a document to adopt on connecting, `notice` what to say then. */
+  constructor(
+    readonly transport: Transport,
+    readonly changed: () => void,
+    private readonly adopt: MapDocument | null = null,
+    private readonly notice: { text: string; level: Level } | null = null,
+  ) {
+    transport.onmessage = (message, buffers) => this.receive(message, buffers);
+    transport.onstatus = (connection) => this.onstatus(connection);
+  }
+
+  get shape(): Pair {
+    return this.document ? this.document.grid.shape : [1, 1];
+  }
+  get editable() {
+    return !this.recorded && this.document?.source.kind === "simulation";
+  }
+  get running() {
+    return Boolean(this.state?.running);
+  }
+  get draws() {
+    return this.state?.draws ?? { chains: 0, count: 0 };
+  }
+  /** Whether there is a chain on show, and it goes on. */
+  get sampling() {
+    const field = this.shown;
+    return Boolean(field && !field.approximate && field.sweeps < field.total && (this.running || this.state?.live));
+  }
+  /** The draw on show, from 0. */
+  get draw() {
+    const last = Math.max(0, this.draws.count - 1);
+    return Math.min(last, this.view.draw ?? (this.shown?.layer === "draw" ? (this.shown.draw ?? last) : last));
+  }
+  get hasDraws() {
+    return this.draws.count > 0 || (!this.recorded && /auto|gibbs|block/.test(this.document?.method ?? ""));
+  }
+
+  say(text: string, level: Level = "info") {
+    this.status.say(text, level, this.acted);
+    this.changed();
+  }
+
+  /** Sends an action; its effect shows at once. The pointer event that it came from is timed until its picture. */
+  act(message: Message, event?: Event) {
+    if (!this.document && message.type !== "hello") return;
+    const sent = { ...message, seq: ++this.seq };
+    if (message.type !== "inspect") this.acted = this.seq; // a question changes nothing, and no state confirms it
+    if (FORESEEN.has(message.type)) {
+      this.pending.push(sent);
+      this.foresee(sent);
+    }
+    if (event) this.latency.sent(sent.seq, event);
+    if (this.connection.connected) this.transport.send(sent);
+    else if (this.everConnected) keep(this.portableDocument());
+    this.changed();
+  }
+
+  /** Says hello, with a document for the server to adopt where there is one. */
+  bring(document: MapDocument | null) {
+    this.act(document ? { type: "hello", document } : { type: "hello" });
+    this.broughtAt = document ? this.seq : null;
+  }
+
+  /** The document as it is shown, edits included. */
+  effectiveDocument(): MapDocument | null {
+    if (this.packed.version !== this.wallsVersion) {
+      this.packed = { version: this.wallsVersion, text: toBase64(packBits(this.walls)) };
+    }
+    return this.document && { ...this.document, walls: this.packed.text };
+  }
+
+  /** The same as it travels: of a file's map the server has the cells. */
+  portableDocument(): MapDocument | null {
+    const whole = this.effectiveDocument();
+    return whole && (whole.source.kind === "simulation" ? whole : { ...whole, walls: "" });
+  }
+
+  /** Takes the newest field for painting: whether there is one. */
+  take() {
+    if (!this.next || !this.document) return false; // a field of a running chain may come before the first state
+    this.shown = this.next;
+    this.next = null;
+    return true;
+  }
+
+  /** The field on show is on the canvas now. */
+  painted() {
+    this.counts.paints++;
+    if (this.shown) this.latency.painted(this.shown.generation);
+  }
+
+  /** Seconds until the chain on show is done, or null where nothing can be said. */
+  remaining_s() {
+    return this.shown && this.sampling ? this.progress.remaining_s(this.shown) : null;
+  }
+
+  private onstatus(connection: Connection) {
+    this.connection = connection;
+    if (connection.connected) {
+      // on a reconnection the document goes back to the server, with what was edited meanwhile
+      const document = this.everConnected ? this.portableDocument() : this.adopt;
+      this.pending = [];
+      this.latency.forget();
+      this.bring(document);
+      if (this.view.layer !== "mean" && this.document) this.act({ type: "view", ...this.view });
+      if (this.everConnected) this.say("Connected again");
+      else if (this.notice) this.say(this.notice.text, this.notice.level);
+      this.everConnected = true;
+      forget();
+    } else if (this.everConnected) {
+      this.say("Connection lost", "error");
+      keep(this.portableDocument());
+    }
+    this.changed();
+  }
+
+  private receive(message: Message, buffers: Buffers) {
+    switch (message.type) {
+      case "welcome":
+        this.generation = -1;
+        this.recorded = Boolean(message.recorded);
+        this.latency.forget();
+        this.next = null;
+        break;
+      case "state":
+        this.receiveState(message as unknown as State);
+        break;
+      case "scan":
+        if (message.generation >= this.generation) {
+          const { pose, angles, ranges, exact, hit } = buffers;
+          this.scan = { ids: message.ids ?? [], index: message.index ?? null, pose, angles, ranges, exact, hit };
+        }
+        break;
+      case "field":
+        this.receiveField(message, buffers);
+        break;
+      case "cell":
+        this.cell = { x: message.x, y: message.y, beams: message.beams };
+        break;
+      case "status":
+        this.status.say(message.text, message.level ?? "info", this.acted);
+        break;
+      case "error":
+        this.receiveError(message);
+        break;
+      case "worker":
+        this.worker = message.state;
+        this.status.worker(message.state);
+        break;
+      case "download":
+        this.ondownload(message.name, message.mime, buffers.data as Uint8Array);
+        this.status.say(`Saved ${message.name}`, "info", this.acted);
+        break;
+    }
+    this.changed();
+  }
+
+  private receiveError(message: Message) {
+    const seq: number | null = message.refused?.seq ?? null;
+    if (seq !== null && seq === this.broughtAt) {
+      // the document that this page brought is none: it takes the server's
+      this.broughtAt = null;
+      this.act({ type: "hello" });
+    }
+    this.status.say([message.text, message.remedy].filter(Boolean).join("; "), "error", this.acted);
+    this.pending = this.pending.filter((edit) => edit.seq !== seq);
+    if (seq !== null) this.latency.refused(seq);
+    this.rebuild();
+  }
+
+  private receiveState(state: State) {
+    this.status.confirmed(state.seq);
+    this.state = state;
+    this.generation = Math.max(this.generation, state.generation);
+    this.latency.confirmed(state.generation, state.seq);
+    this.pending = this.pending.filter((edit) => edit.seq > state.seq);
+    this.rebuild();
+  }
+
+  private receiveField(message: Message, buffers: Buffers) {
+    if (message.generation < this.generation) {
+      this.counts.stale++;
+      return;
+    }
+    this.generation = message.generation;
+    const p = buffers.p as Uint8Array;
+    const { trace, traced, weights } = buffers as { [name: string]: Float32Array };
+    const bits = buffers.observed as Uint8Array;
+    const old = this.next ?? this.shown;
+    // most frames of a chain see the same cells
+    const same = old && old.p.length === p.length && old.bits.every((byte, i) => byte === bits[i]);
+    const seen = same ? { observed: old.observed, bits: old.bits } : { observed: unpackBits(bits, p.length), bits };
+    this.next = { ...(message as unknown as Field), p, trace, traced, weights, ...seen };
+    this.progress.hear(this.next);
+  }
+
+  /** The document as confirmed, and on it the edits that are on their way. */
+  private rebuild() {
+    if (!this.state) return;
+    const { document } = this.state;
+    const [nx, ny] = document.grid.shape;
+    const confirmed = this.confirmedWalls;
+    if (document.walls !== confirmed.text || confirmed.walls.length !== nx * ny) {
+      this.confirmedWalls = { text: document.walls, walls: unpackBits(fromBase64(document.walls), nx * ny) };
+    }
+    this.document = { ...document, sensors: document.sensors.map((sensor) => ({ ...sensor })) };
+    if (this.confirmedWalls !== confirmed || this.wallsAhead) {
+      this.walls = this.confirmedWalls.walls.slice();
+      this.wallsVersion++;
+      this.wallsAhead = false;
+    }
+    if (this.state.view && !this.pending.some((edit) => edit.type === "view")) {
+      const { layer, chain, draw } = this.state.view;
+      this.view = { layer: layer ?? "mean", chain: chain ?? 0, draw: draw ?? null };
+    }
+    for (const edit of this.pending) this.foresee(edit);
+  }
+
+  private foresee(edit: Message) {
+    if (!this.document || !this.state) return;
+    foresee(this as Foreseen, edit);
+    if (edit.type === "walls") {
+      this.wallsVersion++;
+      this.wallsAhead = true;
+    }
+  }
+}

@@ -1,0 +1,183 @@
+"""``bayesmap localize``: where in the map of a saved run was each scan of a log taken, and how sure is that?"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.given import need_file
+from bayesmap.cli.progress import share
+from bayesmap.cli.reading import options_of
+from bayesmap.cli.talk import write_out
+from bayesmap.errors import BadInput
+from bayesmap.version import __version__
+
+if TYPE_CHECKING:
+    from bayesmap.localization.belief import PoseBelief
+    from bayesmap.localization.localize import Localization, Near
+
+ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
+
+
+@takes("localize")
+@click.argument("run_file", metavar="RUN.nc")
+@click.argument("log")
+@click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")
+@click.option("--follow", is_flag=True, help="A JSON line on standard output for each scan, as soon as it is known.")
+@click.option("--prior", metavar="X,Y,DEGREES[,M,DEGREES]", help="First pose, and its standard deviations.")
+@click.option("--independent", is_flag=True, help="Locate each scan by itself; the log's poses tell nothing.")
+@click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is left out.")
+@click.option("--area", metavar="X0,X1,Y0,Y1", help="Also the probability of being in this rectangle, in metres.")
+@click.option("--force", is_flag=True, help="Replace an existing file.")
+def command(
+    call: Call,
+    run_file: str,
+    log: str,
+    output: str | None,
+    follow: bool,
+    prior: str | None,
+    independent: bool,
+    span: str | None,
+    area: str | None,
+    force: bool,
+) -> None:
+    r"""Locate the scans of LOG in the map of a saved run: the posterior of each pose.
+
+    \b
+    bayesmap localize runs/office/run.nc today.bag -o today.tum
+    bayesmap localize runs/office/run.nc today.bag --follow | jq .mean
+    bayesmap localize runs/office/run.nc today.bag --scans 0:1
+
+    The first scan may be anywhere on the map, unless --prior says where. From scan to scan the log's poses are taken
+    for odometry: only motions count. Answers: the likeliest place with its covariance, all places with their
+    probabilities, and the probability of being lost: that the scan is as scans are elsewhere, or the map outdated.
+    """
+    values = call.values()
+    from bayesmap.io.logs import read_log
+    from bayesmap.localization.known_map import BEAM_WEIGHT, KnownMap
+    from bayesmap.localization.localize import localize
+    from bayesmap.result import load
+
+    target = None if output is None else _target(output, force)
+    near, corners = _near(prior), _area(area)
+    need_file(log, "the log whose scans are to be located", runs=False)
+    run = load(run_file)
+    scans = read_log(log, max_range_m=run.posterior.scans.max_range_m, **options_of(values))
+    scans = scans.select(_slice(span, len(scans)))
+    weight = BEAM_WEIGHT if values["beam_weight"] is None else values["beam_weight"]
+    known = KnownMap.of_run(run, beam_weight=weight)
+    with share(call.talk, "locating scans") as tell:
+
+        def on_belief(number: int, belief: PoseBelief) -> None:
+            tell((number + 1) / len(scans))
+            if follow:
+                write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
+
+        found = localize(known, scans, prior=near, independent=independent, seed=values["seed"], on_belief=on_belief)
+    outputs = [] if target is None else _write(target, found)
+    lost = sum(belief.p_lost > 0.5 for belief in found.beliefs)
+    if lost:
+        call.talk.warn(f"{lost:,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated")
+    if follow:
+        return
+    if call.talk.as_json:
+        document = {
+            "version": __version__,
+            "run": run_file,
+            "log": log,
+            "scans": len(found),
+            "lost": lost,
+            "last": _answer(found.last, corners),
+            "outputs": {path.name: str(path) for path in outputs},
+        }
+        call.talk.result(document, outputs)
+    else:
+        write_out("".join(f"{line}\n" for line in [*_lines(found, corners), *(str(path) for path in outputs)]))
+
+
+def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
+    answer = belief.as_json()
+    if corners is not None:
+        answer["probability_in_area"] = belief.probability_in(corners)  # type: ignore[arg-type]
+    return answer
+
+
+def _lines(found: Localization, corners: list[float] | None) -> list[str]:
+    lines = []
+    for mode in found.modes[:5]:
+        (x, y, yaw), sd = mode.mean, [math.sqrt(v) for v in mode.covariance.diagonal()]
+        lines.append(
+            f"{100 * mode.probability:5.1f} %  x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m  "
+            f"yaw {math.degrees(yaw):.2f} +- {math.degrees(sd[2]):.2f} degrees"
+        )
+    lines.append(f"lost, or the map outdated: {100 * found.p_lost:.2g} %")
+    if corners is not None:
+        lines.append(f"in the area: {100 * found.probability_in(corners):.1f} %")
+    return lines
+
+
+def _write(target: Path, found: Localization) -> list[Path]:
+    from bayesmap.io.atomic import write_whole
+    from bayesmap.io.exports import export_trajectory
+
+    if target.suffix != ".jsonl":
+        return list(export_trajectory(target, found.trajectory()))
+    with write_whole(target) as partial:
+        rows = (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in enumerate(found.beliefs))
+        partial.write_text("".join(f"{row}\n" for row in rows), encoding="ascii")
+    return [target]
+
+
+def _target(output: str, force: bool) -> Path:
+    target = Path(output)
+    if target.suffix.lower() not in ENDINGS:
+        raise click.UsageError(f"-o {output}: end its name in one of {', '.join(ENDINGS)}")
+    if target.exists() and not force:
+        raise BadInput(f"{target}: exists already; --force replaces it, -o takes another name")
+    if not target.parent.is_dir():
+        raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
+    return target
+
+
+def _numbers(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        found = []
+    if len(found) not in counts or not all(map(math.isfinite, found)):
+        raise click.BadParameter(f"{text!r} is not {form}", param_hint=f"'{flag}'")
+    return found
+
+
+def _near(text: str | None) -> Near | None:
+    from bayesmap.localization.localize import Near
+
+    if text is None:
+        return None
+    x, y, degrees, *spread = _numbers(text, "--prior", "X,Y,DEGREES or X,Y,DEGREES,M,DEGREES", (3, 5))
+    pose = (x, y, math.radians(degrees))
+    return Near(pose, spread[0], math.radians(spread[1])) if spread else Near(pose)
+
+
+def _area(text: str | None) -> list[float] | None:
+    return None if text is None else _numbers(text, "--area", "X0,X1,Y0,Y1", (4,))
+
+
+def _slice(text: str | None, count: int) -> slice:
+    if text is None:
+        return slice(None)
+    first, colon, last = text.partition(":")
+    try:
+        chosen = slice(int(first) if first else None, int(last) if last else None)
+    except ValueError:
+        colon = ""
+    if not colon:
+        raise click.BadParameter(f"{text!r} is not FIRST:LAST", param_hint="'--scans'")
+    if not range(count)[chosen]:
+        raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
+    return chosen

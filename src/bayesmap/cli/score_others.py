@@ -1,0 +1,112 @@
+"""The part of ``bayesmap score`` for maps and trajectories that other programs made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bayesmap.cli.command import Call
+from bayesmap.cli.given import need_file
+from bayesmap.cli.progress import progress, share
+from bayesmap.cli.reading import options_of
+from bayesmap.errors import BadInput
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from bayesmap.posterior.baselines import Fitted
+    from bayesmap.posterior.scoring import Score
+    from bayesmap.result import Run
+    from bayesmap.space.scans import Scans
+    from bayesmap.space.trajectory import Trajectory
+
+MAPS = (".yaml", ".yml")
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A log's scans at the poses that are judged.
+
+    Attributes:
+        train, heldout: without and with every n-th scan.
+        trajectory: of the laser.
+    """
+
+    train: Scans
+    heldout: Scans
+    trajectory: Trajectory
+
+
+def placed_scans(log: str, values: dict[str, Any], trajectory: str | None, mount: NDArray[np.float64] | None) -> Placed:
+    """The scans of a log, at their own poses or at those of a trajectory.
+
+    Args:
+        log: as typed.
+        values: the command's settings.
+        trajectory: TUM file; None for the log's own poses.
+        mount: where the laser is in the frame whose trajectory that is, shape (3,); None if it is the laser's own.
+
+    Raises:
+        BadInput: files that cannot be read, no stamps, or a trajectory of another time.
+    """
+    need_file(log, "the log that the map was made from", runs=False)
+    from bayesmap.io.logs import read_log
+    from bayesmap.io.tum import read_trajectory
+    from bayesmap.space.trajectory import Trajectory
+
+    if values["holdout"] == 0:
+        raise BadInput("score: --holdout 0 leaves nothing to score; the sensor is fitted on the other scans")
+    scans = read_log(log, **options_of(values))
+    if trajectory is None:
+        found = Trajectory(scans.poses, scans.stamps_s)
+    else:
+        found = read_trajectory(trajectory)
+        found = found if mount is None else found.of_frame(mount)
+        if scans.stamps_s is None:
+            raise BadInput(f"{log}: its scans have no stamps, so nobody can say where {trajectory} puts them")
+        poses, inside = found.at(scans.stamps_s)
+        if not inside.any():
+            assert found.stamps_s is not None
+            raise BadInput(
+                f"{trajectory}: it reaches from {found.stamps_s[0]:.3f} to {found.stamps_s[-1]:.3f} s, but the scans "
+                f"of {log} are from {scans.stamps_s[0]:.3f} to {scans.stamps_s[-1]:.3f} s; are both of one clock?"
+            )
+        scans = replace(scans, poses=poses, beam_poses=None).select(inside)
+    train, heldout = scans.holdout(values["holdout"])
+    return Placed(train, heldout, found)
+
+
+def score_map(call: Call, path: str, placed: Placed, seed: int) -> tuple[Fitted, Score]:
+    """Fit a sensor to a map on the training scans, and score it on the others."""
+    from bayesmap.io.map_server import read_map
+    from bayesmap.posterior.others_maps import fit_map
+    from bayesmap.posterior.scoring import score_prediction
+
+    occupancy, grid = read_map(path)
+    name = Path(path).name
+    with share(call.talk, f"fitting a sensor to {name}") as tell:
+        fit = fit_map(name, occupancy, grid, placed.train, tell)
+    with share(call.talk, f"scoring {name}") as tell:
+        return fit, score_prediction(fit.predictor, placed.heldout, seed=seed, on_progress=tell)
+
+
+def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
+    """The posterior over surfaces given a trajectory, from the training scans."""
+    from bayesmap.api import infer
+    from bayesmap.cells.surface import Surface
+    from bayesmap.space.grid import Grid
+
+    grid = Grid.covering(placed.train, values["resolution"])
+    call.talk.say(f"inferring a map of {grid.shape[0]} x {grid.shape[1]} cells from {len(placed.train):,} scans")
+    with progress(call.talk, "tracing beams") as on_progress:
+        return infer(
+            placed.train, grid, prior=Surface(), sensor="fit", warmup=50, hit_depth=0.5, seed=values["seed"],
+            on_progress=on_progress,
+        )  # fmt: skip
+
+
+def is_map(path: str) -> bool:
+    """Whether a file is called like a map_server map."""
+    return Path(path).suffix.lower() in MAPS

@@ -1,0 +1,228 @@
+"""What a pose is weighed by, fast: the log-likelihood of a scan at many poses under many draws of a map.
+
+The law is that of `bayesmap.kernels.scan_likelihood`, in single precision, for mixtures with Gaussian noise. The map
+stays where kernels read it from call to call, one thread does a whole scan, and a beam's walk ends where its reading is
+behind it: from there on all that stops have in common remains, the density of a beam that meets nothing.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.likelihood import SensorParameters
+from bayesmap.kernels.meeting import meet, ray_from
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.predict import compiled
+from bayesmap.kernels.scan_likelihood import Cells, Frame, put_cells
+from bayesmap.kernels.stop_law import Law, fading, law_of, no_stop_law, scale_at, stop_law
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.grid import Grid
+
+wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
+
+PAST_SCALES = wp.constant(wp.float32(9.0))
+PAST_CELLS = wp.constant(wp.float32(5.0))
+"""How far past its reading a beam is followed: scales of the noise, and cells (a surface is smaller than its cell)."""
+
+HUGE = wp.constant(wp.float32(1.0e30))
+GONE_FAST = wp.constant(wp.float32(1.0e-12))
+ONE = wp.constant(wp.float32(1.0))
+ZERO = wp.constant(wp.float32(0.0))
+
+
+@wp.func
+def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
+    """Distance in cells to the next grid line across one axis."""
+    if wp.abs(u) < wp.float32(1.0e-9):
+        return HUGE
+    cell = wp.floor(p)
+    if u > ZERO:
+        return (cell + ONE - p) / u
+    return (cell - p) / u
+
+
+@wp.func
+def reading_log_density(
+    law: Law,
+    frame: Frame,
+    cells: Cells,
+    draw: int,
+    x: wp.float32,
+    y: wp.float32,
+    angle: wp.float32,
+    z: wp.float32,
+) -> wp.float32:
+    """Log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
+
+    The walk is that of Amanatides and Woo (1987). Corners, where `bayesmap.kernels.walk` touches all cells that meet,
+    are met with probability 0. The cell of the sensor itself is touched where the beam leaves it, as there.
+    """
+    resolution = wp.float32(frame.resolution)
+    depth = wp.float32(frame.depth)
+    ux = wp.cos(angle)
+    uy = wp.sin(angle)
+    px = x / resolution
+    py = y / resolution
+    cx = int(wp.floor(px))
+    cy = int(wp.floor(py))
+    step_x = wp.where(ux > ZERO, 1, -1)
+    step_y = wp.where(uy > ZERO, 1, -1)
+    next_x = next_line(px, ux)
+    next_y = next_line(py, uy)
+    gap_x = wp.where(next_x < HUGE, wp.abs(ONE / ux), HUGE)
+    gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
+    ray = ray_from(wp.vec2(x, y), wp.vec2(ux, uy))
+    faded = fading(law, z)
+    past = law.max_m
+    if wp.isfinite(z):
+        past = wp.min(past, z + PAST_SCALES * scale_at(law, z, ZERO) + PAST_CELLS * resolution)
+    past = past / resolution
+    entered = wp.min(next_x, next_y)
+    total = ZERO
+    survive = ONE
+    while entered <= past and survive > GONE_FAST:
+        left = wp.min(next_x, next_y)
+        if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
+            cell = cx * frame.ny + cy
+            chance = ZERO
+            distance = (entered + depth * (left - entered)) * resolution
+            variance = ZERO
+            if cells.surfaces != 0:
+                state = cells.surface[draw, cell]
+                met = meet(state, ray)
+                chance = state[0] * met.chance
+                distance = met.distance_m
+                variance = met.variance
+            else:
+                chance = cells.stop[draw, cell]
+            if chance > ZERO:
+                total += survive * chance * stop_law(law, z, faded, distance, variance)
+                survive = survive * (ONE - chance)
+        entered = left
+        if next_x < next_y:
+            cx += step_x
+            next_x += gap_x
+        else:
+            cy += step_y
+            next_y += gap_y
+        if (cx < 0 and step_x < 0) or (cy < 0 and step_y < 0):
+            entered = HUGE
+        if (cx >= frame.nx and step_x > 0) or (cy >= frame.ny and step_y > 0):
+            entered = HUGE
+    return wp.log(wp.max(total + survive * no_stop_law(law, z, faded), wp.float32(1.0e-30)))
+
+
+@wp.kernel
+def scan_log_likelihoods(
+    first: int,
+    s: SensorParameters,
+    frame: Frame,
+    cells: Cells,
+    draws: int,
+    poses: wp.array2d(dtype=wp.float64),
+    scan: wp.array(dtype=wp.int32),
+    angle_rad: wp.array(dtype=wp.float64),
+    range_m: wp.array2d(dtype=wp.float64),
+    out: wp.array2d(dtype=wp.float64),
+):
+    """One thread a pose and draw: the sum over beams of log p(reading | map, pose)."""
+    t = first + wp.tid()
+    p = t / draws
+    d = t - p * draws
+    law = law_of(s)
+    x = wp.float32(poses[p, 0] - frame.origin_x)
+    y = wp.float32(poses[p, 1] - frame.origin_y)
+    total = wp.float64(0.0)
+    for b in range(angle_rad.shape[0]):
+        z = range_m[scan[p], b]
+        if not wp.isnan(z):
+            angle = wp.float32(poses[p, 2] + angle_rad[b])
+            total += wp.float64(reading_log_density(law, frame, cells, d, x, y, angle, wp.float32(z)))
+    out[p, d] = total
+
+
+@dataclass(frozen=True, eq=False)
+class PackedMap:
+    """Draws of a map where kernels read them.
+
+    Attributes:
+        cells: the draws.
+        draws: how many.
+        frame: the grid.
+        device: where they are.
+    """
+
+    cells: Any
+    draws: int
+    frame: Any
+    device: str
+
+
+def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
+    """Put draws of a map where kernels read them.
+
+    Args:
+        states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells of the grid.
+        grid: of the map.
+        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
+        device: where to.
+    """
+    device = devices.resolve(device)
+    frame = Frame()
+    frame.nx, frame.ny = grid.shape
+    frame.origin_x, frame.origin_y = grid.origin
+    frame.resolution, frame.depth = grid.resolution, hit_depth
+    return PackedMap(put_cells(np.ascontiguousarray(states), device), len(states), frame, device)
+
+
+def scan_log_likelihood(
+    packed: PackedMap,
+    poses: Floats,
+    angles_rad: Floats,
+    ranges_m: Floats,
+    sensor: SensorModel,
+    limits: RangeLimits,
+    scan: NDArray[np.intp] | None = None,
+    draws: int | None = None,
+    threads: int | None = None,
+) -> Floats:
+    """Log-likelihood of a scan at each pose under each draw of the map, (P, D), in nats; invalid readings count 0.
+
+    Args:
+        packed: the draws.
+        poses: in the world frame, (P, 3).
+        angles_rad: of the beams, (A,).
+        ranges_m: readings of one scan, (A,), or of several, (S, A).
+        sensor: the law of a reading given where its beam stops.
+        limits: of the sensor.
+        scan: which scan is weighed at each pose, (P,); the first if None.
+        draws: only the first so many draws; all if None.
+        threads: at once; all cores if None.
+
+    Raises:
+        BadInput: a sensor model of the user's own, which kernels do not know.
+    """
+    device, count = packed.device, len(poses)
+    draws = packed.draws if draws is None else min(draws, packed.draws)
+    out = wp.empty((count, draws), dtype=wp.float64, device=device)
+    which = np.zeros(count, np.int32) if scan is None else np.asarray(scan, np.int32)
+    readings = np.ascontiguousarray(np.atleast_2d(ranges_m), dtype=np.float64)
+    inputs = [
+        compiled(sensor, limits),
+        packed.frame,
+        packed.cells,
+        draws,
+        devices.to_device(poses, wp.float64, device),
+        devices.to_device(which, wp.int32, device),
+        devices.to_device(angles_rad, wp.float64, device),
+        devices.to_device(readings, wp.float64, device),
+        out,
+    ]
+    launch(scan_log_likelihoods, count * draws, inputs, device, threads)
+    return np.asarray(out.numpy())

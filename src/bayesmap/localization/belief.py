@@ -1,0 +1,227 @@
+"""What is known of a pose: weighted poses, their modes, and the chance that all of them are wrong."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.planar import wrapped
+from bayesmap.space.trajectory import ellipses
+
+Floats = NDArray[np.float64]
+
+NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)
+"""Poses closer than this, one by one, belong to one mode."""
+
+FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])
+"""No mode is narrower: so few weighted poses cannot say it."""
+
+LINKING = 0.995
+"""Share of the weight whose poses link others into modes."""
+
+LEAST_MODE = 1e-4
+"""Modes less likely than this are not listed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mode:
+    """One place where the robot may be.
+
+    Attributes:
+        mean: x, y in metres and yaw in radians, (3,).
+        covariance: of x, y and yaw in world axes, (3, 3).
+        probability: that the robot is there, if it is on the map at all.
+    """
+
+    mean: Floats
+    covariance: Floats
+    probability: float
+
+    def as_json(self) -> dict[str, Any]:
+        """The mode as JSON values."""
+        return {
+            "mean": self.mean.tolist(),
+            "covariance": self.covariance.tolist(),
+            "probability": float(self.probability),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """The smallest region of positions that holds a probability, of normal modes.
+
+    Attributes:
+        modes: means (K, 2), covariances (K, 2, 2), probabilities (K,).
+        density: positions of more density than this belong to it, 1 / m^2.
+        level: the probability.
+        area_m2: its area.
+    """
+
+    modes: tuple[Floats, Floats, Floats]
+    density: float
+    level: float
+    area_m2: float
+
+    def contains(self, positions: Floats) -> NDArray[np.bool_]:
+        """Which positions lie inside, (N, 2) to (N,)."""
+        return np.asarray(_density(np.atleast_2d(np.asarray(positions, dtype=np.float64)), *self.modes) >= self.density)
+
+
+@dataclass(frozen=True, eq=False)
+class PoseBelief:
+    """The posterior of a pose, as weighted poses.
+
+    Attributes:
+        poses: in the world frame, (N, 3).
+        weights: of the poses, (N,), summing to 1: given that the robot is on the map, and the map is right.
+        p_lost: probability that it is not: the scan is as a scan anywhere else, or the map outdated.
+        nats_per_beam: log density of the scan's readings under the best pose, by their number.
+        stamp_s: when, or None.
+        mode_of: which mode each pose belongs to, (N,); None: poses near each other make one.
+    """
+
+    poses: Floats
+    weights: Floats
+    p_lost: float
+    nats_per_beam: float
+    stamp_s: float | None = None
+    mode_of: NDArray[np.intp] | None = None
+
+    @cached_property
+    def modes(self) -> tuple[Mode, ...]:
+        """The places where the robot may be, the likeliest first."""
+        label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        found = []
+        for one in np.unique(label):
+            own = label == one
+            share = float(self.weights[own].sum())
+            if share >= LEAST_MODE:
+                mean, covariance = _moments(self.poses[own], self.weights[own] / share)
+                found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), share))
+        return tuple(sorted(found, key=lambda mode: -mode.probability))
+
+    @cached_property
+    def _all(self) -> tuple[Floats, Floats]:
+        return _moments(self.poses, self.weights)
+
+    @property
+    def mean(self) -> Floats:
+        """Mean pose of the likeliest mode, (3,): between two modes there is nobody."""
+        return self.modes[0].mean
+
+    @property
+    def covariance(self) -> Floats:
+        """Covariance of the likeliest mode, (3, 3); `total_covariance` has all modes in it."""
+        return self.modes[0].covariance
+
+    @property
+    def total_covariance(self) -> Floats:
+        """Covariance over all modes, (3, 3)."""
+        return self._all[1]
+
+    def region(self, level: float = 0.95) -> Region:
+        """The smallest region of positions that holds a probability, all modes taken as normal.
+
+        Raises:
+            BadInput: a level outside (0, 1).
+        """
+        if not 0 < level < 1:
+            raise BadInput(f"region: level must lie inside (0, 1), got {level!r}")
+        means = np.array([mode.mean[:2] for mode in self.modes])
+        covariances = np.array([mode.covariance[:2, :2] for mode in self.modes]) + 1e-10 * np.eye(2)
+        shares = np.array([mode.probability for mode in self.modes])
+        modes = (means, covariances, shares / shares.sum())
+        rng = np.random.default_rng(0)
+        which = rng.choice(len(shares), 4000, p=modes[2])
+        roots = np.linalg.cholesky(covariances)
+        drawn = means[which] + np.einsum("nij,nj->ni", roots[which], rng.standard_normal((4000, 2)))
+        density = _density(drawn, *modes)
+        least = float(np.quantile(density, 1.0 - level))
+        # The area is the mean over draws of 1 / density inside.
+        return Region(modes, least, level, float((1.0 / density[density >= least]).sum() / len(density)))
+
+    def outlines(self, level: float = 0.95) -> Floats:
+        """Ellipses that hold each mode's position with a probability, (modes, points, 2)."""
+        covariances = np.array([mode.covariance[:2, :2] for mode in self.modes])
+        return ellipses(np.array([mode.mean[:2] for mode in self.modes]), covariances, level)
+
+    def probability_in(self, area: Floats) -> float:
+        """The probability that the robot is on the map and in a polygon.
+
+        Args:
+            area: corners of the polygon in order, (K, 2), metres; or (x_min, x_max, y_min, y_max).
+
+        Raises:
+            BadInput: neither.
+        """
+        corners = np.asarray(area, dtype=np.float64)
+        if corners.shape == (4,):
+            x0, x1, y0, y1 = corners
+            corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
+        if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
+            raise BadInput(f"area: give corners (K, 2) or (x_min, x_max, y_min, y_max), got shape {corners.shape}")
+        return float((1.0 - self.p_lost) * self.weights[_inside(self.poses[:, :2], corners)].sum())
+
+    def as_json(self) -> dict[str, Any]:
+        """The answer as JSON values."""
+        return {
+            "stamp_s": self.stamp_s,
+            "mean": self.mean.tolist(),
+            "covariance": self.covariance.tolist(),
+            "modes": [mode.as_json() for mode in self.modes],
+            "region_95_m2": self.region(0.95).area_m2,
+            "p_lost": float(self.p_lost),
+            "nats_per_beam": float(self.nats_per_beam),
+        }
+
+
+def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
+    """Mean and covariance of weighted poses; the yaw's about its circular mean."""
+    centre = np.arctan2(weights @ np.sin(poses[:, 2]), weights @ np.cos(poses[:, 2]))
+    off = poses.copy()
+    off[:, 2] = wrapped(poses[:, 2] - centre)
+    mean = weights @ off
+    error = off - mean
+    covariance = np.einsum("n,ni,nj->ij", weights, error, error)
+    mean[2] = wrapped(mean[2] + centre)
+    return mean, covariance
+
+
+def _clusters(poses: Floats, weights: Floats) -> NDArray[np.intp]:
+    """Labels of poses that are linked by steps of less than `NEAR_M` and `NEAR_RAD`; weightless ones join the nearest."""
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    turn = NEAR_M / NEAR_RAD
+    seat = np.column_stack([poses[:, :2], turn * np.sin(poses[:, 2]), turn * np.cos(poses[:, 2])])
+    order = np.argsort(-weights, kind="stable")
+    # Those that hold nearly all weight: strays between two modes must not link them.
+    heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING * weights.sum())) + 1]
+    tree = cKDTree(seat[heavy])
+    _, own = connected_components(tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix"), directed=False)
+    label = np.empty(len(poses), dtype=np.intp)
+    label[:] = own[tree.query(seat)[1]]
+    return label
+
+
+def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floats) -> Floats:
+    """Density of a mixture of normal distributions in the plane, (N,)."""
+    off = positions[:, None] - means
+    inverse = np.linalg.inv(covariances)
+    squared = np.einsum("nki,kij,nkj->nk", off, inverse, off)
+    return np.asarray((shares * np.sqrt(np.linalg.det(inverse)) / (2 * np.pi) * np.exp(-0.5 * squared)).sum(axis=1))
+
+
+def _inside(positions: Floats, corners: Floats) -> NDArray[np.bool_]:
+    """Which positions lie in a polygon: an odd number of its sides lies to their right."""
+    x, y = positions[:, :1], positions[:, 1:]
+    (ax, ay), (bx, by) = corners.T, np.roll(corners, -1, axis=0).T
+    crosses = (ay > y) != (by > y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = ax + (y - ay) * (bx - ax) / (by - ay)
+    return np.asarray((crosses & (x < at)).sum(axis=1) % 2 == 1)

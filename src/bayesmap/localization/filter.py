@@ -1,0 +1,240 @@
+"""One scan's step: from what was believed before it to what is believed after it.
+
+Before a scan the pose's law is a mixture of normal distributions (places where the robot may be, moved by odometry) or
+uniform over the map's free cells, or some of both: a robot may have been carried away. The scan is weighed by the exact
+forward law, averaged over draws of the map; where nothing narrows the search, a search over the whole map says where to
+look. Beside all poses stands the chance that the robot is elsewhere, or the map outdated: then readings come as they do
+anywhere.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import expit, logsumexp
+
+from bayesmap.localization.belief import PoseBelief
+from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.particles import (
+    Places,
+    Population,
+    adapted,
+    draw_population,
+    groups_of,
+    proposal_log_density,
+)
+from bayesmap.localization.search import search
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.planar import wrapped
+
+Floats = NDArray[np.float64]
+
+CANDIDATES = 24
+KEPT = 5
+"""Places that are weighed with all beams and draws, at most."""
+
+ROUNDS, NEARLY = 5, 0.6
+"""Places are adapted so often at most, or until weights hardly have to be tempered."""
+
+FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
+"""How far a searched pose may be from the best one near it."""
+
+UNIFORM_DRAWS = 3000
+"""Poses that are drawn over the whole map where a search has nothing to go by."""
+
+LOST_AT_FIRST = 0.02
+GETS_LOST, IS_FOUND = 1e-3, 0.05
+"""Chance, a scan, that a robot on the map is lost, and that a lost one is back."""
+
+FIT_WEIGHT = 0.15
+"""How much of an independent observation a beam is for the question whether a scan fits the map at all."""
+
+CARRIED = 1e-3
+"""Chance, a scan, that the robot was carried to anywhere on the map."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """One scan.
+
+    Attributes:
+        angles_rad: of its beams, (A,).
+        ranges_m: readings, (A,).
+        limits: of the sensor.
+        stamp_s: when, or None.
+    """
+
+    angles_rad: Floats
+    ranges_m: Floats
+    limits: RangeLimits
+    stamp_s: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Prior:
+    """What is believed of the pose before a scan.
+
+    Attributes:
+        places: normal distributions, their masses as logs; None: nothing but that the robot is on the map.
+        uniform: share of the mass that lies uniformly over the map's free cells; 1 without places.
+        lost: probability that the robot is elsewhere, or the map outdated.
+    """
+
+    places: Places | None = None
+    uniform: float = 1.0
+    lost: float = LOST_AT_FIRST
+
+    def log_density(self, poses: Floats, known: KnownMap) -> Floats:
+        """Log density of poses on the map, (P,); -inf in walls."""
+        flat = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
+        if self.places is None:
+            return np.asarray(flat)
+        own = _mixture_log_density(self.places, poses) + np.log1p(-self.uniform)
+        if self.uniform == 0.0:
+            return np.asarray(own)
+        return np.asarray(np.logaddexp(own, flat + np.log(self.uniform)))
+
+
+def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
+    """The posterior of a scan's pose.
+
+    Args:
+        known: the map.
+        prior: what was believed before the scan.
+        scan: the scan.
+        rng: for the draws of poses.
+        look_everywhere: whether to search the whole map; needed where the prior has no places.
+    """
+
+    def target(thin: int, draws: int | None) -> _Target:
+        return _Target(known, prior, scan, thin, draws, known.beam_weight)
+
+    thin = max(1, len(scan.angles_rad) // 60)
+    starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
+    group = None
+    if starts is None:
+        population = _everywhere(known, target(thin, 1), rng)
+    else:
+        if len(starts.means) > 1:
+            starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
+            starts = starts.best(2 * KEPT)
+        for _ in range(ROUNDS):
+            starts, power = adapted(starts, draw_population(starts, target(thin, 1), 32, rng))
+            starts = starts.best(KEPT)
+            if power > NEARLY:
+                break
+        population = draw_population(starts, target(1, None), 64 if len(starts.means) == 1 else 40, rng)
+        group = groups_of(starts, population.poses)
+    return _belief(known, prior, scan, population, group, rng)
+
+
+def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> Places | None:
+    """Where to look first; None: everywhere alike."""
+    found = None
+    if look_everywhere or prior.places is None:
+        candidates = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES)
+        if len(candidates.poses):
+            count = len(candidates.poses)
+            covariances = np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3))
+            found = Places(candidates.poses, covariances, np.zeros(count))
+    if prior.places is None or found is None:
+        return found if prior.places is None else prior.places
+    return Places(
+        np.concatenate([prior.places.means, found.means]),
+        np.concatenate([prior.places.covariances, found.covariances]),
+        np.concatenate([prior.places.log_mass, found.log_mass]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Target:
+    """Log prior and likelihood of poses, with some beams and draws."""
+
+    known: KnownMap
+    prior: Prior
+    scan: Scan
+    thin: int
+    draws: int | None
+    weight: float
+
+    def __call__(self, poses: Floats) -> Floats:
+        density = np.array(self.prior.log_density(poses, self.known))
+        possible = np.isfinite(density)
+        if possible.any():
+            scan = self.scan
+            density[possible] += self.known.log_likelihood(
+                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws, self.weight
+            )
+        return density
+
+
+def _everywhere(known: KnownMap, target: _Target, rng: np.random.Generator) -> Population:
+    """Poses drawn uniformly over the free cells, weighed."""
+    cells = np.argwhere(known.free)
+    chosen = cells[rng.integers(len(cells), size=UNIFORM_DRAWS)] + rng.random((UNIFORM_DRAWS, 2))
+    yaw = rng.uniform(-np.pi, np.pi, UNIFORM_DRAWS)
+    poses = np.column_stack([np.array(known.grid.origin) + chosen * known.grid.resolution, yaw])
+    log_weights = target(poses) + np.log(known.free_area_m2 * 2 * np.pi)
+    return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp))
+
+
+def _belief(
+    known: KnownMap,
+    prior: Prior,
+    scan: Scan,
+    population: Population,
+    group: NDArray[np.intp] | None,
+    rng: np.random.Generator,
+) -> PoseBelief:
+    """The posterior of a population, with the chance of being lost."""
+    weights = population.weights
+    if not np.isfinite(population.log_evidence):
+        weights = np.full(len(population.poses), 1.0 / len(population.poses))
+    if group is None:
+        group = np.zeros(len(weights), dtype=np.intp)  # spread over the whole map: one mode
+    unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group)
+    if not np.isfinite(scan.ranges_m).any():
+        return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
+    evidence, fit = _fit(known, prior, scan, unsure, rng)
+    elsewhere = known.log_elsewhere(scan.ranges_m, max(FIT_WEIGHT, known.beam_weight))
+    with np.errstate(divide="ignore"):
+        odds = np.log(prior.lost) - np.log1p(-prior.lost) + elsewhere - evidence
+    return replace(unsure, p_lost=float(expit(odds)), nats_per_beam=fit)
+
+
+def _fit(
+    known: KnownMap, prior: Prior, scan: Scan, belief: PoseBelief, rng: np.random.Generator
+) -> tuple[float, float]:
+    """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam at the best pose.
+
+    With beams that weigh `FIT_WEIGHT`: whether a scan fits at all is clearer than where exactly it does.
+    """
+    weight = max(FIT_WEIGHT, known.beam_weight)
+    thin = max(1, len(scan.angles_rad) // 60)
+    target = _Target(known, prior, scan, thin, 1, weight)
+    mode = belief.modes[0]
+    shrunk = mode.covariance * known.beam_weight / weight + 1e-8 * np.eye(3)
+    places = Places(mode.mean[None], shrunk[None], np.zeros(1))
+    population = draw_population(places, target, 32, rng)
+    for _ in range(ROUNDS):
+        places, power = adapted(places, population)
+        population = draw_population(places, target, 32, rng)
+        if power > NEARLY:
+            break
+    best = population.poses[[int(np.argmax(population.log_weights + proposal_log_density(places, population.poses)))]]
+    beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
+    top = known.log_likelihood(best, scan.angles_rad, scan.ranges_m, scan.limits, weight=weight)[0]
+    return population.log_evidence, float(top / weight / beams)
+
+
+def _mixture_log_density(places: Places, poses: Floats) -> Floats:
+    """Log density of a mixture of normal distributions with the places' masses, (P,)."""
+    off = poses[:, None] - places.means
+    off[..., 2] = wrapped(off[..., 2])
+    inverse = np.linalg.inv(places.covariances)
+    squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
+    mass = places.log_mass - logsumexp(places.log_mass)
+    logs = mass + 0.5 * np.linalg.slogdet(inverse)[1] - 1.5 * np.log(2 * np.pi) - 0.5 * squared
+    return np.asarray(logsumexp(logs, axis=1))

@@ -1,0 +1,212 @@
+"""A map posterior made ready to locate scans in: draws for the exact law, and a field for the search."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+
+from bayesmap.errors import BadInput
+from bayesmap.localization.field import Field, likelihood_field
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.noise import Gaussian
+
+if TYPE_CHECKING:
+    from bayesmap.kernels.pose_weights import PackedMap
+    from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
+
+Floats = NDArray[np.float64]
+
+DRAWS = 4
+"""Of the map, over which a scan's likelihood is averaged."""
+
+PASSABLE = 0.3
+"""A robot may be in observed cells that stop fewer beams than this."""
+
+BEAM_WEIGHT = 0.03
+"""How much of an independent observation a beam is: its log-likelihood counts by so much. Beams of one scan err
+together, by what the map has wrong and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4) advise
+such a power. Set so that modes come true as often as they say, on the Intel log and in simulated offices
+(docs/localization.md)."""
+
+BINS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class KnownMap:
+    """A map posterior, ready to locate scans in. Made by `KnownMap.of_run`, once for any number of scans.
+
+    Attributes:
+        grid: of the map.
+        packed: some of its draws, where kernels read them.
+        sensor: the law of a reading.
+        field: for the search.
+        free: cells in which a robot may be, (nx, ny).
+        elsewhere: log density of a reading, per metre, in each of `BINS` bins up to the largest range, and log
+            probability of no return: of scans taken anywhere, for the chance of being lost.
+        max_range_m: of those scans.
+        beam_weight: how much of an independent observation a beam is.
+    """
+
+    grid: Grid
+    packed: PackedMap
+    sensor: SensorModel
+    field: Field
+    free: NDArray[np.bool_]
+    elsewhere: Floats
+    max_range_m: float
+    beam_weight: float = BEAM_WEIGHT
+
+    @classmethod
+    def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float = BEAM_WEIGHT, device: str = "cpu") -> KnownMap:
+        """The map of a run that `bayesmap.infer` or `bayesmap.load` gave.
+
+        Args:
+            run: with draws.
+            draws: so many of them, spread over chains, or all if there are fewer.
+            beam_weight: see `BEAM_WEIGHT`.
+            device: where to compute.
+
+        Raises:
+            BadInput: a run without draws, or a sensor model of the user's own.
+        """
+        from bayesmap.posterior.predictor import predictor_of
+
+        predictor = predictor_of(run.posterior)
+        wanted = set(np.unique(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int)).tolist())
+        chosen, number = [], 0
+        for batch in predictor.batches(None):
+            for state in batch:
+                if number in wanted:
+                    chosen.append(state.copy())
+                number += 1
+        return cls.of_draws(
+            np.stack(chosen), run.grid, predictor.sensor, run.posterior.scans, occupancy=np.asarray(run.occupancy),
+            observed=np.asarray(run.observed), hit_depth=predictor.hit_depth, beam_weight=beam_weight, device=device,
+        )  # fmt: skip
+
+    @classmethod
+    def of_draws(
+        cls,
+        states: NDArray[np.float32],
+        grid: Grid,
+        sensor: SensorModel,
+        scans: Scans,
+        *,
+        occupancy: Floats,
+        observed: NDArray[np.bool_],
+        hit_depth: float = 0.5,
+        beam_weight: float = BEAM_WEIGHT,
+        device: str = "cpu",
+    ) -> KnownMap:
+        """A map by its draws, from wherever they come.
+
+        Args:
+            states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
+            grid: of the map.
+            sensor: the law of a reading.
+            scans: typical ones, for what readings are like anywhere.
+            occupancy: mean chance that each cell stops a beam, (nx, ny).
+            observed: cells of which something is known, (nx, ny).
+            hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
+            beam_weight: see `BEAM_WEIGHT`.
+            device: where to compute.
+
+        Raises:
+            BadInput: no free cell, or a sensor model of the user's own.
+        """
+        from bayesmap.kernels.pose_weights import pack_map
+
+        known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
+        free: NDArray[np.bool_] = np.logical_and(observed, known < PASSABLE)
+        if not free.any():
+            raise BadInput("localize: the map has no free cell in which a robot could be")
+        return cls(
+            grid=grid,
+            packed=pack_map(states, grid, hit_depth, device),
+            sensor=_compilable(sensor),
+            field=likelihood_field(known, grid, free),
+            free=free,
+            elsewhere=_anywhere(scans),
+            max_range_m=scans.max_range_m,
+            beam_weight=beam_weight,
+        )
+
+    @property
+    def free_area_m2(self) -> float:
+        """Where a robot may be."""
+        return float(self.free.sum() * self.grid.resolution**2)
+
+    def is_free(self, poses: Floats) -> NDArray[np.bool_]:
+        """Which poses lie in free cells, (P,)."""
+        x, y = np.floor(self.grid.to_cells(poses[:, :2])).astype(int).T
+        nx, ny = self.grid.shape
+        inside = (x >= 0) & (y >= 0) & (x < nx) & (y < ny)
+        return np.asarray(inside & self.free.ravel()[np.where(inside, x * ny + y, 0)], dtype=np.bool_)
+
+    def log_likelihood(
+        self,
+        poses: Floats,
+        angles_rad: Floats,
+        ranges_m: Floats,
+        limits: RangeLimits,
+        thin: int = 1,
+        draws: int | None = None,
+        weight: float | None = None,
+    ) -> Floats:
+        """Log-likelihood of a scan at each pose, averaged over draws of the map, each beam by its weight, (P,).
+
+        log mean_d exp(w sum_b log p(z_b | map d, pose)), w the weight, or its multiple if beams are left out.
+
+        Args:
+            poses: (P, 3).
+            angles_rad: of the beams, (A,).
+            ranges_m: the scan's readings, (A,).
+            limits: of the sensor.
+            thin: look at every so many-th beam.
+            draws: and at so many draws only.
+            weight: of a beam; the map's own if None.
+        """
+        from bayesmap.kernels.pose_weights import scan_log_likelihood
+
+        found = scan_log_likelihood(
+            self.packed, poses, angles_rad[::thin], ranges_m[::thin], self.sensor, limits, draws=draws, threads=1
+        )
+        used = max(1, int((~np.isnan(ranges_m[::thin])).sum()))
+        scale = (self.beam_weight if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
+        return np.asarray(logsumexp(scale * found, axis=1) - np.log(found.shape[1]))
+
+    def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
+        """The same for a scan that was taken somewhere else: each reading by how common it is."""
+        hit = np.isfinite(ranges_m)
+        bins = np.clip((ranges_m[hit] / self.max_range_m * BINS).astype(int), 0, BINS - 1)
+        total = self.elsewhere[bins].sum() + np.isposinf(ranges_m).sum() * self.elsewhere[BINS]
+        return float(weight * (total + np.isneginf(ranges_m).sum() * self.elsewhere[0]))
+
+
+def _anywhere(scans: Scans) -> Floats:
+    """Log density of a reading of these scans at no particular pose, by bins, then log probability of no return."""
+    readings = scans.ranges_m
+    counts, _ = np.histogram(readings[np.isfinite(readings)], bins=BINS, range=(0.0, scans.max_range_m))
+    none = int(np.isposinf(readings).sum())
+    total = counts.sum() + none + BINS + 1.0
+    density = (counts + 1.0) / total / (scans.max_range_m / BINS)
+    return np.asarray(np.log(np.append(density, (none + 1.0) / total)))
+
+
+def _compilable(sensor: SensorModel) -> SensorModel:
+    """A mixture with Gaussian noise: noise alone gets the least outliers that keep every pose possible.
+
+    Raises:
+        BadInput: heavy-tailed noise, or a model of the user's own.
+    """
+    if isinstance(sensor, Gaussian):
+        return BeamMixture(sensor, p_random=0.01, p_no_return=0.01, p_short=0.01)
+    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian):
+        return sensor
+    raise BadInput(f"localize: the sensor must be Gaussian or a BeamMixture with Gaussian noise, not {sensor!r}")

@@ -1,0 +1,160 @@
+"""Weighing poses by importance: a mixture about some places, adapted until it lies where the posterior does.
+
+Each round draws from a mixture of Student distributions about the places found so far, weighs the draws by
+target / proposal, and moves the places to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and Robert
+2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gammaln, logsumexp
+
+from bayesmap.space.planar import wrapped
+
+Floats = NDArray[np.float64]
+
+DOF = 5.0
+LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])
+"""A proposal is never narrower than this."""
+
+OVERLAP = 2.0
+SAME = np.array([0.2, 0.2, np.radians(7.0)])
+"""Places closer than this in all three are one mode in any case."""
+
+COUNTING = 0.3
+"""Share of a place's draws that must count; weights are tempered until they do."""
+
+NEGLIGIBLE_NATS = 15.0
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """A mixture about some poses.
+
+    Attributes:
+        means: (K, 3).
+        covariances: (K, 3, 3).
+        log_mass: log of each place's share of the target, up to a constant, (K,).
+    """
+
+    means: Floats
+    covariances: Floats
+    log_mass: Floats
+
+    def best(self, most: int) -> Places:
+        """The places with most mass, without those that have next to none."""
+        order = np.argsort(-self.log_mass, kind="stable")[:most]
+        order = order[self.log_mass[order] > self.log_mass[order[0]] - NEGLIGIBLE_NATS]
+        return Places(self.means[order], self.covariances[order], self.log_mass[order])
+
+
+@dataclass(frozen=True, eq=False)
+class Population:
+    """Weighted poses.
+
+    Attributes:
+        poses: (N, 3).
+        log_weights: target / proposal, not normalised, (N,): their mean estimates the target's normaliser.
+        place: from which place each was drawn, (N,).
+    """
+
+    poses: Floats
+    log_weights: Floats
+    place: NDArray[np.intp]
+
+    @property
+    def log_evidence(self) -> float:
+        """Log of the integral of the target."""
+        return float(logsumexp(self.log_weights) - np.log(len(self.poses)))
+
+    @property
+    def weights(self) -> Floats:
+        """Normalised, (N,)."""
+        return np.asarray(np.exp(self.log_weights - logsumexp(self.log_weights)))
+
+
+def draw_population(
+    places: Places, target: Callable[[Floats], Floats], each: int, rng: np.random.Generator
+) -> Population:
+    """Draw so many poses from each place, and weigh them by a target.
+
+    Args:
+        places: the proposal, all places alike.
+        target: log density of poses (P, 3), not normalised, (P,).
+        each: draws a place.
+        rng: for the draws.
+    """
+    count = len(places.means)
+    roots = np.linalg.cholesky(places.covariances)
+    normal = rng.standard_normal((count, each, 3))
+    stretch = np.sqrt(DOF / rng.chisquare(DOF, (count, each, 1)))
+    poses = places.means[:, None] + stretch * np.einsum("kij,knj->kni", roots, normal)
+    poses = poses.reshape(-1, 3)
+    poses[:, 2] = wrapped(poses[:, 2])
+    log_weights = target(poses) - proposal_log_density(places, poses)
+    # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their number.
+    most = logsumexp(log_weights) - 0.5 * np.log(len(poses))
+    return Population(poses, np.minimum(log_weights, most), np.repeat(np.arange(count), each))
+
+
+def groups_of(places: Places, poses: Floats) -> NDArray[np.intp]:
+    """Labels of poses by place, places that overlap (closer than `OVERLAP` standard deviations) taken together, (P,)."""
+    from scipy.sparse.csgraph import connected_components
+
+    off = places.means[:, None] - places.means
+    off[..., 2] = wrapped(off[..., 2])
+    both = np.linalg.inv(places.covariances[:, None] + places.covariances)
+    near = np.einsum("kli,klij,klj->kl", off, both, off) < OVERLAP**2
+    near |= (np.abs(off) < SAME).all(axis=2)
+    _, group = connected_components(near, directed=False)
+    return np.asarray(group[_student_logs(places, poses).argmax(axis=1)], dtype=np.intp)
+
+
+def proposal_log_density(places: Places, poses: Floats) -> Floats:
+    """Log density of the mixture of Student distributions, all places alike, (P,)."""
+    return np.asarray(logsumexp(_student_logs(places, poses), axis=1) - np.log(len(places.means)))
+
+
+def _student_logs(places: Places, poses: Floats) -> Floats:
+    """Log density of each place's Student distribution, (P, K)."""
+    off = poses[:, None] - places.means
+    off[..., 2] = wrapped(off[..., 2])
+    inverse = np.linalg.inv(places.covariances)
+    squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
+    constant = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
+    return np.asarray(constant + 0.5 * np.linalg.slogdet(inverse)[1] - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
+
+
+def adapted(places: Places, population: Population, widen: float = 1.5) -> tuple[Places, float]:
+    """Places moved to where their draws have their weight, and the least power that weights were tempered by.
+
+    A power of 1 says that the proposals are near the target; less, that another round will bring them nearer.
+    """
+    count, least = len(places.means), 1.0
+    means, covariances, log_mass = places.means.copy(), places.covariances.copy(), np.full(count, -np.inf)
+    for k in range(count):
+        own = population.place == k
+        logs = population.log_weights[own]
+        top = logsumexp(logs)
+        if not np.isfinite(top):
+            continue
+        # Tempered until several draws count: one that outweighs all others says nothing of a spread.
+        power = 1.0
+        weights = np.exp(logs - top)
+        while 1.0 / (weights**2).sum() < COUNTING * own.sum() and power > 1e-3:
+            power *= 0.8
+            weights = np.exp(power * logs - logsumexp(power * logs))
+        off = population.poses[own] - means[k]
+        off[:, 2] = wrapped(off[:, 2])
+        shift = weights @ off
+        error = off - shift
+        covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(LEAST_SD**2)
+        means[k] += shift
+        log_mass[k] = top
+        least = min(least, power)
+    return Places(means, covariances, log_mass), least

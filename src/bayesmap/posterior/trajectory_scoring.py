@@ -1,0 +1,133 @@
+"""The score of a trajectory against true relative poses: how far off it is, and whether its regions hold the truth.
+
+Errors are those of Kuemmerle et al. (2009), see `bayesmap.poses.relations`. If the trajectory says how sure it is, each
+error e has a covariance C, and
+
+    NEES = e' C^-1 e
+
+should be chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4), and a region of
+probability p should hold the truth in a share p of relations. C is the covariance of the relative pose over the
+posterior's draws; estimated from D draws, NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) instead (Hotelling).
+A trajectory that comes with covariances of single poses alone, and no draws, is taken as if its poses were
+independent: right for localizations in a known map, far too wide for neighbours in a SLAM trajectory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from bayesmap.poses.relations import RelationErrors, Relations, relation_errors
+from bayesmap.poses.se2 import between_jacobians, rotation
+from bayesmap.space.planar import between, compose, interpolate, inverse, wrapped
+from bayesmap.space.trajectory import Trajectory
+
+Floats = NDArray[np.float64]
+
+LEVELS = (0.5, 0.8, 0.95)
+DIMENSIONS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryScore:
+    """How good a trajectory is, and how honest.
+
+    Attributes:
+        errors: of each relation, in the true frame of its second pose.
+        nees: of each relation, shape (M,); None where nothing is known of how sure the trajectory is.
+        region: the least probability of a region around the estimate that holds the truth, shape (M,): uniform if the
+            covariances are right; None likewise.
+        assumed_independent: whether covariances of single poses were all there was.
+    """
+
+    errors: RelationErrors
+    nees: Floats | None = None
+    region: Floats | None = None
+    assumed_independent: bool = False
+
+    def coverage(self, level: float) -> float:
+        """The share of relations whose truth lies in the region of a probability; NaN where regions are unknown."""
+        return float("nan") if self.region is None else float((self.region <= level).mean())
+
+    def as_json(self) -> dict[str, Any]:
+        """The figures as JSON values."""
+        figures: dict[str, Any] = dict(self.errors.summary())
+        if self.nees is None:
+            return {**figures, "nees": None, "coverage": None}
+        return {
+            **figures,
+            "nees": {"mean": float(self.nees.mean()), "median": float(np.median(self.nees)), "expected": DIMENSIONS},
+            "coverage": [{"level": level, "share": self.coverage(level)} for level in LEVELS],
+            "assumed_independent": self.assumed_independent,
+        }
+
+
+def score_trajectory(
+    trajectory: Trajectory, relations: Relations, mount: Floats | None = None, *, exact: bool = False
+) -> TrajectoryScore:
+    """Hold a trajectory against true relative poses.
+
+    Args:
+        trajectory: with stamps, of the clock of the relations.
+        relations: the truth.
+        mount: the frame whose relations are known, given in the frame of the trajectory, shape (3,); None: the same.
+        exact: only relations whose both times are those of poses; otherwise poses are interpolated.
+
+    Raises:
+        BadInput: a trajectory without stamps, or no relation within its time.
+    """
+    moved = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
+    stamps = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s
+    errors = relation_errors(stamps, moved.poses, relations, exact=exact)
+    used = relations.select(errors.covered)
+    if moved.draws is not None and len(moved.draws) > 2 * DIMENSIONS:
+        nees, region = _by_draws(moved.draws, stamps, used)
+        return TrajectoryScore(errors, nees, region)
+    if moved.covariances is not None:
+        covariance = _independent(moved, stamps, used)
+        nees = np.einsum("ni,nij,nj->n", errors.errors, np.linalg.inv(covariance), errors.errors)
+        return TrajectoryScore(errors, nees, stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
+    return TrajectoryScore(errors)
+
+
+def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
+    """NEES and least region of each relation, by the relative poses of the draws."""
+    count = len(draws)
+    off = np.empty((count, len(relations), DIMENSIONS))
+    undo = inverse(relations.relative)
+    for d, poses in enumerate(draws):
+        first, second = (interpolate(stamps_s, poses, at) for at in (relations.first_s, relations.second_s))
+        off[d] = compose(undo, between(first, second))
+    anchor = off[0].copy()
+    off[..., 2] = anchor[:, 2] + wrapped(off[..., 2] - anchor[:, 2])
+    mean = off.mean(axis=0)
+    error = mean.copy()
+    error[:, 2] = wrapped(error[:, 2])
+    spread = off - mean
+    covariance = np.einsum("dni,dnj->nij", spread, spread) / (count - 1) + 1e-15 * np.eye(DIMENSIONS)
+    nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)
+    scaled = nees * count * (count - DIMENSIONS) / (DIMENSIONS * (count + 1) * (count - 1))
+    return nees, np.asarray(stats.f.cdf(scaled, DIMENSIONS, count - DIMENSIONS))
+
+
+def _independent(trajectory: Trajectory, stamps_s: Floats, relations: Relations) -> Floats:
+    """Covariance of each relation's error, the two poses independent: those of the poses nearest in time."""
+    assert trajectory.covariances is not None
+    ends = []
+    for at_s in (relations.first_s, relations.second_s):
+        pose = interpolate(stamps_s, trajectory.poses, at_s)
+        after = np.clip(np.searchsorted(stamps_s, at_s), 1, len(stamps_s) - 1) if len(stamps_s) > 1 else 0 * at_s
+        after = np.asarray(after, dtype=np.intp)
+        nearest = np.where(at_s - stamps_s[after - 1] < stamps_s[after] - at_s, after - 1, after)
+        own = np.swapaxes(rotation(pose[:, 2]), 1, 2)  # world axes to the pose's own
+        ends.append((pose, own @ trajectory.covariances[nearest] @ np.swapaxes(own, 1, 2)))
+    (first, sure_first), (second, sure_second) = ends
+    by_first, by_second = between_jacobians(between(first, second))
+    covariance = by_first @ sure_first @ np.swapaxes(by_first, 1, 2)
+    covariance = covariance + by_second @ sure_second @ np.swapaxes(by_second, 1, 2)
+    turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
+    return np.asarray(turn @ covariance @ np.swapaxes(turn, 1, 2))

@@ -1,0 +1,131 @@
+"""A trajectory: where something was, when, and how sure that is. Plain data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.planar import compose, interpolate, wrapped
+from bayesmap.space.scans import as_poses
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Poses over time, of one frame on a robot, such as its laser's.
+
+    Attributes:
+        poses: x, y in metres and yaw in radians in the world frame, shape (S, 3).
+        stamps_s: when, seconds, shape (S,), ascending; None where nobody knows.
+        covariances: of x, y and yaw, in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None where nobody knows.
+        draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None where there are none.
+
+    Raises:
+        BadInput: shapes that do not fit, numbers that are not finite, or stamps that descend.
+    """
+
+    poses: Floats
+    stamps_s: Floats | None = None
+    covariances: Floats | None = None
+    draws: Floats | None = None
+
+    def __post_init__(self) -> None:
+        poses = as_poses(self.poses)
+        object.__setattr__(self, "poses", poses)
+        if self.stamps_s is not None:
+            stamps = np.asarray(self.stamps_s, dtype=np.float64)
+            if stamps.shape != (len(poses),) or not np.isfinite(stamps).all() or (np.diff(stamps) < 0).any():
+                raise BadInput(f"trajectory: give one finite stamp a pose, ascending, ({len(poses)},)")
+            object.__setattr__(self, "stamps_s", stamps)
+        for name, shape in (("covariances", (len(poses), 3, 3)), ("draws", (-1, len(poses), 3))):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            array = np.asarray(value, dtype=np.float64)
+            if array.ndim != 3 or array.shape[-2:] != shape[-2:] or shape[0] not in (-1, len(array)):
+                raise BadInput(f"trajectory: {name} has shape {array.shape}, expected {shape}".replace("(-1", "(D"))
+            if not np.isfinite(array).all():
+                raise BadInput(f"trajectory: {name} has a number that is not finite")
+            object.__setattr__(self, name, array)
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    @classmethod
+    def of_draws(cls, draws: Floats, stamps_s: Floats | None = None) -> Trajectory:
+        """The trajectory of a posterior: mean and covariance of each pose over draws.
+
+        A yaw's mean is that of its deviations from the first draw's, so that it may lie anywhere on the circle.
+
+        Args:
+            draws: shape (D, S, 3), or (chains, D, S, 3).
+            stamps_s: shape (S,).
+
+        Raises:
+            BadInput: no draw.
+        """
+        flat = np.asarray(draws, dtype=np.float64)
+        flat = flat.reshape(-1, *flat.shape[-2:])
+        if len(flat) == 0:
+            raise BadInput("trajectory: there is no draw")
+        off = flat - flat[0]
+        off[..., 2] = wrapped(off[..., 2])
+        mean = off.mean(axis=0)
+        error = off - mean
+        covariances = np.einsum("dsi,dsj->sij", error, error) / max(len(flat) - 1, 1)
+        poses = flat[0] + mean
+        poses[:, 2] = wrapped(poses[:, 2])
+        return cls(poses, stamps_s, covariances, flat)
+
+    def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+        """Poses at other times, (N, 3), and which of those times lie between the first stamp and the last, (N,).
+
+        Raises:
+            BadInput: a trajectory without stamps, or without a pose.
+        """
+        if self.stamps_s is None or len(self) == 0:
+            raise BadInput("trajectory: it has no stamps, so nobody can say where it was at a time")
+        at = np.asarray(at_s, dtype=np.float64)
+        inside = (at >= self.stamps_s[0] - SLACK_S) & (at <= self.stamps_s[-1] + SLACK_S)
+        return interpolate(self.stamps_s, self.poses, at), inside
+
+    def of_frame(self, mount: Floats) -> Trajectory:
+        """The trajectory of another frame that is fixed to this one.
+
+        Args:
+            mount: where the other frame is in this one, shape (3,).
+        """
+        poses = compose(self.poses, mount)
+        covariances = self.covariances
+        if covariances is not None:
+            # A turn of the frame swings the other one round: d(x, y) / d(yaw) = (-(y' - y), x' - x).
+            swing = np.broadcast_to(np.eye(3), (len(poses), 3, 3)).copy()
+            swing[:, 0, 2] = -(poses[:, 1] - self.poses[:, 1])
+            swing[:, 1, 2] = poses[:, 0] - self.poses[:, 0]
+            covariances = swing @ covariances @ np.swapaxes(swing, 1, 2)
+        draws = None if self.draws is None else compose(self.draws, mount)
+        return Trajectory(poses, self.stamps_s, covariances, draws)
+
+
+SLACK_S = 0.002
+"""A time so little outside a trajectory counts as its end's: logs are written with few digits."""
+
+
+def ellipses(centres: Floats, covariances: Floats, level: float = 0.95, points: int = 32) -> Floats:
+    """Outlines of the regions that hold normal positions with some probability, (S, points, 2), each closed.
+
+    Args:
+        centres: mean positions, shape (S, 2).
+        covariances: of x and y, shape (S, 2, 2).
+        level: the probability; in the plane the squared Mahalanobis distance stays below -2 log(1 - level) with it.
+        points: of an outline; the last is the first.
+    """
+    angle = np.linspace(0.0, 2.0 * np.pi, points)
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(-2.0 * np.log1p(-level))
+    values, vectors = np.linalg.eigh(np.asarray(covariances))
+    axes = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+    return np.asarray(np.asarray(centres)[:, None] + circle @ np.swapaxes(axes, 1, 2))

@@ -1,0 +1,47 @@
+"""Verdicts on chains and particles."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bayesmap.app.judging import Difference, difference, judge_chains, judge_particles
+
+
+@pytest.mark.parametrize(
+    ("rhat", "ess", "apart", "level"),
+    [
+        (1.001, 900, 0.03, "good"),
+        (1.02, 900, 0.03, "fair"),
+        (1.001, 300, 0.03, "fair"),
+        (1.06, 900, 0.03, "bad"),
+        (1.001, 20, 0.03, "bad"),
+        (1.001, 900, 0.5, "bad"),
+        (math.nan, math.nan, 0.5, "bad"),
+    ],
+)
+def test_verdicts(rhat, ess, apart, level):
+    found = judge_chains(rhat, ess, 1000, Difference(apart, (3, 4)))
+    assert found.level == level
+    assert ("(3, 4)" in found.why) == (apart > 0.25)
+
+
+def test_nothing_is_said_too_early_or_of_a_log_joint_that_never_changed():
+    assert judge_chains(2.0, 3, 20, None) is None
+    assert judge_chains(math.nan, math.nan, 1000, Difference(0.0, (0, 0))) is None
+
+
+def test_the_difference_is_the_largest_among_the_observed_cells():
+    means = np.zeros((3, 4, 5))
+    means[0, 1, 2], means[2, 3, 3] = 0.5, 0.9
+    among = np.ones((4, 5), dtype=bool)
+    assert difference(means, among) == Difference(0.9, (3, 3))
+    among[3, 3] = False
+    assert difference(means, among) == Difference(0.5, (1, 2))
+    assert difference(means[:1], among) is None
+    assert difference(means, np.zeros((4, 5), dtype=bool)) is None
+
+
+@pytest.mark.parametrize(("ess", "level"), [(1.0, "bad"), (100, "fair"), (5000, "good")])
+def test_particles(ess, level):
+    assert judge_particles(ess).level == level

@@ -1,0 +1,131 @@
+"""The page says how far its numbers can be trusted, and what to do where they cannot."""
+
+import base64
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from page_driver import act, document, settled, snapshot, until
+
+import bayesmap as bm
+from bayesmap.posterior.diagnostics import bulk_ess
+
+CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, "prior": 0.05, "method": "gibbs"}
+"""A noisy sensor beside rare walls: single-site chains keep a wall at (7, 12) that is not there."""
+
+
+def with_walls(**changes):
+    """The same with some walls drawn near y = 14, after which two chains that start alike agree on a wrong answer."""
+    cells = np.unpackbits(np.frombuffer(base64.b64decode(document()["walls"]), np.uint8), count=441).reshape(21, 21)
+    cells[4:9, 14] = 1
+    return document(walls=base64.b64encode(np.packbits(cells.ravel()).tobytes()).decode(), **{**CLOSE, **changes})
+
+
+@pytest.mark.parametrize("start", [document(**CLOSE), with_walls()], ids=["the tutorial's map", "with walls"])
+def test_chains_that_disagree_are_called_so_and_a_click_mends_it(open_page, server, start):
+    page = open_page(server, start)
+    shown = settled(page)
+    assert shown["painted"]["verdict"]["level"] == "bad"
+    chip = page.get_by_role("button", name="Not converged: try blocks")
+    chip.wait_for()
+    page.get_by_role("status").get_by_text("have not converged").wait_for()
+    assert page.locator("dd.bad").count() == 2
+    wrong = shown["probability"][7, 12]
+    act(page, chip.click)
+    mended = settled(page)
+    assert mended["document"]["method"] == "block"
+    assert mended["painted"]["verdict"]["level"] != "bad"
+    assert mended["probability"][7, 12] == 0
+    assert wrong > 80
+    playwright.expect(chip).to_be_hidden()
+    page.get_by_role("status").get_by_text("Ready", exact=True).wait_for()
+
+
+def test_where_walls_are_rare_blocks_are_the_default(open_page, server):
+    page = open_page(server, document(**{**CLOSE, "method": "auto"}))
+    shown = settled(page)
+    assert shown["painted"]["method"] == "block"
+    assert shown["painted"]["verdict"]["level"] != "bad"
+    act(page, lambda: page.get_by_role("slider", name="Prior").fill("0.5"))
+    assert settled(page)["painted"]["method"] == "gibbs"
+
+
+def test_the_tutorial_s_chains_are_called_converged(page):
+    shown = settled(page)
+    assert shown["painted"]["verdict"]["level"] == "good"
+    assert page.locator("dd.good").count() == 2
+    assert page.locator(".verdict").inner_text().startswith("Converged")
+
+
+def test_traces_of_all_chains_are_drawn_with_axes(page):
+    settled(page)
+    page.get_by_role("button", name="Run", exact=True).click()
+    until(page, "!s.running && s.draws.count === 1000 && s.painted.generation === s.generation")
+    painted = page.evaluate("() => { const p = bayesmap.snapshot().painted; return [[...p.trace], [...p.traced]]; }")
+    trace, sweeps = np.array(painted[0]).reshape(2, -1), np.array(painted[1])
+    assert sweeps[0] == 1
+    assert sweeps[-1] == 1000
+    assert np.array_equal(sweeps[:100], np.arange(1, 101))
+    assert np.isfinite(trace).all()
+    assert not np.array_equal(trace[0], trace[1])
+    canvas = page.locator(".chart canvas").first
+    box = canvas.bounding_box()
+    assert box["width"] > 200
+    inked = """(canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const near = (i, r, g, b) => data[i + 3] > 100 && Math.hypot(data[i] - r, data[i + 1] - g, data[i + 2] - b) < 60;
+      let blue = 0, orange = 0;
+      for (let i = 0; i < data.length; i += 4) { blue += near(i, 0, 114, 178); orange += near(i, 213, 94, 0); }
+      return [blue, orange];
+    }"""
+    assert min(canvas.evaluate(inked)) > 20  # a line a chain
+    page.get_by_role("radio", name="First 50").check()
+    page.wait_for_timeout(100)
+    assert min(page.locator(".chart canvas").first.evaluate(inked)) > 20
+
+
+def test_effective_draws_are_those_of_the_whole_trace(open_page, server):
+    page = open_page(server, document(sweeps=15_000))
+    page.get_by_role("button", name="Run", exact=True).click()
+    until(page, "!s.running && s.draws.count === 15000 && s.painted.sweeps === 15000")
+    page.get_by_role("button", name="Export").click()
+    with page.expect_download() as waiting:
+        page.get_by_role("button", name="Saved run").click()
+    path = waiting.value.path().with_suffix(".nc")
+    waiting.value.save_as(path)
+    log_joint = bm.load(path).log_joint
+    assert log_joint.shape == (2, 15_000)
+    assert snapshot(page)["painted"]["ess"] == pytest.approx(bulk_ess(log_joint), rel=0.01)
+
+
+def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page, server):
+    page = open_page(server, document(start="empty", sweeps=30))
+    page.get_by_role("button", name="Run", exact=True).click()
+    until(page, "!s.running && s.draws.count === 30 && s.painted.generation === s.generation")
+    mean = snapshot(page)["probability"] > 128
+    page.get_by_label("Speed").select_option("30")
+    page.get_by_role("button", name="From the first sweep").click()
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 0")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 29")
+    observed = snapshot(page)["observed"] > 0
+
+    def wrong(draw):
+        page.get_by_role("slider", name="Draw number").fill(str(draw))
+        until(page, f"s.painted.layer === 'draw' && s.painted.draw === {draw}")
+        return int(((snapshot(page)["probability"] > 128) != mean)[observed].sum())
+
+    assert wrong(29) <= wrong(0)
+    page.get_by_role("radio", name="Mean").check()
+
+
+def test_importance_sampling_shows_its_weights(open_page, server):
+    page = open_page(server, document(method="importance", sweeps=5000))
+    page.get_by_role("button", name="Run", exact=True).click()
+    until(page, "!s.running && s.painted.method === 'importance' && s.painted.sweeps === 5000")
+    counts = page.evaluate("[...bayesmap.snapshot().painted.weights]")
+    assert sum(counts) == 5000
+    assert counts[-1] >= 1
+    assert snapshot(page)["painted"]["verdict"]["level"] == "bad"
+    page.get_by_role("img", name="Histogram of the particles").wait_for()
+    act(page, lambda: page.get_by_role("button", name="Not converged: try Gibbs").click())
+    assert settled(page)["painted"]["method"] == "gibbs"

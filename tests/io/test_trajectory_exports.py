@@ -1,0 +1,166 @@
+"""Trajectories in other programs' formats."""
+
+import numpy as np
+import pytest
+from recorded import READERS
+
+from bayesmap.errors import BadInput
+from bayesmap.io.exports import export_trajectory, trajectory_of
+from bayesmap.io.g2o_writer import Edges, chain_edges, write_g2o
+from bayesmap.io.tum import read_trajectory
+from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import Scans
+from bayesmap.space.trajectory import Trajectory, ellipses
+
+STAMPS = np.array([100.5, 101.25, 103.0])
+POSES = np.array([[-1.4, 2.1, 0.0], [-1.0, 2.2, 0.5], [-0.5, 2.6, -3.0]])
+
+
+def covariances():
+    root = np.random.default_rng(0).normal(size=(3, 3, 3)) * 0.01
+    return root @ np.swapaxes(root, 1, 2) + 1e-6 * np.eye(3)
+
+
+def trajectory(**changed):
+    return Trajectory(**{"poses": POSES, "stamps_s": STAMPS, "covariances": covariances(), **changed})
+
+
+@pytest.mark.parametrize("ending", [".bag", ".mcap"])
+def test_recordings_hold_the_path_and_poses_with_covariances(tmp_path, ending):
+    path = tmp_path / f"walk{ending}"
+    assert export_trajectory(path, trajectory()) == (path,)
+    found = READERS[ending](path)
+    assert [f.time_ns for f in found] == sorted(f.time_ns for f in found)
+    (line,) = [f.message for f in found if f.topic == "/trajectory"]
+    poses = [f for f in found if f.topic == "/pose"]
+    assert {f.type_name.rpartition("/")[2] for f in poses} == {"PoseWithCovarianceStamped"}
+    assert len(line.poses) == len(poses) == 3
+    for i, one in enumerate(poses):
+        assert one.time_ns == round(STAMPS[i] * 1e9)
+        assert one.message.header.frame_id == "map"
+        for place in (line.poses[i].pose, one.message.pose.pose):
+            assert (place.position.x, place.position.y) == tuple(POSES[i, :2])
+            yaw = 2 * np.arctan2(place.orientation.z, place.orientation.w)
+            assert yaw == pytest.approx(POSES[i, 2])
+        six = np.reshape(one.message.pose.covariance, (6, 6))
+        np.testing.assert_allclose(six[np.ix_([0, 1, 5], [0, 1, 5])], covariances()[i])
+        assert np.count_nonzero(six) == 9
+
+
+def test_without_covariances_a_recording_holds_the_path_alone(tmp_path):
+    export_trajectory(tmp_path / "walk.mcap", trajectory(covariances=None))
+    assert [f.topic for f in READERS[".mcap"](tmp_path / "walk.mcap")] == ["/trajectory"]
+
+
+def test_tum_comes_back_with_its_covariances(tmp_path):
+    written = export_trajectory(tmp_path / "walk.tum", trajectory())
+    assert [path.name for path in written] == ["walk.tum", "walk-covariances.txt"]
+    back = read_trajectory(tmp_path / "walk.tum")
+    np.testing.assert_allclose(back.poses, POSES, atol=1e-8)
+    np.testing.assert_allclose(back.stamps_s, STAMPS)
+    np.testing.assert_allclose(back.covariances, covariances(), rtol=1e-8)
+
+
+def test_tum_of_others_is_sorted_and_read_whatever_its_quaternions_signs(tmp_path):
+    path = tmp_path / "theirs.tum"
+    path.write_text("# t x y z q\n2,1,2,0,0,0,-0.6,-0.8\n1 0 0 0.1 0 0 0 2\n")
+    back = read_trajectory(path)
+    np.testing.assert_allclose(back.stamps_s, [1, 2])
+    np.testing.assert_allclose(back.poses[1], [1, 2, 2 * np.arctan2(0.6, 0.8)])
+    np.testing.assert_allclose(back.poses[0], [0, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("", "there is no pose in it"),
+        ("1 2 3\n", "line 1: a line is 8 numbers"),
+        ("1 0 0 0 0.7 0 0 0.7\n", "pose 0 is tilted"),
+        ("1 0 0 0 0 0 nan 1\n", "line 1: a line is 8 numbers"),
+    ],
+)
+def test_what_is_no_tum_trajectory(tmp_path, content, message):
+    (tmp_path / "a.tum").write_text(content)
+    with pytest.raises(BadInput, match=message):
+        read_trajectory(tmp_path / "a.tum")
+
+
+def test_covariances_of_another_trajectory_are_refused(tmp_path):
+    export_trajectory(tmp_path / "walk.tum", trajectory())
+    export_trajectory(tmp_path / "walk.tum", trajectory(stamps_s=STAMPS + 1, covariances=None))
+    with pytest.raises(BadInput, match="its stamps are not those of"):
+        read_trajectory(tmp_path / "walk.tum")
+
+
+def test_a_graph_says_its_steps_and_how_sure_they_are(tmp_path):
+    (path,) = export_trajectory(tmp_path / "walk.g2o", trajectory())
+    lines = [line.split() for line in path.read_text().splitlines()]
+    assert [line[0] for line in lines] == ["VERTEX_SE2"] * 3 + ["FIX"] + ["EDGE_SE2"] * 2
+    np.testing.assert_allclose(np.array(lines[:3])[:, 2:].astype(float), POSES, atol=1e-8)
+    for i, line in enumerate(lines[4:]):
+        assert line[1:3] == [str(i), str(i + 1)]
+        np.testing.assert_allclose(compose(POSES[i], np.array(line[3:6], float))[:2], POSES[i + 1, :2], atol=1e-7)
+        information = np.zeros((3, 3))
+        information[np.triu_indices(3)] = np.array(line[6:], float)
+        assert np.linalg.eigvalsh(information, UPLO="U").min() > 0
+
+
+def test_a_step_is_as_sure_as_the_draws_say_not_as_two_poses_alone():
+    """Draws that move together know their steps exactly; independent ones do not."""
+    rng = np.random.default_rng(1)
+    together = POSES + rng.normal(size=(500, 1, 3)) * (0.1, 0.1, 0.0)
+    sure = chain_edges(Trajectory.of_draws(together, STAMPS))
+    alone = chain_edges(Trajectory.of_draws(POSES + rng.normal(size=(500, 3, 3)) * 0.1, STAMPS))
+    assert np.linalg.eigvalsh(sure.information).min() > 1e6
+    assert np.linalg.eigvalsh(alone.information).max() < 200
+
+
+def test_graphs_that_cannot_be(tmp_path):
+    with pytest.raises(BadInput, match="a graph needs covariances or draws"):
+        export_trajectory(tmp_path / "a.g2o", trajectory(covariances=None))
+    one = np.array([0])
+    with pytest.raises(BadInput, match="edge 0 is not positive definite"):
+        Edges(one, one + 1, np.zeros((1, 3)), np.zeros((1, 3, 3)))
+    with pytest.raises(BadInput, match="an edge names pose 9, but there are 3"):
+        write_g2o(tmp_path / "a.g2o", POSES, Edges(one, one + 9, np.zeros((1, 3)), np.eye(3)[None]))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_mean_of_draws_goes_round_the_circle():
+    draws = np.array([[[0.0, 0.0, np.pi - 0.1]], [[2.0, 0.0, -np.pi + 0.1]]])
+    found = Trajectory.of_draws(draws)
+    assert abs(abs(found.poses[0, 2]) - np.pi) < 1e-9
+    assert found.covariances[0, 2, 2] == pytest.approx(2 * 0.1**2)
+
+
+def test_a_mount_swings_with_its_uncertain_heading():
+    """The covariance of another frame is that of its draws, up to what is not linear."""
+    rng = np.random.default_rng(2)
+    covariance = np.diag([0.01, 0.02, 0.01]) ** 2
+    pose, mount = np.array([3.0, -1.0, 2.0]), np.array([0.5, 0.2, 0.1])
+    drawn = compose(rng.multivariate_normal(pose, covariance, 200_000), mount)
+    moved = Trajectory(pose, covariances=covariance[None]).of_frame(mount)
+    np.testing.assert_allclose(moved.covariances[0], np.cov(drawn.T), atol=4e-6)
+    np.testing.assert_allclose(between(moved.poses[0], compose(pose, mount)), 0, atol=1e-12)
+
+
+def test_an_ellipse_holds_its_share():
+    rng = np.random.default_rng(3)
+    covariance = np.array([[0.04, 0.03], [0.03, 0.09]])
+    (outline,) = ellipses(np.zeros((1, 2)), covariance[None], 0.8)
+    np.testing.assert_allclose(outline[0], outline[-1], atol=1e-12)
+    edge = np.einsum("ni,ij,nj->n", outline, np.linalg.inv(covariance), outline)
+    drawn = rng.multivariate_normal(np.zeros(2), covariance, 20_000)
+    inside = np.einsum("ni,ij,nj->n", drawn, np.linalg.inv(covariance), drawn) < edge.mean()
+    assert np.ptp(edge) < 1e-9
+    assert inside.mean() == pytest.approx(0.8, abs=0.015)  # five standard errors
+
+
+def test_a_run_with_drawn_poses_exports_those():
+    scans = Scans(POSES, np.array([0.0]), np.ones((3, 1)), 2.0, stamps_s=STAMPS)
+
+    class Drawn:
+        poses = POSES + np.random.default_rng(4).normal(size=(2, 50, 3, 3)) * 0.01
+
+    assert trajectory_of(object(), scans).covariances is None
+    assert trajectory_of(Drawn(), scans).draws.shape == (100, 3, 3)

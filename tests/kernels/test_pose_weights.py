@@ -1,0 +1,55 @@
+"""The fast likelihood of scans at poses is that of the plain one, under every draw."""
+
+import numpy as np
+import pytest
+
+import bayesmap as bm
+from bayesmap.kernels.pose_weights import pack_map, scan_log_likelihood
+from bayesmap.kernels.scan_likelihood import ScanLikelihood
+from bayesmap.sensors.model import RangeLimits
+
+GRID = bm.Grid((60, 50), 0.1, (-1.0, 2.0))
+LASER = bm.BeamMixture(bm.Gaussian(0.02, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
+ANGLES = np.radians(np.arange(60) * 6.0)
+
+
+def states(kind, rng):
+    stop = np.where(rng.random((3, GRID.n_cells)) < 0.05, rng.uniform(0.2, 1.0, (3, GRID.n_cells)), 1e-3)
+    if kind == "plain":
+        return stop.astype(np.float32)
+    x, y = np.meshgrid(np.arange(60) * 0.1 + 0.05, np.arange(50) * 0.1 + 0.05, indexing="ij")
+    out = np.zeros((3, GRID.n_cells, 6), dtype=np.float32)
+    out[..., 0] = stop
+    out[..., 1] = x.ravel() + rng.normal(size=stop.shape) * 0.02
+    out[..., 2] = y.ravel() + rng.normal(size=stop.shape) * 0.02
+    out[..., 3] = rng.uniform(0.01, 0.04, stop.shape)
+    out[..., 4] = rng.normal(size=stop.shape) * 0.01
+    out[..., 5] = rng.uniform(0.01, 0.04, stop.shape)
+    return out
+
+
+@pytest.mark.parametrize("kind", ["plain", "surfaces"])
+def test_the_fast_law_is_the_plain_one(kind):
+    rng = np.random.default_rng(1)
+    maps = states(kind, rng)
+    poses = np.column_stack([rng.uniform(-1.5, 5.5, 40), rng.uniform(1.5, 7.5, 40), rng.uniform(-4, 4, 40)])
+    ranges = rng.uniform(0.0, 6.0, (2, 60))
+    ranges[:, ::7], ranges[0, 3], ranges[1, 4] = np.inf, np.nan, -np.inf
+    scans = bm.Scans(np.zeros((2, 3)), ANGLES, ranges, 6.0, 0.1)
+    which = rng.integers(0, 2, 40)
+    fast = scan_log_likelihood(
+        pack_map(maps, GRID, 0.5), poses, ANGLES, ranges, LASER, RangeLimits(0.1, 6.0), scan=which
+    )
+    plain = ScanLikelihood(scans, GRID, LASER, 0.5)
+    for draw in range(3):
+        expected = plain(maps, poses, which, np.full(40, draw))
+        np.testing.assert_allclose(fast[:, draw], expected, rtol=2e-5, atol=2e-3)
+
+
+def test_fewer_draws_are_the_first():
+    rng = np.random.default_rng(2)
+    packed = pack_map(states("plain", rng), GRID, 0.5)
+    poses, ranges = np.array([[1.0, 4.0, 0.3]]), rng.uniform(0, 6, 60)
+    every = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0))
+    some = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0), draws=2)
+    np.testing.assert_array_equal(some, every[:, :2])

@@ -1,0 +1,138 @@
+"""From raw odometry to a trajectory, end to end, in a small building."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from simulated import off, recording
+
+from bayesmap.errors import BadInput
+from bayesmap.poses.slam import infer_trajectory
+from bayesmap.space.planar import between, compose
+
+SCANS, TRUTH = recording(turn_bias=0.03, noise=2.0)
+
+
+@pytest.fixture(scope="module")
+def trajectory():
+    return infer_trajectory(SCANS, threads=1)
+
+
+def worst_m(poses, truth=TRUTH):
+    error = off(poses, truth)
+    return np.hypot(error[:, 0], error[:, 1]).max()
+
+
+def test_a_loop_closes(trajectory):
+    assert worst_m(SCANS.poses) > 0.5
+    assert worst_m(trajectory.poses) < 0.05
+    assert np.degrees(np.abs(off(trajectory.poses, TRUTH)[:, 2])).max() < 1.0
+    assert len(trajectory.closures) > 0
+    assert not trajectory.flagged.any()
+
+
+def test_the_map_stands_where_odometry_began(trajectory):
+    np.testing.assert_allclose(trajectory.poses[0], SCANS.poses[0], atol=1e-6)
+
+
+def test_the_result_is_the_same_for_any_number_of_threads(trajectory):
+    again = infer_trajectory(SCANS, threads=3)
+    np.testing.assert_array_equal(again.poses, trajectory.poses)
+    np.testing.assert_array_equal(again.own_covariance, trajectory.own_covariance)
+    np.testing.assert_array_equal(again.gaussian.curvature, trajectory.gaussian.curvature)
+
+
+def test_scans_out_of_order_give_the_same_poses(trajectory):
+    shuffled = np.random.default_rng(3).permutation(len(SCANS))
+    again = infer_trajectory(SCANS.select(shuffled), threads=1)
+    np.testing.assert_array_equal(again.poses, trajectory.poses)
+    np.testing.assert_array_equal(
+        SCANS.stamps_s[np.argsort(shuffled)][again.order.argsort()],
+        SCANS.stamps_s[shuffled.argsort()][again.order.argsort()],
+    )
+
+
+def test_covariances_are_symmetric_and_grow_with_the_way(trajectory):
+    near = trajectory.relative_covariances([10], [12])[0]
+    far = trajectory.relative_covariances([10], [80])[0]
+    np.testing.assert_allclose(near, near.T, atol=1e-12)
+    assert (np.linalg.eigvalsh(near) > 0).all()
+    assert np.trace(far) > np.trace(near)
+
+
+def test_draws_have_the_spread_of_the_covariances(trajectory):
+    """2000 draws: a standard deviation is known to about 4 %; with Student's tails, 15 % is seven deviations."""
+    draws = trajectory.draw(2000, seed=4)
+    a, b = 12, 70
+    relative = between(draws[:, a], draws[:, b])
+    scale = trajectory.relative_covariances([a], [b])[0]
+    # The median absolute deviation of Student's t with 4 degrees is 0.7407 scales.
+    found = np.median(np.abs(relative - np.median(relative, axis=0)), axis=0) / 0.7407
+    np.testing.assert_allclose(found, np.sqrt(np.diag(scale)), rtol=0.15)
+    np.testing.assert_array_equal(trajectory.draw(1, seed=4, first_draw=5)[0], draws[5])
+
+
+def test_without_odometry_scans_at_5_hz_are_enough():
+    still = replace(SCANS, poses=np.zeros((len(SCANS), 3)))
+    result = infer_trajectory(still, no_odometry=True, threads=2)
+    assert worst_m(result.poses) < 0.1
+
+
+def test_a_robot_that_stands_still_stays_where_it_is():
+    still = SCANS.select(np.zeros(40, dtype=int))
+    still = replace(still, stamps_s=np.arange(40.0))
+    result = infer_trajectory(still, threads=1)
+    assert np.abs(between(result.poses[:1], result.poses)).max() < 0.01
+
+
+def test_odometry_that_never_goes_backwards_while_the_robot_does():
+    """Wheels without a sense of direction: motions are stated ahead, whichever way they were."""
+    there = np.arange(0, 30)
+    index = np.concatenate([there, there[::-1]])
+    truth = TRUTH[index]
+    motions = between(truth[:-1], truth[1:])
+    motions[:, 0] = np.abs(motions[:, 0])
+    poses = [np.zeros(3)]
+    for motion in motions:
+        poses.append(compose(poses[-1], motion))
+    scans = replace(SCANS.select(index), poses=np.array(poses), stamps_s=np.arange(len(index)) * 0.2)
+    result = infer_trajectory(scans, threads=1)
+    assert worst_m(result.poses, truth) < 0.1
+
+
+def test_an_interrupted_run_goes_on_where_it_was(tmp_path, trajectory):
+    class Enough(Exception):
+        pass
+
+    def stop(stage, done, of):
+        if stage == "loops":
+            raise Enough
+
+    with pytest.raises(Enough):
+        infer_trajectory(SCANS, threads=1, checkpoint=tmp_path, on_progress=stop)
+    seen = []
+    result = infer_trajectory(
+        SCANS, threads=1, checkpoint=tmp_path, on_progress=lambda stage, done, of: seen.append(stage)
+    )
+    assert "front end" not in seen
+    np.testing.assert_array_equal(result.poses, trajectory.poses)
+
+
+def test_an_empty_hall_leaves_odometry_as_it_is():
+    """No beam returns but one: there is nothing to match, and the relative poses are odometry's."""
+    ranges = np.full(SCANS.ranges_m[:30].shape, np.inf)
+    ranges[0, 0] = 5.0
+    scans = replace(SCANS.select(slice(0, 30)), ranges_m=ranges)
+    result = infer_trajectory(scans, threads=1)
+    np.testing.assert_allclose(
+        between(result.poses[0], result.poses[20]), between(scans.poses[0], scans.poses[20]), atol=0.02
+    )
+
+
+def test_bad_input_is_refused():
+    with pytest.raises(BadInput, match="two scans"):
+        infer_trajectory(SCANS.select(slice(0, 1)))
+    with pytest.raises(BadInput, match="nothing to match"):
+        infer_trajectory(replace(SCANS, ranges_m=np.full(SCANS.ranges_m.shape, np.inf)))
+    with pytest.raises(BadInput, match="5 Hz"):
+        infer_trajectory(replace(SCANS, stamps_s=np.arange(len(SCANS)) * 2.0), no_odometry=True)

@@ -1,0 +1,177 @@
+"""The mapping model with unknown poses: the geometry is the kernels', and edits weigh what the joint changes by."""
+
+import jax
+import jax.numpy as jnp
+import jax.random as jr
+import numpy as np
+import pytest
+
+import bayesmap as bm
+import bayesmap.gen as gen
+from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap.gen import IndexRequest, StaticRequest, Update
+from bayesmap.programs.mapping import SetCells, pose_sensor_model, sensor_model
+
+KEY = jr.key(0)
+GRID = bm.Grid((9, 7), 0.5, (-2.0, 1.0))
+ANGLES = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+SIGMA = jnp.array([0.3, 0.3, 0.2])
+GUESSES = np.array([[-1.0, 2.0, 0.0], [0.3, 3.1, 1.0], [1.7, 2.4, -2.0], [5.0, 2.0, 3.0]])  # the last one is outside
+SENSORS = {"gaussian": bm.Gaussian(0.3), "mixture": bm.BeamMixture(bm.Gaussian(0.2))}
+
+
+def unknown(sensor, guesses=GUESSES):
+    prior = gen.mv_normal_diag.vmap(in_axes=(0, None))(jnp.asarray(guesses), SIGMA)
+    return bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), sensor, max_range_m=4.0, min_range_m=0.1)
+
+
+def single(i, j, value):
+    return StaticRequest({"walls": IndexRequest(i, IndexRequest(j, Update(C.v(value))))})
+
+
+def at(s, pose):
+    return StaticRequest({"poses": IndexRequest(s, Update(C.v(pose)))})
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.5])
+def test_beams_end_where_those_of_known_poses_do(depth):
+    """From inside the grid and from outside, in walls and out of them; those of known poses are traced in float64."""
+    rng = np.random.default_rng(1)
+    poses = np.column_stack([rng.uniform(-4, 4, 60), rng.uniform(-1, 6, 60), rng.uniform(-9, 9, 60)])
+    walls = rng.random(GRID.shape) < 0.15
+    moving = pose_sensor_model(GRID, ANGLES, bm.Gaussian(0.2), max_range_m=50.0, hit_depth=depth)
+    fixed = sensor_model(GRID, poses, ANGLES, bm.Gaussian(0.2), max_range_m=50.0, hit_depth=depth)
+    found = np.asarray(moving.distances_m(poses, moving.ends(walls, poses)))
+    expected = np.asarray(fixed.distances_at(fixed.first_hits(walls))).reshape(found.shape)
+    assert 0.2 < np.isinf(expected).mean() < 0.9
+    np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-4)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_the_joint_is_that_of_known_poses_times_their_prior(name):
+    model = unknown(SENSORS[name])
+    choices = model.simulate(KEY, ()).get_choices()
+    poses = np.asarray(choices["poses"])
+    known = bm.mapping_model(GRID, poses, ANGLES, bm.Independent(0.2), SENSORS[name], max_range_m=4.0, min_range_m=0.1)
+    prior = -0.5 * (((poses - GUESSES) / SIGMA) ** 2 + np.log(2 * np.pi)).sum() - len(poses) * np.log(SIGMA).sum()
+    expected = known.assess(choices(("walls",)).extend("walls") | C["readings"].set(choices["readings"]), ())[0] + prior
+    np.testing.assert_allclose(model.assess(choices, ())[0], expected, rtol=1e-4)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_long_chains_of_edits(name):
+    """400 edits of poses, walls and blocks: after each, weight, ends and score are those of a run from scratch."""
+    model = unknown(SENSORS[name])
+
+    def step(carry, key):
+        trace, before = carry
+        keys = jr.split(key, 5)
+        i, j, s = jr.randint(keys[0], (3,), 0, jnp.array([8, 6, 4]))
+        pose = trace.get_choices()["poses"][s] + 0.3 * jr.normal(keys[1], (3,))
+        values = jr.uniform(keys[2], (4,)) < 0.5
+        block = StaticRequest({"walls": SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)})
+        requests = (at(s, pose), single(i, j, values[0]), block)
+        edits = [lambda r=r: trace.edit(key, r)[:2] for r in requests]
+        new, weight = jax.lax.switch(jr.randint(keys[3], (), 0, 3), edits)
+        after = model.assess(new.get_choices(), ())[0]
+        inner = new.get_subtrace("readings")
+        right = (inner.ends == inner.gen_fn.ends(new.get_choices()["walls"], new.get_choices()["poses"])).all()
+        return (new, after), (weight, after - before, new.get_score(), after, right)
+
+    @jax.jit
+    def chain(trace):
+        return jax.lax.scan(step, (trace, model.assess(trace.get_choices(), ())[0]), jr.split(KEY, 400))
+
+    start = model.simulate(KEY, ())
+    (last, _), (weight, difference, score, assessed, right) = chain(start)
+    assert right.all()
+    np.testing.assert_allclose(weight, difference, rtol=1e-4, atol=1e-6 * np.abs(assessed).max() + 2e-3)
+    np.testing.assert_allclose(score, assessed, rtol=1e-5, atol=2e-3)
+    assert len(np.unique(np.asarray(assessed))) > 200  # power: the edits did matter
+    np.testing.assert_array_equal(last.get_choices()["readings"], start.get_choices()["readings"])
+
+
+@pytest.fixture
+def marked():
+    """A trace in which the beams of all scans but number 1 end at a cell that they do not reach."""
+    trace = unknown(bm.Gaussian(0.3)).simulate(KEY, ())
+    inner = trace.get_subtrace("readings")
+    ends = jnp.full_like(inner.ends, 17).at[1].set(inner.ends[1])
+    return trace.replace(subtraces=trace.subtraces | {("readings",): inner.replace(ends=ends)})
+
+
+def test_an_edit_of_a_pose_visits_that_scan_alone(marked):
+    """The other scans' ends are wrong here, and stay as they are: nobody looks at them."""
+    new, weight, _, _ = jax.jit(lambda t: t.edit(KEY, at(1, jnp.array([0.2, 3.0, 0.9]))))(marked)
+    ends = np.asarray(new.get_subtrace("readings").ends)
+    assert (ends[[0, 2, 3]] == 17).all()
+    assert (ends[1] != np.asarray(marked.get_subtrace("readings").ends[1])).any()
+    whole = unknown(bm.Gaussian(0.3))
+    change = whole.assess(new.get_choices(), ())[0] - whole.assess(marked.get_choices(), ())[0]
+    np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
+
+
+def test_an_edit_is_undone_by_its_backward_request():
+    trace = unknown(bm.Gaussian(0.3)).simulate(KEY, ())
+    new, weight, _, back = trace.edit(KEY, at(2, jnp.array([1.0, 2.0, 0.0])))
+    again, undone, _, _ = new.edit(KEY, back)
+    np.testing.assert_array_equal(again.get_choices()["poses"], trace.get_choices()["poses"])
+    np.testing.assert_array_equal(again.get_subtrace("readings").ends, trace.get_subtrace("readings").ends)
+    np.testing.assert_allclose(undone, -weight, rtol=1e-4, atol=1e-3)
+
+
+def test_poses_and_walls_can_change_in_one_edit():
+    model = unknown(bm.Gaussian(0.3))
+    trace = model.simulate(KEY, ())
+    both = StaticRequest(at(0, jnp.array([-1.2, 2.2, 0.3])).addressed | single(3, 4, True).addressed)
+    for request in (both, Update(C["poses"].set(trace.get_choices()["poses"] + 0.1) | C["walls", 2, 2].set(True))):
+        new, weight, _, _ = trace.edit(KEY, request)
+        change = model.assess(new.get_choices(), ())[0] - trace.get_score()
+        np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
+
+
+@gen.gen
+def step(pose, odometry):
+    pose = gen.mv_normal_diag(pose + odometry, SIGMA / 10) @ "pose"
+    return pose, pose
+
+
+@gen.gen
+def walk(odometry):
+    return (step.scan()(jnp.array(GUESSES[0]), odometry) @ "steps")[1]
+
+
+def test_the_prior_may_be_a_motion_model():
+    odometry = jnp.array([[0.3, 0.1, 0.2]] * 4)
+    model = bm.mapping_model(GRID, walk(odometry), ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
+    trace = model.simulate(KEY, ())
+    assert trace.get_choices()["readings"].shape == (4, 24)
+    moved = trace.get_choices()["poses", "steps", "pose"][1] + 0.05
+    request = StaticRequest({"poses": StaticRequest({"steps": IndexRequest(1, Update(C["pose"].set(moved)))})})
+    new, weight, _, _ = jax.jit(lambda t, r: t.edit(KEY, r))(trace, request)
+    change = model.assess(new.get_choices(), ())[0] - model.assess(trace.get_choices(), ())[0]
+    np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
+    before, after = (t.get_subtrace("readings").ends for t in (trace, new))
+    np.testing.assert_array_equal(before[np.array([0, 2, 3])], after[np.array([0, 2, 3])])
+    assert (before[1] != after[1]).any()
+
+
+def test_a_single_pose_has_a_single_scan():
+    prior = gen.mv_normal_diag(jnp.array(GUESSES[0]), SIGMA)
+    model = bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
+    trace, weight = model.importance(KEY, C["readings"].set(jnp.ones(24)), ())
+    assert trace.get_choices()["poses"].shape == (3,)
+    np.testing.assert_allclose(weight, trace.get_subtrace("readings").get_score(), rtol=1e-5)
+
+
+def test_bad_input_is_named():
+    sensor = {"sensor": bm.Gaussian(0.3), "max_range_m": 4.0, "angles_rad": ANGLES, "prior": bm.Independent(0.2)}
+    with pytest.raises(bm.BadInput, match=r"prior of the poses must return an array \(3,\) or \(S, 3\), found .*2"):
+        bm.mapping_model(GRID, gen.mv_normal_diag(jnp.zeros(2), jnp.ones(2)), **sensor)
+    with pytest.raises(bm.BadInput, match="prior of the poses must run without arguments"):
+        bm.mapping_model(GRID, gen.mv_normal_diag, **sensor)
+    alone = pose_sensor_model(GRID, ANGLES, bm.Gaussian(0.3), max_range_m=4.0)
+    with pytest.raises(bm.BadInput, match=r"walls has shape \(2, 2\), expected \(9, 7\)"):
+        alone.simulate(KEY, (np.zeros((2, 2)), np.zeros(3)))
+    with pytest.raises(bm.BadInput, match=r"poses has shape \(4,\), expected"):
+        alone.simulate(KEY, (np.zeros((9, 7)), np.zeros(4)))

@@ -1,0 +1,48 @@
+"""Poses in the plane form a group."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bayesmap.space.planar import between, compose, interpolate, inverse, wrapped
+
+NUMBER = st.floats(-50, 50)
+POSE = st.tuples(NUMBER, NUMBER, NUMBER).map(np.array)
+
+
+def matrix(pose):
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    return np.array([[cos, -sin, pose[0]], [sin, cos, pose[1]], [0, 0, 1]])
+
+
+@given(POSE, POSE)
+def test_composition_is_that_of_matrices(a, b):
+    np.testing.assert_allclose(matrix(compose(a, b)), matrix(a) @ matrix(b), atol=1e-9)
+
+
+@given(POSE)
+def test_a_pose_and_its_inverse_cancel(a):
+    np.testing.assert_allclose(matrix(compose(a, inverse(a))), np.eye(3), atol=1e-9)
+    np.testing.assert_allclose(matrix(inverse(a)), np.linalg.inv(matrix(a)), atol=1e-9)
+
+
+@given(POSE, POSE)
+def test_between_leads_from_one_to_the_other(a, b):
+    np.testing.assert_allclose(matrix(compose(a, between(a, b))), matrix(b), atol=1e-9)
+
+
+@pytest.mark.parametrize(("angle", "same"), [(np.pi, -np.pi), (-np.pi, -np.pi), (7.0, 7.0 - 2 * np.pi), (0.5, 0.5)])
+def test_angles_are_wrapped_into_one_turn(angle, same):
+    assert wrapped(np.array(angle)) == pytest.approx(same)
+
+
+def test_shapes_broadcast():
+    assert compose(np.zeros((4, 1, 3)), np.ones((5, 3))).shape == (4, 5, 3)
+
+
+def test_poses_in_between_lie_on_the_way_by_the_shorter_turn():
+    stamps, poses = np.array([0.0, 2.0]), np.array([[0.0, 0.0, 3.0], [2.0, 0.0, -3.0]])
+    middle = interpolate(stamps, poses, np.array([1.0]))[0]
+    assert abs(wrapped(middle[2] - np.pi)) < 1e-9
+    np.testing.assert_allclose(interpolate(stamps, poses, np.array([-5.0, 7.0])), poses)
