@@ -5,11 +5,11 @@ from functools import cache
 
 import numpy as np
 import pytest
+from bayesmap.posterior.field import field_beam_log_scores, quantiles_of_halves
 from oracle.field_law import log_likelihoods, paths_of
 from oracle.field_worlds import beam_rays, scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.posterior.field import field_beam_log_scores, quantiles_of_halves
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)

@@ -12,8 +12,8 @@ import bayesmap as bm
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.importance import sample_importance
-from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.progress import Watch
 
 FLAT = 1e-4  # nats a beam: how much a robust table may differ from the model
 

@@ -13,8 +13,8 @@ import bayesmap as bm
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.problem import WallProblem
-from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.start import default_start, start_map
 
 SINGLE = 2e-4  # log-odds: messages are kept in single precision, and some dozens are added
