@@ -27,9 +27,6 @@ LEVELS = (
     {"posterior"},
     {"io", "viz", "localization"},
     {"result"},
-    {"field_result"},  # the same for maps whose cells stop some beams
-    {"loading"},
-    {"assembly", "field_inference"},  # the halves of `api` that run fields, and turn results into runs
     {"api"},
     {"from_odometry"},
     {"app"},

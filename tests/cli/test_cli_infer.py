@@ -4,12 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from bayesmap.field_inference import first_sensor
 from data import intel_log
 from shell import call
 
 import bayesmap as bm
 from bayesmap.cells.kind import prior_from
-from bayesmap.field_inference import first_sensor
 from bayesmap.io.map_server import read_map
 from bayesmap.sensors.describe import describe
 

@@ -156,6 +156,8 @@ def test_a_terminal_gets_a_bar_and_can_refuse_it(office, tmp_path, short):
 def test_choices_are_those_of_the_library():
     from typing import get_args
 
+    from bayesmap.field_inference import FEWEST_DRAWS, MOST_DRAWS
+
     from bayesmap.api import Method
     from bayesmap.cells.binary import Independent
     from bayesmap.cells.defaults import P_WALL
@@ -163,7 +165,6 @@ def test_choices_are_those_of_the_library():
     from bayesmap.cells.surface import Surface
     from bayesmap.cli import cells
     from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
-    from bayesmap.field_inference import FEWEST_DRAWS, MOST_DRAWS
     from bayesmap.samplers.propagate import ROUNDS
     from bayesmap.samplers.sampler import Order
     from bayesmap.samplers.start import Start

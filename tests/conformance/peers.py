@@ -2,17 +2,16 @@
 
 import gzip
 import json
-import os
 import tarfile
 from pathlib import Path
 
 import pytest
-from data import SHARED
+from data import FOLDER
 
 
 def peer_file(name: str) -> Path:
     """A file of the folder `peers` beside $BAYESMAP_DATA; skips the test where it is absent."""
-    path = Path(os.environ.get("BAYESMAP_DATA", SHARED)).resolve().parent / "peers" / name
+    path = FOLDER.resolve().parent / "peers" / name
     if not path.exists():
         pytest.skip(f"{path} is absent")
     return path

@@ -5,10 +5,10 @@ from dataclasses import fields, replace
 import netCDF4
 import numpy as np
 import pytest
+from bayesmap.posterior.field import FieldPosterior
 from oracle.field_worlds import scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.posterior.field import FieldPosterior
 
 GRID = bm.Grid((5, 4), 0.5, (-1.0, 2.0))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)

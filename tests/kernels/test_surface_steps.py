@@ -5,9 +5,9 @@ log-likelihood ratio of
 
     |Sigma|^(-n/2) exp(-tr(S Sigma^-1) / 2) exp(-|mu - x|^2 / (2 t^2)),
 
-whose posterior is in closed form: Sigma ~ InverseWishart(nu + n, psi I + S), mu normal. In endpoint cells by one that lets
-every beam stop where it always did: their law is then compared with half a million weighted draws. Thousands of cells
-at once are as many independent chains. False alarms: `ALPHA` = 1e-4 over this module.
+whose posterior is in closed form: Sigma ~ InverseWishart(nu + n, psi I + S), mu normal. In endpoint cells by one that
+lets every beam stop where it always did: their law is then compared with half a million weighted draws. Thousands of
+cells at once are as many independent chains. False alarms: `ALPHA` = 1e-4 over this module.
 """
 
 import numpy as np
@@ -125,7 +125,9 @@ PRIORS = [
 
 
 def given_stops(prior):
-    """Weighted draws of an endpoint cell's state, given that beams with a reading stopped in it and the others passed."""
+    """Weighted draws of an endpoint cell's state, given that beams with a reading stopped in it and the others
+    passed.
+    """
     rays = build_worlds(ENDING, bm.Grid((1, 1), EDGE), prior, SENSOR, 1).problem.rays
     paths, centres = paths_of(rays), centres_of(rays)
     assert (paths.there.sum(axis=1) == 1).all()

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 import bayesmap as bm
+from bayesmap.cells.surface import PARTS
 
 TRUTH = bm.BeamMixture(bm.Gaussian(0.03, 0.004), p_random=0.04, p_no_return=0.06, p_short=0.08, rate_short_per_m=0.7)
 GRID = bm.Grid((30, 24), resolution=0.2)
@@ -40,19 +41,23 @@ def infer(kind, data=None, **options):
     return bm.infer(scans() if data is None else data, chosen.pop("grid", GRID), **chosen)
 
 
-ARRAYS = (
-    "touched", "busy", "reflectivity", "expected", "surfaces", "occupancy", "observed", "log_likelihood", "log_prior",
-    "warmup_log_joint", "states", "informed",
-)  # fmt: skip
-
-
 def assert_same(one, other, but=()):
     """Two runs' posteriors are equal bit for bit, in all that is not a time."""
-    for name in ARRAYS:
-        if name in but:
-            continue
-        mine, theirs = getattr(one.posterior, name), getattr(other.posterior, name)
-        assert mine.dtype == theirs.dtype, name
-        np.testing.assert_array_equal(mine, theirs, err_msg=name)
+    mine, theirs = one.posterior, other.posterior
+    for of in (lambda p: p.draws.arrays, lambda p: p.draws.index, lambda p: p.snapshot.arrays, lambda p: p.statistics):
+        assert list(of(mine)) == list(of(theirs))
+        for name, values in of(mine).items():
+            if name not in but:
+                assert values.dtype == of(theirs)[name].dtype, name
+                np.testing.assert_array_equal(values, of(theirs)[name], err_msg=name)
+    for name in ("occupancy", "observed", "log_likelihood", "log_prior", "warmup_log_joint"):
+        if name not in but:
+            np.testing.assert_array_equal(getattr(mine, name), getattr(theirs, name), err_msg=name)
     for name in ("sensor", "prior", "sweep", "finished", "counts"):
-        assert getattr(one.posterior, name) == getattr(other.posterior, name), name
+        if name not in but:
+            assert getattr(mine, name) == getattr(theirs, name), name
+
+
+def surfaces_of(posterior):
+    """The drawn surfaces, (chains, draws, U, 5), in edges."""
+    return np.stack([posterior.draws.arrays[f"surface_{part}"] for part in PARTS], axis=-1)

@@ -78,7 +78,9 @@ def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None, beta=
 
 def chains_of(problem, method, order, chains=5, seed=3, schedule=None, start="prior", **options):
     """The runner's chains of a sampler."""
-    job = Job(model_of(problem), SAMPLERS[method][0](order, start), schedule, seed, tuple(range(chains)), problem=problem)
+    job = Job(
+        model_of(problem), SAMPLERS[method][0](order, start), schedule, seed, tuple(range(chains)), problem=problem
+    )
     return run_chains(job, **options)
 
 

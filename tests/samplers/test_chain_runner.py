@@ -175,8 +175,8 @@ def test_the_runner_is_an_iterator_of_states_and_infos():
     problem = problem_8x8()
     sampler = SAMPLERS["gibbs"][0]("raster", "prior")
     state, sweeps = sampler.init(problem, [0, 1], 3), []
-    for state, info in runner.sweeps(sampler, state, 50, keep=Keep(20, 10), stops=(20,), step_seconds=1e-5):
-        sweeps.append(state.sweep)
+    for now, info in runner.sweeps(sampler, state, 50, keep=Keep(20, 10), stops=(20,), step_seconds=1e-5):
+        sweeps.append(now.sweep)
         assert info.log_likelihood.shape[0] == 2
     assert sweeps[-1] == 50
     assert 20 in sweeps

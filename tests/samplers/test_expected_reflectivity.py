@@ -10,16 +10,17 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bayesmap.run.chain import Schedule
 from field_rooms import PRIORS, infer, scans
 from oracle.field_exact import exact_reflectivities
 from oracle.field_law import draw_states, log_likelihoods, paths_of
-from oracle.field_worlds import beam_rays, build_worlds, copies
+from oracle.field_worlds import beam_rays, build_worlds, copies, touching
 from oracle.verdict import ALPHA
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.run import field_chain
+from bayesmap.cells.surface import PARTS
+from bayesmap.samplers import stop_gibbs
+from bayesmap.samplers.sampler import Keep
 
 EDGE, COPIES, DRAWS, FROM_PRIOR = 0.5, 2000, 4, 100_000
 TESTS = 200  # p-values in this module, at most
@@ -51,9 +52,9 @@ def world_of(case):
     grid = bm.Grid(shape, EDGE)
     cell = np.arange(grid.n_cells)
     centres = np.stack([cell // shape[1] + 0.5, cell % shape[1] + 0.5], axis=-1) * EDGE
-    rays = beam_rays(HELD_OUT, grid, margin_m=0.0, hit_depth=0.5, whole=True)
     # by the grid's numbers of cells, not by those of what these beams touch
-    held_out = paths_of(replace(rays, cells=rays.touched[rays.cells]), far=False)
+    rays = touching(beam_rays(HELD_OUT, grid, whole=True), cell)
+    held_out = paths_of(rays, far=False)
     return prior, isinstance(prior, bm.Beta), centres, held_out, build_worlds(SCANS, grid, prior, LAW, 1).problem.rays
 
 
@@ -85,15 +86,19 @@ def predicted(case):
     """Densities of the held-out readings by every copy's draws, (COPIES, DRAWS, B): expected ones, and drawn ones."""
     prior, plain, centres, _, _ = world_of(case)
     worlds = copies(SCANS, bm.Grid(CASES[case][0], EDGE), prior, LAW, COPIES)
-    found = field_chain.run_field(worlds.problem, Schedule(150, DRAWS), 1, 7, fit_sensor=False, fit_prior=False)
+    sampler = stop_gibbs.StopGibbs()
+    _, info = sampler.step(sampler.init(worlds.problem, [0], 7), 150 + DRAWS, keep=Keep(150, 1))
     states = np.zeros((COPIES, DRAWS, len(centres), 6))
     if not plain:
         assert worlds.problem.estimate.endpoint.all()
-        states[..., 1:] = np.moveaxis(found.surfaces[0][:, worlds.cells()], 0, 1).astype(float) * EDGE
+        for part, name in enumerate(PARTS, 1):
+            states[..., part] = (
+                np.moveaxis(info.draws[f"surface_{name}"][0][:, worlds.cells()], 0, 1).astype(float) * EDGE
+            )
         states[..., 1:3] += centres
     out = []
-    for m in (found.expected, found.reflectivity):
-        states[..., 0] = np.moveaxis(m[0][:, worlds.cells()], 0, 1)
+    for name in ("expected", "reflectivity"):
+        states[..., 0] = np.moveaxis(info.draws[name][0][:, worlds.cells()], 0, 1)
         out.append(densities(case, states))
     return out
 
@@ -130,7 +135,7 @@ def met_counted_twice(hits, met, prior, drawn):
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("twin", [without_b, met_counted_twice])
 def test_wrong_twins_are_rejected(case, twin, monkeypatch):
-    monkeypatch.setattr(field_chain, "expected_reflectivity", twin)
+    monkeypatch.setattr(stop_gibbs, "expected_reflectivity", twin)
     expected, _ = predicted(case)
     assert abs(z(case, expected)).max() > LIMIT
 
@@ -139,7 +144,9 @@ def test_wrong_twins_are_rejected(case, twin, monkeypatch):
 def test_few_draws_score_better(kind):
     """Eight scans of a room, six draws in all: by 0.07 to 0.19 nats a beam for four seeds."""
     run = infer(kind, scans(poses=8), warmup=20, draws=3)
-    by_draws = bm.FieldRun(replace(run.posterior, expected=run.posterior.reflectivity))
+    draws = run.posterior.draws
+    drawn = replace(draws, arrays={**draws.arrays, "expected": draws.arrays["reflectivity"]})
+    by_draws = bm.FieldRun(replace(run.posterior, draws=drawn))
     held_out = scans(poses=20, seed=2)
     assert run.log_score(held_out) > by_draws.log_score(held_out) + 0.03
 
@@ -148,14 +155,14 @@ def test_a_cell_is_never_expected_to_stop_every_beam():
     """Half precision would round the mean to 1, and nothing behind the cell could be seen ever after."""
     hits, met = np.array([10**6, 3, 0, 5], dtype=np.int32), np.array([0, 1, 10**6, -1], dtype=np.int32)
     drawn = np.array([0, 0, 0, 1], dtype=np.float16)
-    found = field_chain.expected_reflectivity(hits, met, bm.Beta(0.25, 0.75), drawn).astype(np.float16)
+    found = stop_gibbs.expected_reflectivity(hits, met, bm.Beta(0.25, 0.75), drawn).astype(np.float16)
     assert found[0] == found[3] == np.nextafter(np.float16(1), np.float16(0))
     assert found[1] == np.float16(3.25 / 5)
     assert 0 < found[2] < 1e-6
 
 
 def test_a_cell_that_has_not_counted_yet_is_as_drawn():
-    found = field_chain.expected_reflectivity(
+    found = stop_gibbs.expected_reflectivity(
         np.array([0, 0], dtype=np.int32), np.array([-1, 0], dtype=np.int32), bm.Beta(0.25, 0.75), np.float16([0.5, 0.5])
     )
     np.testing.assert_allclose(found, [0.5, 0.25])

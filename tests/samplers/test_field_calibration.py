@@ -71,7 +71,7 @@ def ranks(prior, sensor, thin, seed, wrong=None):
     sampler = worlds.sampler(seed)
     worlds.sweep(sampler, WARMUP)
     below, equal = ({name: np.zeros(WORLDS, dtype=int) for name in true} for _ in range(2))
-    for draw in range(DRAWS):
+    for _ in range(DRAWS):
         states = worlds.sweep(sampler, thin).astype(float)
         for name, value in values(states).items():
             same = abs(value - true[name]) < 1e-9

@@ -2,13 +2,24 @@
 
 import numpy as np
 import pytest
-from bayesmap.field_inference import default_draws
-from bayesmap.run.chain import Schedule
-from field_rooms import GRID, PRIORS, TRUTH, assert_same, infer, scans
+from field_rooms import GRID, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
 
 import bayesmap as bm
-from bayesmap.run import field_chain
-from bayesmap.samplers.stop_gibbs import trace_stops
+from bayesmap.model import Model
+from bayesmap.run import runner
+from bayesmap.run.chains import join
+from bayesmap.run.runner import Job, run_chains
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.fit import first_sensor, fit
+from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.stop_gibbs import StopGibbs, trace_stops
+
+
+@pytest.fixture(autouse=True)
+def _short_steps(monkeypatch):
+    """A sweep a step, so that runs can be stopped anywhere."""
+    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
+
 
 KINDS = pytest.mark.parametrize("kind", PRIORS)
 
@@ -28,15 +39,44 @@ def test_a_seed_gives_one_run_and_another_seed_another(kind):
 
 
 @KINDS
-def test_with_a_given_sensor_a_chain_does_not_know_of_the_others(kind):
-    """Where the sensor is fitted it does: the fit looks at all chains."""
-    many, one = (infer(kind, chains=chains, sensor=TRUTH) for chains in (3, 1))
+@pytest.mark.parametrize("sensor", ["fit", TRUTH], ids=["fitted", "given"])
+def test_a_chain_does_not_know_of_the_others_the_fit_included(kind, sensor):
+    many, one = (infer(kind, chains=chains, sensor=sensor) for chains in (3, 1))
     np.testing.assert_array_equal(many.draws[0], one.draws[0])
-    np.testing.assert_array_equal(many.posterior.surfaces[0], one.posterior.surfaces[0])
+    if kind == "surfaces":
+        np.testing.assert_array_equal(surfaces_of(many.posterior)[0], surfaces_of(one.posterior)[0])
     np.testing.assert_array_equal(many.log_joint[0], one.log_joint[0])
+    assert many.posterior.sensor == one.posterior.sensor
+    assert (many.posterior.sensor == TRUTH) == (sensor == TRUTH)
     assert (many.draws[1] != many.draws[0]).any()
-    fitted = [infer(kind, chains=chains).posterior.sensor for chains in (3, 1)]
-    assert fitted[0] != fitted[1]
+
+
+@KINDS
+def test_chain_two_is_the_same_wherever_it_runs(kind):
+    """Three jobs of one chain each, joined, are the run of three chains: other processes would do no otherwise."""
+    whole = infer(kind, chains=3, warmup=6, draws=4)
+    prior = PRIORS[kind]
+    model = Model(scans(), GRID, prior, first_sensor(prior, GRID.resolution), hit_depth=0.5)
+    parts = []
+    for chain in (0, 1, 2):
+        problem = StopGibbs().prepare(model, "cpu")
+        found = fit(problem, 0, 6)
+        parts.append(run_chains(Job(model, StopGibbs(), Schedule(6, 4), 0, (chain,), parameters=found)))
+    chains = join(parts)
+    np.testing.assert_array_equal(chains.log_joint, whole.log_joint)
+    for name, values in chains.draws.arrays.items():
+        np.testing.assert_array_equal(values, whole.posterior.draws.arrays[name], err_msg=name)
+    for name, values in chains.snapshot.arrays.items():
+        np.testing.assert_array_equal(values, whole.posterior.snapshot.arrays[name], err_msg=name)
+    np.testing.assert_array_equal(chains.observed(), whole.observed)
+
+
+@KINDS
+@pytest.mark.parametrize("step_seconds", [1e-3, 10.0])
+def test_any_cutting_into_steps_gives_the_same_run(kind, step_seconds, monkeypatch):
+    whole = infer(kind, thin=2)
+    monkeypatch.setattr(runner, "STEP_SECONDS", step_seconds)
+    assert_same(infer(kind, thin=2), whole)
 
 
 @KINDS
@@ -65,29 +105,26 @@ def test_a_finished_run_goes_on_to_itself():
 
 
 def test_asked_to_stop_it_stops_between_two_sweeps():
-    problem = trace_stops(scans(), GRID, bm.Surface(), TRUTH)
     asked = []
 
     def should_stop():
         asked.append(True)
         return len(asked) > 5
 
-    found = field_chain.run_field(
-        problem, Schedule(3, 10, 1), 1, 0, fit_sensor=False, fit_prior=False, should_stop=should_stop
-    )
+    model = Model(scans(), GRID, bm.Surface(), TRUTH, hit_depth=0.5)
+    found = run_chains(Job(model, StopGibbs(), Schedule(3, 10), 0, (0,)), watch=Watch(should_stop=should_stop))
     assert (found.sweep, found.finished) == (5, False)
-    assert found.reflectivity.shape[1] == found.log_likelihood.shape[1] == 2
+    assert found.draws.count == found.log_likelihood.shape[1] == 2
     assert found.warmup_log_joint.shape == (1, 3)
 
 
-def test_progress_is_told_of_warm_up_and_draws_to_the_last_sweep(monkeypatch):
-    monkeypatch.setattr(field_chain, "TELL_EVERY_S", -1.0)
+def test_progress_is_told_of_the_fit_warm_up_and_draws_to_the_last_sweep():
     events = []
     infer("reflectivities", on_progress=events.append)
-    events = [event for event in events if event.stage in ("warm-up", "draws")]
-    assert [event.done for event in events] == list(range(1, 19))
-    assert [event.stage for event in events] == ["warm-up"] * 12 + ["draws"] * 6
-    assert all(np.isfinite(event.log_joint) for event in events)
+    counted = [event for event in events if event.stage in ("fit", "warm-up", "draws")]
+    assert [event.done for event in counted] == [*range(1, 13), *range(1, 19)]
+    assert [event.stage for event in counted] == ["fit"] * 12 + ["warm-up"] * 12 + ["draws"] * 6
+    assert all(np.isfinite(event.log_joint) for event in counted)
 
 
 def test_kept_log_likelihoods_are_those_of_the_kept_draws():
@@ -95,24 +132,24 @@ def test_kept_log_likelihoods_are_those_of_the_kept_draws():
 
     run = infer("reflectivities", sensor=TRUTH, draws=3)
     rays = trace_stops(scans(), GRID, bm.Beta(), TRUTH).rays
-    states = np.zeros((rays.n_cells, 6))
+    states = np.zeros((len(rays.touched), 6))
     for draw in range(3):
-        states[:, 0] = run.posterior.reflectivity[0, draw]  # in half precision
+        states[:, 0] = run.posterior.draws.arrays["reflectivity"][0, draw]  # in half precision
         expected = log_likelihoods(paths_of(rays), states, TRUTH, True).sum()
         assert run.posterior.log_likelihood[0, draw] == pytest.approx(expected, abs=2e-3 * scans().n_beams)
 
 
 def test_the_fewer_the_beams_the_more_draws_by_default():
     grid = 300 * 300
-    assert [default_draws(beams, grid, 4) for beams in (0, 1, 25_000, 50_000, 100_000, 10**9)] == [
+    assert [bm.Beta().default_draws(beams, grid, 4) for beams in (0, 1, 25_000, 50_000, 100_000, 10**9)] == [
         200, 200, 200, 100, 50, 50,
     ]  # fmt: skip
     # On large grids no more than 1 GiB of draws, but always 50
-    assert default_draws(1, 1000 * 1000, 1) == 200
-    assert default_draws(1, 1000 * 1000, 4) == 67
-    assert default_draws(1, 10**8, 4) == 50
+    assert bm.Beta().default_draws(1, 1000 * 1000, 1) == 200
+    assert bm.Beta().default_draws(1, 1000 * 1000, 4) == 67
+    assert bm.Surface().default_draws(1, 10**8, 4) == 50
     run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0)
-    assert run.n_draws == default_draws(scans().n_beams, GRID.n_cells, 1) == 200
+    assert run.n_draws == bm.Beta().default_draws(scans().n_beams, GRID.n_cells, 1) == 200
 
 
 @KINDS

@@ -47,9 +47,10 @@ ODD = {
 def assert_sound(run):
     """Numbers everywhere, within their bounds."""
     posterior = run.posterior
-    for values in (posterior.reflectivity, posterior.occupancy):
+    arrays = posterior.draws.arrays
+    for values in (arrays["reflectivity"], arrays["expected"], posterior.occupancy):
         assert ((values >= 0) & (values <= 1)).all()
-    for values in (posterior.log_likelihood, posterior.log_prior, posterior.surfaces, posterior.states):
+    for values in (posterior.log_likelihood, posterior.log_prior, *arrays.values(), posterior.snapshot.arrays["state"]):
         assert np.isfinite(values).all()
     noise = posterior.sensor.noise
     found = [noise.sigma_m, noise.sigma_per_m, posterior.sensor.rate_short_per_m, posterior.prior.a, posterior.prior.b]
@@ -79,7 +80,7 @@ def test_where_nothing_was_seen_the_prior_stays(kind):
 
 @KINDS
 def test_a_fit_from_almost_nothing_stays_almost_where_it_began(kind):
-    from bayesmap.field_inference import first_sensor
+    from bayesmap.samplers.fit import first_sensor
 
     start = first_sensor(PRIORS[kind], GRID.resolution)
     found = infer(kind, ODD["no valid reading"], warmup=30).posterior.sensor
@@ -103,7 +104,7 @@ def test_priors_of_any_size_give_reflectivities(a, b):
 
 @pytest.mark.parametrize(
     "shape",
-    [{"spread": 1e-5}, {"spread": 5.0, "extent": 10.0}, {"dof": 1.01}, {"dof": 500.0}, {"wander": 1e-4}],
+    [{"spread": 1e-5}, {"spread": 5.0, "size_scale": 10.0}, {"dof": 1.01}, {"dof": 500.0}, {"mean_scale": 1e-4}],
     ids=str,
 )
 def test_priors_of_any_shape_give_surfaces(shape):
@@ -149,13 +150,15 @@ def test_words_that_are_no_sensor_are_refused():
 def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
     walls = bm.infer(ROOM, GRID, prior=bm.Independent(0.1), sensor=TRUTH, chains=1, warmup=2, draws=2)
     surfaces = infer("surfaces", ROOM)
-    with pytest.raises(bm.BadInput, match="one over walls"):
+    with pytest.raises(bm.BadInput, match="one over walls or free, not over reflectivities and surfaces"):
         infer("surfaces", ROOM, resume=walls)
-    with pytest.raises(bm.BadInput, match="over reflectivities or surfaces, not over walls"):
+    with pytest.raises(bm.BadInput, match="over reflectivities and surfaces, not over walls or free"):
         bm.infer(ROOM, GRID, prior=bm.Independent(0.1), sensor=TRUTH, resume=surfaces)
+    with pytest.raises(bm.BadInput, match="over reflectivities and surfaces, not over reflectivities"):
+        infer("surfaces", ROOM, resume=surfaces, prior=bm.Beta())
     for options, word in (
         ({"seed": 1}, "seed"), ({"sensor": TRUTH}, "sensor"), ({"chains": 3}, "chains"), ({"draws": 7}, "draws"),
-        ({"prior": bm.Surface(wander=0.5)}, "prior"), ({"prior": bm.Beta()}, "prior"), ({"hit_depth": 0.2}, "hit_dep"),
+        ({"prior": bm.Surface(wander=0.5)}, "prior"), ({"hit_depth": 0.2}, "hit_dep"),
     ):  # fmt: skip
         with pytest.raises(bm.BadInput, match=f"resume: the saved run was made with other .*{word}"):
             infer("surfaces", ROOM, resume=surfaces, **options)

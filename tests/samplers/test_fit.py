@@ -8,16 +8,25 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bayesmap.field_inference import first_sensor, fit_sensor
-from bayesmap.run.chain import Schedule
-from bayesmap.run.field_chain import run_field
 from field_rooms import GRID, TRUTH, assert_same, infer, scans
 from oracle.field_law import draw_readings, draw_states, paths_of
-from oracle.field_worlds import beam_rays, centres_of
+from oracle.field_worlds import beam_rays, centres_of, touching
 from oracle.worlds import bm_limits
 
 import bayesmap as bm
-from bayesmap.samplers.fit import FIRST_SWEEP, PRIOR_EVERY, Stops, gain, prior_gain, refit_prior, refit_sensor
+from bayesmap.model import Model
+from bayesmap.samplers.fit import (
+    FIRST_SWEEP,
+    PILOT_SWEEPS,
+    WHOLE_UNTIL,
+    Stops,
+    first_sensor,
+    fit,
+    fit_sensor,
+    gain,
+    refit_prior,
+    refit_sensor,
+)
 from bayesmap.samplers.stop_gibbs import trace_stops
 
 SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_short_per_m")
@@ -55,7 +64,7 @@ def drawn_map(prior, seed, poses=250, beams=30):
     grid, rng = bm.Grid((16, 16), 0.25), np.random.default_rng(seed)
     where = np.column_stack([rng.uniform(0, 4, (poses, 2)), rng.uniform(-3, 3, poses)])
     nothing = bm.Scans(where, np.linspace(-2, 2, beams), np.full((poses, beams), np.inf), max_range_m=6.0)
-    rays = beam_rays(nothing, grid, margin_m=np.inf, whole=True)
+    rays = touching(beam_rays(nothing, grid, whole=True), np.arange(grid.n_cells))
     cells = draw_states(rng, prior, centres_of(rays))
     readings = draw_readings(rng, paths_of(rays, far=False), cells, TRUTH, isinstance(prior, bm.Beta))
     return replace(nothing, ranges_m=readings.reshape(poses, beams)), grid
@@ -67,7 +76,7 @@ def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     data, grid = drawn_map(prior, 4)
     start = replace(prior, a=0.02, b=0.2)
     problem = trace_stops(data, grid, start, first_sensor(prior, grid.resolution))
-    found = run_field(problem, Schedule(80, 0), 2, 0, fit_sensor=True, fit_prior=True).parameters
+    found = fit(problem, 0, 80)
     mine, truth = found.sensor, TRUTH
     for name, tolerance in (("p_random", 0.5), ("p_no_return", 0.5), ("p_short", 0.4), ("rate_short_per_m", 0.6)):
         assert abs(np.log(getattr(mine, name) / getattr(truth, name))) < tolerance, name
@@ -96,23 +105,35 @@ def test_only_training_scans_are_looked_at():
     assert infer("surfaces", whole).posterior.sensor != infer("surfaces", trains[0]).posterior.sensor
 
 
-def test_a_fit_stands_still_once_draws_are_kept():
+def test_a_pilot_fits_and_all_chains_run_under_what_it_found():
     stops = []
-    infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=-1.0)
-    sensors = [run.posterior.sensor for run in stops]
-    assert sensors[0] == first_sensor(bm.Surface(), GRID.resolution)
-    assert sensors[5] != sensors[6]
-    assert all(sensor == sensors[11] for sensor in sensors[11:])
+    run = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=0.0)
+    assert {stop.posterior.sensor for stop in stops} == {run.posterior.sensor}
+    problem = trace_stops(scans(), GRID, bm.Surface(), first_sensor(bm.Surface(), GRID.resolution))
+    found = fit(problem, 0, 12)
+    assert (run.posterior.sensor, run.posterior.prior) == (found.sensor, found.prior)
+    assert found != fit(problem, 1, 12)
+    assert found != fit(problem, 0, 11)
+    assert fit(problem, 0, 0).sensor == problem.sensor
+
+
+def test_a_pilot_is_as_long_as_the_warm_up_and_at_most_as_long_as_it_helps():
+    events = []
+    infer("surfaces", scans(poses=3), warmup=PILOT_SWEEPS + 5, draws=0, chains=1, on_progress=events.append)
+    assert max(event.done for event in events if event.stage == "fit") == PILOT_SWEEPS
+    run = infer("surfaces", scans(poses=3), warmup=0, draws=1)
+    assert run.posterior.sensor == first_sensor(bm.Surface(), GRID.resolution)
 
 
 def test_a_given_sensor_and_prior_are_not_touched():
     run = infer("surfaces", sensor=TRUTH)
     assert (run.posterior.sensor, run.posterior.prior) == (TRUTH, bm.Surface())
-    assert run.posterior.settings["fitted"] is None
+    assert "fitted" not in run.posterior.settings
 
 
 def test_binary_walls_can_have_a_fitted_sensor():
-    found = fit_sensor(scans(), GRID, hit_depth=0.5)
+    model = Model(scans(), GRID, bm.Independent(0.1), TRUTH, hit_depth=0.5)
+    found = fit_sensor(model, "cpu", seed=0)
     assert 0.3 < found.p_random / TRUTH.p_random < 3
     run = bm.infer(scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", chains=1, warmup=5, draws=5)
     assert isinstance(run.posterior.sensor, bm.BeamMixture)
@@ -134,9 +155,8 @@ def test_the_prior_s_counts_are_found_from_hits_and_passes():
     assert refit_prior(bm.Beta(), hits, np.full(m.size, -1), 1.0) == bm.Beta()
 
 
-def test_steps_shrink_and_begin_whole_for_the_prior_too():
-    assert gain(FIRST_SWEEP) == 1.0
-    assert prior_gain(PRIOR_EVERY) == 1.0
-    steps = [prior_gain(PRIOR_EVERY * i) for i in range(1, 8)]
+def test_steps_are_whole_while_the_map_is_coming_about_and_then_shrink():
+    steps = [gain(sweep) for sweep in range(FIRST_SWEEP, PILOT_SWEEPS)]
     assert steps == sorted(steps, reverse=True)
-    assert np.prod([1 - step for step in steps[1:]]) < 0.1  # of the way is left after 35 sweeps
+    assert steps[0] == steps[WHOLE_UNTIL - FIRST_SWEEP] == 1.0 > steps[WHOLE_UNTIL - FIRST_SWEEP + 1]
+    assert sum(step**2 for step in steps if step < 1) < 2  # noise is averaged out

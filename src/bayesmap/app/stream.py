@@ -62,7 +62,7 @@ class Stream:
         self._record = Record(empty, schedule if keep else Schedule(0, 0), schedule.keep)
         self._steps = sweeps(
             sampler, self.state, self.total, keep=schedule.keep, step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // one),
+            most_kept=max(1, BUFFER_BYTES // max(one, 1)),
         )  # fmt: skip
         self.seconds, self.counted = 0.0, 0
         self._latest = empty

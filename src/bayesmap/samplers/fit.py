@@ -41,8 +41,8 @@ SENSOR_SWEEPS = 30
 SPREAD_WITHOUT_SURFACE = 0.3
 """Where in a cell without a surface a beam stops is not known to better than this part of its edge: noise that a fit
 starts from."""
-FIRST_SWEEP = 3
-PRIOR_EVERY = 5
+FIRST_SWEEP, WHOLE_UNTIL = 3, 20
+PRIOR_EVERY = 2
 LEAST_SIGMA_M = 1e-3
 LEAST_SHARE = 1e-5
 LEAST_RANDOM = 5e-4
@@ -120,7 +120,7 @@ def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT)
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
                 hits, met = (count[touched] for count in state.chains.counted(0))
-                prior = refit_prior(prior, hits, met, prior_gain(sweep))
+                prior = refit_prior(prior, hits, met, step)
             now = Parameters(sensor, prior)
             state = replace(state, problem=problem.under(sensor, prior))
         watch.report("fit", sweep + 1, sweeps, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
@@ -156,13 +156,8 @@ def stops_of(state: StopState, some: slice) -> Stops:
 
 
 def gain(sweep: int) -> float:
-    """How far to move after a sweep, counted from the first that is looked at."""
-    return float((sweep - FIRST_SWEEP + 1.0) ** -0.7)
-
-
-def prior_gain(sweep: int) -> float:
-    """The same for the prior, which is looked at in every `PRIOR_EVERY`-th sweep only."""
-    return gain(FIRST_SWEEP + sweep // PRIOR_EVERY - 1)
+    """How far to move after a sweep: all the way until `WHOLE_UNTIL`, and then less and less."""
+    return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
 
 
 def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: float) -> BeamMixture:
