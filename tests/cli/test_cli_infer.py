@@ -4,13 +4,13 @@ import json
 
 import numpy as np
 import pytest
-from bayesmap.field_inference import first_sensor
 from data import intel_log
 from shell import call
 
 import bayesmap as bm
 from bayesmap.cells.kind import prior_from
 from bayesmap.io.map_server import read_map
+from bayesmap.samplers.fit import first_sensor
 from bayesmap.sensors.describe import describe
 
 KEYS = {
@@ -38,7 +38,7 @@ def test_everything_is_left_in_the_folder(office, office_run, tmp_path, short, c
     assert {path.name for path in folder.iterdir()} == FILES
     run = bm.load(folder / "run.nc")
     assert run.finished
-    assert isinstance(run, bm.FieldRun) == (cells != "binary")
+    assert run.posterior.kind == cells
     occupancy, grid = read_map(folder / "map.yaml")
     assert grid == run.grid
     assert np.isnan(occupancy[~run.observed]).all()

@@ -8,6 +8,7 @@ knows which kinds there are. Built in are `bayesmap.cells.binary`, `bayesmap.cel
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -69,7 +70,8 @@ class ArraySpec:
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values (..., *dims) as they are kept."""
         if self.storage == "bits":
-            flat = np.asarray(values, dtype=np.bool_).reshape(*values.shape[: -len(self.dims)], -1)
+            lead, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
+            flat = np.asarray(values, dtype=np.bool_).reshape(*lead, math.prod(rest))
             return np.packbits(flat, axis=-1)
         return np.asarray(values, dtype=np.float16 if self.storage == "half" else self.dtype)
 

@@ -1,0 +1,55 @@
+"""Draws come back bit for bit, however they are cut; checksums see every element."""
+
+import hashlib
+
+import netCDF4
+import numpy as np
+import pytest
+
+from bayesmap.cells.kind import ArraySpec
+from bayesmap.io import checksum, saved_arrays
+
+SPECS = {
+    "half": ArraySpec("m", ("cell",), "float32", "half"),
+    "bits": ArraySpec("walls", ("x", "y"), "bool", "bits"),
+    "plain": ArraySpec("poses", ("scan", "pose"), "float64"),
+}
+SHAPES = [(2, 7, 13), (1, 1, 1), (3, 5, 100), (2, 0, 4), (2, 3, 0)]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("kind", SPECS)
+def test_draws_come_back_and_are_counted(tmp_path, monkeypatch, kind, shape):
+    monkeypatch.setattr(saved_arrays, "CHUNK", 32)
+    monkeypatch.setattr(saved_arrays, "BLOCK", 70)
+    spec, sizes = SPECS[kind], shape[2:]
+    if len(spec.dims) == 2:
+        sizes = (*sizes, 3)
+    values = np.random.default_rng(0).gamma(0.2, size=(*shape[:2], *sizes))
+    stored = spec.stored(values > 0.1 if kind == "bits" else values)
+    counts = []
+    with netCDF4.Dataset(tmp_path / "draws.nc", "w") as file:
+        saved_arrays.write_draws(file, spec, stored, sizes, counts.append)
+    assert sum(counts) == values.size
+    with netCDF4.Dataset(tmp_path / "draws.nc") as file:
+        file.set_auto_mask(False)
+        assert file[spec.name].shape == values.shape
+        assert file[spec.name].dtype == {"half": np.float32, "bits": np.int8, "plain": np.float64}[kind]
+        found = saved_arrays.read_draws(file[spec.name], spec, sizes)
+    assert found.dtype == stored.dtype
+    assert found.tobytes() == stored.tobytes()
+
+
+def test_checksums_do_not_depend_on_how_arrays_lie_in_memory(monkeypatch):
+    monkeypatch.setattr(checksum, "SMALL_BYTES", 8)
+    array = np.random.default_rng(1).random((4, 6, 5))
+    plain = hashlib.sha256(b"text" + array.tobytes()).hexdigest()
+    strided = np.repeat(array, 2, axis=1)[:, ::2]
+    for form in (array, strided, np.asfortranarray(array), np.flip(array)[::-1, ::-1, ::-1]):
+        assert checksum.checksum_of("text", [form, None]) == plain
+    changed = array.copy()
+    changed[-1, -1, -1] = np.nextafter(changed[-1, -1, -1], 2)
+    assert checksum.checksum_of("text", [changed]) != plain
+    assert checksum.checksum_of("text", [np.float64(1.5).reshape(())]) == checksum.checksum_of(
+        "text", [np.array([1.5])]
+    )
