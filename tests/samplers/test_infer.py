@@ -9,7 +9,7 @@ from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
 
 import bayesmap as bm
-from bayesmap.run import chain as runner
+from bayesmap.run import runner
 
 MARKOV = ["gibbs", "block"]
 
@@ -24,8 +24,11 @@ def infer(case, **options):
 
 
 def assert_same_run(one, other):
-    for name in ("packed", "log_likelihood", "log_prior", "warmup_log_joint", "occupancy", "walls", "finished"):
+    for name in ("log_likelihood", "log_prior", "warmup_log_joint", "occupancy", "sweep", "finished"):
         np.testing.assert_array_equal(getattr(one.posterior, name), getattr(other.posterior, name), err_msg=name)
+    np.testing.assert_array_equal(one.posterior.draws.arrays["walls"], other.posterior.draws.arrays["walls"])
+    for name, values in one.posterior.snapshot.arrays.items():
+        np.testing.assert_array_equal(values, other.posterior.snapshot.arrays[name], err_msg=name)
 
 
 @pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance"])
@@ -40,7 +43,7 @@ def test_belief_propagation_is_near_the_exact_marginals_and_keeps_no_draws(case)
     run = infer(case, method="propagate")
     np.testing.assert_allclose(run.occupancy.ravel(), marginals(case.exact.p, 16), atol=0.15)
     assert run.draws.shape == (4, 0, 4, 4)
-    assert run.posterior.belief_changes[-1] < 0.01
+    assert run.posterior.statistics["belief_changes"][-1] < 0.01
 
 
 def test_exact_draws_and_evidence(case):
@@ -71,7 +74,7 @@ def test_chains_may_start_from_a_map(case, method):
     start = np.random.default_rng(1).random((4, 4)) < 0.5
     for given in (start, start.astype(np.uint8), np.stack([start] * 4)):
         run = infer(case, method=method, start=given, warmup=0, draws=0)
-        np.testing.assert_array_equal(run.posterior.walls.reshape(4, 4, 4) != 0, np.stack([start] * 4))
+        np.testing.assert_array_equal(run.posterior.snapshot.arrays["walls"].reshape(4, 4, 4) != 0, np.stack([start] * 4))
 
 
 @pytest.mark.parametrize("method", MARKOV)
@@ -127,7 +130,7 @@ def test_a_resumed_run_still_knows_its_warm_start(case, monkeypatch):
     seen = []
     whole = infer(case, on_checkpoint=seen.append, **options)
     resumed = infer(case, resume=seen[0], **options)
-    np.testing.assert_array_equal(resumed.posterior.belief_changes, whole.posterior.belief_changes)
+    np.testing.assert_array_equal(resumed.posterior.statistics["belief_changes"], whole.posterior.statistics["belief_changes"])
 
 
 def test_belief_propagation_stopped_by_ctrl_c_is_not_finished(case):
@@ -135,7 +138,7 @@ def test_belief_propagation_stopped_by_ctrl_c_is_not_finished(case):
         signal.raise_signal(signal.SIGINT)
 
     run = infer(case, method="propagate", rounds=20, on_progress=interrupt)
-    assert len(run.posterior.belief_changes) == 1
+    assert len(run.posterior.statistics["belief_changes"]) == 1
     assert not run.finished
 
 

@@ -66,7 +66,7 @@ def _read_reflectivities(file: Any, header: dict[str, Any]) -> tuple[Posterior, 
         prior,
         Snapshot(header["sweep"], {"state": state["state"]}),
         specs=present,
-        index={"cell": touched, "surface_cell": touched[place]},
+        index={"cell": touched} | ({"surface_cell": touched[place]} if prior.has_surfaces else {}),
         statistics={},
     )
     arrays = posterior.draws.arrays

@@ -51,12 +51,12 @@ def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
     """
     if saved["fingerprint"] == wanted["fingerprint"]:
         return
-    different = difference(saved, wanted)
-    if different is None and saved.get("streams") != wanted["streams"]:
+    if saved.get("streams") != wanted["streams"]:
         raise BadInput(
             "resume: the saved run was made by a version of bayesmap with other random numbers; it can be looked at "
             "and scored, but not gone on with: start again"
         )
+    different = difference(saved, wanted)
     raise BadInput(
         f"resume: the saved run was made with other {different or 'scans or on another grid, or with another sensor'}"
     )
