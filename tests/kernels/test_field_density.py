@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bayesmap.kernels.field_score import FieldScore
 from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
 from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds, touching
 
 import bayesmap as bm
-from bayesmap.kernels.field_score import FieldScore
 from bayesmap.samplers.stop_gibbs import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)

@@ -9,7 +9,7 @@ import bayesmap as bm
 from bayesmap.kernels.predict import forecast, log_densities
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import RangeLimits, SensorModel
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))
 LIMITS = RangeLimits(0.2, 5.0)
@@ -190,15 +190,55 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
     assert checked > 10
 
 
-def test_what_cannot_be_predicted_is_refused():
-    class Own(bm.Gaussian):
-        def kernel_parameters(self):
-            return None
+class Own(SensorModel):
+    """Another model's law as three methods of the user's own, with a weight that should be 1."""
 
+    def __init__(self, law, weight=1.0):
+        self.law, self.weight = law, weight
+
+    def log_likelihood(self, range_m, distance_m, limits):
+        return self.law.log_likelihood(range_m, distance_m, limits) + np.log(self.weight)
+
+    def reach_m(self, range_m, limits):
+        return self.law.reach_m(range_m, limits)
+
+    def sample(self, rng, distance_m, limits):
+        return self.law.sample(rng, distance_m, limits)
+
+
+OWN = ["mixture", "student-t", "mixture of student-t"]
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("name", OWN)
+def test_a_sensor_of_the_user_s_own_predicts_by_a_table_what_its_formula_says(name, binary):
+    formula = SENSORS[name]
+    own = Own(formula)
+    scans, maps = world(70, binary=binary, poses=6)
+    rays = trace_rays(scans, GRID)
+    mine, exact = (forecast(rays, batches(rays, maps), sensor, DEPTH) for sensor in (own, formula))
+    likely = exact.log_density > -8
+    assert likely.sum() > 50
+    np.testing.assert_allclose(mine.log_density[likely], exact.log_density[likely], atol=0.02)
+    for field in ("pit_low", "pit_high", "p_no_return", "p_too_close"):
+        np.testing.assert_allclose(getattr(mine, field), getattr(exact, field), atol=5e-3)
+    quantiles = [
+        range_quantiles(mix_stops(rays, batches(rays, maps), DEPTH), np.array([0.2, 0.5, 0.8]), sensor)
+        for sensor in (own, formula)
+    ]
+    np.testing.assert_array_equal(*map(np.isfinite, quantiles))
+    away = np.abs(np.subtract(*np.nan_to_num(quantiles, posinf=9.0, neginf=-9.0)))
+    assert np.median(away) < 2e-3
+    assert np.quantile(away, 0.95) < 0.05
+
+
+def test_what_cannot_be_predicted_is_refused():
+    half = Own(bm.StudentT(0.1), 0.5)
     scans, maps = world(70)
     rays = trace_rays(scans, GRID)
-    with pytest.raises(bm.BadInput, match=r"Own has no compiled form, so only its log score can be had"):
-        forecast(rays, batches(rays, maps), Own(0.1), DEPTH)
+    assert np.isfinite(log_densities(rays, batches(rays, maps), half, DEPTH)).any()
+    with pytest.raises(bm.BadInput, match="densities of Own do not integrate to one, so only its log score"):
+        forecast(rays, batches(rays, maps), half, DEPTH)
     with pytest.raises(bm.BadInput, match="there is no draw to predict from"):
         forecast(rays, [], bm.Gaussian(0.1), DEPTH)
     with pytest.raises(bm.BadInput, match="there is no draw to predict from"):

@@ -21,8 +21,8 @@ from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels import stop_chains as chains
-from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import Cell
+from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, StopState, TracedRays
 
 EDGE, CELLS = 0.5, 10_000
@@ -55,7 +55,7 @@ def tell(rays: TracedRays, state: StopState, part: int, b: int, jacobian: float)
 
 @wp.kernel
 def speak(
-    first: int, part: int, sweep: int, law: SensorParameters, rays: TracedRays, state: StopState,
+    first: int, part: int, sweep: int, law: SensorLaw32, rays: TracedRays, state: StopState,
     keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     tell(rays, state, part, first + wp.tid(), 0.0)
@@ -63,7 +63,7 @@ def speak(
 
 @wp.kernel
 def speak_wrongly(
-    first: int, part: int, sweep: int, law: SensorParameters, rays: TracedRays, state: StopState,
+    first: int, part: int, sweep: int, law: SensorLaw32, rays: TracedRays, state: StopState,
     keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     tell(rays, state, part, first + wp.tid(), 0.5)
@@ -71,7 +71,7 @@ def speak_wrongly(
 
 @wp.kernel
 def stop_as_ever(
-    first: int, part: int, sweep: int, law: SensorParameters, rays: TracedRays, state: StopState,
+    first: int, part: int, sweep: int, law: SensorLaw32, rays: TracedRays, state: StopState,
     keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     """Beams cross one cell: those with a reading stop there, the others pass."""

@@ -33,7 +33,7 @@ class Maps:
 
 @wp.func
 def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
-    """Chance that a beam stops in a cell once it gets there, and distance and spread in metres if it does.
+    """Chance that a beam stops in a cell once it gets there, and distance and its variance, metres, if it does.
 
     Args:
         maps: some maps.
@@ -46,7 +46,7 @@ def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3
         state = maps.surface[row, column]
         met = meet(state, ray_from(line.start_m, line.direction))
         chance = wp.float64(state[0]) * wp.float64(met.chance)
-        return wp.vec3d(chance, wp.float64(met.distance_m), wp.sqrt(wp.float64(met.variance)))
+        return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
     chance = wp.float64(maps.stop[row, column])
     if chance == wp.float64(0.0):
         return wp.vec3d(chance, chance, chance)

@@ -27,10 +27,9 @@ from bayesmap.kernels.cell_draws import (
     log_reflectivity_prior,
     log_surface_prior,
 )
-from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, gate_at, meet, ray_from
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.stop_law import Law, law_of
+from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.stops import LEAST, StopState, TracedRays, hit_law
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
@@ -92,7 +91,7 @@ def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.
 
 @wp.func
 def log_stops(
-    law: Law,
+    law: SensorLaw32,
     beta: wp.float32,
     rays: TracedRays,
     endpoints: EndpointCells,
@@ -138,7 +137,7 @@ def log_cell_prior(prior: CellPrior, cell: Cell) -> wp.float64:
 def update_endpoint_cells(
     first: int,
     sweep: int,
-    sensor: SensorParameters,
+    law: SensorLaw32,
     prior: CellPrior,
     rays: TracedRays,
     endpoints: EndpointCells,
@@ -161,7 +160,6 @@ def update_endpoint_cells(
     beam_0 = chain * state.n_beams
     listed = lists[chain]
     one = wp.float32(1.0)
-    law = law_of(sensor)
     key = sweep_key(keys[chain], sweep, 1)
     at = wp.uint64(c) * PER_CELL
     cell = state.cells[here]

@@ -13,12 +13,17 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import meet, ray_from
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.predict import compiled
 from bayesmap.kernels.scan_likelihood import Cells, Frame, put_cells
-from bayesmap.kernels.stop_law import Law, fading, law_of, no_stop_law, scale_at, stop_law
+from bayesmap.kernels.sensor_law import (
+    SensorLaw32,
+    no_stop_density,
+    object_decay,
+    sensor_law,
+    stop_density,
+    variance_at,
+)
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 
@@ -49,7 +54,7 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 
 @wp.func
 def reading_log_density(
-    law: Law,
+    law: SensorLaw32,
     frame: Frame,
     cells: Cells,
     draw: int,
@@ -78,10 +83,10 @@ def reading_log_density(
     gap_x = wp.where(next_x < HUGE, wp.abs(ONE / ux), HUGE)
     gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
     ray = ray_from(wp.vec2(x, y), wp.vec2(ux, uy))
-    faded = fading(law, z)
+    decay = object_decay(law, z)
     past = law.max_m
     if wp.isfinite(z):
-        past = wp.min(past, z + PAST_SCALES * scale_at(law, z, ZERO) + PAST_CELLS * resolution)
+        past = wp.min(past, z + PAST_SCALES * wp.sqrt(variance_at(law, z, ZERO)) + PAST_CELLS * resolution)
     past = past / resolution
     entered = wp.min(next_x, next_y)
     total = ZERO
@@ -102,7 +107,7 @@ def reading_log_density(
             else:
                 chance = cells.stop[draw, cell]
             if chance > ZERO:
-                total += survive * chance * stop_law(law, z, faded, distance, variance)
+                total += survive * chance * stop_density(law, z, decay, distance, variance)
                 survive = survive * (ONE - chance)
         entered = left
         if next_x < next_y:
@@ -115,13 +120,13 @@ def reading_log_density(
             entered = HUGE
         if (cx >= frame.nx and step_x > 0) or (cy >= frame.ny and step_y > 0):
             entered = HUGE
-    return wp.log(wp.max(total + survive * no_stop_law(law, z, faded), wp.float32(1.0e-30)))
+    return wp.log(wp.max(total + survive * no_stop_density(law, z, decay), wp.float32(1.0e-30)))
 
 
 @wp.kernel
 def scan_log_likelihoods(
     first: int,
-    s: SensorParameters,
+    law: SensorLaw32,
     frame: Frame,
     cells: Cells,
     draws: int,
@@ -135,7 +140,6 @@ def scan_log_likelihoods(
     t = first + wp.tid()
     p = t / draws
     d = t - p * draws
-    law = law_of(s)
     x = wp.float32(poses[p, 0] - frame.origin_x)
     y = wp.float32(poses[p, 1] - frame.origin_y)
     total = wp.float64(0.0)
@@ -214,7 +218,7 @@ def scan_log_likelihood(
     which = np.zeros(count, np.int32) if scan is None else np.asarray(scan, np.int32)
     readings = np.ascontiguousarray(np.atleast_2d(ranges_m), dtype=np.float64)
     inputs = [
-        compiled(sensor, limits),
+        sensor_law(sensor, limits, device, SensorLaw32),
         packed.frame,
         packed.cells,
         draws,

@@ -20,11 +20,20 @@ from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_stop import Maps, StopStates, put_maps, stop_in
-from bayesmap.kernels.likelihood import SensorParameters, sensor_parameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.rays import Lines, line_of, put_rays
-from bayesmap.kernels.reading_law import additive_log_density, clipped, cumulative, mixture_density, short_density
+from bayesmap.kernels.sensor_law import (
+    MIXTURE,
+    NOISE,
+    SensorLaw64,
+    cumulative,
+    object_decay,
+    sensor_law,
+    stop_density,
+    stop_log_density,
+)
 from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.tabulated import tabulated
 
 wp.set_module_options({"enable_backward": False})
 
@@ -43,10 +52,32 @@ def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
     return wp.vec2d(sums[0], sums[1] + wp.exp(value - sums[0]))
 
 
+@wp.func
+def no_sum(law: SensorLaw64) -> wp.vec2d:
+    """A running sum of nothing: of densities for a mixture, whose floor keeps them from underflowing, else of logs."""
+    return wp.vec2d(wp.where(law.kind == MIXTURE, wp.float64(0.0), wp.float64(-1.0e300)), wp.float64(0.0))
+
+
+@wp.func
+def add_stop(
+    law: SensorLaw64, sums: wp.vec2d, weight: wp.float64, z: wp.float64, decay: wp.float64, stop: wp.vec3d
+) -> wp.vec2d:
+    """The sum with a stop's share of the density: its weight times p(reading | stop)."""
+    if law.kind == MIXTURE:
+        return wp.vec2d(sums[0], sums[1] + weight * stop_density(law, z, decay, stop[1], stop[2]))
+    return add_log(sums, wp.log(weight) + stop_log_density(law, z, decay, stop[1], stop[2]))
+
+
+@wp.func
+def weight_of_nothing(law: SensorLaw64) -> wp.float64:
+    """A beam less likely than this to get so far is at its end."""
+    return wp.where(law.kind == MIXTURE, GONE_ROBUST, GONE)
+
+
 @wp.kernel
 def add_forecasts(
     first: int,
-    s: SensorParameters,
+    law: SensorLaw64,
     lines: Lines,
     offsets: wp.array(dtype=wp.int32),
     cells: wp.array(dtype=wp.int32),
@@ -70,9 +101,11 @@ def add_forecasts(
     line = line_of(lines, b)
     nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
     sums = wp.vec2d(most[b], total[b])
-    at = clipped(s, z)
-    gone = wp.where(s.robust != 0, GONE_ROBUST, GONE)
-    short = short_density(s, z)
+    at = z
+    if wp.isinf(z):
+        at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
+    gone = weight_of_nothing(law)
+    decay = object_decay(law, z)
     for d in range(draws):
         survive = wp.float64(1.0)
         for i in range(offsets[b + 1] - offsets[b] + 1):
@@ -84,15 +117,12 @@ def add_forecasts(
                 weight = survive * stop[0]
                 survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
-                if s.robust != 0:
-                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, short, stop[1], stop[2]))
-                else:
-                    sums = add_log(sums, wp.log(weight) + additive_log_density(s, z, stop[1], stop[2]))
+                sums = add_stop(law, sums, weight, z, decay, stop)
                 if with_cumulative != 0:
-                    below[b] = below[b] + weight * cumulative(s, at, stop[1], stop[2])
-                    if s.robust != 0:
-                        below_max[b] = below_max[b] + weight * cumulative(s, s.max_m, stop[1], stop[2])
-                        below_min[b] = below_min[b] + weight * cumulative(s, s.min_m, stop[1], stop[2])
+                    below[b] = below[b] + weight * cumulative(law, at, stop[1], stop[2])
+                    if law.kind != NOISE:
+                        below_max[b] = below_max[b] + weight * cumulative(law, law.max_m, stop[1], stop[2])
+                        below_min[b] = below_min[b] + weight * cumulative(law, law.min_m, stop[1], stop[2])
                 if survive < gone:
                     break
     most[b] = sums[0]
@@ -116,19 +146,25 @@ class Forecast:
     p_too_close: Floats
 
 
-def compiled(sensor: SensorModel, limits: RangeLimits) -> Any:
-    """The sensor's numbers as kernels take them.
+def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
+    """The sensor's law for kernels that ask how likely readings are to fall below a range.
 
     Raises:
-        BadInput: a model of the user's own, which kernels do not know.
+        BadInput: a model of the user's own whose probabilities do not add up to one.
     """
-    parameters = sensor.kernel_parameters()
-    if parameters is None:
+    law = sensor_law(sensor, limits, device)
+    if sensor.kernel_parameters() is None and not tabulated(sensor, limits).has_cumulative:
         raise BadInput(
-            f"score: {type(sensor).__name__} has no compiled form, so only its log score can be had (Run.log_score); "
-            "calibration works with Gaussian, StudentT and BeamMixture"
+            f"score: the densities of {type(sensor).__name__} do not integrate to one, so only its log score can be "
+            "had (Run.log_score); mend log_likelihood(), or add cumulative()"
         )
-    return sensor_parameters(parameters, limits)
+    return law
+
+
+def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
+    """Whether no return and too close are outcomes of their own; else they stand for the limits."""
+    parameters = sensor.kernel_parameters()
+    return tabulated(sensor, limits).typed if parameters is None else parameters.robust
 
 
 def _sums(
@@ -141,8 +177,9 @@ def _sums(
 ) -> tuple[Floats, list[Floats]]:
     """Log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
-    s, beams = compiled(sensor, rays.limits), rays.n_beams
-    most: Any = wp.full(beams, 0.0 if s.robust else -1.0e300, dtype=wp.float64, device=device)
+    law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
+    beams = rays.n_beams
+    most: Any = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
     total = wp.zeros(beams, dtype=wp.float64, device=device)
     cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
     fixed = [*put_rays(rays, device), devices.to_device(rays.columns, wp.int32, device)]
@@ -150,7 +187,7 @@ def _sums(
     draws = 0
     for batch in batches:
         draws += len(batch)
-        inputs = [s, *fixed, put_maps(batch, hit_depth, device), len(batch), ranges, int(with_cumulative)]
+        inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), ranges, int(with_cumulative)]
         launch(add_forecasts, beams, [*inputs, most, total, *cumulatives], device)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
@@ -183,13 +220,13 @@ def forecast(
         device: where to compute.
 
     Raises:
-        BadInput: a sensor model without compiled form, or no draws.
+        BadInput: no draws, or a sensor of the user's own whose probabilities do not add up to one.
     """
     log_density, (at, at_max, at_min) = _sums(rays, batches, sensor, hit_depth, device, True)
     z = rays.range_m
-    robust = bool(compiled(sensor, rays.limits).robust)
+    typed = are_typed(sensor, rays.limits)
     nan = np.where(np.isnan(z), np.nan, 0.0)
-    none, close = (1.0 - at_max, at_min) if robust else (np.zeros_like(at), np.zeros_like(at))
-    low = np.where(np.isneginf(z) & robust, 0.0, np.where(np.isposinf(z) & robust, at_max, at))
-    high = np.where(np.isposinf(z) & robust, 1.0, at)
+    none, close = (1.0 - at_max, at_min) if typed else (np.zeros_like(at), np.zeros_like(at))
+    low = np.where(np.isneginf(z) & typed, 0.0, np.where(np.isposinf(z) & typed, at_max, at))
+    high = np.where(np.isposinf(z) & typed, 1.0, at)
     return Forecast(log_density, *(np.clip(a, 0.0, 1.0) + nan for a in (low, high, none, close)))

@@ -170,14 +170,15 @@ def fill_cells(
     k = offsets[b]
     begins = near_m[b] / lines.edge_m
     w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, reach_m[b] / lines.edge_m)
-    near[b] = k
+    entered = int(k)
     while w.distance <= w.end:
         if is_inside(w, lines.nx, lines.ny):
             cells[k] = w.cell_x * lines.ny + w.cell_y
             k += 1
             if w.distance < begins:
-                near[b] = k
+                entered = k
         w = walk_next(w)
+    near[b] = entered
 
 
 @wp.kernel

@@ -15,11 +15,10 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import Cell, meet, ray_from
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.predict import GONE, GONE_ROBUST, add_log, compiled
-from bayesmap.kernels.reading_law import additive_log_density, mixture_density, short_density
+from bayesmap.kernels.predict import add_stop, no_sum, weight_of_nothing
+from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -68,7 +67,7 @@ def stop_in(cells: Cells, chain: int, cell: int, start: wp.vec2, direction: wp.v
 @wp.kernel
 def beam_log_likelihoods(
     first: int,
-    s: SensorParameters,
+    law: SensorLaw64,
     frame: Frame,
     cells: Cells,
     poses: wp.array2d(dtype=wp.float64),
@@ -102,11 +101,11 @@ def beam_log_likelihoods(
     uy = wp.sin(angle)
     start = wp.vec2(wp.float32(x), wp.float32(y))
     direction = wp.vec2(wp.float32(ux), wp.float32(uy))
-    gone = wp.where(s.robust != 0, GONE_ROBUST, GONE)
-    short = short_density(s, z)
-    sums = wp.vec2d(wp.where(s.robust != 0, wp.float64(0.0), wp.float64(-1.0e300)), wp.float64(0.0))
+    gone = weight_of_nothing(law)
+    decay = object_decay(law, z)
+    sums = no_sum(law)
     survive = wp.float64(1.0)
-    w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, s.max_m / frame.resolution)
+    w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, law.max_m / frame.resolution)
     while w.distance <= w.end and survive >= gone:
         if is_inside(w, frame.nx, frame.ny):
             chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
@@ -117,17 +116,11 @@ def beam_log_likelihoods(
             weight = survive * stop[0]
             survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
-                if s.robust != 0:
-                    sums = wp.vec2d(sums[0], sums[1] + weight * mixture_density(s, z, short, stop[1], stop[2]))
-                else:
-                    sums = add_log(sums, wp.log(weight) + additive_log_density(s, z, stop[1], stop[2]))
+                known = wp.vec3d(weight, stop[1], stop[2] * stop[2])
+                sums = add_stop(law, sums, weight, z, decay, known)
         w = walk_next(w)
     if survive > wp.float64(0.0):
-        far = wp.float64(wp.inf)
-        if s.robust != 0:
-            sums = wp.vec2d(sums[0], sums[1] + survive * mixture_density(s, z, short, far, wp.float64(0.0)))
-        else:
-            sums = add_log(sums, wp.log(survive) + additive_log_density(s, z, far, wp.float64(0.0)))
+        sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
     out[b] = sums[0] + wp.log(sums[1])
 
 
@@ -156,20 +149,17 @@ class ScanLikelihood:
 
         Args:
             cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
-                as `bayesmap.kernels.places` has them; N cells of the whole grid.
+                as `bayesmap.kernels.cell_stop` has them; N cells of the whole grid.
             poses: P poses in the world frame, (P, 3).
             scan: which scan is weighed there, (P,).
             chain: under which chain's cells, (P,).
-
-        Raises:
-            BadInput: a sensor model of the user's own, which kernels do not know.
         """
         device, beams = devices.resolve(self.device), len(self.scans.angles_rad)
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         out = wp.zeros(len(poses) * beams, dtype=wp.float64, device=device)
         mounts, readings = self._on_device
         inputs = [
-            compiled(self.sensor, limits),
+            sensor_law(self.sensor, limits, device),
             grid_frame(self.grid, self.hit_depth),
             put_cells(cells, device),
             devices.to_device(poses, wp.float64, device),

@@ -1,6 +1,5 @@
-"""Scoring beams under many maps: where does each beam first hit in every draw?"""
+"""The log-likelihood of many packed maps of walls: where does each beam first hit in every draw?"""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,8 +11,6 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
-
-DRAWS_AT_ONCE = 32
 
 
 @wp.func
@@ -38,50 +35,6 @@ def _on_device(table: BeamTable, device: str) -> list[Any]:
     """The table's arrays, as both kernels take them."""
     indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
     return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
-
-
-@wp.kernel
-def add_densities(
-    first: int,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    loglik: wp.array(dtype=wp.float32),
-    no_hit: wp.array(dtype=wp.float32),
-    packed: wp.array2d(dtype=wp.uint8),
-    most: wp.array(dtype=wp.float64),
-    total: wp.array(dtype=wp.float64),
-):
-    """One thread a beam: add exp(log-likelihood) under each packed map to a running log-sum-exp."""
-    b = first + wp.tid()
-    for d in range(packed.shape[0]):
-        value = wp.float64(beam_term(offsets, cells, loglik, no_hit, packed, d, b))
-        if value > most[b]:
-            total[b] = total[b] * wp.exp(most[b] - value) + wp.float64(1.0)
-            most[b] = value
-        else:
-            total[b] = total[b] + wp.exp(value - most[b])
-
-
-def log_mean_density(
-    table: BeamTable,
-    packed: NDArray[np.uint8],
-    device: str = "cpu",
-    on_progress: Callable[[int, int], None] = lambda done, total: None,
-) -> NDArray[np.float64]:
-    """Log of each beam's likelihood averaged over packed maps (draws, bytes): the log predictive density, (B,).
-
-    ``on_progress`` is told how many of how many draws have been looked at.
-    """
-    device = devices.resolve(device)
-    beams = table.n_beams
-    most: Any = wp.full(beams, -1.0e300, dtype=wp.float64, device=device)
-    total = wp.zeros(beams, dtype=wp.float64, device=device)
-    inputs = _on_device(table, device)
-    for i in range(0, len(packed), DRAWS_AT_ONCE):
-        some = packed[i : i + DRAWS_AT_ONCE]
-        launch(add_densities, beams, [*inputs, devices.to_device(some, wp.uint8, device), most, total], device)
-        on_progress(i + len(some), len(packed))
-    return np.asarray(most.numpy() + np.log(total.numpy() / len(packed)))
 
 
 @wp.kernel

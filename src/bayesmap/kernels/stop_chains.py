@@ -20,12 +20,12 @@ from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import ActiveCells, CellPrior, begin_sweep, count_informed, update_free_cells
 from bayesmap.kernels.endpoint_cells import endpoint_cells, update_endpoint_cells
-from bayesmap.kernels.likelihood import sensor_parameters
 from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.parallel import available_cores, thread_pool
+from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.stops import IN_A_ROW, LEARNS, StopState, TracedRays, decay_of_readings, draw_stops
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
-from bayesmap.sensors.model import KernelParameters
+from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
 KERNELS = (begin_sweep, draw_stops, update_free_cells, update_endpoint_cells)
@@ -158,7 +158,7 @@ class StopChains:
         self,
         first: int,
         count: int,
-        sensor: KernelParameters,
+        sensor: SensorModel,
         prior: tuple[float, float, float, float, float, float],
         beta: float = 1.0,
         *,
@@ -183,7 +183,7 @@ class StopChains:
         """
         packed = CellPrior()
         packed.a, packed.b, packed.tau_m, packed.psi_m2, packed.nu, packed.kappa_m = prior
-        law = sensor_parameters(sensor, self.plan.rays.limits)
+        law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         moved = self._law != (sensor, prior, beta)
         self._law, self._state.beta = (sensor, prior, beta), beta
         if moved:

@@ -17,11 +17,10 @@ from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_stop import Maps, StopStates, put_maps, stop_in
-from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.predict import compiled
+from bayesmap.kernels.predict import are_typed, law_with_cumulative
 from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
-from bayesmap.kernels.reading_law import cumulative
+from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
 from bayesmap.sensors.model import SensorModel
 
 wp.set_module_options({"enable_backward": False})
@@ -63,7 +62,7 @@ def add_stops(
                 if maps.surfaces != 0:
                     away = stop[1] - distance_at(line, cells[k], maps.depth)
                     shift[k] = shift[k] + wp.float32(w * away)
-                    square[k] = square[k] + wp.float32(w * (away * away + stop[2] * stop[2]))
+                    square[k] = square[k] + wp.float32(w * (away * away + stop[2]))
                 if survive < LEAST_CHANCE:
                     break
         no_stop[b] = no_stop[b] + survive
@@ -119,25 +118,25 @@ class Stops:
     offsets: wp.array(dtype=wp.int32)
     weight: wp.array(dtype=wp.float32)
     distance_m: wp.array(dtype=wp.float32)
-    spread_m: wp.array(dtype=wp.float32)
+    variance: wp.array(dtype=wp.float32)
     no_stop: wp.array(dtype=wp.float64)
 
 
 @wp.func
-def mixture_below(s: SensorParameters, stops: Stops, b: int, range_m: wp.float64) -> wp.float64:
+def mixture_below(law: SensorLaw64, stops: Stops, b: int, range_m: wp.float64) -> wp.float64:
     """P(reading <= range) of a beam."""
-    p = stops.no_stop[b] * cumulative(s, range_m, wp.float64(wp.inf), wp.float64(0.0))
+    p = stops.no_stop[b] * cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for k in range(stops.offsets[b], stops.offsets[b + 1]):
         weight = wp.float64(stops.weight[k])
         if weight > LEAST_WEIGHT:
-            p += weight * cumulative(s, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.spread_m[k]))
+            p += weight * cumulative(law, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
     return p
 
 
 @wp.kernel
 def find_quantiles(
     first: int,
-    s: SensorParameters,
+    law: SensorLaw64,
     stops: Stops,
     levels: wp.array(dtype=wp.float64),
     low_m: wp.float64,
@@ -146,8 +145,8 @@ def find_quantiles(
 ):
     """One thread a beam: halve the span of ranges until each quantile is found; levels rise."""
     b = first + wp.tid()
-    at_low = mixture_below(s, stops, b, low_m)
-    at_high = mixture_below(s, stops, b, high_m)
+    at_low = mixture_below(law, stops, b, low_m)
+    at_high = mixture_below(law, stops, b, high_m)
     start = low_m
     for i in range(levels.shape[0]):
         level = levels[i]
@@ -160,7 +159,7 @@ def find_quantiles(
             high = high_m
             for _j in range(HALVINGS):
                 middle = wp.float64(0.5) * (low + high)
-                if mixture_below(s, stops, b, middle) < level:
+                if mixture_below(law, stops, b, middle) < level:
                     low = middle
                 else:
                     high = middle
@@ -171,7 +170,7 @@ def find_quantiles(
 @wp.kernel
 def find_events(
     first: int,
-    s: SensorParameters,
+    law: SensorLaw64,
     stops: Stops,
     lines: Lines,
     offsets: wp.array(dtype=wp.int32),
@@ -197,13 +196,13 @@ def find_events(
         leave = own[1]
         if k + 1 < offsets[b + 1]:
             leave = stretch(line, cells[k + 1])[0]
-        leave = wp.min(leave, s.max_m)
+        leave = wp.min(leave, law.max_m)
         if enter > z:
             break
         if leave > enter:
             if before < wp.float64(0.0):
-                before = mixture_below(s, stops, b, enter)
-            after = mixture_below(s, stops, b, leave)
+                before = mixture_below(law, stops, b, enter)
+            after = mixture_below(law, stops, b, leave)
             p = (after - before) / wp.max(one - before, LEAST_CHANCE)
             chance[k] = wp.float32(wp.clamp(p, LEAST_CHANCE, MOST_CHANCE))
             stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
@@ -215,7 +214,7 @@ def _put(stops: StopMixture, device: str) -> Any:
     packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
     packed.weight = devices.to_device(stops.weight, wp.float32, device)
     packed.distance_m = devices.to_device(stops.distance_m, wp.float32, device)
-    packed.spread_m = devices.to_device(stops.spread_m, wp.float32, device)
+    packed.variance = devices.to_device(stops.spread_m**2, wp.float32, device)
     packed.no_stop = devices.to_device(stops.no_stop, wp.float64, device)
     return packed
 
@@ -234,11 +233,11 @@ def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, dev
     """
     device = devices.resolve(device)
     limits = stops.rays.limits
-    s = compiled(sensor, limits)
-    low, high = (limits.min_m, limits.max_m) if s.robust else (-limits.max_m, 2.0 * limits.max_m)
+    law = law_with_cumulative(sensor, limits, device)
+    low, high = (limits.min_m, limits.max_m) if are_typed(sensor, limits) else (-limits.max_m, 2.0 * limits.max_m)
     beams = stops.rays.n_beams
     out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
-    inputs = [s, _put(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
+    inputs = [law, _put(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
     launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
     return np.asarray(out.numpy())
 
@@ -263,7 +262,7 @@ def first_hit_events(
     rays, size = stops.rays, len(stops.weight)
     chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
-    inputs = [compiled(sensor, rays.limits), _put(stops, device), *put_rays(rays, device)]
+    inputs = [law_with_cumulative(sensor, rays.limits, device), _put(stops, device), *put_rays(rays, device)]
     inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
     launch(find_events, rays.n_beams, inputs, device)
     return chance.numpy(), stopped.numpy()

@@ -19,10 +19,9 @@ tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
 
 import warp as wp
 
-from bayesmap.kernels.likelihood import SensorParameters
 from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet, ray_from
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.stop_law import Law, fading, law_of, no_stop_law, stop_law
+from bayesmap.kernels.sensor_law import SensorLaw32, no_stop_density, object_decay, stop_density
 
 wp.set_module_options({"enable_backward": False})
 
@@ -150,10 +149,10 @@ def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
 
 
 @wp.kernel
-def decay_of_readings(first: int, sensor: SensorParameters, rays: TracedRays):
-    """One thread a beam: `fading` of its reading, the same for all chains and sweeps."""
+def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
+    """One thread a beam: `object_decay` of its reading, the same for all chains and sweeps."""
     b = first + wp.tid()
-    rays.decay[b] = fading(law_of(sensor), rays.range_m[b])
+    rays.decay[b] = object_decay(law, rays.range_m[b])
 
 
 @wp.kernel
@@ -161,7 +160,7 @@ def draw_stops(
     first: int,
     part: int,
     sweep: int,
-    sensor: SensorParameters,
+    law: SensorLaw32,
     rays: TracedRays,
     state: StopState,
     keys: wp.array(dtype=wp.uint64),
@@ -171,7 +170,6 @@ def draw_stops(
     chain = i // state.n_beams
     b = i - chain * state.n_beams
     cell_0 = chain * state.n_cells
-    law = law_of(sensor)
     key = sweep_key(keys[chain], sweep, 0)
     one = wp.float32(1.0)
     reading = rays.range_m[b]
@@ -183,7 +181,7 @@ def draw_stops(
         state.stop[i] = end
         state.log_likelihood[i] = wp.float32(0.0)
         if not wp.isnan(reading):
-            state.log_likelihood[i] = wp.log(tempered(no_stop_law(law, reading, decay), state.beta))
+            state.log_likelihood[i] = wp.log(tempered(no_stop_density(law, reading, decay), state.beta))
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
 
@@ -198,7 +196,7 @@ def draw_stops(
             if m_fixed < wp.float32(0.0):
                 pass_by(state, chain, part, c, cell, g, ray, key, k, 1)
     stopped_far = one - free
-    total = wp.float64(tempered(law.floor, state.beta)) * wp.float64(stopped_far)
+    total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
     for k in range(near, end):
@@ -208,14 +206,14 @@ def draw_stops(
             cell = state.cells[cell_0 + c]
             m = plain_or_meet(rays, k, cell, ray)
             a = cell[0] * m.chance
-            p = tempered(stop_law(law, reading, decay, m.distance_m, m.variance), state.beta)
+            p = tempered(stop_density(law, reading, decay, m.distance_m, m.variance), state.beta)
             weight = wp.float64(free * a * p)
             total += weight
             u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
             if u * total < weight:
                 choice = k
             free = free * (one - a)
-    weight = wp.float64(free * tempered(no_stop_law(law, reading, decay), state.beta))
+    weight = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
     total += weight
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:
         choice = end
@@ -258,9 +256,9 @@ def draw_stops(
 
 @wp.func
 def hit_law(
-    law: Law, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, m: Meeting
+    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, m: Meeting
 ) -> wp.float32:
     """p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
     if k < near:
-        return tempered(law.floor, beta)
-    return tempered(stop_law(law, reading, decay, m.distance_m, m.variance), beta)
+        return tempered(law.uniform, beta)
+    return tempered(stop_density(law, reading, decay, m.distance_m, m.variance), beta)

@@ -1,7 +1,5 @@
 """Building the beam table: rays, and the likelihood of every entry."""
 
-from typing import Any
-
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
@@ -9,9 +7,10 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.likelihood import fill_likelihood, sensor_parameters
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.rays import put_rays, stop_distances, trace_rays
+from bayesmap.kernels.sensor_law import sensor_law
+from bayesmap.kernels.table_likelihood import fill_likelihood
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -40,44 +39,25 @@ def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0
 def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
     """The beam table of some rays, which reach as far as their readings depend on; arguments as of `trace`."""
     device = devices.resolve(device)
-    ranges, limits = rays.range_m, rays.limits
-    compiled = sensor.kernel_parameters()
-    by_numpy = ~np.isnan(ranges) if compiled is None else np.isinf(ranges)
-    if by_numpy.any():
-        loglik = stop_distances(rays, hit_depth, device)
+    if sensor.kernel_parameters() is None:
+        loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
     else:
-        loglik = np.empty(rays.n_incidences, dtype=np.float32)
-    no_hit = np.zeros(rays.n_beams, dtype=np.float32)
-    _fill_by_model(sensor, limits, ranges, np.nonzero(by_numpy)[0], rays.offsets, loglik, no_hit)
-    if compiled is not None:
-        inputs: list[Any] = [sensor_parameters(compiled, limits), *put_rays(rays, device), wp.float64(hit_depth)]
-        filled = [devices.to_device(a, wp.float32, device) for a in (loglik, no_hit)]
-        inputs += [devices.to_device(ranges, wp.float64, device), *filled]
+        filled = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
+        inputs = [sensor_law(sensor, rays.limits, device), *put_rays(rays, device), wp.float64(hit_depth)]
+        inputs += [devices.to_device(rays.range_m, wp.float64, device), *filled]
         launch(fill_likelihood, rays.n_beams, inputs, device)
         loglik, no_hit = (a.numpy() for a in filled)
     return BeamTable(grid=rays.grid, offsets=rays.offsets, cells=rays.cells, loglik=loglik, no_hit=no_hit)
 
 
-def _fill_by_model(
-    sensor: SensorModel,
-    limits: RangeLimits,
-    ranges: NDArray[np.float64],
-    beams: NDArray[np.intp],
-    offsets: NDArray[np.int32],
-    loglik: NDArray[np.float32],
-    no_hit: NDArray[np.float32],
-) -> None:
-    """The same by the model's own NumPy formula: typed readings, and models without compiled parameters."""
-    no_hit[beams] = sensor.log_likelihood(ranges[beams], np.full(len(beams), np.inf), limits)
-    lengths = np.diff(offsets)[beams].astype(np.int64)
-    ends = np.cumsum(lengths)
-    start = 0
-    while start < len(beams):
-        done = ends[start - 1] if start else 0
-        stop = max(start + 1, int(np.searchsorted(ends, done + SLICE, side="right")))
-        some = beams[start:stop]
-        beam = np.repeat(some, lengths[start:stop])
-        within = np.arange(len(beam)) - np.repeat(ends[start:stop] - lengths[start:stop] - done, lengths[start:stop])
-        entries = offsets[beam] + within
-        loglik[entries] = sensor.log_likelihood(ranges[beam], loglik[entries].astype(np.float64), limits)
-        start = stop
+def _by_model(
+    sensor: SensorModel, rays: Rays, loglik: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """The same by the model's own NumPy formula; ``loglik`` holds distances, and is overwritten."""
+    no_hit = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits).astype(np.float32)
+    beam = rays.beam_of_entry()
+    for i in range(0, rays.n_incidences, SLICE):
+        some = slice(i, i + SLICE)
+        distance_m = loglik[some].astype(np.float64)
+        loglik[some] = sensor.log_likelihood(rays.range_m[beam[some]], distance_m, rays.limits)
+    return loglik, no_hit

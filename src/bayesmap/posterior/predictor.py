@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 
@@ -24,7 +23,7 @@ class Batches(Protocol):
     def __call__(self, cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
         """The states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
 
-        Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.places`.
+        Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.cell_stop`.
         """
 
 
@@ -70,8 +69,6 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
         )
     if posterior.draws.size == 0:
         raise BadInput("score: the run has no draws yet; let it finish its warm-up")
-    if posterior.prior.sensor_is_fitted and not isinstance(sensor, BeamMixture):
-        raise BadInput(f"score: this run's map is scored by a BeamMixture, not by a {type(sensor).__name__}")
 
     def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
         return posterior.prior.predictive_stops(posterior.draws, cells)

@@ -25,7 +25,7 @@ from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
 from bayesmap.sensors.mixture import BeamMixture
-from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -63,7 +63,7 @@ class StopProblem:
 
     rays: Rays
     prior: Reflective
-    sensor: BeamMixture
+    sensor: SensorModel
     hit_depth: float = 0.5
     device: str = "cpu"
     threads: int | None = None
@@ -107,7 +107,7 @@ class StopProblem:
 
         return stop_distances(self.rays, self.hit_depth, self.device)
 
-    def under(self, sensor: BeamMixture, prior: Reflective) -> StopProblem:
+    def under(self, sensor: SensorModel, prior: Reflective) -> StopProblem:
         """The same rays under another sensor and another prior."""
         other = replace(self, sensor=sensor, prior=prior)
         shared: dict[str, Any] = {
@@ -131,22 +131,33 @@ def trace_stops(
     """Trace the scans' rays, as far as their readings can be explained.
 
     Raises:
-        BadInput: a sensor that is not a `BeamMixture` of Gaussian noise, or too many incidences.
+        BadInput: a sensor that is noise alone, or too many incidences.
     """
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.rays import trace_rays
 
     device = resolve(device)
-    if not (isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian)):
+    parameters = sensor.kernel_parameters()
+    if parameters is not None and not parameters.robust:
         raise BadInput(
-            "infer: reflectivity and surface maps need a BeamMixture sensor with Gaussian noise (on the command line "
-            f"mixture:0.02), got {type(sensor).__name__}; the spread of a surface stands for heavier tails"
+            "infer: reflectivity and surface maps need a sensor under which no reading is impossible, a BeamMixture "
+            f"(on the command line mixture:0.02), got {type(sensor).__name__}"
         )
-    ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
-    margin_m = CELLS_AROUND * grid.resolution + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
-    reach_m, near_m = around_readings(scans, margin_m, grid.resolution)
+    reach_m, near_m = _spans(scans, sensor, grid.resolution)
     rays = trace_rays(scans, grid, reach_m=reach_m, near_m=near_m, device=device, on_progress=watch.of("trace"))
     return StopProblem(rays, prior, sensor, hit_depth, device, threads)
+
+
+def _spans(
+    scans: Scans, sensor: SensorModel, resolution_m: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """How far beams are followed, and from where on a stop can explain their readings (from the start if None)."""
+    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian):
+        ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
+        margin_m = CELLS_AROUND * resolution_m + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
+        return around_readings(scans, margin_m, resolution_m)
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    return sensor.reach_m(scans.ranges_m.ravel(), limits) + CELLS_AROUND * resolution_m, None
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,12 +260,10 @@ class StopGibbs:
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
         problem, chains = state.problem, state.chains
-        parameters = problem.sensor.kernel_parameters()
-        assert parameters is not None
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
         draws = _Draws(problem, chains, keep, kept)
         log_likelihood, log_prior = chains.sweeps(
-            state.sweep, sweeps, parameters, problem.prior.kernel_numbers(problem.grid.resolution), beta,
+            state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
             informing_after=keep.after if keep.every else None, before=draws.begin, after=draws.end,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)

@@ -78,7 +78,7 @@ class SensorModel(ABC):
         return None
 
 
-STANDARD = np.linspace(-6.0, 6.0, 241)
+STANDARD = np.linspace(-6.0, 6.0, 97)
 """Where a stop may lie, in standard deviations."""
 
 
@@ -88,7 +88,7 @@ def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits
     A sensor may be far sharper than the spread. So the nodes are those of the normal distribution, and as many that
     crowd about the reading.
     """
-    crowded = np.sinh(np.linspace(-9.0, 9.0, 242)) / math.sinh(9.0)
+    crowded = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
     near = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
     t = np.concatenate([d + s * STANDARD[:, None], near + 12.0 * s * crowded[:, None]])
     t = np.sort(np.clip(t, np.maximum(d - 6.0 * s, 0.0), d + 6.0 * s), axis=0)

@@ -1,0 +1,134 @@
+"""Reading a tabulated sensor law (`bayesmap.sensors.tabulated`) by interpolation."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+
+from bayesmap.kernels import device as devices
+from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
+
+wp.set_module_options({"enable_backward": False})
+
+WIDEST_SPREAD = wp.constant(wp.float32(WIDEST))
+
+
+@wp.struct
+class LawTable:
+    """A `TabulatedLaw` on a device."""
+
+    typed: int
+    most: wp.float32
+    low_m: wp.float32  # of the nodes of the range where the beam stops nowhere
+    high_m: wp.float32
+    min_m: wp.float32
+    scale_m: wp.array(dtype=wp.float32)
+    log_density: wp.array3d(dtype=wp.float32)
+    below: wp.array3d(dtype=wp.float32)
+    log_typed: wp.array3d(dtype=wp.float32)
+    log_nowhere: wp.array(dtype=wp.float32)
+    below_nowhere: wp.array(dtype=wp.float32)
+    log_typed_nowhere: wp.vec2
+
+
+def put_table(law: TabulatedLaw, device: str) -> Any:
+    """A table on a device."""
+    table = LawTable()
+    table.typed, table.most, table.min_m = int(law.typed), law.most, law.limits.min_m
+    low, high = (law.limits.min_m, law.limits.max_m) if law.typed else (-law.limits.max_m, 2.0 * law.limits.max_m)
+    table.low_m, table.high_m = low, high
+    for name in ("scale_m", "log_nowhere", "below_nowhere"):
+        setattr(table, name, devices.to_device(getattr(law, name), wp.float32, device))
+    for name in ("log_density", "below", "log_typed"):
+        setattr(table, name, wp.array(np.ascontiguousarray(getattr(law, name)), dtype=wp.float32, device=device))
+    table.log_typed_nowhere = wp.vec2(*law.log_typed_nowhere)
+    return table
+
+
+@wp.func
+def node(x: wp.float32, nodes: int) -> wp.vec2:
+    """The node below a place in [0, 1], and how far on it is towards the next."""
+    at = wp.clamp(x, wp.float32(0.0), wp.float32(1.0)) * wp.float32(nodes - 1)
+    low = wp.min(wp.floor(at), wp.float32(nodes - 2))
+    return wp.vec2(low, at - low)
+
+
+@wp.func
+def interpolated(values: wp.array(dtype=wp.float32), x: wp.float32) -> wp.float32:
+    """Between nodes that are equally far apart."""
+    n = node(x, values.shape[0])
+    i = int(n[0])
+    return values[i] + n[1] * (values[i + 1] - values[i])
+
+
+@wp.func
+def in_plane(values: wp.array2d(dtype=wp.float32), x: wp.float32, y: wp.float32) -> wp.float32:
+    """The same in two dimensions."""
+    n = node(x, values.shape[0])
+    i = int(n[0])
+    low = interpolated(values[i], y)
+    return low + n[1] * (interpolated(values[i + 1], y) - low)
+
+
+@wp.func
+def in_space(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
+    """The same in three dimensions."""
+    n = node(x, values.shape[0])
+    i = int(n[0])
+    low = in_plane(values[i], y, z)
+    return low + n[1] * (in_plane(values[i + 1], y, z) - low)
+
+
+@wp.func
+def spread_node(scale: wp.float32, variance: wp.float32) -> wp.float32:
+    """Place of a spread among its nodes."""
+    spread = wp.min(wp.sqrt(variance) / scale, WIDEST_SPREAD)
+    return spread / (wp.float32(1.0) + spread) * (wp.float32(1.0) + WIDEST_SPREAD) / WIDEST_SPREAD
+
+
+@wp.func
+def offset_node(table: LawTable, off: wp.float32) -> wp.float32:
+    """Place of a standard offset among its nodes."""
+    size = wp.abs(off)
+    grown = wp.log(size + wp.sqrt(size * size + wp.float32(1.0)))
+    return wp.float32(0.5) + wp.float32(0.5) * wp.sign(off) * grown / table.most
+
+
+@wp.func
+def table_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
+    """log p(reading | the beam stops at about the distance)."""
+    z = wp.float32(reading_m)
+    d = wp.float32(distance_m)
+    top = wp.float32(max_m)
+    typed = wp.isinf(z) and table.typed != 0
+    if wp.isinf(z) and not typed:
+        z = wp.where(z > wp.float32(0.0), top, table.min_m)
+    if d > top:
+        if typed:
+            return type(reading_m)(table.log_typed_nowhere[wp.where(z > wp.float32(0.0), 1, 0)])
+        return type(reading_m)(interpolated(table.log_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
+    along = d / top
+    scale = interpolated(table.scale_m, along)
+    part = spread_node(scale, wp.float32(variance))
+    if typed:
+        return type(reading_m)(in_plane(table.log_typed[wp.where(z > wp.float32(0.0), 1, 0)], part, along))
+    width = wp.sqrt(scale * scale + wp.float32(variance))
+    off = offset_node(table, (z - d) / width)
+    return type(reading_m)(in_space(table.log_density, part, along, off) - wp.log(width))
+
+
+@wp.func
+def table_cumulative(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
+    """P(reading <= range | the beam stops at about the distance)."""
+    z = wp.float32(reading_m)
+    d = wp.float32(distance_m)
+    top = wp.float32(max_m)
+    if table.typed != 0:
+        z = wp.clamp(z, table.min_m, top)
+    if d > top:
+        return type(reading_m)(interpolated(table.below_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
+    along = d / top
+    scale = interpolated(table.scale_m, along)
+    width = wp.sqrt(scale * scale + wp.float32(variance))
+    off = offset_node(table, (z - d) / width)
+    return type(reading_m)(in_space(table.below, spread_node(scale, wp.float32(variance)), along, off))

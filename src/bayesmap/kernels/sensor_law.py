@@ -1,0 +1,201 @@
+"""The law of a reading, compiled: the formulas of `bayesmap.sensors`, once, in single and in double precision.
+
+Every kernel that asks how likely a reading is asks here. A beam stops at a distance known up to a variance, which
+widens the noise: its scale is ``sqrt(scale(d)^2 + variance)``. Functions take their precision from their arguments:
+chains weigh a beam's few stops in single precision (`SensorLaw32`), tables and predictions work in double
+(`SensorLaw64`).
+A model without a compiled formula is tabulated (`bayesmap.kernels.law_table`).
+"""
+
+import math
+from typing import Any
+
+import warp as wp
+
+from bayesmap.kernels.law_table import LawTable, put_table, table_cumulative, table_log_density
+from bayesmap.kernels.noise_law import noise_below, noise_log_density
+from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.tabulated import tabulated
+
+wp.set_module_options({"enable_backward": False})
+
+NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))
+"""Kinds of laws: noise alone, the robust mixture, any other model."""
+
+FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
+LEAST = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # probability of a typed reading: no beam is impossible
+THIRD = wp.constant(wp.float64(1.0 / 3.0))
+
+
+def _law(name: str, real: Any) -> Any:
+    """A struct of a sensor's numbers in a precision."""
+    reals = (
+        "sigma_m", "sigma_per_m", "dof", "log_constant", "p_random", "p_known", "p_return", "p_short",
+        "rate_short_per_m", "min_m", "max_m",
+        "uniform",  # density of a random reading
+        "passing",  # density of a passing object at distance 0
+        "series",  # below it the fifth term of exp(-x) is under the precision
+    )  # fmt: skip
+    annotations: dict[str, Any] = {"kind": int, "table": LawTable} | dict.fromkeys(reals, real)
+    return wp.struct(type(name, (), {"__annotations__": annotations, "__module__": __name__, "__qualname__": name}))
+
+
+SensorLaw64 = _law("SensorLaw64", wp.float64)
+SensorLaw32 = _law("SensorLaw32", wp.float32)
+
+
+def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
+    """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`.
+
+    Raises:
+        BadInput: a model without a compiled formula whose law cannot be tabulated.
+    """
+    packed = law()
+    packed.min_m, packed.max_m = limits.min_m, limits.max_m
+    model = sensor.kernel_parameters()
+    if model is None:
+        packed.kind, packed.table = TABLE, put_table(tabulated(sensor, limits), device)
+        return packed
+    packed.kind = MIXTURE if model.robust else NOISE
+    packed.series = 0.1 if law is SensorLaw32 else 0.002
+    packed.sigma_m, packed.sigma_per_m, packed.dof = model.sigma_m, model.sigma_per_m, model.dof
+    if model.dof > 0:
+        half = 0.5 * (model.dof + 1)
+        packed.log_constant = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
+    else:
+        packed.log_constant = -0.5 * math.log(2 * math.pi)
+    packed.p_random, packed.p_known, packed.p_return = model.p_random, 1.0 - model.p_random, 1.0 - model.p_no_return
+    packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
+    packed.uniform = model.p_random / (limits.max_m - limits.min_m)
+    packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
+    return packed
+
+
+@wp.func
+def unblocked(law: Any, distance_m: Any):
+    """The chance that no passing object stands before the distance."""
+    one = type(distance_m)(1.0)
+    return one - law.p_short * (one - wp.exp(-law.rate_short_per_m * distance_m))
+
+
+@wp.func
+def object_decay(law: Any, reading_m: Any):
+    """exp(-rate z), by which passing objects are rarer at the reading than at distance 0; 0 for a typed one.
+
+    It depends on the reading alone, and the densities below are given it.
+    """
+    zero = type(reading_m)(0.0)
+    if not wp.isfinite(reading_m):
+        return zero
+    return wp.exp(-law.rate_short_per_m * wp.max(reading_m, zero))
+
+
+@wp.func
+def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
+    """As `unblocked`, without an exponential where distance and reading are close: exp(-x) by its series."""
+    one = type(distance_m)(1.0)
+    x = law.rate_short_per_m * (distance_m - reading_m)
+    if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
+        return unblocked(law, distance_m)
+    half = type(distance_m)(0.5)
+    third = type(distance_m)(THIRD)
+    ratio = one - x * (one - x * half * (one - x * third * (one - x * half * half)))
+    return one - law.p_short * (one - decay * ratio)
+
+
+@wp.func
+def variance_at(law: Any, distance_m: Any, variance: Any):
+    """Squared scale of the noise around a stop: the sensor's and the stop's."""
+    scale = law.sigma_m + law.sigma_per_m * distance_m
+    return scale * scale + variance
+
+
+@wp.func
+def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
+    """Density at a finite reading of what comes back from a stop at the distance, in the mixture."""
+    total = variance_at(law, distance_m, variance)
+    error = reading_m - distance_m
+    far = law.dof == type(total)(0.0) and error * error > type(total)(FAR_SQ) * total
+    if far or distance_m > law.max_m:
+        return type(total)(0.0)
+    scale = wp.sqrt(total)
+    density = wp.exp(noise_log_density(law, error / scale)) / scale
+    return law.p_known * unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
+
+
+@wp.func
+def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
+    """p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
+
+    ``decay`` is `object_decay` of the reading. An infinite distance means that the beam stops nowhere.
+    """
+    if law.kind != MIXTURE:
+        return wp.exp(stop_log_density_without_objects(law, reading_m, distance_m, variance))
+    one = type(variance)(1.0)
+    wall = wp.min(distance_m, law.max_m)
+    if wp.isfinite(reading_m):
+        p = law.uniform + returned_density(law, reading_m, decay, distance_m, variance)
+        if reading_m < wall:
+            p += law.passing * decay
+        return p
+    free = unblocked(law, wall)
+    if distance_m > law.max_m:
+        if reading_m > type(reading_m)(0.0):
+            return wp.max(law.p_known * free, type(one)(LEAST))
+        return wp.max(law.p_known * (one - unblocked(law, wp.min(wall, law.min_m))), type(one)(LEAST))
+    returned = free * law.p_return
+    scale = wp.sqrt(variance_at(law, wall, variance))
+    if reading_m > type(reading_m)(0.0):  # no return
+        p_none = law.p_known * (free - returned * noise_below(law, (law.max_m - wall) / scale))
+        return wp.max(p_none, type(one)(LEAST))
+    blocked = one - unblocked(law, wp.min(wall, law.min_m))
+    p_close = law.p_known * (blocked + returned * noise_below(law, (law.min_m - wall) / scale))
+    return wp.max(p_close, type(one)(LEAST))
+
+
+@wp.func
+def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, variance: Any):
+    """The logarithm of the same for noise alone, whose typed readings stand for the limits, and for a table."""
+    if law.kind == TABLE:
+        return table_log_density(law.table, reading_m, distance_m, variance, law.max_m)
+    z = reading_m
+    if wp.isinf(reading_m):
+        z = wp.where(reading_m > type(reading_m)(0.0), law.max_m, law.min_m)
+    wall = wp.min(distance_m, law.max_m)
+    total = variance_at(law, wall, variance)
+    return noise_log_density(law, (z - wall) / wp.sqrt(total)) - type(total)(0.5) * wp.log(total)
+
+
+@wp.func
+def stop_log_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
+    """Logarithm of `stop_density`, also where that is smaller than any number."""
+    if law.kind == MIXTURE:
+        return wp.log(stop_density(law, reading_m, decay, distance_m, variance))
+    return stop_log_density_without_objects(law, reading_m, distance_m, variance)
+
+
+@wp.func
+def no_stop_density(law: Any, reading_m: Any, decay: Any):
+    """p(reading | the beam stops nowhere)."""
+    return stop_density(law, reading_m, decay, type(reading_m)(wp.inf), type(reading_m)(0.0))
+
+
+@wp.func
+def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
+    """P(reading <= range | the beam stops at about the distance), for a finite range."""
+    if law.kind == TABLE:
+        return table_cumulative(law.table, reading_m, distance_m, variance, law.max_m)
+    one = type(reading_m)(1.0)
+    wall = wp.min(distance_m, law.max_m)
+    if law.kind == NOISE:
+        return noise_below(law, (reading_m - wall) / wp.sqrt(variance_at(law, wall, variance)))
+    z = wp.clamp(reading_m, law.min_m, law.max_m)
+    short = law.p_short * (one - wp.exp(-law.rate_short_per_m * wp.min(z, wall)))
+    below = type(reading_m)(0.0)
+    if distance_m <= law.max_m:
+        below = noise_below(law, (z - wall) / wp.sqrt(variance_at(law, wall, variance)))
+        if below > type(reading_m)(0.0):
+            below = below * law.p_return * unblocked(law, wall)
+    uniform = (z - law.min_m) / (law.max_m - law.min_m)
+    return law.p_random * uniform + law.p_known * (short + below)

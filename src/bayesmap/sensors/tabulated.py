@@ -1,0 +1,192 @@
+r"""Sensor models without a compiled formula, as tables that kernels can read.
+
+The three methods of a `SensorModel` say all that there is to know of a reading's law; but kernels cannot call them. So
+the law is worked out once at nodes, and kernels interpolate its logarithm. Readings scatter about the stop on a scale
+that the table learns from the model's own `sample`, and nodes are dense there and sparse elsewhere. With
+w = sqrt(scale(d)^2 + s^2) for a stop at distance d known up to a spread s, the density is kept as
+
+    log (w p(z | d, s))  at nodes of  d,  s / (s + scale(d))  and  asinh((z - d) / w)
+
+in which it is smooth: without a spread it is the model's own law, with a wide one nearly a normal distribution. Typed
+readings have probabilities at nodes of the distance and of the spread, and the law of a beam that stops nowhere has
+nodes of the reading alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
+from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
+
+Table = NDArray[np.float32]
+
+DISTANCES, SPREADS, OFFSETS, TYPED, NOWHERE = 33, 8, 193, 513, 4097
+"""Nodes of the distance, of the spread, and of the offset of a range; of the distance for typed readings; and of the
+range where the beam stops nowhere."""
+
+WIDEST = 63.0
+"""The widest spread, in scales: wider ones are taken for it."""
+
+SAMPLES = 512
+LEAST_SCALE_M = 1e-4
+SLACK = 0.05
+"""How far from one probabilities may add up, integration errors included."""
+
+
+@dataclass(frozen=True, eq=False)
+class TabulatedLaw:
+    """A sensor's law at nodes; metres and nats.
+
+    Attributes:
+        limits: of the sensor.
+        typed: whether no return and too close are outcomes of their own, so that ranges stay within the limits; else
+            they stand for the limits, as in `bayesmap.sensors.noise.AdditiveNoise`.
+        scale_m: of the readings about a stop, at each distance, (D,).
+        most: the largest node of asinh((z - d) / w).
+        log_density: log (w p(z | d, s)), (S, D, V).
+        below: P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one.
+        log_typed: log probabilities of too close and of no return, (2, S, T).
+        log_nowhere: log density of a range where the beam stops nowhere, (N,), and its cumulative, (N,).
+        log_typed_nowhere: log probabilities of too close and no return there.
+    """
+
+    limits: RangeLimits
+    typed: bool
+    scale_m: Table
+    most: float
+    log_density: Table
+    below: Table
+    log_typed: Table
+    log_nowhere: Table
+    below_nowhere: Table
+    log_typed_nowhere: tuple[float, float]
+
+    @property
+    def has_cumulative(self) -> bool:
+        """Whether probabilities add up to one, so that there is a cumulative distribution."""
+        return not np.isnan(self.below_nowhere).any()
+
+
+def tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
+    """Work out a sensor's law at all nodes; sensors that can be hashed are remembered."""
+    try:
+        hash(sensor)
+    except TypeError:
+        return _tabulated(sensor, limits)
+    return _remembered(sensor, limits)
+
+
+@lru_cache(maxsize=4)
+def _remembered(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
+    return _tabulated(sensor, limits)
+
+
+def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
+    distance = np.linspace(0.0, limits.max_m, DISTANCES)
+    scale = scales(sensor, distance, limits)
+    part = np.linspace(0.0, WIDEST / (1.0 + WIDEST), SPREADS)[:, None]
+    spread = part / (1.0 - part) * scale  # (S, D)
+    width = np.hypot(scale, spread)
+    span = 2.0 * limits.max_m
+    most = float(np.arcsinh(span / scale.min()))
+    offset = np.sinh(np.linspace(-most, most, OFFSETS))
+    d, s, w = (
+        np.broadcast_to(a[..., None], (SPREADS, DISTANCES, OFFSETS)) for a in (np.atleast_2d(distance), spread, width)
+    )
+    z = d + w * offset
+    inside = np.clip(z, limits.min_m, limits.max_m)
+    typed = _is_typed(sensor, limits)
+    log_density = _by_slices(sensor, z, d, s, limits)
+    if typed:
+        # Nodes of neighbouring distances lie on both sides of a limit: past it the formula goes on, if it can.
+        stuck = (log_density <= LOG_IMPOSSIBLE) & (inside != z)
+        log_density[stuck] = sensor.stop_log_likelihood(inside[stuck], d[stuck], s[stuck], limits)
+    log_density = _floored(log_density) + np.log(w)
+    at = np.linspace(0.0, limits.max_m, TYPED)
+    at_scale = np.interp(at, distance, scale)
+    typed_spread = part / (1.0 - part) * at_scale
+    log_typed = np.stack([_typed(sensor, code, at, typed_spread, limits) for code in (-np.inf, np.inf)])
+    close = np.exp(np.stack([np.interp(distance, at, row) for row in log_typed[0]]))[..., None]
+    below = _cumulated(np.exp(log_density) / w, z)
+    if typed:
+        at_least = [
+            [np.interp(limits.min_m, *one) for one in zip(*some, strict=True)] for some in zip(z, below, strict=True)
+        ]
+        below += close - np.array(at_least)[..., None]
+    low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
+    r = np.linspace(low, high, NOWHERE)
+    log_nowhere = _floored(sensor.log_likelihood(r, np.full(NOWHERE, np.inf), limits))
+    ends = sensor.log_likelihood(np.array([-np.inf, np.inf]), np.full(2, np.inf), limits)
+    nowhere = _cumulated(np.exp(log_nowhere), r) + (np.exp(ends[0]) if typed else 0.0)
+    f32 = np.float32
+    own_cumulative = type(sensor).cumulative is not SensorModel.cumulative
+    if own_cumulative:
+        below = np.stack([sensor.cumulative(z[i], d[i], limits, spread_m=s[i]) for i in range(SPREADS)])
+        nowhere = sensor.cumulative(r, np.full(NOWHERE, np.inf), limits)
+    elif not typed and np.abs(below[0, :, -1] - 1.0).max() > SLACK:
+        below, nowhere = np.full_like(below, np.nan), np.full_like(nowhere, np.nan)
+    return TabulatedLaw(
+        limits, typed, scale.astype(f32), most, log_density.astype(f32), np.clip(below, 0.0, 1.0).astype(f32),
+        log_typed.astype(f32), log_nowhere.astype(f32), np.clip(nowhere, 0.0, 1.0).astype(f32),
+        (float(_floored(ends[0])), float(_floored(ends[1]))),
+    )  # fmt: skip
+
+
+def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
+    """On which scale readings scatter about stops at some distances, (D,): as a line through what samples say.
+
+    Nodes are laid out by it, so it has to be smooth, and roughly right where most of the density is.
+    """
+    # Next to the limits half of the readings are lost, and who knows which.
+    span = limits.max_m - limits.min_m
+    stop = np.linspace(limits.min_m + 0.1 * span, limits.max_m - 0.1 * span, DISTANCES)
+    drawn = sensor.sample(np.random.default_rng(0), np.repeat(stop[:, None], SAMPLES, axis=1), limits)
+    away = np.where(np.isfinite(drawn), np.abs(drawn - stop[:, None]), np.nan)
+    known = np.isfinite(away).sum(axis=1) >= SAMPLES // 8
+    if not known.any():
+        return np.full(len(distance_m), 0.1 * span)
+    # Of a normal distribution a quarter lies within 0.32 standard deviations.
+    quarter = np.nanquantile(away[known], 0.25, axis=1) / 0.32
+    line = np.polynomial.Polynomial.fit(stop[known], quarter, min(1, known.sum() - 1))
+    return np.asarray(np.clip(line(distance_m), max(0.5 * quarter.min(), LEAST_SCALE_M), limits.max_m))
+
+
+def _floored(log_p: Floats) -> Floats:
+    """No reading is impossible, so that one odd beam never makes a whole map so."""
+    return np.maximum(log_p, LOG_IMPOSSIBLE)
+
+
+def _by_slices(sensor: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
+    return np.stack([sensor.stop_log_likelihood(*one, limits) for one in zip(z, d, s, strict=True)])
+
+
+def _typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
+    z = np.full(d.shape, code)
+    return np.stack([_floored(sensor.stop_log_likelihood(z, d, one, limits)) for one in s])
+
+
+def _is_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
+    """Whether ranges within the limits and the two typed readings are all outcomes: their probabilities add to one."""
+    d = np.linspace(0.0, limits.max_m, 9)[:, None]
+    return bool(np.abs(total_probability(sensor, d, limits) - 1.0).max() < SLACK)
+
+
+def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
+    """P(too close) + the integral of the density over the limits + P(no return), for (n, 1) distances."""
+    scale = scales(sensor, distance_m[:, 0], limits)[:, None]
+    most = np.arcsinh(limits.max_m / scale.min())
+    z = np.clip(distance_m + scale * np.sinh(np.linspace(-most, most, 2001)), limits.min_m, limits.max_m)
+    p = np.exp(sensor.log_likelihood(z, distance_m, limits))
+    ends = np.exp(sensor.log_likelihood(np.array([[-np.inf, np.inf]]), distance_m, limits)).sum(axis=1)
+    return np.asarray(np.trapezoid(p, z, axis=1) + ends)
+
+
+def _cumulated(density: Floats, z: Floats) -> Floats:
+    """Integral of a density from its first node on, by the trapezoidal rule, along the last axis."""
+    pieces = 0.5 * (density[..., 1:] + density[..., :-1]) * np.diff(z, axis=-1)
+    return np.concatenate([np.zeros((*pieces.shape[:-1], 1)), np.cumsum(pieces, axis=-1)], axis=-1)
