@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bayesmap.kernels.field_score import FieldScore
 from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds, touching
+from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds, scans_of_all_kinds
 
 import bayesmap as bm
+from bayesmap.kernels.predict import log_densities
 from bayesmap.samplers.stop_gibbs import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
@@ -46,20 +46,18 @@ def test_a_sweep_s_log_likelihood_is_the_reference_s(name, sensor):
 
 
 @pytest.mark.parametrize("name", PRIORS)
-def test_a_score_s_density_is_the_reference_s_with_the_likelihood_of_every_entry(name):
+def test_a_prediction_s_density_is_the_reference_s_with_the_likelihood_of_every_entry(name):
     prior = PRIORS[name]
     plain = isinstance(prior, bm.Beta)
-    worlds, _ = draw_worlds([8, len(name)], LONE, prior, SENSOR, 100, poses=2, beams=6)
-    rays = worlds.problem.rays
-    everywhere = touching(replace(rays, near=rays.offsets[:-1]), rays.touched)
-    score = FieldScore(everywhere, SENSOR.kernel_parameters(), 0.5, plain=plain)
+    grid = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
+    rays = beam_rays(scans_of_all_kinds(8, grid), grid, margin_m=0.0, whole=True)
+    states = draw_states(np.random.default_rng(9), prior, centres_of(rays), (5,)).astype(np.float32)
+    batch = states[..., 0] if plain else states
+    found = log_densities(rays, [batch[:2], batch[2:]], SENSOR, 0.5)
     paths = paths_of(rays, far=False)
-    rng, mean = np.random.default_rng(9), 0.0
-    for _ in range(5):
-        states = draw_states(rng, prior, centres_of(rays)).astype(np.float32)
-        score.add(states)
-        mean = mean + np.exp(log_likelihoods(paths, states.astype(float), SENSOR, plain)) / 5
-    np.testing.assert_allclose(score.log_mean_density(), np.log(mean), **CLOSE)
+    expected = np.log(np.exp(log_likelihoods(paths, states.astype(float), SENSOR, plain)).mean(axis=0))
+    expected[np.isnan(rays.range_m)] = np.nan
+    np.testing.assert_allclose(found, expected, **CLOSE)
 
 
 @pytest.mark.parametrize("name", ["surfaces", "surfaces by default", "reflectivities by default"])
@@ -95,11 +93,9 @@ def test_the_compiled_law_of_readings_adds_up_to_one(name):
     z = np.append(np.linspace(0.1, 3.0, 8001), [np.inf, -np.inf])
     scans = bm.Scans(np.tile([-0.3, 0.33, 0.1], (len(z), 1)), [0.0], z[:, None], max_range_m=3.0, min_range_m=0.1)
     rays = beam_rays(scans, LONE, margin_m=0.0, whole=True)
-    rays = replace(rays, near=rays.offsets[:-1])
     for seed in range(4):
-        score = FieldScore(rays, SENSOR.kernel_parameters(), 0.5, plain=plain)
-        score.add(draw_states(np.random.default_rng(seed), prior, centres_of(rays)).astype(np.float32))
-        p = np.exp(score.log_mean_density())
+        states = draw_states(np.random.default_rng(seed), prior, centres_of(rays)).astype(np.float32)[None]
+        p = np.exp(log_densities(rays, [states[..., 0] if plain else states], SENSOR, 0.5))
         assert np.trapezoid(p[:-2], z[:-2]) + p[-2:].sum() == pytest.approx(1.0, abs=1e-3)
 
 
@@ -138,9 +134,9 @@ def test_nothing_is_impossible_but_no_density_is_nan(plain):
             hits, met = sampler.counts()
             assert hits.min() >= 0
             assert max(hits.max(), met.max()) <= 5
-        score = FieldScore(problem.rays, sensor.kernel_parameters(), 0.5, plain=plain)
-        score.add(states.astype(np.float32))
-        assert np.isfinite(score.log_mean_density()).all()
+        batch = states[None].astype(np.float32)
+        found = log_densities(problem.rays, [batch[..., 0] if plain else batch], sensor, 0.5)
+        assert np.isfinite(found[~np.isnan(readings[0])]).all()
 
 
 def test_paths_hold_what_rays_hold():

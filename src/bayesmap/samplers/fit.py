@@ -96,7 +96,7 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         sweeps: of the pilot; without any, nothing moves.
         watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
     """
-    now = Parameters(problem.sensor, problem.prior)
+    now = _first(problem)
     for found in fitting(problem, seed, sweeps, watch):
         now = found
         if watch.should_stop():
@@ -104,11 +104,17 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
     return now
 
 
+def _first(problem: StopProblem) -> Parameters:
+    """Where a fit begins."""
+    assert isinstance(problem.sensor, BeamMixture)
+    return Parameters(problem.sensor, problem.prior)
+
+
 def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
     """The same, sweep by sweep: what is found after each."""
     if sweeps == 0:
         return
-    sampler, now = StopGibbs(), Parameters(problem.sensor, problem.prior)
+    sampler, now = StopGibbs(), _first(problem)
     state = sampler.init(problem, [PILOT], seed)
     every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
     some = slice(every // 2, None, every)

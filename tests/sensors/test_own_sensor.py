@@ -1,0 +1,54 @@
+"""The sensor model of the contributor's page: three methods, and everything works with it."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from oracle.field_worlds import scans_of_all_kinds
+
+import bayesmap as bm
+
+PAGE = Path(__file__).parents[2] / "CONTRIBUTING.md"
+GRID = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
+TRAIN, HELD = (scans_of_all_kinds(seed, GRID, poses=12) for seed in (1, 2))
+
+
+@pytest.fixture(scope="module")
+def sonar():
+    code = re.search(r"```python\n(@dataclass.*?)```", PAGE.read_text(), re.DOTALL)[1]
+    head = (
+        "from dataclasses import dataclass\nimport numpy as np\nfrom scipy.stats import laplace\n"
+        "from bayesmap.sensors.model import SensorModel\n"
+    )
+    names = {"__name__": "sonar"}
+    exec(head + code, names)
+    return names["Sonar"](0.15)
+
+
+@pytest.mark.parametrize(
+    "prior", [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)], ids=lambda p: p.words.kind
+)
+def test_maps_are_inferred_and_scored_by_it(prior, sonar):
+    run = bm.infer(TRAIN, GRID, prior=prior, sensor=sonar, chains=2, warmup=10, draws=20)
+    assert np.isfinite(run.log_joint).all()
+    score = bm.score(run, HELD)
+    assert run.log_score(HELD) == score.nats_per_beam
+    assert np.isfinite(score.nats_per_beam)
+    assert 0 < score.coverage[0].share.value < score.coverage[2].share.value < 1
+
+
+def test_the_likelihood_that_chains_of_surfaces_report_is_the_model_s(sonar):
+    """The table against the plain formula: what a sweep sums up is the joint law's likelihood of the kept draw."""
+    run = bm.infer(TRAIN, GRID, prior=bm.Beta(0.5, 1.0), sensor=sonar, chains=1, warmup=10, draws=3, hit_depth=0.5)
+    model = bm.model.Model(TRAIN, GRID, bm.Beta(0.5, 1.0), sonar, hit_depth=0.5)
+    for draw in range(3):
+        cells = {"reflectivity": np.asarray(run.map_of(0, draw), dtype=float)}
+        beams = model.beam_log_likelihoods(model.state(cells))
+        reported = float(run.posterior.log_likelihood[0, draw])
+        assert reported == pytest.approx(beams.sum(), abs=0.02 * len(beams))
+
+
+def test_a_sensor_under_which_readings_are_impossible_is_refused():
+    with pytest.raises(bm.BadInput, match="a sensor under which no reading is impossible"):
+        bm.infer(TRAIN, GRID, prior=bm.Surface(), sensor=bm.Gaussian(0.1), chains=1, warmup=1, draws=1)
