@@ -44,7 +44,7 @@ def refine(
 ):
     """One thread a job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
-    Coordinates are x, y and yaw in the world's axes. Information is that of the pairs alone, without slack.
+    Coordinates are x, y and yaw in the world's axes. Information is that of the pairs alone, less slack.
     """
     k = first + wp.tid()
     i = job_scan[k]
@@ -79,9 +79,11 @@ def refine(
             seen += sums.seen
         off = x - prior[k]
         off = wp.vec3d(off[0], off[1], wrapped(off[2]))
-        told = (second - slack * (wp.float64(0.9) * sigma * sigma)) * gain
-        ridge = second + wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
-        pull = told * (wp.inverse(ridge) * gradient)
+        # H (H + s^2 S)^-1 H: H where slack is small against it, and never negative where it is not.
+        ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
+        trusted = second * wp.inverse(second + slack * (sigma * sigma) + ridge)
+        told = trusted * second * gain
+        pull = trusted * gradient * gain
         whole = told + prior_information[k]
         move = wp.inverse(whole) * (pull + prior_information[k] * off)
         length = wp.abs(move[0]) + wp.abs(move[1]) + wp.abs(move[2])

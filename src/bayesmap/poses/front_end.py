@@ -41,7 +41,7 @@ UNUSUAL = 0.04
 """A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
 
 POOR_SCORE = 0.45
-"""Below this a wider window is searched."""
+"""Below this wider windows are searched."""
 
 LOST_SCORE = 0.2
 """A scan that even so is explained no better than this is somewhere else."""
@@ -49,7 +49,12 @@ LOST_SCORE = 0.2
 UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
 """Standard deviations of a motion of which nothing is known."""
 
-WIDE_M, WIDE_RAD = 1.0, np.radians(45.0)
+POOR_BELOW = 0.25
+"""And so it is where the scan is explained so much worse than usual."""
+
+WIDE_M = 1.0
+WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
+"""Ranges of angles, and by how much better a place in them must explain the scan: about the prediction, then all."""
 
 POINT_SIGMA_M = 0.02
 """Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
@@ -257,14 +262,18 @@ def _place(
         start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
         predicted[doubtful[better]] = reversed_[doubtful[better]]
         turned[doubtful[better]] = True
-    poor = np.nonzero(score < POOR_SCORE)[0]
-    if len(poor):
+    for wide_rad, gain in WIDER:
+        poor = np.nonzero(score < max(POOR_SCORE, usual - POOR_BELOW))[0]
+        if not len(poor):
+            break
         wide = match(
-            grid, [points[k] for k in poor], predicted[poor], WIDE_M, WIDE_RAD, least=score[poor] + 0.1,
-            pull=Pull(WIDE_M, WIDE_RAD), step_rad=np.radians(1.0), threads=threads,
+            grid, [points[k] for k in poor], predicted[poor], WIDE_M, wide_rad, least=score[poor] + gain,
+            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0), threads=threads,
         )  # fmt: skip
         better = wide.found[:, 0]
         start[poor[better]], score[poor[better]] = wide.poses[better, 0], wide.scores[better, 0]
+        # What odometry said cannot be right: it does not hold the scan back.
+        predicted[poor[better]] = wide.poses[better, 0]
     jobs = len(batch)
     near = window[: WINDOW if jobs == 1 else WINDOW // 2]
     # A pose before this one is itself off by about a centimetre.
