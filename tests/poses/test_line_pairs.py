@@ -32,6 +32,8 @@ def plain(i, j, z):
         if kind[i, b] == 1:  # no walls: point to point
             sides = [m for m in (near - 1, near + 1) if 0 <= m < len(ANGLES) and kind[j, m] > 0]
             apart = 0.5 * max(0.1, min([2.0, *(np.linalg.norm(points[j, m] - points[j, near]) for m in sides)]))
+            if apart > 0.15:
+                continue
             d, r = x - there[k], x - z[:2]
             w = (1 + d @ d / (SCALE**2 + apart**2)) ** -2 * 0.01**2 / apart**2
             jacobian = np.array([[1, 0, -r[1]], [0, 1, r[0]]])

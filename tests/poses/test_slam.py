@@ -9,6 +9,7 @@ from simulated import off, recording
 from bayesmap.errors import BadInput
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import Scans
 
 SCANS, TRUTH = recording(turn_bias=0.03, noise=2.0)
 
@@ -136,3 +137,19 @@ def test_bad_input_is_refused():
         infer_trajectory(replace(SCANS, ranges_m=np.full(SCANS.ranges_m.shape, np.inf)))
     with pytest.raises(BadInput, match="5 Hz"):
         infer_trajectory(replace(SCANS, stamps_s=np.arange(len(SCANS)) * 2.0), no_odometry=True)
+
+
+def test_the_posterior_stretches_along_a_corridor():
+    """Two endless walls: across them the laser tells millimetres, along them odometry tells centimetres."""
+    rng = np.random.default_rng(6)
+    angles = np.linspace(-np.pi, np.pi, 180, endpoint=False)
+    exact = 1.0 / np.maximum(np.abs(np.sin(angles)), 1e-3)
+    ranges = np.where(exact < 8.0, exact, np.inf) + 0.01 * rng.normal(size=(40, 180))
+    steps = 0.3 + 0.03 * rng.normal(size=40)
+    poses = np.column_stack([np.cumsum(steps), np.zeros(40), np.zeros(40)])
+    scans = Scans(poses, angles, ranges, max_range_m=8.0, stamps_s=np.arange(40.0))
+    result = infer_trajectory(scans, threads=1)
+    sigma = np.sqrt(np.diag(result.relative_covariances([5], [30])[0]))
+    assert sigma[0] > 5.0 * sigma[1]
+    # The laser must not pull the scans together or apart along the walls.
+    assert abs(between(result.poses[5], result.poses[30])[0] - (poses[30] - poses[5])[0]) < 0.2

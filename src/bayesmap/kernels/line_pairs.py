@@ -24,6 +24,7 @@ from bayesmap.kernels.parallel import launch
 wp.set_module_options({"enable_backward": False})
 
 MOST_BEAMS = wp.constant(25)  # looked at to either side
+DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, tell no place
 
 
 @wp.struct
@@ -201,6 +202,8 @@ def pair_scans(
             matched += 1
         elif not own and not theirs:
             apart = 0.5 * neighbour_distance(scene, j, other)
+            if apart > DENSE:
+                continue
             e2 = dx * dx + dy * dy
             w = 1.0 / (1.0 + e2 / (scale * scale + apart * apart))
             w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)

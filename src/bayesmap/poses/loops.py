@@ -26,6 +26,9 @@ Floats = NDArray[np.float64]
 AROUND_M = 2.0
 """A submap holds the key scans within so much of the path."""
 
+SHORT = 120.0
+"""On a path so many times shorter than the spacing, closures are sought from more places: a small loop has few."""
+
 OLD_M = 8.0
 """A loop is at least so long."""
 
