@@ -36,7 +36,7 @@ MOST_LAG_S = 0.5
 PAIRS = 400
 """Of scans that are turned against each other, for the angle between beams."""
 
-REGULAR_WITHIN = 0.004
+REGULAR_WITHIN = 0.006
 """To so much of itself the angle between beams can be told from residuals."""
 
 

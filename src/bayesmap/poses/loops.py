@@ -27,7 +27,7 @@ AROUND_M = 2.0
 """A submap holds the key scans within so much of the path."""
 
 SHORT = 120.0
-"""On a path so many times shorter than the spacing, closures are sought from more places: a small loop has few."""
+"""Closures are sought from at least so many places along the path: a small loop has few that close it."""
 
 OLD_M = 8.0
 """A loop is at least so long."""
@@ -173,9 +173,8 @@ def _candidates(
     Of each visit of a place two are tried: the one from the most similar pose, and the one that looks at the same
     spot, which of a laser that sees half a circle may stand opposite.
     """
-    sought = np.unique(
-        np.searchsorted(along, np.arange(0.0, along[-1] + search.spacing_m, search.spacing_m)).clip(0, len(along) - 1)
-    )
+    spacing = float(np.clip(along[-1] / SHORT, 0.4, search.spacing_m))
+    sought = np.unique(np.searchsorted(along, np.arange(0.0, along[-1] + spacing, spacing)).clip(0, len(along) - 1))
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
     distance = np.hypot(*(poses[sought[earlier], :2] - poses[sought[later], :2]).T)
     near = distance < search.most_m + min(0.7 * half_width_m, 8.0)
