@@ -193,7 +193,7 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
 
 
 def _clusters(poses: Floats, weights: Floats) -> NDArray[np.intp]:
-    """Labels of poses that are linked by steps of less than `NEAR_M` and `NEAR_RAD`; weightless ones join the nearest."""
+    """Labels of poses linked by steps of less than `NEAR_M` and `NEAR_RAD`; weightless ones join the nearest, (N,)."""
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 

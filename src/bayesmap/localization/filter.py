@@ -121,7 +121,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
             starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
             starts = starts.best(2 * KEPT)
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin, 1), 32, rng))
+            starts, power = adapted(starts, draw_population(starts, target(thin, None), 32, rng))
             starts = starts.best(KEPT)
             if power > NEARLY:
                 break

@@ -169,8 +169,7 @@ def follow(
             motion = between(scans.poses[i - 1], scans.poses[i])
             believed = Prior() if independent else moved(belief, motion, odometry.sigmas(motion))
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < SURE
-        wide = believed.places is None or (unsure and belief is not None)
-        belief = update(known, believed, scan, rng, look_everywhere=wide)
+        belief = update(known, believed, scan, rng, look_everywhere=unsure or independent)
         yield belief
 
 

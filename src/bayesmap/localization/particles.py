@@ -103,7 +103,7 @@ def draw_population(
 
 
 def groups_of(places: Places, poses: Floats) -> NDArray[np.intp]:
-    """Labels of poses by place, places that overlap (closer than `OVERLAP` standard deviations) taken together, (P,)."""
+    """Labels of poses by place; places closer than `OVERLAP` standard deviations are taken together, (P,)."""
     from scipy.sparse.csgraph import connected_components
 
     off = places.means[:, None] - places.means

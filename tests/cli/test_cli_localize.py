@@ -1,0 +1,71 @@
+"""`localize`: answers as text, as JSON, line by line, and as trajectories."""
+
+import json
+
+import numpy as np
+import pytest
+from shell import call
+
+from bayesmap.io.logs import read_log
+from bayesmap.io.tum import read_trajectory
+
+
+@pytest.fixture(scope="module")
+def answers(office, office_run):
+    result = call("localize", office_run / "run.nc", office, "--follow", "--no-progress")
+    assert result.exit_code == 0, result.stderr
+    return [json.loads(line) for line in result.stdout.splitlines()]
+
+
+def test_a_line_for_each_scan_as_it_is_known(office, answers):
+    assert [answer["scan"] for answer in answers] == list(range(12))
+    truth = read_log(office).poses
+    off = [np.hypot(*(np.array(a["mean"][:2]) - pose[:2])) for a, pose in zip(answers, truth, strict=True)]
+    assert np.median(off) < 0.3
+    for answer in answers:
+        assert sum(mode["probability"] for mode in answer["modes"]) == pytest.approx(1.0, abs=0.01)
+        assert 0 <= answer["p_lost"] <= 1
+
+
+@pytest.mark.parametrize("ending", [".tum", ".mcap", ".jsonl"])
+def test_trajectories_are_written(office, office_run, answers, tmp_path, ending):
+    target = tmp_path / f"where{ending}"
+    result = call("localize", office_run / "run.nc", office, "-o", target, "--json", "--area", "-100,100,-100,100")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document["scans"] == 12
+    last = document["last"]
+    assert last["mean"] == answers[-1]["mean"]
+    assert last["probability_in_area"] == pytest.approx(1 - last["p_lost"])
+    assert str(target) in document["outputs"].values()
+    if ending == ".tum":
+        back = read_trajectory(target)
+        np.testing.assert_allclose(back.poses[-1, :2], last["mean"][:2], atol=1e-8)
+        assert back.covariances is not None
+    if ending == ".jsonl":
+        assert json.loads(target.read_text().splitlines()[-1])["mean"] == last["mean"]
+
+
+def test_a_single_scan_with_a_prior(office, office_run):
+    x, y, yaw = read_log(office).poses[3]
+    prior = f"{x},{y},{np.degrees(yaw)},0.2,5"
+    result = call("localize", office_run / "run.nc", office, "--scans", "3:4", "--prior", prior)
+    assert result.exit_code == 0, result.stderr
+    assert result.stdout.splitlines()[-1].startswith("lost, or the map outdated:")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (["--scans", "50:60"], 3, "none of the log's 12 scans is among them"),
+        (["--scans", "five"], 2, "is not FIRST:LAST"),
+        (["--prior", "1,2"], 2, "is not X,Y,DEGREES"),
+        (["--area", "1,2,3"], 2, "is not X0,X1,Y0,Y1"),
+        (["-o", "where.txt"], 2, "end its name in one of .tum, .mcap"),
+        (["--beam-weight", "2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
+    ],
+)
+def test_what_it_refuses(office, office_run, arguments, code, message):
+    result = call("localize", office_run / "run.nc", office, *arguments)
+    assert result.exit_code == code, result.stderr
+    assert message in result.stderr
