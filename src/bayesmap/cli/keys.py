@@ -174,7 +174,7 @@ SCORE = (
 )
 
 LOCALIZE = (
-    Key("beam_weight", float, None, "How much of an independent observation a beam is.", "see docs/localization.md"),
+    Key("beam_weight", float, None, "How much of an independent reading a beam is.", "5.4 / beams"),
     *READING,
     SEED,
 )

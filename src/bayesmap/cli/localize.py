@@ -59,7 +59,7 @@ def command(
     """
     values = call.values()
     from bayesmap.io.logs import read_log
-    from bayesmap.localization.known_map import BEAM_WEIGHT, KnownMap
+    from bayesmap.localization.known_map import KnownMap
     from bayesmap.localization.localize import localize
     from bayesmap.result import load
 
@@ -69,8 +69,7 @@ def command(
     run = load(run_file)
     scans = read_log(log, max_range_m=run.posterior.scans.max_range_m, **options_of(values))
     scans = scans.select(_slice(span, len(scans)))
-    weight = BEAM_WEIGHT if values["beam_weight"] is None else values["beam_weight"]
-    known = KnownMap.of_run(run, beam_weight=weight)
+    known = KnownMap.of_run(run, beam_weight=values["beam_weight"])
     with share(call.talk, "locating scans") as tell:
 
         def on_belief(number: int, belief: PoseBelief) -> None:

@@ -48,8 +48,8 @@ LOST_AT_FIRST = 0.02
 GETS_LOST, IS_FOUND = 1e-3, 0.05
 """Chance, a scan, that a robot on the map is lost, and that a lost one is back."""
 
-FIT_WEIGHT = 0.15
-"""How much of an independent observation a beam is for the question whether a scan fits the map at all."""
+FIT_TIMES = 5.0
+"""For the question whether a scan fits the map at all, beams count by so much more."""
 
 CARRIED = 1e-3
 """Chance, a scan, that the robot was carried to anywhere on the map."""
@@ -109,7 +109,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     """
 
     def target(thin: int, draws: int | None) -> _Target:
-        return _Target(known, prior, scan, thin, draws, known.beam_weight)
+        return _Target(known, prior, scan, thin, draws, known.weight_of(scan.ranges_m))
 
     thin = max(1, len(scan.angles_rad) // 60)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
@@ -120,8 +120,10 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         if len(starts.means) > 1:
             starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
             starts = starts.best(2 * KEPT)
+            starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 24, rng))
+            starts = starts.best(KEPT)
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin, None), 32, rng))
+            starts, power = adapted(starts, draw_population(starts, target(thin, None), 24, rng))
             starts = starts.best(KEPT)
             if power > NEARLY:
                 break
@@ -198,10 +200,15 @@ def _belief(
     if not np.isfinite(scan.ranges_m).any():
         return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
     evidence, fit = _fit(known, prior, scan, unsure, rng)
-    elsewhere = known.log_elsewhere(scan.ranges_m, max(FIT_WEIGHT, known.beam_weight))
+    elsewhere = known.log_elsewhere(scan.ranges_m, _fit_weight(known, scan))
     with np.errstate(divide="ignore"):
         odds = np.log(prior.lost) - np.log1p(-prior.lost) + elsewhere - evidence
     return replace(unsure, p_lost=float(expit(odds)), nats_per_beam=fit)
+
+
+def _fit_weight(known: KnownMap, scan: Scan) -> float:
+    usual = known.weight_of(scan.ranges_m)
+    return min(1.0, FIT_TIMES * usual)
 
 
 def _fit(
@@ -209,13 +216,13 @@ def _fit(
 ) -> tuple[float, float]:
     """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam at the best pose.
 
-    With beams that weigh `FIT_WEIGHT`: whether a scan fits at all is clearer than where exactly it does.
+    With beams that count `FIT_TIMES` as much: whether a scan fits at all is clearer than where exactly it does.
     """
-    weight = max(FIT_WEIGHT, known.beam_weight)
+    weight = _fit_weight(known, scan)
     thin = max(1, len(scan.angles_rad) // 60)
     target = _Target(known, prior, scan, thin, 1, weight)
     mode = belief.modes[0]
-    shrunk = mode.covariance * known.beam_weight / weight + 1e-8 * np.eye(3)
+    shrunk = mode.covariance * known.weight_of(scan.ranges_m) / weight + 1e-8 * np.eye(3)
     places = Places(mode.mean[None], shrunk[None], np.zeros(1))
     population = draw_population(places, target, 32, rng)
     for _ in range(ROUNDS):

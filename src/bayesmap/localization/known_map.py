@@ -28,11 +28,10 @@ DRAWS = 4
 PASSABLE = 0.3
 """A robot may be in observed cells that stop fewer beams than this."""
 
-BEAM_WEIGHT = 0.03
-"""How much of an independent observation a beam is: its log-likelihood counts by so much. Beams of one scan err
-together, by what the map has wrong and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4) advise
-such a power. Set so that modes come true as often as they say, on the Intel log and in simulated offices
-(docs/localization.md)."""
+INDEPENDENT_BEAMS = 5.4
+"""So many independent readings is a scan worth: its log-likelihood counts by their share of its beams. Beams of one
+scan err together, by what the map has wrong and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4)
+advise such a power. Set so that located poses of the Intel log are as far off as they say (docs/localization.md)."""
 
 BINS = 60
 
@@ -50,7 +49,7 @@ class KnownMap:
         elsewhere: log density of a reading, per metre, in each of `BINS` bins up to the largest range, and log
             probability of no return: of scans taken anywhere, for the chance of being lost.
         max_range_m: of those scans.
-        beam_weight: how much of an independent observation a beam is.
+        beam_weight: how much of an independent reading a beam is; None: as `INDEPENDENT_BEAMS` says.
     """
 
     grid: Grid
@@ -60,16 +59,16 @@ class KnownMap:
     free: NDArray[np.bool_]
     elsewhere: Floats
     max_range_m: float
-    beam_weight: float = BEAM_WEIGHT
+    beam_weight: float | None = None
 
     @classmethod
-    def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float = BEAM_WEIGHT, device: str = "cpu") -> KnownMap:
+    def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
         """The map of a run that `bayesmap.infer` or `bayesmap.load` gave.
 
         Args:
             run: with draws.
             draws: so many of them, spread over chains, or all if there are fewer.
-            beam_weight: see `BEAM_WEIGHT`.
+            beam_weight: how much of an independent reading a beam is; None: as `INDEPENDENT_BEAMS` says.
             device: where to compute.
 
         Raises:
@@ -101,7 +100,7 @@ class KnownMap:
         occupancy: Floats,
         observed: NDArray[np.bool_],
         hit_depth: float = 0.5,
-        beam_weight: float = BEAM_WEIGHT,
+        beam_weight: float | None = None,
         device: str = "cpu",
     ) -> KnownMap:
         """A map by its draws, from wherever they come.
@@ -114,7 +113,7 @@ class KnownMap:
             occupancy: mean chance that each cell stops a beam, (nx, ny).
             observed: cells of which something is known, (nx, ny).
             hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
-            beam_weight: see `BEAM_WEIGHT`.
+            beam_weight: how much of an independent reading a beam is; None: as `INDEPENDENT_BEAMS` says.
             device: where to compute.
 
         Raises:
@@ -141,6 +140,11 @@ class KnownMap:
     def free_area_m2(self) -> float:
         """Where a robot may be."""
         return float(self.free.sum() * self.grid.resolution**2)
+
+    def weight_of(self, ranges_m: Floats) -> float:
+        """How much each beam of a scan counts."""
+        valid = max(1, int((~np.isnan(ranges_m)).sum()))
+        return min(1.0, INDEPENDENT_BEAMS / valid) if self.beam_weight is None else self.beam_weight
 
     def is_free(self, poses: Floats) -> NDArray[np.bool_]:
         """Which poses lie in free cells, (P,)."""
@@ -178,7 +182,7 @@ class KnownMap:
             self.packed, poses, angles_rad[::thin], ranges_m[::thin], self.sensor, limits, draws=draws, threads=1
         )
         used = max(1, int((~np.isnan(ranges_m[::thin])).sum()))
-        scale = (self.beam_weight if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
+        scale = (self.weight_of(ranges_m) if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
         return np.asarray(logsumexp(scale * found, axis=1) - np.log(found.shape[1]))
 
     def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
