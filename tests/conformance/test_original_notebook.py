@@ -48,20 +48,28 @@ def stubs():
 @pytest.fixture(scope="module")
 def names():
     """Everything that the notebook defines, in its last state, and the chains that it overwrites."""
-    cells = notebook_cells()
+    cells = [shortened(cell) for cell in notebook_cells()]
     matplotlib.use("Agg")
-    ours = {"genjax": genjax, "genjax.typing": genjax.typing}
-    names, chains = {"display": lambda value: None}, []
-    with pytest.MonkeyPatch.context() as patch, pytest.warns(DeprecationWarning, match="bare argument to categorical"):
-        for name, module in {**stubs(), **ours}.items():
+    names = {"display": lambda value: None, "chains": []}
+    with pytest.MonkeyPatch.context() as patch:
+        for name, module in {**stubs(), "genjax": genjax, "genjax.typing": genjax.typing}.items():
             patch.setitem(sys.modules, name, module)
-        for cell in cells:
-            for long, short in SHORTER.items():
-                cell = cell.replace(long, short)
-            exec(compile(cell, "a cell of the notebook", "exec"), names)
-            if "run_gibbs_chain(" in cell and "gibbs_chain = " in cell:
-                chains.append(names["gibbs_chain"])
-    return {**names, "chains": chains}
+        with pytest.warns(DeprecationWarning, match="bare argument to categorical"):
+            run(cells, names)
+    return names
+
+
+def shortened(cell):
+    for long, short in SHORTER.items():
+        cell = cell.replace(long, short)
+    return cell
+
+
+def run(cells, names):
+    for cell in cells:
+        exec(compile(cell, "a cell of the notebook", "exec"), names)
+        if "run_gibbs_chain(" in cell and "gibbs_chain = " in cell:
+            names["chains"].append(names["gibbs_chain"])
 
 
 def test_every_cell_runs_and_draws_what_it_drew_on_genjax(names):

@@ -208,12 +208,17 @@ def test_distance_ordered_gibbs_runs_at_a_low_prior(readings):
 
 
 def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
-    """2 x 2 blocks, all sixteen patterns scored at once by a vmap over assess."""
-    patterns = jnp.array([[(k >> b) & 1 for b in range(4)] for k in range(16)], jnp.float32).reshape(16, 2, 2)
+    """2 x 2 blocks, all sixteen patterns scored at once by a vmap over assess; the loop carries what it returns."""
+    patterns = jnp.array([[(k >> b) & 1 for b in range(4)] for k in range(16)]).reshape(16, 2, 2)
 
     def update(key, walls, i, j):
-        candidates = jax.vmap(lambda p: jax.lax.dynamic_update_slice(walls, p, (i, j)))(patterns)
-        scores = jax.vmap(lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0])(candidates)
+        choices = C["readings"].set(readings) | C["walls"].set(walls)
+
+        def with_pattern(pattern):
+            block = pattern.astype(jnp.float32)
+            return assess(choices.at["walls"].set(jax.lax.dynamic_update_slice(walls, block, (i, j))), ARGS)
+
+        scores, (candidates, _) = jax.vmap(with_pattern)(patterns)
         return candidates[genjax.categorical.sample(key, logits=scores)]
 
     @jax.jit

@@ -40,7 +40,7 @@ def test_draws_follow_the_posterior():
     The states of the filter, drawn without looking ahead, are the wrong twin that the same test rejects.
     """
     joint = enumerated()
-    draws = jax.vmap(lambda key: DiscreteHMM(CONFIG, SEEN)(key))(jr.split(jr.key(0), 200_000))
+    draws = jax.vmap(DiscreteHMM(CONFIG, SEEN))(jr.split(jr.key(0), 200_000))
     counts = np.bincount(np.asarray(draws) @ [16, 4, 1], minlength=64)
     p = np.exp(np.array(list(joint.values())))
     expected = 200_000 * p / p.sum()

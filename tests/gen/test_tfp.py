@@ -14,6 +14,8 @@ from bayesmap.gen import tfp
 
 KEY = jr.key(0)
 
+SHARES = [0.2, 0.3, 0.5]
+
 # name: (parameters, a value, SciPy's log density there)
 KNOWN = {
     "beta_binomial": ((10.0, 2.0, 3.0), 4.0, st.betabinom.logpmf(4, 10, 2, 3)),
@@ -22,9 +24,9 @@ KNOWN = {
     "kumaraswamy": ((2.0, 3.0), 0.4, np.log(2 * 3 * 0.4 * (1 - 0.4**2) ** 2)),
     "moyal": ((0.0, 1.0), 0.5, st.moyal.logpdf(0.5)),
     "multinomial": (
-        (4.0, np.log([0.2, 0.3, 0.5])),
+        (4.0, np.log(SHARES)),
         [1.0, 1.0, 2.0],
-        st.multinomial.logpmf([1, 1, 2], 4, [0.2, 0.3, 0.5]),
+        st.multinomial.logpmf([1, 1, 2], 4, SHARES),
     ),
     "negative_binomial": ((5.0, 0.0), 3.0, st.nbinom.logpmf(3, 5, 0.5)),
     "skellam": ((2.0, 1.0), -1.0, st.skellam.logpmf(-1, 2, 1)),

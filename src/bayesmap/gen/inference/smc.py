@@ -158,28 +158,41 @@ class ImportanceK(SMCAlgorithm):
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
         """Draw all traces but the last."""
-        *keys, score_key, model_key = jax.random.split(key, self.k_particles + 1)
-        trace, weight = self.target.importance(model_key, retained)
-        if isinstance(self.q, Distribution):
-            weight -= self.q.estimate_logpdf(score_key, retained, self.target)
-        elif self.q is not None:
-            weight -= self.q.assess(retained, (self.target,))[0]
-        last = jax.tree.map(lambda x: jnp.asarray(x)[None], (trace, weight))
+        *keys, last_key = jax.random.split(key, self.k_particles)
+        last = jax.tree.map(lambda x: jnp.asarray(x)[None], self._retained(last_key, retained))
         if not keys:
             return ParticleCollection(*last)
         others = jax.vmap(self._one)(jnp.stack(keys))
         return ParticleCollection(*jax.tree.map(lambda a, b: jnp.concatenate([a, b]), others, last))
 
     def _one(self, key: PRNGKey) -> tuple[Trace, Weight]:
-        if self.q is None:
-            return self.target.importance(key, ChoiceMap.empty())
         propose_key, model_key = jax.random.split(key)
-        if isinstance(self.q, Distribution):
-            log_q, proposed = self.q.random_weighted(propose_key, self.target)
-        else:
-            proposed, log_q, _ = self.q.propose(propose_key, (self.target,))
+        proposed, log_q = self._propose(propose_key)
         trace, weight = self.target.importance(model_key, proposed)
         return trace, weight - log_q
+
+    def _propose(self, key: PRNGKey) -> tuple[ChoiceMap, Score]:
+        """(Choices of the proposal, their log density)."""
+        if self.q is None:
+            return ChoiceMap.empty(), jnp.zeros(())
+        if isinstance(self.q, Distribution):
+            score, choices = self.q.random_weighted(key, self.target)
+        else:
+            choices, score, _ = self.q.propose(key, (self.target,))
+        return choices, score
+
+    def _retained(self, key: PRNGKey, choices: ChoiceMap) -> tuple[Trace, Weight]:
+        """The trace with these open choices, weighted as if `_one` had drawn them."""
+        trace_key, score_key, project_key = jax.random.split(key, 3)
+        trace, _ = self.target.importance(trace_key, choices)
+        by_q = jax.eval_shape(lambda: self._propose(key)[0]).get_selection()
+        by_model = ~(self.target.constraint.get_selection() | by_q)
+        weight = trace.get_score() - trace.project(project_key, by_model)
+        if isinstance(self.q, Distribution):
+            weight -= self.q.estimate_logpdf(score_key, choices.filter(by_q), self.target)
+        elif self.q is not None:
+            weight -= self.q.assess(choices.filter(by_q), (self.target,))[0]
+        return trace, weight
 
 
 def Importance(target: Target, q: GenerativeFunction | None = None) -> ImportanceK:
