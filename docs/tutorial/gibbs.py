@@ -24,9 +24,6 @@ import jax.random as jrand
 import numpy as np
 from drawing import panels, show
 
-# %% Functions that draw tags=["hide-input"]
-from drawing import panels, show
-
 import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.gen import ChoiceMapBuilder as C

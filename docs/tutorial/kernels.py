@@ -23,9 +23,6 @@ import jax.random as jrand
 import numpy as np
 from drawing import panels, show
 
-# %% Functions that draw tags=["hide-input"]
-from drawing import panels, show
-
 import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.cells.defaults import default_sensor

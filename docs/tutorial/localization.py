@@ -122,7 +122,7 @@ seen = {"angles_rad": np.asarray(ANGLES), "ranges_m": np.asarray(readings)[None]
 viz.draw_rays(left, bm.Scans(poses=np.asarray(true_pose), **seen))
 viz.draw_sensor(left, np.asarray(true_pose))
 words = [f"at {60 * k} degrees: {r:.1f} m" for k, r in enumerate(readings)]
-right.text(9, 9, "\n".join(words), ha="center", va="center", color=TRUTH)
+right.text(7, 9, "\n".join(words), ha="center", va="center", color=TRUTH, fontsize=8)
 show(figure, "pose-scan.png", "A scan of six beams, and what the robot has: the map and six numbers.")
 
 # %% [markdown]
@@ -228,7 +228,13 @@ assert share_right + share_other > 0.95
 figure, axes = on_the_map("grid: probability of each place", "weighted poses, resampled", size_in=3.4)
 by_place = np.asarray(jax.nn.softmax(on_grid).reshape(84, 84, 72).sum(axis=-1))
 axes[0].imshow(
-    np.ma.masked_less(by_place, 1e-4).T, origin="lower", extent=(-0.5, 20.5, -0.5, 20.5), cmap="Blues", vmin=0, zorder=4
+    np.ma.masked_less(by_place, 1e-4).T,
+    origin="lower",
+    extent=(-0.5, 20.5, -0.5, 20.5),
+    cmap="Blues",
+    vmin=-0.02,
+    vmax=0.02,
+    zorder=4,
 )
 draw_poses(axes[1], first_poses)
 for ax in axes:
@@ -236,8 +242,8 @@ for ax in axes:
 show(figure, "pose-posterior.png", "Where the robot may be after one scan. The arrow is where it is.")
 
 # %% [markdown]
-# Two places explain the scan, the wrong one even a little better, and the posterior says so. A method that returned a single best pose
-# would have had to guess.
+# Two places explain the scan, the wrong one even a little better, and the posterior says so. A method that returned a
+# single best pose would have had to guess.
 #
 # ## The robot moves
 #
