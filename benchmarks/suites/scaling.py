@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from bayesmap.field_inference import first_sensor
+from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
 
 import bayesmap as bm
-from bayesmap.field_inference import first_sensor
 from bayesmap.kernels.trace import trace
-from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.sim.tutorial import TUTORIAL_GRID

@@ -122,9 +122,7 @@ def test_infer_takes_a_prior_of_poses_and_its_run_keeps_their_draws(tmp_path):
     again = bm.load(tmp_path / "run.nc")
     assert (again.poses == run.poses).all()
     assert again.posterior.settings["poses"] == model.poses.describe()
-    half = bm.infer(
-        model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, chains=2, warmup=10, draws=8
-    )
+    half = bm.infer(model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, chains=2, warmup=10, draws=8)
     assert (half.poses == model.scans.poses).all()
 
 
@@ -143,6 +141,7 @@ def test_reflectivities_and_surfaces_have_poses_too(prior):
         start_poses=said[None], chains=2, warmup=60, draws=30, hit_depth=0.0 if prior == bm.Beta() else 0.5,
     )  # fmt: skip
     found = run.pose_summary().mean
+
     # The whole map may lie elsewhere: what is compared is each pose in the frame of the others.
     def spread(poses):
         turned = poses - truth

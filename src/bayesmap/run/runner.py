@@ -159,8 +159,12 @@ def run_chains(
         )  # fmt: skip
 
     steps = sweeps(
-        job.sampler, state, schedule.sweeps, keep=keep, most_kept=max(1, BUFFER_BYTES // max(one, 1)),
-        stops=(schedule.warmup,)
+        job.sampler,
+        state,
+        schedule.sweeps,
+        keep=keep,
+        most_kept=max(1, BUFFER_BYTES // max(one, 1)),
+        stops=(schedule.warmup,),
     )
     saved_at, pause_s = time.monotonic(), checkpoint_every_s
     began, before = time.perf_counter(), state.sweep

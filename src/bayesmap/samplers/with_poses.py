@@ -39,6 +39,7 @@ DIFFERENCE_M = 0.02
 """Of poses, over which slopes of the likelihood are taken: about the noise of a laser."""
 OF_STEPS = ("pose_log_scale", "pose_factor")
 
+
 class MovableSampler(Sampler[Any, Any], Protocol):
     """A sampler of cells whose rays can be traced anew under its chains."""
 
