@@ -14,9 +14,8 @@ from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import WallProblem
-from bayesmap.samplers.propagate import propagate
-from bayesmap.samplers.start import start_maps
 from benchmarks.figure import Figure, best, timed
+from benchmarks.suites.tutorial import sweeps_of
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 RESOLUTION_M, MAX_RANGE_M = 0.1, 20.0
@@ -48,7 +47,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     grid = bm.Grid.covering(scans, RESOLUTION_M)
     sensor = default_sensor(RESOLUTION_M)
 
-    def build() -> Problem:
+    def build() -> WallProblem:
         table = trace(scans, grid, sensor, hit_depth=HIT_DEPTH, device=device)
         return WallProblem(table, bm.Independent(P_WALL), scans.poses, device)
 
@@ -71,15 +70,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
 
     yield timed("building/propagation_round", one_round, unit="s", scale=1, repeats=9)
 
-    sampler = Gibbs(problem, "radial")
-    warm = propagate(problem)
-    state = [sampler.init(start_maps(problem, "propagate", 1, 0, warm), seed=0)]
-    state[0], _ = sampler.step(state[0], 10, keep=False, threads=1)
-
-    def sweeps() -> int:
-        state[0], _ = sampler.step(state[0], 10, keep=False, threads=1)
-        return 10
-
+    sweeps = sweeps_of(Gibbs("radial", "propagate"), problem, 10, settling=10)
     yield timed("building/gibbs_sweep", sweeps, unit="ms/sweep", scale=1e3)
     if device == "cpu":
         yield from whole_run()

@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from bayesmap.field_inference import first_sensor
-from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
 
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
+from bayesmap.samplers.fit import first_sensor
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.stop_gibbs import StopGibbs, trace_stops
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, derived, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time, sweeps_of
@@ -34,8 +34,9 @@ def walls_of_the_tutorial(device: str) -> Iterator[Figure]:
         angles = np.arange(beams) / beams * 2 * np.pi
         scans = bm.simulate(walls, TUTORIAL_GRID, pose, angles, sensor=SENSOR, max_range_m=42.0, seed=0)
         table = trace(scans, TUTORIAL_GRID, SENSOR)
-        sampler = Gibbs(WallProblem(table, bm.Independent(0.5), scans.poses, device), "radial")
-        figure = sweep_time(f"scaling/{beams}_beams", sweeps_of(sampler, 2_000_000 // beams))
+        problem = WallProblem(table, bm.Independent(0.5), scans.poses, device)
+        work = sweeps_of(Gibbs("radial", "zeros"), problem, 2_000_000 // beams)
+        figure = sweep_time(f"scaling/{beams}_beams", work)
         figures.append(figure)
         yield figure
     against = "sweep time ~ beams^exponent, 100 to 1600 beams"
@@ -54,17 +55,9 @@ def surfaces_of_a_building(device: str) -> Iterator[Figure]:
     incidences, figures = [], []
     for scans in SCANS:
         some = everything.select(slice(None, None, max(SCANS) // scans))
-        problem = build_field(some, world.grid, prior, sensor, device=device)
-        sampler, number = FieldGibbs(problem, 1, 0, threads=1), iter(range(1_000_000))
-        for _ in range(SETTLING):
-            sampler.sweep(next(number), sensor, prior)
-        sweeps = 16 * max(1, 100 // scans)  # a whole round of resting cells, or several
-
-        def work(sampler: FieldGibbs = sampler, number: Iterator[int] = number, sweeps: int = sweeps) -> int:
-            for _ in range(sweeps):
-                sampler.sweep(next(number), sensor, prior)
-            return sweeps
-
+        problem = trace_stops(some, world.grid, prior, sensor, device=device)
+        # A whole round of the cells that are updated seldom, or several.
+        work = sweeps_of(StopGibbs(), problem, 16 * max(1, 100 // scans), settling=SETTLING)
         against = f"{problem.rays.n_incidences:,} incidences"
         name = f"scaling/surface_{len(some) * SCAN_BEAMS}_beams"
         figure = timed(name, work, unit="ms/sweep", scale=1e3, repeats=5, against=against)

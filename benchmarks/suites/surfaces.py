@@ -12,18 +12,17 @@ from pathlib import Path
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.field_inference import first_sensor
-from bayesmap.loading import load
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
-from bayesmap.posterior.field import FieldPosterior
+from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.scoring import score_posterior, score_prediction
-from bayesmap.run.chain import Schedule
-from bayesmap.run.field_chain import run_field
-from bayesmap.samplers.field_gibbs import FieldGibbs, build_field
+from bayesmap.result import load
+from bayesmap.samplers.fit import first_sensor, fit
+from bayesmap.samplers.stop_gibbs import StopGibbs, trace_stops
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure, ratio, timed, timer
 from benchmarks.peer_runner import Unavailable, peer
+from benchmarks.suites.tutorial import sweeps_of
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 RESOLUTION_M, MAX_RANGE_M, EVERY = 0.1, 20.0, 10
@@ -62,17 +61,9 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
 def settled_sweeps(kind: str, train: Scans, grid: Grid, device: str) -> tuple[Callable[[], int], str]:
     """Work for the stopwatch, sweeps of one settled chain on one core, the sensor fitted; and what it is."""
     prior = PRIORS[kind]
-    problem = build_field(train, grid, prior, first_sensor(prior, grid.resolution), device=device)
-    settled = run_field(problem, Schedule(SETTLING, 0), 1, 0, fit_sensor=True, fit_prior=True)
-    sampler = FieldGibbs(problem, 1, 0, threads=1, states=settled.states, counts=settled.last_counts)
-    parameters, number = settled.parameters, [SETTLING]
-
-    def sweeps() -> int:
-        for _ in range(SWEEPS):
-            sampler.sweep(number[0], parameters.sensor, parameters.prior)
-            number[0] += 1
-        return SWEEPS
-
+    problem = trace_stops(train, grid, prior, first_sensor(prior, grid.resolution), device=device)
+    fitted = fit(problem, 0, SETTLING)
+    sweeps = sweeps_of(StopGibbs(), problem.under(fitted.sensor, fitted.prior), SWEEPS, settling=SETTLING)
     against = f"{problem.rays.n_beams:,} beams, {problem.rays.n_incidences * 1e-6:.1f} M incidences, one core"
     return sweeps, against
 
@@ -114,7 +105,6 @@ def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[F
         what = f"{document['chains']} chains of {document['sweeps']} sweeps, all cores"
         yield replace(whole, against=f"{what}, score of held-out beams included")
         posterior = load(Path(folder) / "run.nc").posterior
-    assert isinstance(posterior, FieldPosterior)
     yield Figure(f"{name}/peak_memory", max(found["peak_memory_mb"] for found in documents), "MB")
     found = document["diagnostics"]
     against = f"of the log likelihood {found['rhat_log_likelihood']:.3f}; {document['draws']} draws a chain"
@@ -122,7 +112,7 @@ def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[F
     yield from score(name, scans, posterior)
 
 
-def score(name: str, scans: Scans, posterior: FieldPosterior) -> Iterator[Figure]:
+def score(name: str, scans: Scans, posterior: Posterior) -> Iterator[Figure]:
     """Held-out beams: how much better than the hit-count ratio tuned on the training scans, and how honest."""
     train, heldout = scans.holdout(EVERY)
     ours = score_posterior(posterior, heldout)

@@ -1,6 +1,8 @@
 """The tutorial's map, 100 beams: sweeps of one chain on one core, and the same work done by the peers."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.problem import WallProblem
-from bayesmap.samplers.sampler import WallSampler
+from bayesmap.samplers.sampler import Sampler
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, rate, ratio, timed, timer
 from benchmarks.peer_runner import Unavailable, peer, tutorial_data
@@ -20,7 +22,7 @@ SENSOR = bm.Gaussian(0.2)
 PARTICLES, PEER_PARTICLES = 50_000, 10_000
 
 
-def problem(p_wall: float, device: str) -> Problem:
+def problem(p_wall: float, device: str) -> WallProblem:
     """The tutorial's problem, on the readings that all systems are given."""
     _, readings = tutorial_data()
     angles = np.arange(len(readings)) / len(readings) * 2 * np.pi
@@ -28,14 +30,15 @@ def problem(p_wall: float, device: str) -> Problem:
     return WallProblem(trace(scans, TUTORIAL_GRID, SENSOR), bm.Independent(p_wall), scans.poses, device)
 
 
-def sweeps_of(sampler: WallSampler, sweeps: int, chains: int = 1, threads: int = 1) -> Callable[[], int]:
+def sweeps_of(
+    sampler: Sampler[Any, Any], problem: Any, sweeps: int, chains: int = 1, threads: int = 1, settling: int = 500
+) -> Callable[[], int]:
     """Work for the stopwatch: sweeps of settled chains, draws not kept; it returns how many there were."""
-    shape = sampler.problem.table.grid.shape
-    state = [sampler.init(np.zeros((chains, *shape), dtype=bool), seed=0)]
-    state[0], _ = sampler.step(state[0], 500, keep=False, threads=threads)
+    state = [sampler.init(replace(problem, threads=threads), range(chains), seed=0)]
+    state[0], _ = sampler.step(state[0], settling)
 
     def work() -> int:
-        state[0], _ = sampler.step(state[0], sweeps, keep=False, threads=threads)
+        state[0], _ = sampler.step(state[0], sweeps)
         return sweeps * chains
 
     return work
@@ -49,15 +52,17 @@ def sweep_time(name: str, work: Callable[[], int]) -> Figure:
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
     """All figures of the suite."""
     likely, rare = problem(0.5, device), problem(0.05, device)
-    raster = sweeps_of(Gibbs(likely, "raster"), 20_000)
-    block = sweeps_of(BlockGibbs(rare, "raster"), 2_000)
+    raster = sweeps_of(Gibbs("raster", "zeros"), likely, 20_000)
+    block = sweeps_of(BlockGibbs("raster", "zeros"), rare, 2_000)
     yield sweep_time("tutorial/gibbs_raster", raster)
-    yield sweep_time("tutorial/gibbs_radial", sweeps_of(Gibbs(likely, "radial"), 20_000))
-    yield sweep_time("tutorial/gibbs_random", sweeps_of(Gibbs(likely, "random"), 10_000))
+    yield sweep_time("tutorial/gibbs_radial", sweeps_of(Gibbs("radial", "zeros"), likely, 20_000))
+    yield sweep_time("tutorial/gibbs_random", sweeps_of(Gibbs("random", "zeros"), likely, 10_000))
     yield sweep_time("tutorial/block_raster", block)
 
     cores = available_cores()
-    one, many = (sweeps_of(Gibbs(likely, "radial"), 10_000, chains=8, threads=threads) for threads in (1, cores))
+    one, many = (
+        sweeps_of(Gibbs("radial", "zeros"), likely, 10_000, chains=8, threads=threads) for threads in (1, cores)
+    )
     against = f"{cores} cores against one, in turn"
     yield ratio("tutorial/8_chains_speedup", timer(one), timer(many), repeats=7, against=lambda _: against)
 
@@ -67,7 +72,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     yield rate("tutorial/importance", particles, unit="maps/s", repeats=5)
     if with_peers:
         truth = {p.p_wall[0]: p.log_joint(tutorial_data()[0]) for p in (likely, rare)}
-        radial = sweeps_of(Gibbs(likely, "radial"), 20_000)
+        radial = sweeps_of(Gibbs("radial", "zeros"), likely, 20_000)
         for name, case, cores_of_peer, ours in (
             ("genjax", "raster", 1, raster),
             ("genjax", "radial", 1, radial),

@@ -50,7 +50,7 @@ def chains_of(model, ids, schedule, seed, walls="prior", **options):
 
 @pytest.mark.parametrize("name", PRIORS)
 def test_ranks_of_the_truth_among_draws_are_uniform(name):
-    """Ranks among seven nearly independent draws: of each coordinate of the last pose, the log likelihood, and walls."""
+    """Ranks among seven nearly independent draws: of the last pose, the log likelihood, and the number of walls."""
     worlds, draws = 80, 7
     ranks = {what: [] for what in ("x", "y", "yaw", "walls", "likelihood")}
     biased = []

@@ -109,9 +109,9 @@ SLAM = (
         for key in INFER
         if key.name
         in (
-            "resolution", "max_range", "no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame", "deskew",
-            "thin_scans", "cells", "chains", "warmup", "draws", "thin", "seed", "sensor", "hit_depth", "threads", "device",
-            "checkpoint_every", "strict",
+            "resolution", "max_range", "no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame",
+            "deskew", "thin_scans", "cells", "chains", "warmup", "draws", "thin", "seed", "sensor", "hit_depth",
+            "threads", "device", "checkpoint_every", "strict",
         )
     ),
     Key("fast", bool, False, "Stop after the approximate trajectory: the map then takes it as known."),

@@ -34,8 +34,8 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     r"""Infer map and trajectory from LOG, whose poses are raw odometry: any log that infer reads.
 
     All scans are matched, loops are closed, and every scan is matched against all others that see the same walls; the
-    result is a trajectory with covariances. Then chains sample the map and the poses of the key scans together, each from
-    its own draw of that trajectory; --fast leaves this out and takes the trajectory as known.
+    result is a trajectory with covariances. Then chains sample the map and the poses of the key scans together, each
+    from its own draw of that trajectory; --fast leaves this out and takes the trajectory as known.
 
     Leaves in DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, with its covariances beside it),
     the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png), the JSON document
@@ -185,8 +185,8 @@ def summary(run: Run) -> dict[str, Any]:
 def _report(call: Call, trajectory: dict[str, Any]) -> None:
     call.talk.say(
         f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them in the map, "
-        f"{trajectory['loop_closures']:,} loop closures, standard deviation {100 * trajectory['sigma_m']['median']:.1f} cm "
-        f"(at most {100 * trajectory['sigma_m']['max']:.0f})"
+        f"{trajectory['loop_closures']:,} loop closures, standard deviation "
+        f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
     )
     if trajectory["flagged"]:
         some = ", ".join(str(scan) for scan in trajectory["flagged"][:10])

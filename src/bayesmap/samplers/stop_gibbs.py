@@ -93,7 +93,7 @@ class StopProblem:
         return {"cell": self.estimate.touched} | surfaces
 
     def for_any_poses(self) -> StopProblem:
-        """The same for poses that may move: draws keep all cells, and surfaces about those in which readings end now."""
+        """The same for poses that may move: draws keep all cells, and surfaces about where readings end now."""
         ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
         ends[self.estimate.endpoint_cells] = True
         near = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)

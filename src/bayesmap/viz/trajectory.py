@@ -84,7 +84,8 @@ def loops_figure(poses: Floats, first: ArrayLike, second: ArrayLike, residuals: 
 
     Args:
         poses: (S, 3).
-        first, second: indices of the scans of each closure, (M,).
+        first: index of one scan of each closure, (M,).
+        second: of the other.
         residuals: x, y and yaw of each, metres and radians, (M, 3).
         weights: how far each was believed, from 0 to 1, (M,).
     """
