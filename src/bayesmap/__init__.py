@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from bayesmap.result import Run as Run
     from bayesmap.result import load as load
     from bayesmap.result import score as score
+    from bayesmap.run.ray_executor import RayExecutor as RayExecutor
     from bayesmap.sensors.mixture import BeamMixture as BeamMixture
     from bayesmap.sensors.model import SensorModel as SensorModel
     from bayesmap.sensors.noise import Gaussian as Gaussian
@@ -58,6 +59,7 @@ _HOME = {
     "MapWidget": "bayesmap.app.widget",
     "Near": "bayesmap.localization.localize",
     "OdometryNoise": "bayesmap.sim.odometry",
+    "RayExecutor": "bayesmap.run.ray_executor",
     "Reading": "bayesmap.space.scans",
     "Run": "bayesmap.result",
     "Scans": "bayesmap.space.scans",

@@ -10,7 +10,7 @@ import pytest
 from shell import SOURCE, call, start
 
 import bayesmap
-from bayesmap.cli import infer as infer_module
+from bayesmap.cli import inferring
 from bayesmap.cli.group import COMMANDS
 
 
@@ -82,7 +82,7 @@ def test_failures_are_one_line(monkeypatch, office, tmp_path, error, code, messa
     def fail(*arguments, **options):
         raise error
 
-    monkeypatch.setattr(infer_module, "_infer", fail)
+    monkeypatch.setattr(inferring, "sample", fail)
     result = call("infer", office, "-o", tmp_path / "run", "-q")
     assert result.exit_code == code
     assert result.stdout == ""
@@ -94,7 +94,7 @@ def test_verbose_shows_the_traceback(monkeypatch, office, tmp_path):
     def fail(*arguments, **options):
         raise RuntimeError("a loose wire")
 
-    monkeypatch.setattr(infer_module, "_infer", fail)
+    monkeypatch.setattr(inferring, "sample", fail)
     result = call("infer", office, "-o", tmp_path / "run", "-v")
     assert result.exit_code == 1
     assert "Traceback" in result.stderr

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import glob
+from collections.abc import Sequence
 from pathlib import Path
 
 from bayesmap.errors import BadInput
@@ -24,3 +26,45 @@ def need_file(file: str, wanted: str, *, runs: bool) -> None:
         raise BadInput(f"{file}: no such file; give {wanted}")
     if (Path(file) / "run.nc").is_file():
         raise BadInput(f"{file}: a folder; give the run.nc in it" if runs else f"{file}: a run's folder; give {wanted}")
+
+
+def logs_of(given: Sequence[str]) -> list[str] | None:
+    """The logs that are meant by several names, a folder of logs, or a pattern; None if it is one log.
+
+    Args:
+        given: as typed. Of a folder all files and folders of ROS 2 bags in it are meant, but for hidden ones.
+
+    Raises:
+        BadInput: a pattern or a folder with nothing in it.
+    """
+    found: list[str] = []
+    several = len(given) > 1
+    for one in given:
+        path = Path(one)
+        if not path.exists() and any(sign in one for sign in "*?["):
+            several = True
+            matches = sorted(glob.glob(one))
+            if not matches:
+                raise BadInput(f"{one}: no file matches; give {LOG}")
+            found += matches
+        elif path.is_dir() and not _is_recording(path) and not (path / "run.nc").is_file():
+            several = True
+            inside = [
+                entry
+                for entry in sorted(path.iterdir())
+                if not entry.name.startswith(".") and (entry.is_file() or _is_recording(entry))
+            ]
+            if not inside:
+                raise BadInput(f"{one}: a folder without logs; give {LOG}")
+            found += map(str, inside)
+        else:
+            found.append(one)
+    return found if several else None
+
+
+def _is_recording(folder: Path) -> bool:
+    """Whether a folder is a ROS 2 bag rather than one of logs: two bags of one recording lie side by side."""
+    if (folder / "metadata.yaml").exists():
+        return True
+    recorded = [entry for entry in folder.glob("*") if entry.name.endswith((".db3", ".mcap", ".zstd"))]
+    return len(recorded) == 1

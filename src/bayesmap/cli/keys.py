@@ -99,6 +99,7 @@ INFER = (
     Key("holdout", int, 0, "Hold out every n-th scan, and score it; 0: none.", metavar="N"),
     Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
     Key("device", str, "cpu", "cpu, or a CUDA device such as cuda:0.", metavar="NAME"),
+    Key("executor", str, "threads", "threads, or ray[://HOST:PORT]: on a Ray cluster.", metavar="WHERE"),
     Key("checkpoint_every", float, 30.0, "Seconds from one checkpoint to the next.", metavar="SECONDS"),
     Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
 )

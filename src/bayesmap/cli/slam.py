@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import cells, infer, sensors
+from bayesmap.cli import cells, inferring, sensors
 from bayesmap.cli.command import PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.given import LOG, need_file
@@ -50,14 +50,16 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
-    folder = Folder(Path(output) if output else Path("runs") / infer.stem(log), call.talk, resuming=resume)
-    values = cells.settled({**infer.DEFAULTS, **call.values(infer.settings_of(folder, "slam") if resume else None)})
+    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.talk, resuming=resume)
+    values = cells.settled(
+        {**inferring.DEFAULTS, **call.values(inferring.settings_of(folder, "slam") if resume else None)}
+    )
     sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
     folder.check(force=force)
     go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder.path), "--resume"])
 
-    reading = infer.read(call.talk, log, values)
-    saved = infer.saved(folder) if resume else None
+    reading = inferring.read(call.talk, log, values)
+    saved = inferring.saved(folder) if resume else None
     if force:
         _forget(folder)
     found: list[Trajectory] = []
@@ -67,12 +69,12 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         call.talk.say(f"the stages that are done are kept; go on with:\n  {go_on}")
         raise
     if not run.finished:
-        infer.leave(folder, run, reading, go_on)
+        inferring.leave(folder, run, reading, go_on)
     outputs = [*folder.write_products(run), *_write_trajectory(folder, reading, run)]
-    document = infer.document_of(run, reading, None, [*outputs, folder.path / "summary.json", folder.config])
+    document = inferring.document_of(run, reading, None, [*outputs, folder.path / "summary.json", folder.config])
     document["trajectory"] = summary(run)
     folder.write_document(document)
-    infer.report(call.talk, document)
+    inferring.report(call.talk, document)
     _report(call, document["trajectory"])
     call.talk.result(document, document["outputs"].values())
     if values["strict"] and document["problems"]:
@@ -95,7 +97,7 @@ def _slam(
 ) -> Run:
     from bayesmap.from_odometry import slam
 
-    toml = as_toml({"slam": {name: values[name] for name in infer.names_of("slam")}})
+    toml = as_toml({"slam": {name: values[name] for name in inferring.names_of("slam")}})
     with progress(folder.talk, "matching scans") as show:
 
         def on_progress(event: Event) -> None:
