@@ -1,9 +1,22 @@
 """Chains on a real Ray cluster of two nodes: the draws of threads, bit for bit, whatever dies."""
 
+import os
+import signal
+import sys
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.model import Model
+from bayesmap.poses.prior import Uncertain
+from bayesmap.run.executor import ThreadExecutor
+from bayesmap.run.runner import Job
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.sampler import NOTHING
 
 pytestmark = [pytest.mark.xdist_group("ray"), pytest.mark.filterwarnings("ignore::ResourceWarning")]
 
@@ -87,3 +100,115 @@ def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
     run = bm.infer(scans, GRID, executor=quick(), on_progress=on_progress, **arguments)
     assert killed
     assert_same(run, bm.infer(scans, GRID, **arguments))
+
+
+def test_unknown_poses_come_out_alike(cluster, scans):
+    """Each chain has poses of its own, and rays that follow them."""
+    arguments = {**SHORT, **KINDS["reflectivities"], "poses": Uncertain(0.05, 0.01), "warmup": 7, "draws": 8}
+    assert_same(bm.infer(scans, GRID, executor=quick(), **arguments), bm.infer(scans, GRID, **arguments))
+
+
+@dataclass(frozen=True, eq=False)
+class Deadly(Gibbs):
+    """Ends the process that samples with it, once: in the middle of what Ray has given it to do.
+
+    Attributes:
+        mark: file that says that it has.
+    """
+
+    mark: str = ""
+
+    def step(self, state, sweeps, beta=1.0, keep=NOTHING):
+        if state.sweep > 10 and not os.path.exists(self.mark):
+            with open(self.mark, "x"):
+                pass
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super().step(state, sweeps, beta, keep)
+
+
+def test_a_worker_that_dies_costs_nothing_but_time(cluster, scans, tmp_path):
+    cluster.send_by_value(sys.modules[__name__])
+    model = Model(scans, GRID, bm.Independent(0.3), bm.Gaussian(0.2))
+
+    def job(sampler):
+        return Job(model, sampler, Schedule(20, 30), 5, (0, 1, 2))
+
+    mark = tmp_path / "died"
+    done = quick().run(job(Deadly(mark=str(mark))), None, Watch(), None, 30.0)
+    assert mark.exists()
+    expected = ThreadExecutor().run(job(Gibbs()), None, Watch(), None, 30.0)
+    np.testing.assert_array_equal(done.draws.arrays["walls"], expected.draws.arrays["walls"])
+    np.testing.assert_array_equal(done.log_joint, expected.log_joint)
+
+
+def test_a_task_whose_worker_always_dies_is_given_up(cluster, scans, tmp_path):
+    cluster.send_by_value(sys.modules[__name__])
+    model = Model(scans, GRID, bm.Independent(0.3), bm.Gaussian(0.2))
+    job = Job(model, Deadly(mark=str(tmp_path / "died")), Schedule(20, 30), 5, (0,))
+    with pytest.raises(ConnectionError, match="its workers had died"):
+        quick(retries=0).run(job, None, Watch(), None, 30.0)
+
+
+def test_a_run_that_is_stopped_goes_on_where_it_was(cluster, scans):
+    """Ctrl-C in the middle; then on the cluster, and as well on threads."""
+    arguments = {**SHORT, **KINDS["surfaces and a fitted sensor"], "warmup": 100, "draws": 200}
+
+    def stop(event):
+        if event.stage == "draws":
+            signal.raise_signal(signal.SIGINT)
+
+    stopped = bm.infer(scans, GRID, executor=quick(), on_progress=stop, **arguments)
+    assert not stopped.finished
+    assert 100 < stopped.posterior.sweep < 300
+    expected = bm.infer(scans, GRID, **arguments)
+    assert_same(bm.infer(scans, GRID, executor=quick(), resume=stopped, **arguments), expected)
+    assert_same(bm.infer(scans, GRID, resume=stopped, **arguments), expected)
+
+
+def test_checkpoints_are_of_all_chains_at_one_sweep(cluster, scans):
+    arguments = {**SHORT, **KINDS["walls"], "warmup": 50, "draws": 100}
+    seen, progress = [], []
+    run = bm.infer(
+        scans, GRID, executor=quick(), on_checkpoint=seen.append, on_progress=progress.append, checkpoint_every_s=0.0,
+        **arguments,
+    )  # fmt: skip
+    assert len(seen) >= 2
+    for one in seen:
+        assert not one.finished
+        kept = one.draws.shape[1]
+        assert one.posterior.sweep == one.posterior.warmup_log_joint.shape[1] + kept
+        np.testing.assert_array_equal(one.draws, run.draws[:, :kept])
+    sweeps = [event.done for event in progress if event.stage in ("warm-up", "draws")]
+    assert sweeps == sorted(sweeps)
+    assert sweeps[-1] == 150
+    assert_same(bm.infer(scans, GRID, executor=quick(), resume=seen[0], **arguments), run)
+
+
+def test_what_a_sampler_refuses_is_refused_here_too(cluster, scans):
+    with pytest.raises(bm.BadInput, match="each task has a GPU of its own"):
+        bm.infer(scans, GRID, executor=quick(), device="tpu:7", **{**SHORT, **KINDS["walls"]})
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"cpus_per_task": 0}, "cpus_per_task must be a whole number of 1 or more"),
+        ({"chains_per_task": 0}, "chains_per_task must be a whole number of 1 or more"),
+        ({"retries": -1}, "retries must be a whole number of 0 or more"),
+        ({"segment_s": 0.0}, "segment_s must be a positive number of seconds"),
+    ],
+)
+def test_numbers_that_make_no_sense_are_refused(change, message):
+    with pytest.raises(bm.BadInput, match=message):
+        bm.RayExecutor(**change)
+
+
+def test_more_cpus_than_the_cluster_has_are_refused(cluster, scans):
+    with pytest.raises(bm.BadInput, match="each needs 64 CPUs"):
+        bm.infer(scans, GRID, executor=quick(cpus_per_task=64), **{**SHORT, **KINDS["walls"]})
+
+
+def test_without_ray_the_remedy_is_named(scans, monkeypatch):
+    monkeypatch.setitem(sys.modules, "ray", None)
+    with pytest.raises(bm.BadInput, match=r"pip install 'bayesmap\[ray\]'"):
+        bm.infer(scans, GRID, executor=bm.RayExecutor(), **{**SHORT, **KINDS["walls"]})

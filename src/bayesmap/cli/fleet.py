@@ -88,7 +88,7 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
         except (click.ClickException, click.exceptions.Exit):
             raise
         except Exception as error:
-            entry.error = " ".join(explain(error)[1].split())
+            entry.error = " ".join(explain(error)[1].split()).removeprefix(f"{entry.log}: ")
             call.talk.warn(f"{entry.log}: {entry.error}")
             return None
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from bayesmap.errors import BadInput
 
+RECORDED = (".db3", ".mcap", ".zstd")
+"""How the files of a ROS 2 bag end."""
 LOG = "a log or a recording of range scans"
 
 
@@ -32,7 +34,7 @@ def logs_of(given: Sequence[str]) -> list[str] | None:
     """The logs that are meant by several names, a folder of logs, or a pattern; None if it is one log.
 
     Args:
-        given: as typed. Of a folder all files and folders of ROS 2 bags in it are meant, but for hidden ones.
+        given: as typed. Of a folder those in it are meant whose names end as logs' do, and folders of ROS 2 bags.
 
     Raises:
         BadInput: a pattern or a folder with nothing in it.
@@ -49,22 +51,27 @@ def logs_of(given: Sequence[str]) -> list[str] | None:
             found += matches
         elif path.is_dir() and not _is_recording(path) and not (path / "run.nc").is_file():
             several = True
-            inside = [
-                entry
-                for entry in sorted(path.iterdir())
-                if not entry.name.startswith(".") and (entry.is_file() or _is_recording(entry))
-            ]
+            inside = [entry for entry in sorted(path.iterdir()) if _is_log(entry)]
             if not inside:
-                raise BadInput(f"{one}: a folder without logs; give {LOG}")
+                raise BadInput(f"{one}: a folder without logs, by the endings of the names; give {LOG}")
             found += map(str, inside)
         else:
             found.append(one)
     return found if several else None
 
 
+def _is_log(path: Path) -> bool:
+    """Whether a path in a folder is a log, by its name."""
+    from bayesmap.io.logs import ENDINGS
+
+    if path.is_dir():
+        return _is_recording(path)
+    return path.name.endswith((*ENDINGS, *RECORDED)) and not path.name.startswith(".")
+
+
 def _is_recording(folder: Path) -> bool:
     """Whether a folder is a ROS 2 bag rather than one of logs: two bags of one recording lie side by side."""
     if (folder / "metadata.yaml").exists():
         return True
-    recorded = [entry for entry in folder.glob("*") if entry.name.endswith((".db3", ".mcap", ".zstd"))]
+    recorded = [entry for entry in folder.glob("*") if entry.name.endswith(RECORDED)]
     return len(recorded) == 1

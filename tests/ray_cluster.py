@@ -1,3 +1,8 @@
+"""A Ray cluster of two nodes on this machine, for tests; skipped where Ray is not installed.
+
+All tests with it are of one xdist group, so that one worker starts one cluster (pytest --dist loadgroup).
+"""
+
 import contextlib
 import logging
 import os
@@ -41,6 +46,13 @@ class TwoNodes:
             self._second = self._cluster.add_node(**node())
             self._cluster.wait_for_nodes()
 
+    @staticmethod
+    def send_by_value(module):
+        """Send the classes of a test's module to workers, which cannot import it."""
+        from ray import cloudpickle
+
+        cloudpickle.register_pickle_by_value(module)
+
     def kill(self):
         """End the second node's processes, without a warning to anybody."""
         assert self._second is not None
@@ -49,7 +61,7 @@ class TwoNodes:
 
 
 @pytest.fixture(scope="session")
-def _cluster():
+def two_nodes():
     pytest.importorskip("ray", reason="Ray is not installed (pip install 'bayesmap[ray]')")
     os.environ |= ENVIRONMENT
     with warnings.catch_warnings():
@@ -66,6 +78,7 @@ def _cluster():
 
 
 @pytest.fixture
-def cluster(_cluster):
-    _cluster.complete()
-    return _cluster
+def cluster(two_nodes):
+    """The cluster, both of its nodes there."""
+    two_nodes.complete()
+    return two_nodes
