@@ -17,8 +17,7 @@ ENVIRONMENT = {
     "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",  # without it Ray warns of a change to come
     "RAY_agent_register_timeout_ms": "150000",  # 30 s are too few where many tests share two cores
 }
-
-
+ATTEMPTS = 3
 AGENT_PORTS = ("metrics_agent_port", "metrics_export_port", "dashboard_agent_listen_port", "runtime_env_agent_port")
 """If Ray is to find these itself it gives a node up after 15 s, too few here (ray-project/ray, issue 65983)."""
 
@@ -42,9 +41,14 @@ class TwoNodes:
 
     def complete(self):
         """Two nodes, whatever has happened to the second."""
-        if self._second is None:
-            self._second = self._cluster.add_node(**node())
-            self._cluster.wait_for_nodes()
+        for left in reversed(range(ATTEMPTS)):
+            if self._second is not None:
+                return
+            try:
+                self._second = self._cluster.add_node(**node())
+            except Exception:  # a bare one: Ray gives a node 30 s to start, and what else runs here may take them all
+                if not left:
+                    raise
 
     @staticmethod
     def send_by_value(module):
@@ -72,13 +76,14 @@ def two_nodes():
         head = {**node(), "include_dashboard": False, "include_log_monitor": False}
         cluster = Cluster(initialize_head=True, head_node_args=head)
         ray.init(address=cluster.address, log_to_driver=False, logging_level=logging.ERROR)
-    yield TwoNodes(cluster)
+    nodes = TwoNodes(cluster)
+    nodes.complete()
+    yield nodes
     ray.shutdown()
     cluster.shutdown()
 
 
 @pytest.fixture
 def cluster(two_nodes):
-    """The cluster, both of its nodes there."""
-    two_nodes.complete()
+    """The cluster; its second node may have been killed by another test, see `TwoNodes.complete`."""
     return two_nodes

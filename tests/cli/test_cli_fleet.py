@@ -8,6 +8,7 @@ import pytest
 from shell import call
 
 import bayesmap as bm
+from bayesmap.cli import fleet
 
 pytestmark = pytest.mark.xdist_group("ray")
 
@@ -62,6 +63,23 @@ def test_on_a_cluster_too(logs, tmp_path, alone, short, cluster):
     output = tmp_path / "runs"
     every = ("--executor", "ray", "--checkpoint-every", 0)
     check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
+
+
+def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, cluster, monkeypatch):
+    cluster.complete()
+    keep, killed = fleet._RayFleet._keep, []
+
+    def keep_and_kill(self, entry, sent):
+        keep(self, entry, sent)
+        if not killed:
+            cluster.kill()
+            killed.append(entry)
+
+    monkeypatch.setattr(fleet._RayFleet, "_keep", keep_and_kill)
+    output = tmp_path / "runs"
+    every = ("--executor", "ray", "--checkpoint-every", 0)
+    check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
+    assert killed
 
 
 def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, short, cluster):

@@ -88,6 +88,7 @@ def test_how_chains_are_divided_makes_no_difference(cluster, scans, chains_per_t
 
 @pytest.mark.parametrize("kind", ["walls", "surfaces and a fitted sensor"])
 def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
+    cluster.complete()
     arguments = {**SHORT, **KINDS[kind], "warmup": 100, "draws": 200}
     killed = []
 
