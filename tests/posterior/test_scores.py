@@ -5,7 +5,6 @@ import json
 
 import numpy as np
 import pytest
-from oracle.field_worlds import scans_of_all_kinds
 from oracle.formula import beams, distances
 from oracle.worlds import make_case
 from scipy import special
@@ -14,7 +13,6 @@ import bayesmap as bm
 from bayesmap.cells.packing import pack
 from bayesmap.posterior.posterior import entropy_bits, mean_of_draws
 from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.residuals import residuals_of
 from bayesmap.posterior.score import beam_log_scores
 from bayesmap.sensors.model import RangeLimits
 
@@ -122,18 +120,3 @@ def test_methods_without_chains_have_no_r_hat(case, method):
     summary = run.summary()
     assert np.isnan([summary.rhat_log_joint, summary.rhat_max, summary.ess_min]).all()
     assert np.isfinite(summary.effective_sample_size) == (method == "importance")
-
-
-@pytest.mark.parametrize(
-    "prior", [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)], ids=lambda p: p.words.kind
-)
-def test_one_number_has_the_same_digits_wherever_it_is_asked_for(prior):
-    """The log score, the whole score, and the surprise of residuals are one kernel's, for every kind of cells."""
-    grid, sensor = bm.Grid((4, 3), 0.5, (-1.0, 2.0)), bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_no_return=0.1)
-    train, held = scans_of_all_kinds(5, grid, poses=20), scans_of_all_kinds(6, grid, poses=7)
-    run = bm.infer(train, grid, prior=prior, sensor=sensor, chains=2, warmup=5, draws=8)
-    for other in (None, bm.BeamMixture(bm.StudentT(0.1)), bm.Gaussian(0.2)):
-        assert run.log_score(held, sensor=other) == bm.score(run, held, sensor=other).nats_per_beam
-    predictor = predictor_of(run.posterior)
-    found = residuals_of(predictor, held)
-    np.testing.assert_array_equal(found.surprise_nats, -beam_log_scores(predictor, held)[found.beams])

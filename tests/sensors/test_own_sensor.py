@@ -11,24 +11,19 @@ import bayesmap as bm
 
 PAGE = Path(__file__).parents[2] / "CONTRIBUTING.md"
 GRID = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
+KINDS = [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)]
 TRAIN, HELD = (scans_of_all_kinds(seed, GRID, poses=12) for seed in (1, 2))
 
 
 @pytest.fixture(scope="module")
 def sonar():
-    code = re.search(r"```python\n(@dataclass.*?)```", PAGE.read_text(), re.DOTALL)[1]
-    head = (
-        "from dataclasses import dataclass\nimport numpy as np\nfrom scipy.stats import laplace\n"
-        "from bayesmap.sensors.model import SensorModel\n"
-    )
+    code = next(block for block in re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL) if "Sonar" in block)
     names = {"__name__": "sonar"}
-    exec(head + code, names)
+    exec(code, names)
     return names["Sonar"](0.15)
 
 
-@pytest.mark.parametrize(
-    "prior", [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)], ids=lambda p: p.words.kind
-)
+@pytest.mark.parametrize("prior", KINDS, ids=lambda prior: prior.words.kind)
 def test_maps_are_inferred_and_scored_by_it(prior, sonar):
     run = bm.infer(TRAIN, GRID, prior=prior, sensor=sonar, chains=2, warmup=10, draws=20)
     assert np.isfinite(run.log_joint).all()
