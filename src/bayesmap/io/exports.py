@@ -49,6 +49,9 @@ FORMATS = {
 
 TRAJECTORIES = ("tum", "trajectory", "g2o")
 
+SLAM_DRAWS = 64
+"""Of the trajectory that `bayesmap.slam` found, for relative poses and steps."""
+
 THRESHOLDED = ("map-server", "occupancy-grid")
 """Formats that turn probabilities into per cent, and take a mode and thresholds."""
 
@@ -126,10 +129,14 @@ def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
 
 def trajectory_of(run: object, scans: Scans) -> Trajectory:
     """Where a run says that the sensor was: its draws of poses where it has some, else the poses of its scans."""
+    approximate = getattr(run, "trajectory", None)
+    if approximate is not None:  # of all scans, the map's and those between; only right after `bayesmap.slam`
+        drawn = approximate.draw(SLAM_DRAWS, 0)
+        return Trajectory(approximate.poses, approximate.stamps_s, approximate.covariances, drawn)
     draws = getattr(run, "poses", None)
-    if isinstance(draws, np.ndarray) and draws.ndim == 4 and draws.shape[0] * draws.shape[1] > 1:
-        return Trajectory.of_draws(draws, scans.stamps_s)
-    return Trajectory(scans.poses, scans.stamps_s)
+    if draws is None or draws.ndim != 4 or draws.shape[0] * draws.shape[1] < 2 or (draws == draws[0, 0]).all():
+        return Trajectory(scans.poses, scans.stamps_s)
+    return Trajectory.of_draws(draws, scans.stamps_s)
 
 
 def export_trajectory(
