@@ -55,7 +55,9 @@ def test_it_opens_as_plain_netcdf(kind, tmp_path):
         np.testing.assert_allclose(file["sample_stats"]["lp"][:], run.log_joint)
         np.testing.assert_array_equal(file["constant_data"]["occupancy"][:], run.occupancy)
         if kind == "surfaces":
-            np.testing.assert_array_equal(draws["surface_l22"][:], surfaces_of(run.posterior)[..., 4].astype(np.float32))
+            np.testing.assert_array_equal(
+                draws["surface_l22"][:], surfaces_of(run.posterior)[..., 4].astype(np.float32)
+            )
 
 
 def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):

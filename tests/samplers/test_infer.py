@@ -74,7 +74,9 @@ def test_chains_may_start_from_a_map(case, method):
     start = np.random.default_rng(1).random((4, 4)) < 0.5
     for given in (start, start.astype(np.uint8), np.stack([start] * 4)):
         run = infer(case, method=method, start=given, warmup=0, draws=0)
-        np.testing.assert_array_equal(run.posterior.snapshot.arrays["walls"].reshape(4, 4, 4) != 0, np.stack([start] * 4))
+        np.testing.assert_array_equal(
+            run.posterior.snapshot.arrays["walls"].reshape(4, 4, 4) != 0, np.stack([start] * 4)
+        )
 
 
 @pytest.mark.parametrize("method", MARKOV)
@@ -130,7 +132,9 @@ def test_a_resumed_run_still_knows_its_warm_start(case, monkeypatch):
     seen = []
     whole = infer(case, on_checkpoint=seen.append, **options)
     resumed = infer(case, resume=seen[0], **options)
-    np.testing.assert_array_equal(resumed.posterior.statistics["belief_changes"], whole.posterior.statistics["belief_changes"])
+    np.testing.assert_array_equal(
+        resumed.posterior.statistics["belief_changes"], whole.posterior.statistics["belief_changes"]
+    )
 
 
 def test_belief_propagation_stopped_by_ctrl_c_is_not_finished(case):

@@ -52,6 +52,10 @@ class WallProblem:
         """Draws cover the grid."""
         return {}
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny)."""
+        return self.table.observed()
+
     def under(self, prior: Independent) -> WallProblem:
         """The same table, and its index if there is one, under another prior."""
         other = replace(self, prior=prior)

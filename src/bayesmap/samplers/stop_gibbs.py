@@ -82,6 +82,10 @@ class StopProblem:
         surfaces = {"surface_cell": self.estimate.endpoint_cells} if self.prior.has_surfaces else {}
         return {"cell": self.estimate.touched} | surfaces
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny)."""
+        return self.rays.touched_map()
+
     @cached_property
     def distance_m(self) -> NDArray[np.float32]:
         """Where beams stop in their cells if these have no surfaces, (K,)."""
