@@ -14,10 +14,15 @@ from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import simulate_document, simulated_scene
 from bayesmap.app.tasks import Cancel, Inspect, Look
 from bayesmap.app.worlds import new_document, tutorial_document
+from bayesmap.model import Model
+from bayesmap.run.runner import Job, run_chains
+from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.exact import enumerate_maps
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
+from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.space.grid import Grid
 
 TINY = Document(
@@ -225,8 +230,43 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     from bayesmap.samplers.gibbs import Gibbs
 
     document = new_document("blank", (500, 500), tutorial_document())
-    problem = simulated_scene(document).problem
-    stream = Stream(Gibbs(problem, "radial"), np.zeros((2, 500, 500), dtype=bool), 6000, 0, keep=True)
+    scene = simulated_scene(document)
+    model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
+    stream = Stream(model, Gibbs("radial", start), scene.problem, 6000, 0, keep=True)
     assert stream.thin == 3
     assert stream.total == 6000
-    assert stream._packed.nbytes <= DRAW_BYTES
+    assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
+
+
+@pytest.mark.parametrize("cells", ["reflectivity", "surface"])
+def test_other_kinds_of_cells_run_on_the_page_as_in_the_library(cells):
+    """The same runner: a pilot fits the sensor, and the draws are those of the library's chains under it."""
+    document = replace(tutorial_document(), cells=cells, sweeps=30, noise=0.1)
+    heard = Heard()
+    field = heard.infer(document, "run")
+    assert field[0]["sweeps"] == field[0]["total"] == 30
+    assert field[0]["draws"] == {"chains": 2, "count": 30}
+    assert not any(f["approximate"] for f in heard.all("field"))
+    prior, scans = {"reflectivity": bm.Beta(), "surface": bm.Surface()}[cells], simulate_document(document)[0]
+    model = Model(scans, document.grid, prior, first_sensor(prior, document.grid.resolution), hit_depth=0.5)
+    found = fit(StopGibbs().prepare(model, "cpu"), document.seed, PILOT_SWEEPS)
+    assert found.prior != prior
+    chains = run_chains(Job(model, StopGibbs(), Schedule(0, 30), document.seed, (0, 1), parameters=found))
+    assert np.array_equal(field[1]["p"], np.rint(255 * found.prior.mean_map(chains.draws)))
+    (answer,) = heard.ask(Look("draw", 1, 7))
+    assert (answer.header["chain"], answer.header["draw"]) == (1, 7)
+    assert np.array_equal(
+        answer.buffers["p"], np.rint(np.float32(255) * found.prior.map_of(chains.draws, 1, 7).astype(np.float32))
+    )
+
+
+def test_a_surface_run_of_the_page_is_saved_as_one(tmp_path):
+    from bayesmap.app.exports import export
+
+    heard = Heard()
+    heard.infer(replace(tutorial_document(), cells="surface", sweeps=10), "run")
+    _, _, data = export(heard.engine._result, "run")
+    (tmp_path / "run.nc").write_bytes(data)
+    run = bm.load(tmp_path / "run.nc")
+    assert (run.posterior.kind, run.n_draws, run.posterior.sweep) == ("surface", 10, 10)
+    assert np.isfinite(run.log_joint).all()

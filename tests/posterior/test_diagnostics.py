@@ -5,6 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import bayesmap as bm
+from bayesmap.cells.draws import Draws
 from bayesmap.cells.packing import pack
 from bayesmap.posterior import diagnostics
 from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
@@ -58,6 +60,12 @@ def test_scalars_have_arviz_s_r_hat_and_effective_sample_sizes(seed, chains, dra
     assert tail_ess(values) == pytest.approx(expected, rel=1e-9)
 
 
+def diagnose(walls, among=None):
+    prior, shape = bm.Independent(0.5), walls.shape[2:]
+    draws = Draws(bm.Grid(shape), prior.arrays, {"walls": pack(walls)})
+    return diagnose_cells(prior, draws, np.ones(shape, dtype=bool) if among is None else among)
+
+
 def walls_of(seed, chains, draws, shape=(5, 4)):
     """Cells that flip at every rate, some that never change, and some that differ between chains alone."""
     rng = np.random.default_rng(seed)
@@ -78,7 +86,7 @@ def walls_of(seed, chains, draws, shape=(5, 4)):
 def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeypatch):
     monkeypatch.setattr(diagnostics, "CELLS_AT_ONCE", 7)  # several batches
     walls = walls_of(seed, chains, draws)
-    found = diagnose_cells(pack(walls), walls.shape[2:])
+    found = diagnose(walls)
     flat = walls.reshape(chains, draws, -1).astype(float)
     within = (flat != flat[:, :1]).any(axis=(0, 1))
     rhats = [arviz_rhat(flat[:, :, c]) for c in np.flatnonzero(within)]
@@ -98,7 +106,7 @@ def test_cells_can_be_left_out():
     walls = walls_of(1, 4, 100)
     among = np.zeros((5, 4), dtype=bool)
     among[3, 2] = True
-    alone = diagnose_cells(pack(walls), (5, 4), among)
+    alone = diagnose(walls, among)
     values = walls[:, :, 3, 2].astype(float)
     assert alone.rhat_max == pytest.approx(arviz_rhat(values), rel=1e-9)
     assert alone.ess_min == pytest.approx(arviz_ess(values), rel=1e-9)
@@ -115,12 +123,12 @@ def test_a_cell_that_changes_in_the_middle_draw_alone_has_no_r_hat(draws):
     """Of an odd number of draws, the halves leave the middle one out: both are constant then."""
     walls = np.zeros((2, draws, 3, 3), dtype=bool)
     walls[:, draws // 2, 1, 1] = True
-    assert np.isnan(diagnose_cells(pack(walls), (3, 3)).rhat_max)
+    assert np.isnan(diagnose(walls).rhat_max)
 
 
 @pytest.mark.parametrize("draws", [0, 1, 2, 3])
 def test_too_few_draws_have_no_diagnostics(draws):
-    found = diagnose_cells(pack(np.zeros((2, draws, 3, 3), dtype=bool)), (3, 3))
+    found = diagnose(np.zeros((2, draws, 3, 3), dtype=bool))
     assert np.isnan(found.rhat_max)
     assert np.isnan(found.ess_min)
     values = np.random.default_rng(1).normal(size=(2, draws))
@@ -128,6 +136,6 @@ def test_too_few_draws_have_no_diagnostics(draws):
 
 
 def test_a_map_that_never_changes_is_unchanged_and_nothing_else():
-    found = diagnose_cells(pack(np.ones((3, 50, 4, 4), dtype=bool)), (4, 4))
+    found = diagnose(np.ones((3, 50, 4, 4), dtype=bool))
     assert (found.unchanged, found.disagreeing) == (16, 0)
     assert np.isnan(found.rhat_max)

@@ -5,11 +5,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bayesmap.posterior.field import field_beam_log_scores, quantiles_of_halves
 from oracle.field_law import log_likelihoods, paths_of
 from oracle.field_worlds import beam_rays, scans_of_all_kinds
+from samplers.field_rooms import surfaces_of
 
 import bayesmap as bm
+from bayesmap.cells.reflectivity import quantiles_of_halves
+from bayesmap.posterior.score import beam_log_scores
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)
@@ -23,15 +25,21 @@ def run_of(kind, draws=8):
     return bm.infer(TRAIN, GRID, prior=PRIORS[kind], sensor=SENSOR, chains=2, warmup=20, draws=draws, hit_depth=0.5)
 
 
+def of(run, name):
+    """An array of the draws, or the cells that one counts."""
+    draws = run.posterior.draws
+    return draws.arrays[name] if name in draws.arrays else draws.index[name]
+
+
 @KINDS
 def test_draws_and_their_mean_cover_the_grid(kind):
     run = run_of(kind)
     assert isinstance(run, bm.FieldRun)
     assert run.draws.shape == (2, 8, 4, 3)
     assert run.n_draws == 8
-    expected = run.posterior.expected.mean(axis=(0, 1), dtype=float)
-    np.testing.assert_allclose(run.occupancy.ravel()[run.posterior.touched], expected, atol=1e-12)
-    np.testing.assert_array_equal(run.draws.reshape(2, 8, -1)[..., run.posterior.touched], run.posterior.reflectivity)
+    expected = of(run, "expected").mean(axis=(0, 1), dtype=float)
+    np.testing.assert_allclose(run.occupancy.ravel()[of(run, "cell")], expected, atol=1e-12)
+    np.testing.assert_array_equal(run.draws.reshape(2, 8, -1)[..., of(run, "cell")], of(run, "reflectivity"))
     np.testing.assert_allclose(run.map_of(1, 3), run.draws[1, 3], atol=1e-6)
     assert run.log_joint.shape == (2, 8)
 
@@ -40,7 +48,7 @@ def test_where_no_beam_comes_draws_and_intervals_are_the_prior_s():
     scans = bm.Scans([-1.5, 3.2, 0.0], [0.0], [[1.2]], max_range_m=3.0)
     run = bm.infer(scans, GRID, prior=bm.Beta(1.0, 1.0), sensor=SENSOR, chains=1, warmup=5, draws=400)
     elsewhere = np.ones(GRID.shape, dtype=bool)
-    elsewhere.ravel()[run.posterior.touched] = False
+    elsewhere.ravel()[of(run, "cell")] = False
     assert elsewhere.sum() == 8
     assert (run.occupancy[elsewhere] == 0.5).all()
     assert (run.draws[..., elsewhere] == 0.5).all()
@@ -52,63 +60,61 @@ def test_where_no_beam_comes_draws_and_intervals_are_the_prior_s():
 @KINDS
 def test_intervals_are_quantiles_of_the_draws(kind):
     run = run_of(kind)
-    flat = run.posterior.reflectivity.reshape(16, -1).astype(float)
+    flat = of(run, "reflectivity").reshape(16, -1).astype(float)
     for level in (0.5, 0.9):
         lower, upper = run.interval(level)
         for end, q in ((lower, 0.5 - level / 2), (upper, 0.5 + level / 2)):
-            np.testing.assert_allclose(end.ravel()[run.posterior.touched], np.quantile(flat, q, axis=0), atol=1e-12)
+            np.testing.assert_allclose(end.ravel()[of(run, "cell")], np.quantile(flat, q, axis=0), atol=1e-12)
     for level in (0.0, 1.0, 90):
         with pytest.raises(bm.BadInput, match="level"):
             run.interval(level)
 
 
 def test_mean_surfaces_are_means_over_draws_in_the_world_frame():
-    posterior = run_of("surfaces").posterior
+    run = run_of("surfaces")
     mean, covariance, reflectivity = run_of("surfaces").surfaces()
-    flat = posterior.touched[posterior.busy]
-    draws = posterior.surfaces.reshape(16, -1, 5).astype(float) * 0.5
+    flat = of(run, "surface_cell")
+    draws = surfaces_of(run.posterior).reshape(16, -1, 5).astype(float) * 0.5
     for u in (0, len(flat) // 2, len(flat) - 1):
         centre = np.array([-1.0, 2.0]) + (np.array([flat[u] // 3, flat[u] % 3]) + 0.5) * 0.5
         np.testing.assert_allclose(mean[u], centre + draws[:, u, :2].mean(axis=0))
         factors = np.zeros((16, 2, 2))
         factors[:, 0, 0], factors[:, 1, 0], factors[:, 1, 1] = draws[:, u, 2:].T
         np.testing.assert_allclose(covariance[u], np.mean(factors @ factors.transpose(0, 2, 1), axis=0))
-        m = posterior.expected[:, :, posterior.busy[u]].astype(float)
+        m = of(run, "expected")[:, :, np.searchsorted(of(run, "cell"), flat[u])].astype(float)
         assert reflectivity[u] == pytest.approx(m.mean())
     with pytest.raises(bm.BadInput, match=r"Surface\(\)"):
         run_of("reflectivities").surfaces()
 
 
-def states_of(posterior, chain, draw, touched):
-    """One draw's cells to predict by, (T', 6), in metres from the corner; every touched cell must be busy."""
-    place = {int(flat): i for i, flat in enumerate(posterior.touched)}
-    number = {int(cell): u for u, cell in enumerate(posterior.busy)}
+def states_of(run, chain, draw, touched):
+    """One draw's cells to predict by, (T', 6), in metres from the corner; every touched cell must have a surface."""
+    place = {int(flat): i for i, flat in enumerate(of(run, "cell"))}
     states = np.zeros((len(touched), 6))
     for i, flat in enumerate(touched):
-        cell = place[int(flat)]
-        states[i, 0] = posterior.expected[chain, draw, cell]
-        if posterior.kind == "surface":
-            states[i, 1:] = posterior.surfaces[chain, draw, number[cell]].astype(float) * 0.5
+        states[i, 0] = of(run, "expected")[chain, draw, place[int(flat)]]
+        if run.posterior.kind == "surface":
+            u = np.searchsorted(of(run, "surface_cell"), flat)
+            states[i, 1:] = surfaces_of(run.posterior)[chain, draw, u].astype(float) * 0.5
             states[i, 1:3] += (np.array([flat // 3, flat % 3]) + 0.5) * 0.5
     return states
 
 
 @KINDS
 def test_the_log_score_is_the_log_mean_density_of_the_reference(kind):
-    run, posterior = run_of(kind), run_of(kind).posterior
+    run = run_of(kind)
     if kind == "surfaces":
-        assert len(posterior.busy) == len(posterior.touched) == 12
+        assert len(of(run, "surface_cell")) == len(of(run, "cell")) == 12
     held = scans_of_all_kinds(6, GRID, poses=7)
-    rays = beam_rays(held, GRID, margin_m=0.0, hit_depth=0.5, whole=True)
+    rays = beam_rays(held, GRID, whole=True)
     paths, density = paths_of(rays, far=False), 0.0
     for chain in range(2):
         for draw in range(8):
-            states = states_of(posterior, chain, draw, rays.touched)
+            states = states_of(run, chain, draw, rays.touched)
             density = density + np.exp(log_likelihoods(paths, states, SENSOR, kind == "reflectivities")) / 16
     valid = ~np.isnan(held.ranges_m.ravel())
-    mine = field_beam_log_scores(posterior, held)
-    assert np.isnan(mine[~valid]).all()
-    np.testing.assert_allclose(mine[valid], np.log(density)[valid], atol=2e-3)
+    mine = beam_log_scores(run.posterior, held)
+    np.testing.assert_allclose(mine, np.log(density)[valid], atol=2e-3)
     assert run.log_score(held) == pytest.approx(np.log(density)[valid].mean(), abs=1e-3)
 
 
@@ -134,7 +140,7 @@ def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
     # Plain cells in the way: three, each passed with the chance 1 - a / (a + b) = 2/3.
     score = run.log_score(held)
     if kind == "reflectivities":
-        rays = beam_rays(held, GRID, margin_m=0.0, whole=True)
+        rays = beam_rays(held, GRID, whole=True)
         state = np.zeros((3, 6))
         state[:, 0] = 1 / 3
         expected = log_likelihoods(paths_of(rays), state, SENSOR, True)[0]  # linear in every m

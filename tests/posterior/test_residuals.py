@@ -1,18 +1,22 @@
 import numpy as np
 import pytest
 
+from bayesmap.cells.binary import Independent
+from bayesmap.cells.draws import Draws
 from bayesmap.cells.packing import pack
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.residuals import compare, residuals_of
 from bayesmap.posterior.score import beam_log_scores
+from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 CORRIDOR = Grid((10, 1))
+PRIOR = Independent(0.5)
 SENSOR = BeamMixture(Gaussian(0.05), p_random=0.01, p_no_return=0.01, p_short=0.0)
 
 
@@ -30,10 +34,10 @@ def run(*draws, grid=CORRIDOR):
     packed = pack(walls.reshape(-1, *grid.shape) != 0)
     none = np.zeros((1, len(draws)))
     return Posterior(
-        grid=grid, scans=along(1.0), sensor=SENSOR, settings={"hit_depth": 0.5, "method": "gibbs"},
-        occupancy=walls.mean(axis=0).reshape(grid.shape), observed=np.ones(grid.shape, dtype=bool), packed=packed[None],
-        log_likelihood=none, log_prior=none, warmup_log_joint=none, walls=walls[:1], sweep=1, finished=True, seconds={},
-        counts={},
+        scans=along(1.0), sensor=SENSOR, prior=PRIOR, settings={"hit_depth": 0.5, "method": "gibbs"},
+        draws=Draws(grid, PRIOR.arrays, {"walls": packed[None]}), occupancy=walls.mean(axis=0).reshape(grid.shape),
+        observed=np.ones(grid.shape, dtype=bool), log_likelihood=none, log_prior=none, warmup_log_joint=none,
+        snapshot=Snapshot(1), finished=True, seconds={}, counts={},
     )  # fmt: skip
 
 

@@ -10,8 +10,9 @@ from oracle.worlds import make_case
 from scipy import special
 
 import bayesmap as bm
+from bayesmap.cells.draws import Draws
 from bayesmap.cells.packing import pack
-from bayesmap.posterior.posterior import entropy_bits, mean_of_draws
+from bayesmap.posterior.posterior import entropy_bits
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.score import beam_log_scores
 from bayesmap.sensors.model import RangeLimits
@@ -31,8 +32,16 @@ def test_occupancy_is_the_mean_of_the_draws(run):
     np.testing.assert_allclose(run.occupancy, run.draws.mean(axis=(0, 1)), atol=1e-12)
 
 
+def without_draws(run):
+    draws = run.posterior.draws
+    none = dataclasses.replace(draws, arrays={name: values[:, :0] for name, values in draws.arrays.items()})
+    return dataclasses.replace(run.posterior, draws=none)
+
+
 def test_without_draws_there_is_no_mean():
-    assert np.isnan(mean_of_draws(pack(np.zeros((2, 0, 3, 3), bool)), bm.Grid((3, 3)))).all()
+    prior = bm.Independent(0.5)
+    none = Draws(bm.Grid((3, 3)), prior.arrays, {"walls": pack(np.zeros((2, 0, 3, 3), bool))})
+    assert np.isnan(prior.mean_map(none)).all()
 
 
 def test_entropy_in_bits():
@@ -74,7 +83,7 @@ def test_a_better_map_scores_better():
 
 
 def test_scores_that_cannot_be_are_refused(case, run):
-    no_draws = dataclasses.replace(run.posterior, packed=run.posterior.packed[:, :0])
+    no_draws = without_draws(run)
     with pytest.raises(bm.BadInput, match="the run has no draws yet; let it finish its warm-up"):
         bm.Run(no_draws).log_score(case.scans)
     unknown = dataclasses.replace(

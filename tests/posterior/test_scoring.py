@@ -6,6 +6,7 @@ import json
 import numpy as np
 import pytest
 from oracle.worlds import make_case
+from posterior.test_scores import without_draws
 from scipy import stats
 
 import bayesmap as bm
@@ -106,16 +107,16 @@ def test_what_cannot_be_scored_is_refused(case, run):
     )
     with pytest.raises(bm.BadInput, match="'X', is not one of bayesmap's; pass sensor="):
         bm.score(bm.Run(unknown), case.scans)
-    no_draws = dataclasses.replace(run.posterior, packed=run.posterior.packed[:, :0])
+    no_draws = without_draws(run)
     with pytest.raises(bm.BadInput, match="the run has no draws yet"):
         bm.score(bm.Run(no_draws), case.scans)
 
 
 def test_many_draws_are_taken_some_at_a_time(case, run, monkeypatch):
-    from bayesmap.posterior import predictor
+    from bayesmap.cells import binary
 
     whole = bm.score(run, case.scans).as_json()
-    monkeypatch.setattr(predictor, "BATCH_BYTES", 4 * 16 * 7)
+    monkeypatch.setattr(binary, "BATCH_BYTES", 4 * 16 * 7)
     assert bm.score(run, case.scans).as_json() == whole
 
 

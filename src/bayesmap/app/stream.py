@@ -109,11 +109,12 @@ class Stream:
     def mean(self) -> NDArray[np.float64]:
         """Mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
 
-        Where draws are not kept, cells that no beam says anything of have the prior's mean exactly: what their draws
-        average to.
+        Where draws are not kept, cells that no beam touches have the prior's mean exactly: what their draws average to.
         """
         mean = self._sums.mean(axis=0) / max(1, self.counted)
-        return mean if self.keep else np.where(self._informed[0] > 0, mean, self.model.cells.mean_stop(self.model.grid))
+        return (
+            mean if self.keep else np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
+        )
 
     def means(self) -> NDArray[np.float64]:
         """The same of each chain, (chains, nx, ny)."""

@@ -101,6 +101,12 @@ class Rays:
         seen[self.cells] = True
         return np.flatnonzero(seen).astype(np.int32)
 
+    def touched_map(self) -> NDArray[np.bool_]:
+        """Whether some beam touches each cell, shape (nx, ny)."""
+        seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        seen[self.touched] = True
+        return seen.reshape(self.grid.shape)
+
     def stretches(self) -> tuple[Floats, Floats]:
         """Where each beam enters and leaves each of its cells, metres from its start, shape (K,) each.
 

@@ -7,6 +7,7 @@ scored and exported, but not resumed: their random numbers were others.
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from bayesmap.cells.binary import Independent
 from bayesmap.cells.kind import prior_from
 from bayesmap.cells.surface import PARTS
 from bayesmap.io.checksum import checksum_of
-from bayesmap.io.saved import assemble, flat_index
+from bayesmap.io.saved_content import assemble, flat_index
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.space.grid import Grid
@@ -71,8 +72,6 @@ def _read_reflectivities(file: Any, header: dict[str, Any]) -> tuple[Posterior, 
     )
     arrays = posterior.draws.arrays
     if not has_expected:
-        from dataclasses import replace
-
         whole = replace(posterior.draws, specs=prior.arrays, arrays={**arrays, "expected": arrays["reflectivity"]})
         posterior = replace(posterior, draws=whole)
     scans = posterior.scans

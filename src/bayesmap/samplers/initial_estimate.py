@@ -106,9 +106,7 @@ def end_cells(rays: Rays) -> NDArray[np.int32]:
     cell = np.floor(np.where(finite[:, None], points, -1.0) / rays.grid.resolution).astype(np.int64)
     inside = finite & (cell >= 0).all(axis=1) & (cell < (nx, ny)).all(axis=1)
     flat = np.where(inside, cell[:, 0] * ny + cell[:, 1], 0)
-    is_touched = np.zeros(rays.grid.n_cells, dtype=np.bool_)
-    is_touched[rays.touched] = True
-    return np.where(inside & is_touched[flat], flat, -1).astype(np.int32)
+    return np.where(inside & rays.touched_map().ravel()[flat], flat, -1).astype(np.int32)
 
 
 def start(estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator) -> NDArray[np.float32]:

@@ -47,6 +47,10 @@ class MetropolisProblem:
         """Draws cover the grid."""
         return {}
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny)."""
+        return self.rays.touched_map()
+
     @cached_property
     def beams_of(self) -> list[NDArray[np.int32]]:
         """The beams that touch each cell, by flat index."""
@@ -139,9 +143,8 @@ class Metropolis:
 
     def informed(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """The cells that beams touch, (2, nx, ny)."""
-        touched = np.zeros(state.problem.grid.n_cells, dtype=np.int32)
-        touched[state.problem.rays.touched] = 1
-        return np.stack([touched, np.ones_like(touched)]).reshape(2, *state.problem.grid.shape)
+        touched = state.problem.touched().astype(np.int32)
+        return np.stack([touched, np.ones_like(touched)])
 
 
 def _sweep(

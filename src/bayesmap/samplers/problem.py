@@ -56,6 +56,10 @@ class WallProblem:
         """The same: draws of walls cover the grid already."""
         return self
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny)."""
+        return self.table.observed()
+
     def under(self, prior: Independent) -> WallProblem:
         """The same table, and its index if there is one, under another prior."""
         other = replace(self, prior=prior)

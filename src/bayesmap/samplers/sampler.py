@@ -104,6 +104,9 @@ class Problem(Protocol):
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
         """Of the dimensions of draws that count some cells only: which (see `bayesmap.cells.draws.Draws`)."""
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny): the others have the prior."""
+
 
 class ChainState(Protocol):
     """Several chains between two sweeps. What is on the device is advanced in place: do not use a state twice."""

@@ -100,6 +100,10 @@ class StopProblem:
         surfaces = {"surface_cell": np.nonzero(near.ravel())[0].astype(np.int32)} if self.prior.has_surfaces else {}
         return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny)."""
+        return self.rays.touched_map()
+
     @cached_property
     def distance_m(self) -> NDArray[np.float32]:
         """Where beams stop in their cells if these have no surfaces, (K,)."""

@@ -79,6 +79,10 @@ class PoseProblem:
         """How many cells all beams cross together."""
         return int(self.cells.n_incidences)
 
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches at the poses that the log states, (nx, ny)."""
+        return np.asarray(self.cells.touched())
+
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
         """Those of the cells, and the numbers of scans and of the parts of a pose."""
