@@ -17,7 +17,8 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.scoring import score_posterior, score_prediction
 from bayesmap.result import load
 from bayesmap.samplers.fit import first_sensor, fit
-from bayesmap.samplers.stop_gibbs import StopGibbs, trace_stops
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure, ratio, timed, timer

@@ -75,7 +75,8 @@ def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
     [
         ("posterior", "reflectivity"), ("posterior", "expected"), ("posterior", "surface_mean_x"),
         ("sample_stats", "log_likelihood"), ("chain_state", "state"), ("chain_state", "informed"),
-        ("chain_state", "counts"), ("posterior", "cell_x"), ("constant_data", "occupancy"), ("observed_data", "range_m"),
+        ("chain_state", "counts"), ("posterior", "cell_x"), ("constant_data", "occupancy"),
+        ("observed_data", "range_m"),
     ],
 )  # fmt: skip
 def test_a_number_that_was_changed_is_noticed(group, name, tmp_path):

@@ -86,7 +86,7 @@ def test_chains_of_an_earlier_version_are_not_gone_on_with(name):
     run = bm.load(HERE / f"{name}.nc")
     settings, grid = run.posterior.settings, run.grid
     asked = {key: settings[key] for key in ("seed", "chains", "warmup", "draws", "hit_depth")}
-    with pytest.raises(bm.BadInput, match="resume: .*start again"):
+    with pytest.raises(bm.BadInput, match=r"resume: .*start again"):
         bm.infer(run.posterior.scans, grid, prior=run.posterior.prior, sensor=SENSOR, resume=run, **asked)
 
 

@@ -9,7 +9,7 @@ from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds, scan
 
 import bayesmap as bm
 from bayesmap.kernels.predict import log_densities
-from bayesmap.samplers.stop_gibbs import trace_stops
+from bayesmap.samplers.stop_problem import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 SHARP = bm.BeamMixture(bm.Gaussian(0.004, 0.001), p_random=0.01, p_no_return=0.0, p_short=0.02)

@@ -13,7 +13,8 @@ import bayesmap as bm
 from bayesmap.beams.rays import around_readings
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.samplers.sampler import Snapshot
-from bayesmap.samplers.stop_gibbs import StopGibbs, StopProblem, trace_stops
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 
 
 def beam_rays(scans, grid, *, margin_m=np.inf, whole=False):

@@ -12,7 +12,8 @@ from bayesmap.run.runner import Job, run_chains
 from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.stop_gibbs import StopGibbs, trace_stops
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.stop_problem import trace_stops
 
 
 @pytest.fixture(autouse=True)

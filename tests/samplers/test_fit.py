@@ -27,7 +27,7 @@ from bayesmap.samplers.fit import (
     refit_prior,
     refit_sensor,
 )
-from bayesmap.samplers.stop_gibbs import trace_stops
+from bayesmap.samplers.stop_problem import trace_stops
 
 SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_short_per_m")
 

@@ -7,7 +7,7 @@ from scipy import stats
 
 import bayesmap as bm
 from bayesmap.samplers.initial_estimate import end_cells, initial_estimate, rounds, start, steps
-from bayesmap.samplers.stop_gibbs import trace_stops
+from bayesmap.samplers.stop_problem import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05))
 

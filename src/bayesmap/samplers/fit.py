@@ -27,7 +27,8 @@ from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import PILOT
-from bayesmap.samplers.stop_gibbs import StopGibbs, StopProblem, StopState, trace_stops
+from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
+from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.sensors.describe import describe, from_description
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits

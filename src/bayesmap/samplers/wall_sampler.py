@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Order = Literal["raster", "radial", "random"]
 
 MAPS_TO_SEE = 8
-"""How many draws of each chain decide which cells count as observed: the same draws, whatever other chains there are."""
+"""How many draws of each chain decide which cells count as observed: the same, whatever other chains there are."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,152 @@
+"""Beams among cells that stop some of them: what a sampler of stops is given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from bayesmap.beams.rays import Rays, around_readings
+from bayesmap.cells.reflectivity import Reflective
+from bayesmap.errors import BadInput
+from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+if TYPE_CHECKING:
+    pass
+
+CELLS_AROUND = 1.5
+SIGMAS_AROUND = 6.0
+"""A stop further from its reading than so many cells and standard deviations counts as a random reading's."""
+
+CELLS_MOVED = 2
+"""How far readings are expected to move when poses do, in cells: surfaces further from where readings end at first are
+not kept in draws."""
+
+
+@dataclass(frozen=True, eq=False)
+class StopProblem:
+    """Rays through cells that stop some of them, under a prior.
+
+    Attributes:
+        rays: cells along every beam.
+        prior: of the cells.
+        sensor: the law of the readings.
+        hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
+        device: where kernels run.
+        threads: of the CPU; all cores if None.
+        kept: the cells of which draws and snapshots keep reflectivities ("cell") and surfaces ("surface_cell"), flat;
+            if None, those that beams touch and those in which readings end.
+    """
+
+    rays: Rays
+    prior: Reflective
+    sensor: SensorModel
+    hit_depth: float = 0.5
+    device: str = "cpu"
+    threads: int | None = None
+    kept: Mapping[str, NDArray[np.int32]] | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+        return self.rays.grid
+
+    @property
+    def n_incidences(self) -> int:
+        """How many cells all beams cross together."""
+        return self.rays.n_incidences
+
+    @cached_property
+    def estimate(self) -> InitialEstimate:
+        """Hits, passes and moments of the readings' end points."""
+        return initial_estimate(self.rays, self.prior, self.device)
+
+    @property
+    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
+        """The cells of which draws keep reflectivities, and those of which they keep surfaces."""
+        if self.kept is not None:
+            return self.kept
+        surfaces = {"surface_cell": self.estimate.endpoint_cells} if self.prior.has_surfaces else {}
+        return {"cell": self.estimate.touched} | surfaces
+
+    def for_any_poses(self) -> StopProblem:
+        """The same for poses that may move: draws keep all cells, and surfaces about where readings end now."""
+        ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        ends[self.estimate.endpoint_cells] = True
+        near = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
+        surfaces = {"surface_cell": np.nonzero(near.ravel())[0].astype(np.int32)} if self.prior.has_surfaces else {}
+        return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
+
+    def touched(self) -> NDArray[np.bool_]:
+        """Cells that some beam touches, (nx, ny)."""
+        return self.rays.touched_map()
+
+    @cached_property
+    def distance_m(self) -> NDArray[np.float32]:
+        """Where beams stop in their cells if these have no surfaces, (K,)."""
+        from bayesmap.kernels.rays import stop_distances
+
+        return stop_distances(self.rays, self.hit_depth, self.device)
+
+    def under(self, sensor: SensorModel, prior: Reflective) -> StopProblem:
+        """The same rays under another sensor and another prior."""
+        other = replace(self, sensor=sensor, prior=prior)
+        shared: dict[str, Any] = {
+            name: value for name, value in vars(self).items() if name in ("estimate", "distance_m")
+        }
+        vars(other).update(shared)
+        return other
+
+
+def trace_stops(
+    scans: Scans,
+    grid: Grid,
+    prior: Reflective,
+    sensor: SensorModel,
+    *,
+    hit_depth: float = 0.5,
+    device: str = "cpu",
+    threads: int | None = None,
+    watch: Watch = SILENT,
+) -> StopProblem:
+    """Trace the scans' rays, as far as their readings can be explained.
+
+    Raises:
+        BadInput: a sensor that is noise alone, or too many incidences.
+    """
+    from bayesmap.kernels.device import resolve
+    from bayesmap.kernels.rays import trace_rays
+
+    device = resolve(device)
+    parameters = sensor.kernel_parameters()
+    if parameters is not None and not parameters.robust:
+        raise BadInput(
+            "infer: reflectivity and surface maps need a sensor under which no reading is impossible, a BeamMixture "
+            f"(on the command line mixture:0.02), got {type(sensor).__name__}"
+        )
+    reach_m, near_m = _spans(scans, sensor, grid.resolution)
+    rays = trace_rays(scans, grid, reach_m=reach_m, near_m=near_m, device=device, on_progress=watch.of("trace"))
+    return StopProblem(rays, prior, sensor, hit_depth, device, threads)
+
+
+def _spans(
+    scans: Scans, sensor: SensorModel, resolution_m: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """How far beams are followed, and from where on a stop can explain their readings (from the start if None)."""
+    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian):
+        ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
+        margin_m = CELLS_AROUND * resolution_m + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
+        return around_readings(scans, margin_m, resolution_m)
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    return sensor.reach_m(scans.ranges_m.ravel(), limits) + CELLS_AROUND * resolution_m, None
