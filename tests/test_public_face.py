@@ -88,7 +88,7 @@ def infer(scans, **change):
 
 
 BAD = {
-    "no such method": ({"method": "gibs"}, "method must be one of exact, importance, .*, got 'gibs'"),
+    "no such method": ({"method": "gibs"}, "Independent has the methods gibbs, block, .*, got 'gibs'"),
     "no such order": ({"order": "spiral"}, "order must be one of raster, radial, random, got 'spiral'"),
     "no such order of blocks": ({"method": "block", "order": "spiral"}, "order must be one of raster, radial, random"),
     "no such start": ({"start": "there"}, "start must be one of prior, zeros, ones, propagate or a map, got 'there'"),

@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.stop_law import stops_of
-from bayesmap.cells.kind import ArraySpec, CellPrior, Cells
+from bayesmap.cells.arrays import ArraySpec
+from bayesmap.cells.kind import CellPrior, Cells
 from bayesmap.errors import BadInput
 from bayesmap.poses.prior import Known, PosePrior
 from bayesmap.sensors.model import Floats, SensorModel

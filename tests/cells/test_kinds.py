@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.cells.kind import prior_from
+from bayesmap.cells.kinds import prior_from
 
 
 @pytest.mark.parametrize("prior", [bm.Beta(), bm.Beta(0.5, 3.0), bm.Surface(), bm.Surface(0.1, 2, 0.3, 0.2, 4.5)])

@@ -8,7 +8,7 @@ from data import intel_log
 from shell import call
 
 import bayesmap as bm
-from bayesmap.cells.kind import prior_from
+from bayesmap.cells.kinds import prior_from
 from bayesmap.io.map_server import read_map
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.sensors.describe import describe

@@ -6,7 +6,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from bayesmap.cells.kind import ArraySpec
+from bayesmap.cells.arrays import ArraySpec
 from bayesmap.io import checksum, saved_arrays
 
 SPECS = {

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.kind import ArraySpec
+from bayesmap.cells.arrays import ArraySpec
 from bayesmap.space.grid import Grid
 
 

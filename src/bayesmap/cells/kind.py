@@ -8,20 +8,18 @@ knows which kinds there are. Built in are `bayesmap.cells.binary`, `bayesmap.cel
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.arrays import ArraySpec
+from bayesmap.cells.draws import Draws
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
-
-if TYPE_CHECKING:
-    from bayesmap.cells.draws import Draws
 
 Floats = NDArray[np.float64]
 Cells = Mapping[str, NDArray[Any]]
@@ -48,50 +46,8 @@ class Words:
     value: str
 
 
-@dataclass(frozen=True)
-class ArraySpec:
-    """An array of a draw.
-
-    Attributes:
-        name: in `Cells`, in saved runs and in `Run.dataset`.
-        dims: its dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that some
-            beam touches, ("surface_cell",) for those in which a reading ends.
-        dtype: of its values.
-        storage: how draws are kept in memory: "bits" packs booleans, "half" rounds to half precision.
-        what: what it is, with its unit.
-    """
-
-    name: str
-    dims: tuple[str, ...]
-    dtype: str
-    storage: Literal["bits", "half", "plain"] = "plain"
-    what: str = ""
-
-    def stored(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values (..., *dims) as they are kept."""
-        if self.storage == "bits":
-            lead, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
-            flat = np.asarray(values, dtype=np.bool_).reshape(*lead, math.prod(rest))
-            return np.packbits(flat, axis=-1)
-        return np.asarray(values, dtype=np.float16 if self.storage == "half" else self.dtype)
-
-    def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
-        """What was stored, with the sizes of its dimensions."""
-        if self.storage == "bits":
-            bits = np.unpackbits(stored, axis=-1, count=int(np.prod(shape)))
-            return bits.reshape(*stored.shape[:-1], *shape).view(np.bool_)
-        return stored
-
-    def empty(self, chains: int, draws: int, shape: tuple[int, ...]) -> NDArray[Any]:
-        """Room for draws, as they are kept."""
-        if self.storage == "bits":
-            return np.zeros((chains, draws, (int(np.prod(shape)) + 7) // 8), dtype=np.uint8)
-        return np.zeros((chains, draws, *shape), dtype=np.float16 if self.storage == "half" else self.dtype)
-
-
-_KINDS: dict[str, type[CellPrior]] = {}
-_ALIASES = {"independent": "binary", "beta": "reflectivity"}
-"""What descriptions have always called two of them."""
+KINDS: dict[str, type[CellPrior]] = {}
+"""The kinds that loaded modules define, by name: whoever extends `CellPrior` with words of its own is entered."""
 
 
 class CellPrior(ABC):
@@ -122,7 +78,7 @@ class CellPrior(ABC):
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         if "words" in cls.__dict__:
-            _KINDS[cls.words.kind] = cls
+            KINDS[cls.words.kind] = cls
 
     # The prior
 
@@ -251,18 +207,3 @@ class CellPrior(ABC):
     def from_description(cls, values: Mapping[str, Any]) -> CellPrior:
         """The prior of a description: by default its other entries are the arguments."""
         return cls(**{name: value for name, value in values.items() if name != "kind"})
-
-
-def prior_from(description: Mapping[str, Any]) -> CellPrior:
-    """The prior of a description.
-
-    Raises:
-        BadInput: a kind that no loaded module defines.
-    """
-    kind = str(description.get("kind"))
-    kind = _ALIASES.get(kind, kind)
-    if kind not in _KINDS:
-        import bayesmap.cells.kinds  # noqa: F401 -- those that are built in
-    if kind not in _KINDS:
-        raise BadInput(f"cells of kind {kind!r} are not known here; import the module that defines them first")
-    return _KINDS[kind].from_description(description)

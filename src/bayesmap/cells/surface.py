@@ -14,8 +14,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.draws import Draws
-from bayesmap.cells.kind import BATCH_BYTES, ArraySpec, Cells, Floats, Words
+from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
 from bayesmap.cells.reflectivity import EXPECTED, REFLECTIVITY, Reflective, places_among
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid

@@ -22,7 +22,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.kind import prior_from
+from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
 from bayesmap.io import saved_before
 from bayesmap.io.atomic import write_whole

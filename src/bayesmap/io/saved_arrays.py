@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.kind import ArraySpec
+from bayesmap.cells.arrays import ArraySpec
 
 BLOCK = 1 << 22
 """Numbers that are turned over at a time."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.binary import Independent
-from bayesmap.cells.kind import prior_from
+from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.surface import PARTS
 from bayesmap.io.checksum import checksum_of
 from bayesmap.io.saved_content import assemble, flat_index

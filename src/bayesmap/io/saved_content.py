@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.draws import Draws
-from bayesmap.cells.kind import ArraySpec, CellPrior
+from bayesmap.cells.kind import CellPrior
 from bayesmap.io.saved_arrays import read_draws
 from bayesmap.model import POSES
 from bayesmap.posterior.posterior import Posterior

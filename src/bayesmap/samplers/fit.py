@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, special
 
-from bayesmap.cells.kind import CellPrior, prior_from
+from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
