@@ -38,7 +38,6 @@ from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-Method = Literal["exact", "importance", "gibbs", "block", "propagate"]
 FIT = "fit"
 
 

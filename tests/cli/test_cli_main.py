@@ -156,20 +156,19 @@ def test_a_terminal_gets_a_bar_and_can_refuse_it(office, tmp_path, short):
 def test_choices_are_those_of_the_library():
     from typing import get_args
 
-    from bayesmap.field_inference import FEWEST_DRAWS, MOST_DRAWS
-
-    from bayesmap.api import Method
     from bayesmap.cells.binary import Independent
     from bayesmap.cells.defaults import P_WALL
-    from bayesmap.cells.reflectivity import Beta
+    from bayesmap.cells.kinds import BUILT_IN
+    from bayesmap.cells.reflectivity import FEWEST_DRAWS, MOST_DRAWS, Beta
     from bayesmap.cells.surface import Surface
     from bayesmap.cli import cells
     from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
     from bayesmap.samplers.propagate import ROUNDS
-    from bayesmap.samplers.sampler import Order
     from bayesmap.samplers.start import Start
+    from bayesmap.samplers.wall_sampler import Order
 
-    assert set(METHODS) == set(get_args(Method))
+    assert set(METHODS) == {method for kind in BUILT_IN.values() for method in kind.methods}
+    assert set(CELLS) == set(BUILT_IN)
     assert set(ORDERS) == set(get_args(Order))
     assert set(STARTS) == set(get_args(Start))
     defaults = {key.name: key.default for key in INFER}
