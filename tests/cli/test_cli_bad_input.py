@@ -58,7 +58,10 @@ def test_logs(tmp_path, text, place, remedy):
         (["--method", "block"], "method: 'block' is for binary walls; add --cells binary"),
         (["--order", "raster", "--cells", "reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
         (["--start", "zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
-        (["--sensor", "gaussian:0.05"], "need a BeamMixture sensor with Gaussian noise (on the command line mixture"),
+        (
+            ["--sensor", "gaussian:0.05"],
+            "need a sensor under which no reading is impossible, a BeamMixture (on the command line mixture",
+        ),
         (["--holdout", "1000"], "too few to hold out every 1000-th"),
         (["--device", "cuda:9"], "there is: cpu"),
         (["--device", "cuda:9", "--cells", "binary"], "there is: cpu"),

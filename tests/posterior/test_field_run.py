@@ -11,6 +11,7 @@ from samplers.field_rooms import surfaces_of
 
 import bayesmap as bm
 from bayesmap.cells.reflectivity import quantiles_of_halves
+from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.score import beam_log_scores
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
@@ -113,20 +114,20 @@ def test_the_log_score_is_the_log_mean_density_of_the_reference(kind):
             states = states_of(run, chain, draw, rays.touched)
             density = density + np.exp(log_likelihoods(paths, states, SENSOR, kind == "reflectivities")) / 16
     valid = ~np.isnan(held.ranges_m.ravel())
-    mine = beam_log_scores(run.posterior, held)
+    mine = beam_log_scores(predictor_of(run.posterior), held)
     np.testing.assert_allclose(mine, np.log(density)[valid], atol=2e-3)
     assert run.log_score(held) == pytest.approx(np.log(density)[valid].mean(), abs=1e-3)
 
 
 @KINDS
-def test_a_score_may_be_by_another_mixture_but_not_by_another_kind_of_sensor(kind):
+def test_a_score_may_be_by_another_sensor_of_any_kind(kind):
     run = run_of(kind)
     blunt = replace(SENSOR, noise=bm.Gaussian(0.3))
     assert run.log_score(TRAIN, sensor=SENSOR) == run.log_score(TRAIN)
     assert run.log_score(TRAIN, sensor=blunt) != run.log_score(TRAIN)
     for other in (bm.Gaussian(0.1), bm.BeamMixture(bm.StudentT(0.1))):
-        with pytest.raises(bm.BadInput, match="BeamMixture"):
-            run.log_score(TRAIN, sensor=other)
+        assert np.isfinite(run.log_score(TRAIN, sensor=other))
+        assert run.log_score(TRAIN, sensor=other) != run.log_score(TRAIN)
     with pytest.raises(bm.BadInput, match="valid reading"):
         run.log_score(replace(TRAIN, ranges_m=np.full(TRAIN.ranges_m.shape, np.nan)))
 

@@ -69,7 +69,10 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
         @click.pass_context
         def callback(context: click.Context, /, **given: Any) -> None:
             for parameter in context.command.params:
-                if given.get(parameter.name or "") == "":  # such as "$FOLDER" of a script that has set none
+                value = given.get(parameter.name or "")
+                if value == "" or (
+                    isinstance(value, tuple) and "" in value
+                ):  # such as "$FOLDER" of a script that has set none
                     raise click.BadParameter("it is empty; give a value", context, parameter)
             flags: dict[str, Value] = {}
             for key in keys:
