@@ -60,7 +60,7 @@ def test_logs(tmp_path, text, place, remedy):
         (["--start", "zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
         (
             ["--sensor", "gaussian:0.05"],
-            "need a sensor under which no reading is impossible, a BeamMixture (on the command line mixture",
+            "need a sensor under which no reading is impossible, a BeamMixture",
         ),
         (["--holdout", "1000"], "too few to hold out every 1000-th"),
         (["--device", "cuda:9"], "there is: cpu"),
