@@ -120,7 +120,9 @@ def test_sensors_under_which_a_reading_is_impossible_are_refused_with_the_one_th
 
 @KINDS
 def test_a_mixture_of_any_noise_will_do(kind):
-    assert_sound(infer(kind, sensor=bm.BeamMixture(bm.StudentT(0.1))))
+    run = infer(kind, sensor=bm.BeamMixture(bm.StudentT(0.1)))
+    assert run.finished
+    assert np.isfinite(run.log_joint).all()
 
 
 @KINDS
