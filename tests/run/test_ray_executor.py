@@ -89,7 +89,7 @@ def test_how_chains_are_divided_makes_no_difference(cluster, scans, chains_per_t
 @pytest.mark.parametrize("kind", ["walls", "surfaces and a fitted sensor"])
 def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
     cluster.complete()
-    arguments = {**SHORT, **KINDS[kind], "warmup": 100, "draws": 200}
+    arguments = {**SHORT, **KINDS[kind], "warmup": 40, "draws": 60}
     killed = []
 
     def on_progress(event):
@@ -152,7 +152,7 @@ def test_a_task_whose_worker_always_dies_is_given_up(cluster, scans, tmp_path):
 
 def test_a_run_that_is_stopped_goes_on_where_it_was(cluster, scans):
     """Ctrl-C in the middle; then on the cluster, and as well on threads."""
-    arguments = {**SHORT, **KINDS["surfaces and a fitted sensor"], "warmup": 100, "draws": 200}
+    arguments = {**SHORT, **KINDS["surfaces and a fitted sensor"], "warmup": 40, "draws": 60}
 
     def stop(event):
         if event.stage == "draws":
@@ -160,7 +160,7 @@ def test_a_run_that_is_stopped_goes_on_where_it_was(cluster, scans):
 
     stopped = bm.infer(scans, GRID, executor=quick(), on_progress=stop, **arguments)
     assert not stopped.finished
-    assert 100 < stopped.posterior.sweep < 300
+    assert 40 < stopped.posterior.sweep < 100
     expected = bm.infer(scans, GRID, **arguments)
     assert_same(bm.infer(scans, GRID, executor=quick(), resume=stopped, **arguments), expected)
     assert_same(bm.infer(scans, GRID, resume=stopped, **arguments), expected)
