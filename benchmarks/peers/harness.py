@@ -18,7 +18,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TextIO
 
@@ -109,6 +109,13 @@ def at_once(ready: Ready, about: Mapping[str, object], repeats: int) -> dict[str
     return {**about, **times, "walls_in_last_state": ready.walls_in_last_state()}
 
 
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:  # `on_bayesmap.py` puts itself in its place
+        return "none"
+
+
 def main(
     peer: str,
     description: str,
@@ -150,7 +157,7 @@ def main(
         print(f"wrote {options.dump_data}", file=sys.stderr)
         if options.case is None and not options.check:
             return
-    versions = {"python": platform.python_version(), **{package: version(package) for package in packages}}
+    versions = {"python": platform.python_version(), **{package: _version(package) for package in packages}}
     # Libraries may print; standard output is for the document alone.
     stream = sys.stdout
     with contextlib.redirect_stdout(sys.stderr):

@@ -6,6 +6,7 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
+from jax.flatten_util import ravel_pytree
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
@@ -61,26 +62,30 @@ class HMC(EditRequest):
         def log_density(values: ChoiceMap) -> Any:
             return current.get_gen_fn().assess(values | choices, args)[0]
 
-        leaves, treedef = jax.tree.flatten(start)
-        keys = jax.random.split(momentum_key, len(leaves))
-        momentum = jax.tree.unflatten(
-            treedef, [jax.random.normal(k, x.shape, x.dtype) for k, x in zip(keys, leaves, strict=True)]
-        )
+        momentum = _standard_normal(momentum_key, start)
 
         def drift(tree: Any, by: Any, scale: Any) -> Any:
             return jax.tree.map(lambda x, d: x + scale * d, tree, by)
 
         def leapfrog(_: Any, state: Any) -> Any:
-            position, momentum, gradient = state
-            momentum = drift(momentum, gradient, self.eps / 2)
+            """The second half of a kick and the first half of the next are one."""
+            position, momentum, _ = state
             position = drift(position, momentum, self.eps)
             gradient = jax.grad(log_density)(position)
-            return position, drift(momentum, gradient, self.eps / 2), gradient
+            return position, drift(momentum, gradient, self.eps), gradient
 
-        state = (start, momentum, jax.grad(log_density)(start))
-        position, final, _ = jax.lax.fori_loop(0, self.L, leapfrog, state)
+        gradient = jax.grad(log_density)(start)
+        state = (start, drift(momentum, gradient, self.eps / 2), gradient)
+        position, final, gradient = jax.lax.fori_loop(0, self.L, leapfrog, state)
+        final = drift(final, gradient, -self.eps / 2)
         new, weight, retdiff, _ = Update(position).edit(edit_key, current, Diff.no_change(args))
         return new, before + weight + _kinetic(momentum) - _kinetic(final), retdiff, self
+
+
+def _standard_normal(key: PRNGKey, like: Any) -> Any:
+    """Independent draws in the place of all numbers of a tree; one call, for each has a price."""
+    flat, unflatten = ravel_pytree(like)
+    return unflatten(jax.random.normal(key, flat.shape, flat.dtype))
 
 
 def _kinetic(momentum: Any) -> Any:
