@@ -102,7 +102,8 @@ def understood(words):
     for parameter in command.params:
         value = given.get(parameter.name)
         if value is not None and not isinstance(parameter.type, click.Path | click.File):
-            parameter.type_cast_value(context, value)
+            many = parameter.nargs == -1 and not isinstance(value, list | tuple)
+            parameter.type_cast_value(context, (value,) if many else value)
 
 
 def test_every_command_is_shown_somewhere():
