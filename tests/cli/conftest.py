@@ -69,6 +69,3 @@ def recording(tmp_path_factory):
                 if i < 2:
                     write("/rear", t + 2, scan)
     return folder / "drive.mcap"
-
-
-from ray_cluster import cluster, two_nodes  # noqa: E402, F401 -- fixtures
