@@ -3,7 +3,6 @@
 import signal
 
 from hypothesis import settings
-
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
 
 # A slow machine is no failure.

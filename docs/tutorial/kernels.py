@@ -208,7 +208,8 @@ for sigma_m in (0.2, 0.5):
     belief = bm.infer(**known, method="propagate", rounds=50, chains=1, draws=500)
     off = np.abs(belief.occupancy - gibbs.occupancy)
     typical = np.median(gibbs.log_joint) - np.median(belief.log_joint)
-    print(f"noise {sigma_m} m, {len(belief.posterior.statistics["belief_changes"])} rounds of beliefs")
+    rounds = len(belief.posterior.statistics["belief_changes"])
+    print(f"noise {sigma_m} m, {rounds} rounds of beliefs")
     print(
         f"  marginals differ by {off.mean():.4f} on average, {off.max():.3f} at most, {(off > 0.1).sum()} by over 0.1"
     )

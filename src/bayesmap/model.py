@@ -139,5 +139,6 @@ def log_likelihoods(
     weight = chance
     weight[:, 1:] *= passed[:, :-1]
     weight[last, -1] = passed[:, -1]
+    tempered = beta * law if beta > 0 else np.zeros(shape)  # p^0 is 1, of impossible readings too
     with np.errstate(divide="ignore"):
-        return np.asarray(np.logaddexp.reduce(np.log(weight) + beta * law, axis=1))
+        return np.asarray(np.logaddexp.reduce(np.log(weight) + tempered, axis=1))

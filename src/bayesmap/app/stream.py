@@ -25,6 +25,9 @@ STEP_SECONDS = 0.015
 DRAW_BYTES = 128 << 20
 """Of the kept draws of a run; more sweeps than fit are thinned."""
 
+LOOKS = 32
+"""At which cells some beam says something is counted so often in a run, besides at sweeps 1, 2, 4 and so on."""
+
 DIAGNOSIS_SHARE = 0.1
 """Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
 
@@ -60,9 +63,12 @@ class Stream:
         self.total = math.ceil(total / self.thin) * self.thin
         schedule = Schedule(0, self.total // self.thin, self.thin)
         self._record = Record(empty, schedule if keep else Schedule(0, 0), schedule.keep)
+        # At fixed sweeps: how long a step is depends on the machine, and the same actions make the same page.
+        doubling = (2**k for k in range(self.total.bit_length()))
+        self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1))}
         self._steps = sweeps(
             sampler, self.state, self.total, keep=schedule.keep, step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // max(one, 1)),
+            most_kept=max(1, BUFFER_BYTES // max(one, 1)), stops=tuple(sorted(self._look_at)),
         )  # fmt: skip
         self.seconds, self.counted = 0.0, 0
         self._latest = empty
@@ -98,7 +104,8 @@ class Stream:
             self._record.add(info, before)
         self._log_likelihood[:, before : self.sweep] = info.log_likelihood
         self._log_prior[:, before : self.sweep] = info.log_prior
-        self._informed += self._sampler.informed(self.state, {})
+        if self.sweep in self._look_at:
+            self._informed += self._sampler.informed(self.state, {})
         self.seconds += time.perf_counter() - began
 
     @property
@@ -121,7 +128,7 @@ class Stream:
         return self._sums / max(1, self.counted)
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells of which a beam said something in at least half of the maps at which the chains paused, (nx, ny)."""
+        """Cells of which a beam said something in at least half of the maps that were looked at, (nx, ny)."""
         return np.asarray(2 * self._informed[0] >= np.maximum(1, self._informed[1]))
 
     def draw(self, chain: int | None, draw: int | None) -> tuple[NDArray[Any], int, int]:

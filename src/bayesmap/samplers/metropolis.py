@@ -59,11 +59,13 @@ class MetropolisProblem:
         beam = self.rays.beam_of_entry()[order]
         return [np.unique(beam[bounds[c] : bounds[c + 1]]) for c in range(self.grid.n_cells)]
 
-    def log_likelihoods(
-        self, cells: Mapping[str, NDArray[Any]], beta: float, beams: NDArray[np.int32] | None = None
-    ) -> Floats:
-        """Log p(reading | cells) of some beams, of all if None, at an inverse temperature."""
-        rays = self.rays if beams is None else self.rays.select(beams)
+    @cached_property
+    def rays_of(self) -> list[Rays]:
+        """The same beams as rays."""
+        return [self.rays.select(beams) for beams in self.beams_of]
+
+    def log_likelihoods(self, cells: Mapping[str, NDArray[Any]], beta: float, rays: Rays) -> Floats:
+        """Log p(reading | cells) of some beams at an inverse temperature."""
         stops = self.model.cells.stops(cells, self.grid)
         return log_likelihoods(rays, stops, self.model.sensor, self.model.hit_depth, beta)
 
@@ -124,7 +126,7 @@ class Metropolis:
         draws = {s.name: s.empty(chains, len(kept), tuple(sizes[dim] for dim in s.dims)) for s in specs}
         log_likelihood, log_prior = np.zeros((chains, sweeps)), np.zeros((chains, sweeps))
         for chain, cells in enumerate(state.maps):
-            of_beam = problem.log_likelihoods(cells, beta)
+            of_beam = problem.log_likelihoods(cells, beta, problem.rays)
             for i in range(sweeps):
                 number = state.sweep + i
                 rng = np.random.default_rng([state.seed, state.chain_ids[chain], STREAM_SWEEPS, number])
@@ -163,7 +165,7 @@ def _sweep(
         for name, value in proposal.items():
             cells[name][site] = value
         if len(beams):
-            proposed = problem.log_likelihoods(cells, beta, beams)
+            proposed = problem.log_likelihoods(cells, beta, problem.rays_of[c])
             log_ratio += float((proposed - of_beam[beams]).sum())
         if np.log(rng.random()) < log_ratio:
             if len(beams):

@@ -1,0 +1,157 @@
+"""A fourth kind of cells, defined here, goes through all of the package without a line of it knowing.
+
+Its draws are tested against enumeration of all maps of four cells. False alarms: 1e-4 over this module.
+"""
+
+import itertools
+from functools import cache
+
+import numpy as np
+import pytest
+from cells.glass import Glass
+from oracle.verdict import ALPHA, goodness_of_fit
+
+import bayesmap as bm
+from bayesmap.cells.kinds import prior_from
+from bayesmap.model import Model
+from bayesmap.samplers.metropolis import Metropolis
+
+GRID = bm.Grid((2, 2), 0.5)
+SENSOR = bm.BeamMixture(bm.Gaussian(0.15), p_random=0.1, p_no_return=0.1, p_short=0.05)
+SCANS = bm.Scans(
+    [[-0.4, 0.2, 0.05], [0.45, -0.5, 1.4], [1.3, 0.8, -2.6]], [-0.1, 0.15],
+    [[0.65, 1.1], [np.inf, 0.72], [0.9, 0.5]], max_range_m=2.0, min_range_m=0.15,
+)  # fmt: skip
+CHAINS = 400
+
+
+@cache
+def law(beta, sensor=SENSOR):
+    """The posterior of all 81 maps, (81,), by the joint law in plain NumPy, the sensor's law to the power of beta."""
+    from bayesmap.kernels.rays import trace_rays
+    from bayesmap.model import log_likelihoods
+
+    prior, rays = Glass(), trace_rays(SCANS, GRID)
+    maps = [{"material": np.reshape(m, (2, 2)).astype(np.int8)} for m in itertools.product(range(3), repeat=4)]
+    stops = [prior.stops(cells, GRID) for cells in maps]
+    log_p = [
+        prior.log_prob(cells, GRID) + log_likelihoods(rays, stop, sensor, 0.5, beta).sum()
+        for cells, stop in zip(maps, stops, strict=True)
+    ]
+    p = np.exp(np.array(log_p) - np.max(log_p))
+    return p / p.sum()
+
+
+def number_of(material):
+    return material.reshape(-1, 4) @ [27, 9, 3, 1]
+
+
+@pytest.mark.parametrize("beta", [1.0, 0.3, 0.0])
+def test_metropolis_follows_the_exact_posterior_tempered_or_not(beta):
+    sampler = Metropolis()
+    problem = sampler.prepare(Model(SCANS, GRID, Glass(), SENSOR, hit_depth=0.5), "cpu")
+    state, _ = sampler.step(sampler.init(problem, range(CHAINS), 3), 8, beta)
+    counts = np.bincount(number_of(sampler.snapshot(state).arrays["material"]), minlength=81)
+    assert goodness_of_fit(counts, law(beta)) > ALPHA / 6
+    assert goodness_of_fit(counts, law(beta + 0.5)) < ALPHA / 6  # the twin
+
+
+def infer(**options):
+    chosen = {"prior": Glass(), "sensor": SENSOR, "chains": 2, "warmup": 10, "draws": 80, "hit_depth": 0.5} | options
+    return bm.infer(SCANS, GRID, **chosen)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return infer()
+
+
+def test_infer_takes_it(run):
+    assert run.posterior.kind == "glass"
+    assert run.posterior.settings["method"] == "metropolis"
+    assert run.draws.shape == (2, 80, 2, 2)
+    maps = np.array(list(itertools.product(range(3), repeat=4)))
+    expected = law(1.0) @ np.array([0.0, 0.3, 1.0])[maps]
+    np.testing.assert_allclose(run.occupancy.ravel(), expected, atol=0.15)
+    np.testing.assert_allclose(run.draws.mean(axis=(0, 1)), run.occupancy, atol=1e-6)
+    assert run.observed.all()
+    assert run.summary().finished
+    assert "free, glass or wall" in repr(run)
+    with pytest.raises(bm.BadInput, match="Glass has one method, 'metropolis', got 'gibbs'"):
+        infer(method="gibbs")
+
+
+def test_it_is_saved_loaded_and_resumed_bit_for_bit(run, tmp_path, monkeypatch):
+    from bayesmap.run import runner
+
+    run.save(tmp_path / "run.nc")
+    loaded = bm.load(tmp_path / "run.nc")
+    assert loaded.posterior.prior == Glass() == prior_from(Glass().describe())
+    np.testing.assert_array_equal(loaded.posterior.draws.arrays["material"], run.posterior.draws.arrays["material"])
+    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
+    stops = []
+    whole = infer(draws=5, on_checkpoint=stops.append, checkpoint_every_s=-1.0)
+    stops[11].save(tmp_path / "part.nc")
+    resumed = infer(draws=5, resume=bm.load(tmp_path / "part.nc"))
+    np.testing.assert_array_equal(resumed.draws, whole.draws)
+    np.testing.assert_array_equal(resumed.log_joint, whole.log_joint)
+
+
+def test_its_dataset_has_its_own_array(run):
+    dataset = run.dataset()
+    assert dataset["material"].dims == ("chain", "draw", "x", "y")
+    assert dataset["material"].attrs["long_name"] == "free, glass or wall"
+
+
+def test_it_is_scored(run):
+    """By the joint law, draw by draw."""
+    held = bm.Scans([[-0.3, 0.3, 0.0], [1.2, 0.1, 2.7]], [-0.2, 0.1], [[0.6, np.inf], [1.2, 0.9]], max_range_m=2.0)
+    model, draws = Model(held, GRID, Glass(), SENSOR, hit_depth=0.5), run.posterior.draws
+    density = np.mean(
+        [np.exp(model.beam_log_likelihoods(model.state(draws.cells(*number)))) for number in draws.numbers()], axis=0
+    )
+    assert run.log_score(held) == pytest.approx(np.log(density).mean(), abs=2e-3)
+    assert bm.score(run, held).nats_per_beam == pytest.approx(np.log(density).mean(), abs=2e-3)
+
+
+def test_it_is_drawn_and_exported(run, tmp_path):
+    figure = run.plot()
+    assert any(
+        Glass.words.value in axes.get_xlabel() or Glass.words.value in str(axes.get_label()) for axes in figure.axes
+    )
+    assert "<img" in run._repr_html_()
+    lower, upper = run.interval(0.8)
+    assert (lower <= upper).all()
+    for name in ("map.yaml", "map.tif"):
+        assert run.export(tmp_path / name)
+    with pytest.raises(bm.BadInput, match="free, glass or wall, without surfaces"):
+        run.surfaces()
+
+
+def test_the_command_line_draws_and_describes_it(run, tmp_path):
+    import subprocess
+    import sys
+    from pathlib import Path
+
+    run.save(tmp_path / "run.nc")
+    script = (
+        f"import sys; sys.path.insert(0, {str(Path(__file__).parents[1])!r}); import cells.glass; "
+        "from bayesmap.cli.main import main; main()"
+    )
+    for arguments in (["info"], ["render", "--what", "mean"], ["render"], ["export"]):
+        command = [sys.executable, "-c", script, arguments[0], str(tmp_path / "run.nc"), *arguments[1:]]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+    assert "free, glass or wall" in subprocess.run(
+        [sys.executable, "-c", script, "info", str(tmp_path / "run.nc")], capture_output=True, text=True, check=True
+    ).stdout  # fmt: skip
+
+
+def test_without_its_module_it_is_refused_by_name(run, tmp_path):
+    import subprocess
+    import sys
+
+    run.save(tmp_path / "run.nc")
+    script = f"import bayesmap as bm; bm.load({str(tmp_path / 'run.nc')!r})"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert "cells of kind 'glass' are not known here" in done.stderr
