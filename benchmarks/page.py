@@ -60,7 +60,7 @@ def timed(page: Any, click: str, condition: str) -> float:
     )
 
 
-def tell(name: str, value: str) -> None:
+def report(name: str, value: str) -> None:
     print(f"{name:<58} {value}", flush=True)
 
 
@@ -84,7 +84,7 @@ def first_paint(browser: Any, url: str) -> None:
         until(page, "window.first")
         times.append(page.evaluate("window.first"))
         context.close()
-    tell("first posterior painted, from navigation (5 times)", spread(times))
+    report("first posterior painted, from navigation (5 times)", spread(times))
 
 
 def drag(page: Any, seconds: float, name: str) -> None:
@@ -131,8 +131,8 @@ def drag(page: Any, seconds: float, name: str) -> None:
     )
     painted, sent = found["painted"] / found["seconds"], found["sent"] / found["seconds"]
     rate = f"{painted:.1f} posteriors/s painted of {sent:.1f} events/s"
-    tell(f"{name}: drag for {seconds:.0f} s", rate)
-    tell(f"{name}: event to paint", f"{spread(found['times'])} ({len(found['times'])} events)")
+    report(f"{name}: drag for {seconds:.0f} s", rate)
+    report(f"{name}: event to paint", f"{spread(found['times'])} ({len(found['times'])} events)")
 
 
 def large(page: Any) -> None:
@@ -154,7 +154,7 @@ def export_size(page: Any) -> None:
         waiting.value.save_as(file)
         counts = re.search(r'"draws": ?\{[^}]*?"chains": ?(\d+)[^}]*?"count": ?(\d+)', file.read_text())
         draws = "" if counts is None else f" with {int(counts[1]) * int(counts[2])} draws"
-        tell(f"exported page{draws}", f"{file.stat().st_size / 1000:.0f} kB")
+        report(f"exported page{draws}", f"{file.stat().st_size / 1000:.0f} kB")
 
 
 def main() -> None:
@@ -163,7 +163,7 @@ def main() -> None:
     options = parser.parse_args()
     from playwright.sync_api import sync_playwright
 
-    tell("load average before", " ".join(f"{load:.1f}" for load in os.getloadavg()) + f" on {os.cpu_count()} cores")
+    report("load average before", " ".join(f"{load:.1f}" for load in os.getloadavg()) + f" on {os.cpu_count()} cores")
     with served() as url, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGUMENTS)
         first_paint(browser, url)
@@ -179,7 +179,7 @@ def main() -> None:
         for _ in range(7):
             before = page.evaluate("bayesmap.snapshot().generation")
             times += [timed(page, "Run", f"{kept} && s.generation > {before}")]
-        tell("1000 Gibbs sweeps, two chains: click to last picture", spread(times))
+        report("1000 Gibbs sweeps, two chains: click to last picture", spread(times))
         export_size(page)
         large(page)
         drag(page, options.seconds, "500 x 500, 100 beams")
@@ -190,7 +190,7 @@ def main() -> None:
             page.get_by_role("button", name="Run", exact=True).click()
             until(page, "s.running && !s.painted.approximate && s.painted.sweeps > 0")
             times.append(timed(page, "Cancel", "!s.running"))
-        tell("500 x 500: cancel, click to the kept chain", spread(times))
+        report("500 x 500: cancel, click to the kept chain", spread(times))
         browser.close()
     time.sleep(0.1)
 

@@ -8,8 +8,8 @@ import pytest
 from shell import COMMAND, SOURCE, call
 
 from bayesmap.api import Event
+from bayesmap.cli.console import Console
 from bayesmap.cli.progress import SETTING_UP, STAGES, progress
-from bayesmap.cli.talk import Talk
 
 
 def on_a_terminal(*arguments):
@@ -92,10 +92,10 @@ def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
 
     monkeypatch.setattr(Progress, "add_task", adding)
     monkeypatch.setattr(Progress, "update", updating)
-    monkeypatch.setattr(Talk, "draws_bar", True)
-    with progress(Talk(), "beginning") as tell:
+    monkeypatch.setattr(Console, "draws_bar", True)
+    with progress(Console(), "beginning") as report:
         for event in (Event("draws", 3, 9), Event("save", 1, 8), Event("save", 8, 8), Event("draws", 4, 9, -1.5)):
-            tell(event)
+            report(event)
     draws, save = tasks[1:]
     assert clock == [
         (draws, 3, "3/9 sweeps ETA"),

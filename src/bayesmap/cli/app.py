@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.given import LOG, need_file
-from bayesmap.cli.talk import write_out
+from bayesmap.cli.console import write_out
+from bayesmap.cli.input_files import LOG, need_file
 
 
 @takes(None)
@@ -40,14 +40,14 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
     if file is not None and file.endswith(".json"):
         first, file = read_document(file), None
 
-    call.talk.say("starting the worker ..." if file is None else f"opening {file} ...")
+    call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
 
     def ready(address: str) -> None:
-        if call.talk.as_json:
-            call.talk.result({"url": address}, ())
+        if call.console.as_json:
+            call.console.result({"url": address}, ())
         else:
             write_out(f"{address}\n")
-        call.talk.say("Ctrl-C ends the server")
+        call.console.say("Ctrl-C ends the server")
         if not no_browser:
             import webbrowser
 

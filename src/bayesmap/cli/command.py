@@ -1,4 +1,4 @@
-"""What all commands have in common: the options of a section, and those of how to talk."""
+"""What all commands have in common: the options of a section, and those of what is printed."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from bayesmap.cli.early import INTERRUPTED as INTERRUPTED
+from bayesmap.cli.console import Console
 from bayesmap.cli.keys import SECTIONS, Key, Value
 from bayesmap.cli.rules import checked
 from bayesmap.cli.settings import Settings, layered, read_file, read_pairs
-from bayesmap.cli.talk import Talk
+from bayesmap.cli.startup_interrupt import INTERRUPTED as INTERRUPTED
 
 FAILURE, BAD_INPUT, PROBLEMS = 1, 3, 4
 """Exit codes, beside click's own 2 for usage."""
@@ -37,12 +37,12 @@ class Call:
     """One call of a command.
 
     Attributes:
-        talk: where its words go.
+        console: where its words go.
         section: its table of settings.
         layers: what the user set: in the file, by ``--set``, by flags.
     """
 
-    talk: Talk
+    console: Console
     section: str | None
     layers: tuple[Settings, Settings, Settings]
 
@@ -67,25 +67,27 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
         keys = SECTIONS[section] if section is not None else ()
 
         @click.pass_context
-        def callback(context: click.Context, /, **given: Any) -> None:
+        def callback(context: click.Context, /, **arguments: Any) -> None:
             for parameter in context.command.params:
-                value = given.get(parameter.name or "")
+                value = arguments.get(parameter.name or "")
                 if value == "" or (
                     isinstance(value, tuple) and "" in value
                 ):  # such as "$FOLDER" of a script that has set none
                     raise click.BadParameter("it is empty; give a value", context, parameter)
             flags: dict[str, Value] = {}
             for key in keys:
-                value = given.pop(key.name)
+                value = arguments.pop(key.name)
                 if context.get_parameter_source(key.name) is ParameterSource.COMMANDLINE:
                     flags[key.name] = checked(key, value)
-            config, pairs = given.pop("config"), given.pop("pairs")
-            quiet, verbose = given.pop("quiet"), given.pop("verbose")
+            config, pairs = arguments.pop("config"), arguments.pop("pairs")
+            quiet, verbose = arguments.pop("quiet"), arguments.pop("verbose")
             context.meta[VERBOSE] = verbose
-            talk = Talk(quiet=quiet, verbose=verbose, as_json=given.pop("as_json"), bar=not given.pop("no_progress"))
+            console = Console(
+                quiet=quiet, verbose=verbose, as_json=arguments.pop("as_json"), bar=not arguments.pop("no_progress")
+            )
             by_file = read_file(config) if config is not None else {}
             by_flags = {section: flags} if section is not None else {}
-            run(Call(talk, section, (by_file, read_pairs(pairs, section), by_flags)), **given)
+            run(Call(console, section, (by_file, read_pairs(pairs, section), by_flags)), **arguments)
 
         made = click.command(help=_help(run.__doc__ or ""))(callback)
         made.params = list(getattr(run, "__click_params__", []))[::-1]

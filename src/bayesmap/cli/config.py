@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import Value
 from bayesmap.cli.settings import as_toml
-from bayesmap.cli.talk import write_out
 
 
 @takes(None)
@@ -21,9 +21,9 @@ def command(call: Call) -> None:
     bayesmap infer -c my.toml --set resolution=0.05 office.log
     """
     settings = call.settings()
-    if call.talk.as_json:
+    if call.console.as_json:
         shown = {section: {k: _as_json(v) for k, v in values.items()} for section, values in settings.items()}
-        call.talk.result({"settings": shown}, [])
+        call.console.result({"settings": shown}, [])
     else:
         write_out(as_toml(settings))
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
+from bayesmap.cli.console import Console, as_json
 from bayesmap.cli.document import run_document
 from bayesmap.cli.progress import progress
-from bayesmap.cli.talk import Talk, as_json
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -44,8 +44,8 @@ def command(call: Call, output: str, force: bool) -> None:
     except (FileExistsError, NotADirectoryError):
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
 
-    runs = _runs(call.talk, call.values())
-    with progress(call.talk, "drawing pictures and a film"):
+    runs = _runs(call.console, call.values())
+    with progress(call.console, "drawing pictures and a film"):
         outputs = [*_pictures(runs, folder), folder / "demo.json"]
     main = runs["gibbs"]
     document = {
@@ -55,15 +55,15 @@ def command(call: Call, output: str, force: bool) -> None:
         "outputs": {path.name: str(path) for path in outputs},
     }
     _write_json(folder / "demo.json", document)
-    _report(call.talk, runs, folder)
-    call.talk.result(document, outputs)
+    _report(call.console, runs, folder)
+    call.console.result(document, outputs)
     if not all(run.finished for run in runs.values()):
         click.get_current_context().exit(INTERRUPTED)
     if call.values()["strict"] and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
-def _runs(talk: Talk, values: dict[str, Any]) -> dict[str, Run]:
+def _runs(console: Console, values: dict[str, Any]) -> dict[str, Run]:
     """The same scan seen by each method; and a chain from its first sweep on, to be watched."""
     import numpy as np
 
@@ -76,7 +76,7 @@ def _runs(talk: Talk, values: dict[str, Any]) -> dict[str, Run]:
     walls, pose = tutorial()
     sensor, seed = Gaussian(SIGMA_M), values["seed"]
     angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
-    talk.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
+    console.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
     scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
     common = {"seed": seed, "threads": values["threads"], "sensor": sensor}
     sizes = {"chains": values["chains"], "warmup": values["warmup"], "draws": values["draws"]}
@@ -95,8 +95,8 @@ def _runs(talk: Talk, values: dict[str, Any]) -> dict[str, Run]:
     }
     runs: dict[str, Run] = {}
     for name, arguments in asked.items():
-        with progress(talk, "compiling" if not runs else "tracing beams") as tell:
-            runs[name] = infer(scans, TUTORIAL_GRID, on_progress=tell, **common, **arguments)
+        with progress(console, "compiling" if not runs else "tracing beams") as report:
+            runs[name] = infer(scans, TUTORIAL_GRID, on_progress=report, **common, **arguments)
         if not runs[name].finished:
             raise KeyboardInterrupt
     return runs
@@ -148,16 +148,16 @@ def _write_json(path: Path, document: dict[str, Any]) -> None:
         partial.write_text(as_json(document), encoding="utf-8")
 
 
-def _report(talk: Talk, runs: dict[str, Run], folder: Path) -> None:
+def _report(console: Console, runs: dict[str, Run], folder: Path) -> None:
     for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
         summary, posterior = runs[name].summary(), runs[name].posterior
-        talk.say(
+        console.say(
             f"{line} {posterior.draws.chains} chains of {posterior.sweep:,} sweeps, "
             f"{summary.microseconds_per_sweep:.0f} us a sweep, R-hat of the log joint {summary.rhat_log_joint:.3f}"
         )
     weights, size = runs["importance"].log_weights, runs["importance"].summary().effective_sample_size
-    talk.say(
+    console.say(
         f"importance sampling:            {len(weights):,} particles, effective sample size "
         f"{size:.1f}" + (": it collapsed, which is why the others are needed" if size < COLLAPSED else "")
     )
-    talk.say(f"pictures, the saved run and demo.json are in {folder}")
+    console.say(f"pictures, the saved run and demo.json are in {folder}")

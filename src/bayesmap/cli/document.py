@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bayesmap.cli.talk import counted
+from bayesmap.cli.console import counted
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:

@@ -52,4 +52,4 @@ def command(call: Call, run_file: str, output: str | None, force: bool) -> None:
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
     outputs = run.export(target, **values)
     document = {"version": __version__, "run": run_file, "outputs": {path.name: str(path) for path in outputs}}
-    call.talk.result(document, outputs)
+    call.console.result(document, outputs)

@@ -17,7 +17,7 @@ from bayesmap.cli.command import FAILURE, INTERRUPTED, PROBLEMS, Call
 from bayesmap.cli.executors import ray_address
 from bayesmap.cli.fleet_worker import Sent, infer_log
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.given import LOG, need_file
+from bayesmap.cli.input_files import LOG, need_file
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
     twice = next((name for name, times in names.items() if times > 1), None)
     if twice is not None:
         raise BadInput(f"{twice}: two of the logs have this name, so their runs would share a folder; rename one")
-    entries = [Entry(log, Folder(output / inferring.stem(log), call.talk, resuming=resume)) for log in logs]
+    entries = [Entry(log, Folder(output / inferring.stem(log), call.console, resuming=resume)) for log in logs]
 
     def attempt(entry: Entry, what: Callable[[], Any]) -> Any:
         """The result, or None if it failed: the entry says why, and the others go on."""
@@ -89,7 +89,7 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
             raise
         except Exception as error:
             entry.error = " ".join(explain(error)[1].split()).removeprefix(f"{entry.log}: ")
-            call.talk.warn(f"{entry.log}: {entry.error}")
+            call.console.warn(f"{entry.log}: {entry.error}")
             return None
 
     def check(entry: Entry) -> bool:
@@ -115,12 +115,12 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
         interrupted = True
     if interrupted:
         again = shlex.join(["bayesmap", "infer", *logs, "-o", str(output), "--resume"])
-        call.talk.say(f"interrupted; what was checkpointed is kept, go on with:\n  {again}")
+        call.console.say(f"interrupted; what was checkpointed is kept, go on with:\n  {again}")
     document = {"runs": [entry.as_json() for entry in entries], "finished": not interrupted}
-    if call.talk.as_json:
-        call.talk.result(document, [])
+    if call.console.as_json:
+        call.console.result(document, [])
     else:
-        call.talk.result({}, table(entries))
+        call.console.result({}, table(entries))
     context = click.get_current_context()
     if interrupted:
         context.exit(INTERRUPTED)
@@ -155,7 +155,7 @@ def table(entries: list[Entry]) -> Iterator[str]:
 def _infer_here(call: Call, entry: Entry) -> bool:
     """Infer a log in this process; false if it was interrupted."""
     folder, values = entry.folder, entry.values
-    reading = inferring.read(call.talk, entry.log, values)
+    reading = inferring.read(call.console, entry.log, values)
     train, heldout = inferring.split(reading.scans, values["holdout"])
     saved = inferring.saved(folder) if folder.resuming else None
     run = inferring.sample(folder, reading.scans, train, values, entry.sensor, saved)
@@ -164,7 +164,7 @@ def _infer_here(call: Call, entry: Entry) -> bool:
             run.save(folder.run)
         return False
     entry.document = inferring.finish(folder, run, reading, heldout, values["holdout"])
-    inferring.report(call.talk, entry.document)
+    inferring.report(call.console, entry.document)
     return True
 
 
@@ -207,7 +207,7 @@ class _RayFleet:
 
     def _begin(self, entry: Entry) -> bool:
         """Read a log, put its scans into the object store, and give it to a worker."""
-        reading = inferring.read(self.call.talk, entry.log, entry.values)
+        reading = inferring.read(self.call.console, entry.log, entry.values)
         self.readings[entry.log] = self.ray.put(reading)
         self._submit(entry, resuming=entry.folder.resuming)
         return True
@@ -239,7 +239,7 @@ class _RayFleet:
             entry.deaths += 1
             if entry.deaths > RETRIES:
                 raise failed(error) from error
-            self.call.talk.say(f"{entry.log}: its worker died; another goes on from the last checkpoint")
+            self.call.console.say(f"{entry.log}: its worker died; another goes on from the last checkpoint")
             self._submit(entry, resuming=entry.folder.begun or entry.folder.resuming)
             return True
         self._keep(entry, sent)
@@ -261,5 +261,5 @@ class _RayFleet:
         if entry.document is not None:
             folder.write_document(entry.document)
             self.readings.pop(entry.log, None)
-            self.call.talk.say(f"{entry.log}: finished")
-            inferring.report(self.call.talk, entry.document)
+            self.call.console.say(f"{entry.log}: finished")
+            inferring.report(self.call.console, entry.document)

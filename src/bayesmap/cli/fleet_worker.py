@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bayesmap.cli import inferring
+from bayesmap.cli.console import Console
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.talk import Talk
 
 if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
@@ -48,7 +48,7 @@ def infer_log(
     """
     sent: queue.SimpleQueue[Sent | BaseException] = queue.SimpleQueue()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as place:
-        folder = Folder(Path(place), Talk(quiet=True, bar=False), resuming=bool(before))
+        folder = Folder(Path(place), Console(quiet=True, bar=False), resuming=bool(before))
         for name, content in before.items():
             (folder.path / name).write_bytes(content)
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bayesmap.cli.console import Console, as_json, counted
 from bayesmap.cli.progress import progress, stage
-from bayesmap.cli.talk import Talk, as_json, counted
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -25,12 +25,12 @@ class Folder:
 
     Attributes:
         path: the folder.
-        talk: for details and warnings.
+        console: for details and warnings.
         resuming: whether the run in it is to go on.
     """
 
     path: Path
-    talk: Talk
+    console: Console
     resuming: bool = False
     begun: bool = field(default=False, init=False)
 
@@ -83,9 +83,9 @@ class Folder:
         """Save the run so far; a full disk is no reason to lose the hours to come."""
         try:
             run.save(self.run, on_progress)
-            self.talk.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
+            self.console.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
         except OSError as error:
-            self.talk.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
+            self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
 
     def write_products(self, run: Run) -> list[Path]:
         """Save the run, draw it, and export it for nav2.
@@ -95,10 +95,10 @@ class Folder:
         """
         from bayesmap.viz.figure import write_figure
 
-        with stage(self.talk, "save") as tell:
-            run.save(self.run, tell)
+        with stage(self.console, "save") as report:
+            run.save(self.run, report)
         picture = self.path / "posterior.png"
-        with progress(self.talk, "drawing the map"):
+        with progress(self.console, "drawing the map"):
             write_figure(run.plot(), picture)
             return [self.run, picture, *run.export(self.path / "map.yaml")]
 

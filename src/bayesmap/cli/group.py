@@ -12,9 +12,9 @@ from typing import Any
 
 import click
 
-from bayesmap.cli import early
+from bayesmap.cli import startup_interrupt
 from bayesmap.cli.command import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE
-from bayesmap.cli.talk import complain
+from bayesmap.cli.console import complain
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -63,7 +63,7 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command; a failure is one line on standard error."""
         try:
-            early.over()
+            startup_interrupt.over()
             return super().invoke(ctx)
         except (click.ClickException, click.exceptions.Exit):
             raise

@@ -12,7 +12,7 @@ from bayesmap.cli import cells, executors, inferring, sensors
 from bayesmap.cli.command import PROBLEMS, Call, takes
 from bayesmap.cli.fleet import infer_fleet
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.given import LOG, logs_of, need_file
+from bayesmap.cli.input_files import LOG, logs_of, need_file
 
 if TYPE_CHECKING:
     from bayesmap.sensors.model import SensorModel
@@ -58,7 +58,7 @@ def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool,
         return
     log = logs[0]
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
-    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.talk, resuming=resume)
+    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.console, resuming=resume)
     values = call.values(inferring.settings_of(folder) if resume else None)
     values = cells.settled(values)
     sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
@@ -69,7 +69,7 @@ def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool,
         _run(call, folder, log, values, sensor, go_on)
     except KeyboardInterrupt:  # while setting up, or once more while the chains were being stopped
         if (folder.begun or resume) and folder.run.exists():
-            call.talk.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
+            call.console.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
         raise
 
 
@@ -77,7 +77,7 @@ def _run(
     call: Call, folder: Folder, log: str, values: dict[str, Any], sensor: SensorModel | str | None, go_on: str
 ) -> None:
     executor = executors.executor_of(values["executor"])
-    reading = inferring.read(call.talk, log, values)
+    reading = inferring.read(call.console, log, values)
     train, heldout = inferring.split(reading.scans, values["holdout"])
     saved = inferring.saved(folder) if folder.resuming else None
     run = inferring.sample(folder, reading.scans, train, values, sensor, saved, executor)
@@ -85,8 +85,8 @@ def _run(
         inferring.leave(folder, run, reading, go_on)
 
     document = inferring.finish(folder, run, reading, heldout, values["holdout"])
-    inferring.report(call.talk, document)
-    call.talk.result(document, document["outputs"].values())
+    inferring.report(call.console, document)
+    call.console.result(document, document["outputs"].values())
     if values["strict"] and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 

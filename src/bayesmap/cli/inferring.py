@@ -10,12 +10,12 @@ import click
 
 from bayesmap.cli import cells
 from bayesmap.cli.command import INTERRUPTED
+from bayesmap.cli.console import Console, counted
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SECTIONS
 from bayesmap.cli.progress import SETTING_UP, progress, stage
 from bayesmap.cli.reading import options_of
 from bayesmap.cli.settings import Settings, as_toml, read_file
-from bayesmap.cli.talk import Talk, counted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,14 +59,14 @@ def saved(folder: Folder) -> Run | None:
     from bayesmap.result import load
 
     if not folder.run.exists():
-        folder.talk.say(f"{folder.run}: no run to resume; starting from the beginning")
+        folder.console.say(f"{folder.run}: no run to resume; starting from the beginning")
         return None
     run = load(folder.run)
-    folder.talk.say(f"resuming {folder.run} after {counted(run.posterior.sweep, 'sweep')}")
+    folder.console.say(f"resuming {folder.run} after {counted(run.posterior.sweep, 'sweep')}")
     return run
 
 
-def read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
+def read(console: Console, log: str, values: dict[str, Any]) -> LogReading:
     """Read a log, and say what is in it."""
     from bayesmap.io.logs import describe_log
 
@@ -74,18 +74,18 @@ def read(talk: Talk, log: str, values: dict[str, Any]) -> LogReading:
     scans, counts = reading.scans, reading.scans.counts()
     code = reading.no_return_m
     coded = "no code for no return" if code is None else f"{code:g} m is no return ({reading.no_return.origin})"
-    talk.say(
+    console.say(
         f"{log}: {len(scans):,} scans, {scans.n_beams:,} beams, "
         f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {coded}"
     )
     if counts["hit"] == 0:
-        talk.warn(f"{log}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
-    for skip in reading.skipped[: 10 if not talk.verbose else None]:
-        talk.say(f"{log}: {skip} left out: {skip.reason}")
-    if len(reading.skipped) > 10 and not talk.verbose:
-        talk.say(f"{log}: {len(reading.skipped) - 10:,} more left out; -v lists them")
+        console.warn(f"{log}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
+    for skip in reading.skipped[: 10 if not console.verbose else None]:
+        console.say(f"{log}: {skip} left out: {skip.reason}")
+    if len(reading.skipped) > 10 and not console.verbose:
+        console.say(f"{log}: {len(reading.skipped) - 10:,} more left out; -v lists them")
     for note in reading.notes:
-        talk.say(f"{log}: {note}")
+        console.say(f"{log}: {note}")
     return reading
 
 
@@ -125,19 +125,19 @@ def sample(
         grid = Grid.covering(scans, values["resolution"])
     else:
         _, grid = read_map(values["grid"])
-    folder.talk.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
+    folder.console.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
     values = {**values, "draws": cells.draws_for(values, train.n_beams, grid.n_cells)}
     toml = as_toml({"infer": values})
-    with progress(folder.talk, "tracing beams") as tell:
+    with progress(folder.console, "tracing beams") as report:
 
         def on_progress(event: Event) -> None:
             if event.stage not in SETTING_UP:
                 folder.begin(toml)
-            tell(event)
+            report(event)
 
         def on_checkpoint(run: Run) -> None:
-            folder.begin(toml)  # a short warm-up may be over before anything was told of it
-            folder.checkpoint(run, lambda done, total: tell(Event("save", done, total)))
+            folder.begin(toml)  # a short warm-up may be over before anything was reported
+            folder.checkpoint(run, lambda done, total: report(Event("save", done, total)))
             on_saved()
 
         run = infer(
@@ -156,13 +156,13 @@ def sample(
     return run
 
 
-def score_of(talk: Talk, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
+def score_of(console: Console, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
     """The score of the scans that were held out."""
     if heldout is None:
         return None
     valid = heldout.n_beams - heldout.counts()["invalid"]
-    with stage(talk, "score") as tell:
-        nats = run.log_score(heldout, on_progress=tell)
+    with stage(console, "score") as report:
+        nats = run.log_score(heldout, on_progress=report)
     return {"every": every, "beams": valid, "nats_per_beam": nats}
 
 
@@ -178,22 +178,22 @@ def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, out
     }
 
 
-def report(talk: Talk, document: dict[str, Any]) -> None:
+def report(console: Console, document: dict[str, Any]) -> None:
     """Say what came out."""
     from bayesmap.cli.document import work_done
 
     seconds, joint = document["seconds"], document["log_joint"]
-    talk.say(
+    console.say(
         f"{document['method']}: {work_done(document)} over {document['incidences']:,} incidences "
         f"in {seconds['total']:.1f} s"
     )
     if joint["mean"] is not None:
-        talk.say(f"log joint {joint['mean']:,.1f} on average, {joint['last']:,.1f} at the end")
+        console.say(f"log joint {joint['mean']:,.1f} on average, {joint['last']:,.1f} at the end")
     if document["heldout"]:
         score = document["heldout"]
-        talk.say(f"held out: {score['nats_per_beam']:.4f} nats per beam over {score['beams']:,} beams")
+        console.say(f"held out: {score['nats_per_beam']:.4f} nats per beam over {score['beams']:,} beams")
     for problem in document["problems"]:
-        talk.warn(problem)
+        console.warn(problem)
 
 
 def leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn:
@@ -201,24 +201,24 @@ def leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn
     kept: list[Path] = []
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
     if run.posterior.sweep > 0:
-        with stage(folder.talk, "save") as tell:
-            run.save(folder.run, tell)
+        with stage(folder.console, "save") as report:
+            run.save(folder.run, report)
         kept = [folder.run]
         done = counted(run.posterior.sweep, "sweep")
-        folder.talk.say(f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}")
+        folder.console.say(f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}")
     elif folder.resuming and folder.run.exists():
-        folder.talk.say(f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}")
+        folder.console.say(f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}")
     else:
-        folder.talk.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
-    folder.talk.result(document_of(run, reading, None, kept), kept)
+        folder.console.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
+    folder.console.result(document_of(run, reading, None, kept), kept)
     click.get_current_context().exit(INTERRUPTED)
 
 
 def finish(folder: Folder, run: Run, reading: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:
     """Save a finished run, draw and score it, and keep its JSON document, which is returned."""
     outputs = folder.write_products(run)
-    score = score_of(folder.talk, run, heldout, every)
-    with progress(folder.talk, "comparing the chains"):
+    score = score_of(folder.console, run, heldout, every)
+    with progress(folder.console, "comparing the chains"):
         document = document_of(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
     folder.write_document(document)
     return document

@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.given import LOG, need_file
-from bayesmap.cli.talk import counted, write_out
+from bayesmap.cli.console import counted, write_out
+from bayesmap.cli.input_files import LOG, need_file
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -21,7 +21,7 @@ def command(call: Call, file: str) -> None:
     r"""Say what is in FILE: a log, a robot's recording (a file or a folder), or a saved run.
 
     Of a recording: its topics and frames, what its scans look like, where their poses can come from, and the command
-    that infers a map from it. What is damaged or malformed is counted, and the rest is told.
+    that infers a map from it. What is damaged or malformed is counted, and the rest is described.
 
     \b
     bayesmap info recording.mcap
@@ -29,8 +29,8 @@ def command(call: Call, file: str) -> None:
     """
     need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
     document = _saved_run(file) if is_saved_run(file) else _log(file)
-    if call.talk.as_json:
-        call.talk.result(document, [])
+    if call.console.as_json:
+        call.console.result(document, [])
     else:
         write_out("\n".join(_lines(document)) + "\n")
 
@@ -58,12 +58,12 @@ def _saved_run(file: str) -> dict[str, Any]:
     from bayesmap.result import load
 
     run = load(file)
-    told = run_document(run)
+    described = run_document(run)
     return {
         "version": __version__,
         "path": file,
         "format": "bayesmap run",
-        "run": {key: value for key, value in told.items() if key not in ("version", "peak_memory_mb")},
+        "run": {key: value for key, value in described.items() if key not in ("version", "peak_memory_mb")},
         "sensors": [scans_summary(run.posterior.scans)],
         "notes": list(run.posterior.notes),
     }

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.given import need_file
+from bayesmap.cli.console import write_out
+from bayesmap.cli.input_files import need_file
 from bayesmap.cli.progress import share
 from bayesmap.cli.reading import options_of
-from bayesmap.cli.talk import write_out
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -30,7 +30,7 @@ ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 @click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")
 @click.option("--follow", is_flag=True, help="A JSON line on standard output for each scan, as soon as it is known.")
 @click.option("--prior", metavar="X,Y,DEGREES[,M,DEGREES]", help="First pose, and its standard deviations.")
-@click.option("--independent", is_flag=True, help="Locate each scan by itself; the log's poses tell nothing.")
+@click.option("--independent", is_flag=True, help="Locate each scan by itself; without the log's poses.")
 @click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is left out.")
 @click.option("--area", metavar="X0,X1,Y0,Y1", help="Also the probability of being in this rectangle, in metres.")
 @click.option("--force", is_flag=True, help="Replace an existing file.")
@@ -70,10 +70,10 @@ def command(
     scans = read_log(log, max_range_m=run.posterior.scans.max_range_m, **options_of(values))
     scans = scans.select(_slice(span, len(scans)))
     known = KnownMap.of_run(run, beam_weight=values["beam_weight"])
-    with share(call.talk, "locating scans") as tell:
+    with share(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
-            tell((number + 1) / len(scans))
+            report((number + 1) / len(scans))
             if follow:
                 write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
 
@@ -81,10 +81,10 @@ def command(
     outputs = [] if target is None else _write(target, found)
     lost = sum(belief.p_lost > 0.5 for belief in found.beliefs)
     if lost:
-        call.talk.warn(f"{lost:,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated")
+        call.console.warn(f"{lost:,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated")
     if follow:
         return
-    if call.talk.as_json:
+    if call.console.as_json:
         document = {
             "version": __version__,
             "run": run_file,
@@ -94,7 +94,7 @@ def command(
             "last": _answer(found.last, corners),
             "outputs": {path.name: str(path) for path in outputs},
         }
-        call.talk.result(document, outputs)
+        call.console.result(document, outputs)
     else:
         write_out("".join(f"{line}\n" for line in [*_lines(found, corners), *(str(path) for path in outputs)]))
 

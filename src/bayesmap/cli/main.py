@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import sys
 
-from bayesmap.cli import early
+from bayesmap.cli import startup_interrupt
 
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit."""
-    early.begin()
+    startup_interrupt.begin()
     from bayesmap.cli.group import cli
 
     try:
@@ -21,7 +21,7 @@ def main(arguments: list[str] | None = None) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
     except SystemExit as done:
-        if done.code == early.INTERRUPTED:
+        if done.code == startup_interrupt.INTERRUPTED:
             _leave_interrupted()
         raise
 
@@ -33,7 +33,7 @@ def _leave_interrupted() -> None:
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError):  # nobody may be reading
             stream.flush()
-    os._exit(early.INTERRUPTED)
+    os._exit(startup_interrupt.INTERRUPTED)
 
 
 if __name__ == "__main__":

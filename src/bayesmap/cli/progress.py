@@ -6,14 +6,14 @@ import contextlib
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Literal
 
-from bayesmap.cli.talk import Talk
+from bayesmap.cli.console import Console
 
 if TYPE_CHECKING:
     from rich.progress import TaskID
 
     from bayesmap.api import Event
 
-Tell = Callable[["Event"], None]
+OnProgress = Callable[["Event"], None]
 Show = Callable[[str, str, int, int, "float | None"], None]
 """Takes what is done now, what is counted, how many of how many, and the log joint where there is one."""
 
@@ -43,27 +43,27 @@ SETTING_UP = ("compile", "trace", "start", "fit")
 
 
 @contextlib.contextmanager
-def progress(talk: Talk, begin: str) -> Iterator[Tell]:
-    """Give what a run is to tell its events to; the bar is gone when the block ends.
+def progress(console: Console, begin: str) -> Iterator[OnProgress]:
+    """The function that a run reports its events to; the bar is gone when the block ends.
 
     Args:
-        talk: whether a bar may be drawn.
+        console: whether a bar may be drawn.
         begin: what happens before the first event.
     """
-    with _bar(talk, begin) as show:
+    with _bar(console, begin) as show:
         yield lambda event: show(*STAGES[event.stage], event.done, event.total, event.log_joint)
 
 
 @contextlib.contextmanager
-def share(talk: Talk, name: str) -> Iterator[Callable[[float], None]]:
+def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
     """The same for work that tells which share of it is done, from 0 to 1."""
-    with _bar(talk, name) as show:
+    with _bar(console, name) as show:
         yield lambda done: show(name, "%", round(1000 * done), 1000, None)
 
 
 @contextlib.contextmanager
-def _bar(talk: Talk, begin: str) -> Iterator[Show]:
-    if not talk.draws_bar:
+def _bar(console: Console, begin: str) -> Iterator[Show]:
+    if not console.draws_bar:
         yield lambda name, unit, done, total, log_joint: None
         return
     # Loaded here alone: a tenth of a second that pipelines and batch jobs do not have to pay.
@@ -102,9 +102,9 @@ def _bar(talk: Talk, begin: str) -> Iterator[Show]:
 
 
 @contextlib.contextmanager
-def stage(talk: Talk, name: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
+def stage(console: Console, name: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
     """The same for a stage on its own, which tells how much of how much is done."""
     from bayesmap.api import Event
 
-    with progress(talk, STAGES[name][0]) as tell:
-        yield lambda done, total: tell(Event(name, done, total))
+    with progress(console, STAGES[name][0]) as report:
+        yield lambda done, total: report(Event(name, done, total))

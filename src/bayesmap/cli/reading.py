@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from bayesmap.cli.given import need_file
+from bayesmap.cli.input_files import need_file
 
 if TYPE_CHECKING:
     from bayesmap.result import Run

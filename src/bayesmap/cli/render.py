@@ -89,8 +89,8 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
         if heldout is None:
             raise BadInput(f"{what}: that of scans which the run did not see; name their log by --heldout")
         scans = heldout_scans(run, heldout, values, values["holdout"])
-        with share(call.talk, "predicting held-out beams") as tell:
-            ends, numbers_shown = pictures.misses(run, scans, what, tell)
+        with share(call.console, "predicting held-out beams") as report:
+            ends, numbers_shown = pictures.misses(run, scans, what, report)
         scale = surprise_scale(numbers_shown) if what == "surprise" else None
         write_figure(residuals_figure(grid, mean, ends, numbers_shown, observed, scale=scale), target)
     elif what == "log-odds":
@@ -115,4 +115,4 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
             shown = draw[cut]
         write_figure(panel_figure(grid, what, shown, observed, truth=walls, label=label), target)
     document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
-    call.talk.result(document, [target])
+    call.console.result(document, [target])

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import write_out
 from bayesmap.cli.progress import progress, share
 from bayesmap.cli.reading import heldout_scans, options_of
 from bayesmap.cli.score_others import infer_map, is_map, placed_scans, score_map
 from bayesmap.cli.score_poses import FRAMES, check_frames, lines_of, score_poses
-from bayesmap.cli.talk import write_out
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -117,8 +117,8 @@ def command(
         outputs[Path(picture).name] = picture
     of = "laser" if shift is None else "base"
     about = None if poses is None else {"file": relations, "frame": of, **poses.as_json()}
-    if call.talk.as_json:
-        call.talk.result(_document(run_file, log, found, about, outputs), [])
+    if call.console.as_json:
+        call.console.result(_document(run_file, log, found, about, outputs), [])
         return
     if found.rows:
         _print_table(found.rows)
@@ -156,9 +156,9 @@ def _score_run(
     if every == 0 and not whole:
         raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
     heldout = heldout_scans(run, log, values, every)
-    call.talk.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
-    with share(call.talk, f"scoring the {_name(run)}") as tell:
-        rows = [(_name(run), score(run, heldout, seed=values["seed"], on_progress=tell))]
+    call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
+    with share(call.console, f"scoring the {_name(run)}") as report:
+        rows = [(_name(run), score(run, heldout, seed=values["seed"], on_progress=report))]
     fits: list[Fitted] = []
     if compare:
         for fit, found in _baselines(call, run.posterior.scans, run.grid, heldout, values["seed"]):
@@ -183,7 +183,7 @@ def _score_others(
         if log is None:
             raise click.UsageError(f"give the LOG whose scans score {path}")
         placed = placed_scans(log, values, trajectory, mount)
-        call.talk.say(f"scoring every {values['holdout']}-th scan of {log}: {len(placed.heldout):,}")
+        call.console.say(f"scoring every {values['holdout']}-th scan of {log}: {len(placed.heldout):,}")
         fit, own = score_map(call, path, placed, values["seed"])
         rows, grid = [(fit.name, own)], fit.predictor.grid
     else:
@@ -193,8 +193,8 @@ def _score_others(
             raise click.UsageError(f"{path}: a log by itself; give --trajectory, or the run or map to score on it")
         placed = placed_scans(path, values, trajectory, mount)
         run = infer_map(call, placed, values)
-        with share(call.talk, f"scoring the {_name(run)}") as tell:
-            rows = [(_name(run), score(run, placed.heldout, seed=values["seed"], on_progress=tell))]
+        with share(call.console, f"scoring the {_name(run)}") as report:
+            rows = [(_name(run), score(run, placed.heldout, seed=values["seed"], on_progress=report))]
         grid = run.grid
     fits: list[Fitted] = []
     if compare:
@@ -225,15 +225,15 @@ def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, seed: int) 
     from bayesmap.posterior.baselines import BASELINES, fit_baseline, make_folds
     from bayesmap.posterior.scoring import score_prediction
 
-    with progress(call.talk, "tracing beams"):
+    with progress(call.console, "tracing beams"):
         folds = make_folds(train, grid)
     found = []
     for baseline in BASELINES:
-        call.talk.say(f"fitting {baseline.name} to the scans that are not scored")
-        with share(call.talk, f"fitting {baseline.name}") as tell:
-            fit = fit_baseline(baseline, train, grid, folds, tell)
-        with share(call.talk, f"scoring {baseline.name}") as tell:
-            found.append((fit, score_prediction(fit.predictor, heldout, seed=seed, on_progress=tell)))
+        call.console.say(f"fitting {baseline.name} to the scans that are not scored")
+        with share(call.console, f"fitting {baseline.name}") as report:
+            fit = fit_baseline(baseline, train, grid, folds, report)
+        with share(call.console, f"scoring {baseline.name}") as report:
+            found.append((fit, score_prediction(fit.predictor, heldout, seed=seed, on_progress=report)))
     return found
 
 

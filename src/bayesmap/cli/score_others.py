@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bayesmap.cli.command import Call
-from bayesmap.cli.given import need_file
+from bayesmap.cli.input_files import need_file
 from bayesmap.cli.progress import progress, share
 from bayesmap.cli.reading import options_of
 from bayesmap.errors import BadInput
@@ -86,10 +86,10 @@ def score_map(call: Call, path: str, placed: Placed, seed: int) -> tuple[Fitted,
 
     occupancy, grid = read_map(path)
     name = Path(path).name
-    with share(call.talk, f"fitting a sensor to {name}") as tell:
-        fit = fit_map(name, occupancy, grid, placed.train, tell)
-    with share(call.talk, f"scoring {name}") as tell:
-        return fit, score_prediction(fit.predictor, placed.heldout, seed=seed, on_progress=tell)
+    with share(call.console, f"fitting a sensor to {name}") as report:
+        fit = fit_map(name, occupancy, grid, placed.train, report)
+    with share(call.console, f"scoring {name}") as report:
+        return fit, score_prediction(fit.predictor, placed.heldout, seed=seed, on_progress=report)
 
 
 def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
@@ -99,8 +99,8 @@ def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
     from bayesmap.space.grid import Grid
 
     grid = Grid.covering(placed.train, values["resolution"])
-    call.talk.say(f"inferring a map of {grid.shape[0]} x {grid.shape[1]} cells from {len(placed.train):,} scans")
-    with progress(call.talk, "tracing beams") as on_progress:
+    call.console.say(f"inferring a map of {grid.shape[0]} x {grid.shape[1]} cells from {len(placed.train):,} scans")
+    with progress(call.console, "tracing beams") as on_progress:
         return infer(
             placed.train, grid, prior=Surface(), sensor="fit", warmup=50, hit_depth=0.5, seed=values["seed"],
             on_progress=on_progress,

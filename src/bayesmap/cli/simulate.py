@@ -124,11 +124,11 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
         "outputs": {path.name: str(path) for path in outputs},
     }
     poses_are = "true poses" if noise is None else "raw odometry"
-    call.talk.say(
+    call.console.say(
         f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {values['world']}, "
         f"{world.grid.shape[0]} x {world.grid.shape[1]} cells of {world.grid.resolution:g} m"
     )
-    call.talk.result(document, outputs)
+    call.console.result(document, outputs)
 
 
 def _write_truth(

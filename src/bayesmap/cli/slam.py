@@ -11,7 +11,7 @@ import click
 from bayesmap.cli import cells, inferring, sensors
 from bayesmap.cli.command import PROBLEMS, Call, takes
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.given import LOG, need_file
+from bayesmap.cli.input_files import LOG, need_file
 from bayesmap.cli.progress import SETTING_UP, progress
 from bayesmap.cli.settings import as_toml
 from bayesmap.samplers.progress import Event
@@ -50,7 +50,7 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
-    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.talk, resuming=resume)
+    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.console, resuming=resume)
     values = cells.settled(
         {**inferring.DEFAULTS, **call.values(inferring.settings_of(folder, "slam") if resume else None)}
     )
@@ -58,7 +58,7 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     folder.check(force=force)
     go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder.path), "--resume"])
 
-    reading = inferring.read(call.talk, log, values)
+    reading = inferring.read(call.console, log, values)
     saved = inferring.saved(folder) if resume else None
     if force:
         _forget(folder)
@@ -66,7 +66,7 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     try:
         run = _slam(folder, reading, values, sensor, saved, found)
     except KeyboardInterrupt:
-        call.talk.say(f"the stages that are done are kept; go on with:\n  {go_on}")
+        call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
         raise
     if not run.finished:
         inferring.leave(folder, run, reading, go_on)
@@ -74,9 +74,9 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     document = inferring.document_of(run, reading, None, [*outputs, folder.path / "summary.json", folder.config])
     document["trajectory"] = summary(run)
     folder.write_document(document)
-    inferring.report(call.talk, document)
+    inferring.report(call.console, document)
     _report(call, document["trajectory"])
-    call.talk.result(document, document["outputs"].values())
+    call.console.result(document, document["outputs"].values())
     if values["strict"] and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
@@ -98,7 +98,7 @@ def _slam(
     from bayesmap.from_odometry import slam
 
     toml = as_toml({"slam": {name: values[name] for name in inferring.names_of("slam")}})
-    with progress(folder.talk, "matching scans") as show:
+    with progress(folder.console, "matching scans") as show:
 
         def on_progress(event: Event) -> None:
             if event.stage not in SETTING_UP and event.stage not in STAGES:
@@ -185,20 +185,20 @@ def summary(run: Run) -> dict[str, Any]:
 
 
 def _report(call: Call, trajectory: dict[str, Any]) -> None:
-    call.talk.say(
+    call.console.say(
         f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them in the map, "
         f"{trajectory['loop_closures']:,} loop closures, standard deviation "
         f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
     )
     if trajectory["flagged"]:
         some = ", ".join(str(scan) for scan in trajectory["flagged"][:10])
-        call.talk.warn(
+        call.console.warn(
             f"{len(trajectory['flagged'])} scans are badly explained by all others, their poses are not to be trusted: "
             f"{some}{', ...' if len(trajectory['flagged']) > 10 else ''}"
         )
     if trajectory["breaks"]:
         some = ", ".join(str(scan) for scan in trajectory["breaks"][:10])
-        call.talk.warn(f"before these scans the robot seems to have been carried, or data are missing: {some}")
+        call.console.warn(f"before these scans the robot seems to have been carried, or data are missing: {some}")
 
 
 command.help = (command.help or "").format(sensors=sensors.HELP)

@@ -1,4 +1,4 @@
-"""Who hears what: results on standard output, everything else on standard error."""
+"""What a command prints: results on standard output, everything else on standard error."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ SCHEMA_VERSION = 1
 
 
 @dataclass(frozen=True)
-class Talk:
-    """How talkative this call is.
+class Console:
+    """How much this call prints.
 
     Attributes:
         quiet: only errors and warnings.
@@ -34,12 +34,12 @@ class Talk:
     bar: bool = True
 
     def say(self, text: str) -> None:
-        """A line for whoever watches."""
+        """A line of progress or of advice."""
         if not self.quiet:
             complain(text)
 
     def detail(self, text: str) -> None:
-        """A line for whoever asked for details."""
+        """A line that only a verbose call prints."""
         if self.verbose:
             complain(text)
 
@@ -53,7 +53,7 @@ class Talk:
 
     @property
     def draws_bar(self) -> bool:
-        """Whether there is a terminal to draw a bar on, and nobody minds."""
+        """Whether there is a terminal to draw a bar on, and a bar is wanted."""
         return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 

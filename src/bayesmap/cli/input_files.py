@@ -1,4 +1,4 @@
-"""A file that was given: is it there, and is it what is wanted, or a folder that holds it?"""
+"""Input files as typed: whether they exist, are of the wanted kind, or are folders and patterns of such."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ def need_file(file: str, wanted: str, *, runs: bool) -> None:
         raise BadInput(f"{file}: a folder; give the run.nc in it" if runs else f"{file}: a run's folder; give {wanted}")
 
 
-def logs_of(given: Sequence[str]) -> list[str] | None:
+def logs_of(typed: Sequence[str]) -> list[str] | None:
     """The logs that are meant by several names, a folder of logs, or a pattern; None if it is one log.
 
     Args:
-        given: as typed. Of a folder those in it are meant whose names end as logs' do, and folders of ROS 2 bags.
+        typed: names. Of a folder those in it are meant whose names end as logs' do, and folders of ROS 2 bags.
 
     Raises:
         BadInput: a pattern or a folder with nothing in it.
     """
     found: list[str] = []
-    several = len(given) > 1
-    for one in given:
+    several = len(typed) > 1
+    for one in typed:
         path = Path(one)
         if not path.exists() and any(sign in one for sign in "*?["):
             several = True
