@@ -38,7 +38,7 @@ FRAME_SECONDS = 0.08
 PAUSE_SECONDS = 0.03
 """After a preview that took long, before the chains are set up: a moving hand will have sent the next edit by then."""
 
-Tell = Callable[[Report], None]
+OnReport = Callable[[Report], None]
 
 
 class Engine:
@@ -48,8 +48,8 @@ class Engine:
         busy: whether there is work to `advance`.
     """
 
-    def __init__(self, tell: Tell, opened: Opened | None = None) -> None:
-        self._tell = tell
+    def __init__(self, on_report: OnReport, opened: Opened | None = None) -> None:
+        self._send = on_report
         self._opened = opened
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
@@ -238,7 +238,7 @@ class Engine:
         self, kind: str, buffers: dict[str, Any] | None = None, client: int | None = None, **fields: Any
     ) -> None:
         assert self._task is not None
-        self._tell(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}, client))
+        self._send(Report({"type": kind, "generation": self._task.generation, **fields}, buffers or {}, client))
 
     def _finish(self) -> None:
         draws = {"chains": 0, "count": 0} if self._result is None else self._result.draws()
@@ -277,7 +277,7 @@ class Engine:
             table = self._scene.problem.table
             if task.x < table.grid.shape[0] and task.y < table.grid.shape[1]:
                 beams = int(np.count_nonzero(table.cells == task.x * table.grid.shape[1] + task.y))
-        self._tell(Report({"type": "cell", "x": task.x, "y": task.y, "beams": beams}, {}, task.client))
+        self._send(Report({"type": "cell", "x": task.x, "y": task.y, "beams": beams}, {}, task.client))
 
     def _export(self, task: Export) -> None:
         if self._result is None and self._job is not None:
@@ -290,9 +290,9 @@ class Engine:
                 raise BadInput("there is nothing to export yet")
             name, mime, data = export(self._result, task.what)
         except (BadInput, OSError) as error:
-            self._tell(Report({"type": "status", "text": str(error), "level": "warning"}, {}, task.client))
+            self._send(Report({"type": "status", "text": str(error), "level": "warning"}, {}, task.client))
             return
-        self._tell(Report({"type": "download", "name": name, "mime": mime}, {"data": data}, task.client))
+        self._send(Report({"type": "download", "name": name, "mime": mime}, {"data": data}, task.client))
 
 
 def _pause(seconds: float) -> Iterator[None]:

@@ -1,4 +1,4 @@
-"""Who may talk to the server: those who know the token, by the name that was given to it, from its own page."""
+"""Who may speak to the server: those who know the token, by the name that was given to it, from its own page."""
 
 from __future__ import annotations
 

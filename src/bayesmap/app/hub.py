@@ -102,7 +102,7 @@ class Hub:
         self._do(self.session.receive(client, message))
 
     def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
-        """Tell a page that something was not understood."""
+        """Report to a page that something was not understood."""
         self._pages[client].put(refusal(refused, None, seq), {})
 
     def _do(self, effects: Effects) -> None:

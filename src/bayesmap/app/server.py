@@ -143,7 +143,7 @@ class _Server(uvicorn.Server):
 
 
 async def _serve(
-    document: Document, path: str | None, found: socket.socket, host: str, tell: Callable[[str], None]
+    document: Document, path: str | None, found: socket.socket, host: str, announce: Callable[[str], None]
 ) -> None:
     port = found.getsockname()[1]
     token = secrets.token_urlsafe(24)
@@ -163,7 +163,7 @@ async def _serve(
             server_header=False,
             timeout_graceful_shutdown=1,
         )
-        await _Server(config, lambda: tell(f"http://{shown}:{port}/?token={token}")).serve(sockets=[found])
+        await _Server(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[found])
     finally:
         hub.stop()
 
@@ -192,13 +192,13 @@ def serve(
     with contextlib.closing(listen(host, port)) as found:
         ready = False
 
-        def tell(address: str) -> None:
+        def announce(address: str) -> None:
             nonlocal ready
             ready = True
             on_ready(address)
 
         try:
-            asyncio.run(_serve(document, path, found, host, tell))
+            asyncio.run(_serve(document, path, found, host, announce))
         except KeyboardInterrupt:
             if not ready:
                 raise

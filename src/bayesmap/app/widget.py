@@ -123,7 +123,7 @@ class MapWidget(anywidget.AnyWidget):
         try:
             message = check(content)
         except Refused as refused:
-            self._tell(refusal(refused, None, seq_of(content if isinstance(content, dict) else "")), {})
+            self._post(refusal(refused, None, seq_of(content if isinstance(content, dict) else "")), {})
             return
         self._do(self._session.receive(CLIENT, message))
 
@@ -152,9 +152,9 @@ class MapWidget(anywidget.AnyWidget):
                 if self._supervisor is not None:
                     self._supervisor.send(effect.task)
             else:
-                self._tell(addressed(effect.header, CLIENT), effect.buffers)
+                self._post(addressed(effect.header, CLIENT), effect.buffers)
 
-    def _tell(self, header: Mapping[str, Any], buffers: Buffers) -> None:
+    def _post(self, header: Mapping[str, Any], buffers: Buffers) -> None:
         arrays = {name: as_array(value) for name, value in buffers.items()}
         listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
         self.send({**header, "buffers": listed}, [a.tobytes() for a in arrays.values()])

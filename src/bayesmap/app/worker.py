@@ -18,7 +18,7 @@ NICE = 10
 """The page and its server come first: a picture that cannot be painted is no use."""
 
 
-class Telling:
+class Reporter:
     """The worker's end of the pipe for several threads: reports, and a sign of life while nothing is reported."""
 
     def __init__(self, pipe: Connection) -> None:
@@ -46,15 +46,15 @@ def serve(pipe: Connection, path: str | None) -> None:
     from bayesmap.app.engine import Engine
     from bayesmap.app.opened import open_file
 
-    tell = Telling(pipe)
+    report = Reporter(pipe)
     try:
         opened = open_file(path) if path is not None else None
     except (BadInput, OSError) as error:
-        tell(Report({"type": "unusable", "text": str(error)}))
+        report(Report({"type": "unusable", "text": str(error)}))
         return
     _warm()
-    engine = Engine(tell, opened)
-    tell(Report({"type": "ready", "document": None if opened is None else opened.document}))
+    engine = Engine(report, opened)
+    report(Report({"type": "ready", "document": None if opened is None else opened.document}))
     while True:
         tasks: list[Task] = []
         while pipe.poll(0 if engine.busy or tasks else None):

@@ -22,7 +22,7 @@ from bayesmap.beams.rays import Rays
 from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.shares import Tell, nobody, parts
+from bayesmap.posterior.progress_shares import OnShare, ignored, parts
 from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans
@@ -197,7 +197,7 @@ def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, va
 
 
 def fit_baseline(
-    baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None, on_progress: Tell = nobody
+    baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None, on_progress: OnShare = ignored
 ) -> Fitted:
     """Fit a baseline's sensor, hit depth and own parameters on the training scans alone.
 
@@ -223,7 +223,7 @@ def fit_baseline(
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: -(-len(folds) // THIN)]
     best: tuple[float, Values, float | None] | None = None
     climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISES) - 1)
-    for dof, tell in zip(NOISES, parts(on_progress, *climbs), strict=True):
+    for dof, on_share in zip(NOISES, parts(on_progress, *climbs), strict=True):
         # Heavy tails start where normal noise ended: the rest is nearly the same.
         begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
         values, score = maximise(
@@ -231,7 +231,7 @@ def fit_baseline(
             partial(inner_score, rough, baseline, dof),
             (*SENSOR, *baseline.own),
             begin,
-            tell,
+            on_share,
         )
         if best is None or score > best[0]:
             best = score, values, dof

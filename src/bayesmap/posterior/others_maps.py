@@ -1,6 +1,6 @@
 """Maps that other programs made, as predictions: occupied, free and unknown cells, with the best sensor for them.
 
-A map says for each cell how likely it is occupied, or that nobody knows. What that means for a beam is not said, so it
+A map says for each cell how likely it is occupied, or that it is unknown. What that means for a beam is not said, so it
 is fitted, along with the sensor, on the scans that are not scored (`bayesmap.posterior.baselines`): the chance that a
 beam stops in a cell called occupied (probability 1), in one called free (0), between the two along the logit, and in
 an unknown one.
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.baselines import Baseline, Fitted, fit_baseline, make_folds
-from bayesmap.posterior.shares import Tell, nobody
+from bayesmap.posterior.progress_shares import OnShare, ignored
 from bayesmap.posterior.tuning import Parameter
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -44,7 +44,7 @@ def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats
     return np.where(np.isnan(occupancy), values["stop_unknown"], known)
 
 
-def fit_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: Tell = nobody) -> Fitted:
+def fit_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
     """Fit a sensor, and what occupied, free and unknown mean, to somebody's map.
 
     Args:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor
-from bayesmap.posterior.shares import Tell, nobody, parts, watched
+from bayesmap.posterior.progress_shares import OnShare, ignored, parts, watched
 from bayesmap.space.scans import Reading, Scans
 
 Floats = NDArray[np.float64]
@@ -32,7 +32,7 @@ class Residuals:
     beams: NDArray[np.intp]
 
 
-def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: Tell = nobody) -> Residuals:
+def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: OnShare = ignored) -> Residuals:
     """Predict every beam and compare; too close and invalid readings have no place on a map and are left out.
 
     Args:

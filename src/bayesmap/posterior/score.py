@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
-from bayesmap.posterior.shares import watched
+from bayesmap.posterior.progress_shares import watched
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.scans import Reading, Scans
 

@@ -21,7 +21,7 @@ from bayesmap.posterior.calibration import (
 )
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
-from bayesmap.posterior.shares import Tell, nobody, parts, watched
+from bayesmap.posterior.progress_shares import OnShare, ignored, parts, watched
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.scans import Reading, Scans
@@ -126,7 +126,7 @@ def _number(value: float) -> float | None:
 
 
 def score_prediction(
-    predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu", on_progress: Tell = nobody
+    predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu", on_progress: OnShare = ignored
 ) -> Score:
     """Score a prediction on scans that had no part in it.
 
@@ -204,7 +204,7 @@ def score_posterior(
     sensor: SensorModel | None = None,
     *,
     seed: int = 0,
-    on_progress: Tell = nobody,
+    on_progress: OnShare = ignored,
 ) -> Score:
     """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from bayesmap.posterior.shares import Tell, nobody, parts
+from bayesmap.posterior.progress_shares import OnShare, ignored, parts
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import AdditiveNoise, Gaussian, StudentT
 
@@ -82,7 +82,7 @@ def maximise(
     rough_score: Callable[[Values], float],
     parameters: Sequence[Parameter],
     starts: Sequence[Mapping[str, float]],
-    on_progress: Tell = nobody,
+    on_progress: OnShare = ignored,
 ) -> tuple[Values, float]:
     """The values of the highest score found, and that score.
 
@@ -99,14 +99,14 @@ def maximise(
         return {n: p.outer(x) for n, p, x in zip(names, parameters, point.tolist(), strict=True)}
 
     def climb(
-        what: Callable[[Values], float], start: Mapping[str, float], tolerance: float, tell: Tell
+        what: Callable[[Values], float], start: Mapping[str, float], tolerance: float, on_share: OnShare
     ) -> tuple[Values, float]:
         usual, calls = GRADIENTS * (len(parameters) + 1), 0
 
         def descend(point: NDArray[np.float64]) -> float:
             nonlocal calls
             calls += 1
-            tell(0.9 * calls / usual if calls < usual else 1.0 - 0.1 * usual / calls)  # never all before the end
+            on_share(0.9 * calls / usual if calls < usual else 1.0 - 0.1 * usual / calls)  # never all before the end
             return -what(values_at(point))
 
         found = optimize.minimize(
@@ -116,9 +116,9 @@ def maximise(
             bounds=[(p.inner(p.low), p.inner(p.high)) for p in parameters],
             options={"eps": STEP, "ftol": tolerance, "maxiter": 100, "maxfun": 3000},
         )
-        tell(1.0)
+        on_share(1.0)
         return values_at(found.x), -float(found.fun)
 
     *low, last = parts(on_progress, *(1.0 for _ in starts), LAST_CLIMB)
-    rough = [climb(rough_score, start, ROUGH, tell) for start, tell in zip(starts, low, strict=True)]
+    rough = [climb(rough_score, start, ROUGH, on_share) for start, on_share in zip(starts, low, strict=True)]
     return climb(score, max(rough, key=lambda found: found[1])[0], FINE, last)
