@@ -183,7 +183,7 @@ def test_raw_and_negated_maps_are_read(tmp_path):
         ("image: m.pgm\nresolution: 0.1\norigin: [0, 0]\n", r"origin must be \[x, y, yaw\]"),
         ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0.5]\n", "turned by 0.5 rad"),
         ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nmode: fuzzy\n", "mode 'fuzzy' is not known"),
-        ("image: m.pgm\nnonsense\n", "line 2: expected 'key: value'"),
+        ("image: m.pgm\nnonsense\n", "line 2: not YAML: could not find expected ':'"),
     ],
 )
 def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):

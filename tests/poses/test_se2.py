@@ -1,10 +1,9 @@
 """Rigid motions of the plane."""
 
 import numpy as np
-import pytest
 
-from bayesmap.poses.se2 import between_jacobians, interpolate, inverse, retract, transform
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.poses.se2 import between_jacobians, retract, transform
+from bayesmap.space.planar import between, compose, inverse, wrapped
 
 RNG = np.random.default_rng(5)
 A, B, C = RNG.normal(0.0, 2.0, (3, 20, 3))
@@ -32,18 +31,3 @@ def test_jacobians_of_a_relative_pose_equal_finite_differences():
         change_b = (between(A, retract(B, h)) - between(A, retract(B, -h))) / 2e-6
         np.testing.assert_allclose(by_a[..., k], change_a, atol=1e-7)
         np.testing.assert_allclose(by_b[..., k], change_b, atol=1e-7)
-
-
-def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
-    stamps = np.array([0.0, 1.0, 1.0, 3.0])
-    poses = np.array([[0, 0, 3.0], [1, 0, -3.0], [1, 1, -3.0], [3, 1, -3.0]], dtype=float)
-    found = interpolate(stamps, poses, np.array([-1.0, 0.0, 0.5, 1.0, 2.0, 9.0]))
-    np.testing.assert_allclose(found[[0, 1, 3, 5]], poses[[0, 0, 2, 3]], atol=1e-12)
-    assert abs(abs(found[2, 2]) - np.pi) < 1e-9
-    np.testing.assert_allclose(found[4], [2.0, 1.0, -3.0], atol=1e-12)
-
-
-@pytest.mark.parametrize("count", [1, 2])
-def test_one_pose_holds_at_all_times(count):
-    found = interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
-    np.testing.assert_allclose(found, [[1.0, 2.0, 0.5]] * 3)

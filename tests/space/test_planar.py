@@ -46,3 +46,18 @@ def test_poses_in_between_lie_on_the_way_by_the_shorter_turn():
     middle = interpolate(stamps, poses, np.array([1.0]))[0]
     assert abs(wrapped(middle[2] - np.pi)) < 1e-9
     np.testing.assert_allclose(interpolate(stamps, poses, np.array([-5.0, 7.0])), poses)
+
+
+def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
+    stamps = np.array([0.0, 1.0, 1.0, 3.0])
+    poses = np.array([[0, 0, 3.0], [1, 0, -3.0], [1, 1, -3.0], [3, 1, -3.0]], dtype=float)
+    found = interpolate(stamps, poses, np.array([-1.0, 0.0, 0.5, 1.0, 2.0, 9.0]))
+    np.testing.assert_allclose(found[[0, 1, 3, 5]], poses[[0, 0, 2, 3]], atol=1e-12)
+    assert abs(abs(found[2, 2]) - np.pi) < 1e-9
+    np.testing.assert_allclose(found[4], [2.0, 1.0, -3.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_one_pose_holds_at_all_times(count):
+    found = interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
+    np.testing.assert_allclose(found, [[1.0, 2.0, 0.5]] * 3)

@@ -11,9 +11,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from bayesmap.io.laser_messages import Malformed
-from bayesmap.space.rigid import IDENTITY, Motion, Track
+from bayesmap.space.rigid import Track, planar
 
 FURTHEST_M = 1e7
 FIXED_FRAMES = ("map", "odom", "world")
@@ -50,8 +51,7 @@ class Samples:
         last = np.append(np.diff(stamps[order]) > 0, True)
         order = order[last]
         values = np.array(self.values, dtype=np.float64)[order]
-        rotation = values[:, 3:] / np.linalg.norm(values[:, 3:], axis=1, keepdims=True)
-        return Track(stamps[order], Motion(values[:, :3], rotation))
+        return Track(stamps[order], RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:])))
 
     def constant(self) -> bool:
         """Whether the pose is the same at all times."""
@@ -96,17 +96,14 @@ class Chain:
             return np.ones(np.shape(stamps_ns), dtype=bool)
         return np.asarray((stamps_ns >= span[0]) & (stamps_ns <= span[1]))
 
-    def at(self, stamps_ns: NDArray[np.int64]) -> Motion:
-        """Where the last frame is in the first, at some times."""
-        result = IDENTITY
+    def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
+        """Where the last frame is in the first, at some times, (T,)."""
+        result = RigidTransform.identity(len(stamps_ns))
         for track, constant, against in self.links:
             # Of one that holds at all times, the last message.
-            motion = (
-                Motion(track.motions.translation_m[-1], track.motions.rotation[-1]) if constant else track.at(stamps_ns)
-            )
-            result = result.after(motion.inverse() if against else motion)
-        shape = np.shape(stamps_ns)
-        return Motion(np.broadcast_to(result.translation_m, (*shape, 3)), np.broadcast_to(result.rotation, (*shape, 4)))
+            motion = track.motions[-1] if constant else track.at(stamps_ns)
+            result = result * (motion.inv() if against else motion)
+        return result
 
     def in_gaps(self, stamps_ns: NDArray[np.int64], longest_s: float, furthest_m: float) -> NDArray[np.bool_]:
         """At which times a transform is interpolated over a long time in which it moved far."""
@@ -114,20 +111,20 @@ class Chain:
         for track, constant, _ in self.links:
             if not constant and len(track.stamps_ns) > 1:
                 after = np.clip(np.searchsorted(track.stamps_ns, stamps_ns), 1, len(track.stamps_ns) - 1)
-                moved = np.diff(track.motions.translation_m, axis=0)[after - 1]
+                moved = np.diff(track.motions.translation, axis=0)[after - 1]
                 long = np.diff(track.stamps_ns)[after - 1] > longest_s * 1e9
                 result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float]:
         """Pose in the plane by the last transforms that hold at all times: x, y in metres, yaw in radians."""
-        result = IDENTITY
+        result = RigidTransform.identity()
         for track, constant, against in reversed(self.links):
             if not constant:
                 break
-            motion = Motion(track.motions.translation_m[-1], track.motions.rotation[-1])
-            result = (motion.inverse() if against else motion).after(result)
-        x, y, yaw = (float(v) for v in result.planar())
+            motion = track.motions[-1]
+            result = (motion.inv() if against else motion) * result
+        x, y, yaw = (float(v) for v in planar(result))
         return x, y, yaw
 
 

@@ -19,13 +19,14 @@ Two consequences, where map_saver itself loses information:
 
 from __future__ import annotations
 
-import json
 import math
 import os
-import re
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import yaml
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
@@ -39,9 +40,6 @@ OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
 RAW_UNKNOWN_GREY = 255
 TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
 """Occupied and free thresholds by which nav2 tells the three greys apart."""
-
-_QUOTED_VALUE = re.compile(r"""[^:#]*:\s*("([^"\\]|\\.)*"|'([^']|'')*')\s*(#[^'"]*)?""")
-_PLAIN_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_./-]*")
 
 
 def write_map(
@@ -106,17 +104,13 @@ def write_map(
     with write_whole(path_image) as temporary:
         image.save(temporary)
     x, y = grid.origin
+    entries = {
+        "image": path_image.name, "mode": mode, "resolution": float(grid.resolution),
+        "origin": [float(x), float(y), 0], "negate": 0, "occupied_thresh": float(occupied), "free_thresh": float(free),
+    }  # fmt: skip
     with write_whole(target) as temporary:
-        temporary.write_text(
-            f"image: {_scalar(path_image.name)}\n"
-            f"mode: {mode}\n"
-            f"resolution: {_number(grid.resolution)}\n"
-            f"origin: [{_number(x)}, {_number(y)}, 0]\n"
-            f"negate: 0\n"
-            f"occupied_thresh: {_number(occupied)}\n"
-            f"free_thresh: {_number(free)}\n",
-            encoding="utf-8",
-        )
+        text = yaml.safe_dump(entries, sort_keys=False, default_flow_style=None, allow_unicode=True)
+        temporary.write_text(text, encoding="utf-8")
     return target, path_image
 
 
@@ -133,14 +127,14 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
         BadInput: a file that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
     """
     path = Path(path_yaml)
-    entries = _read_flat_yaml(path)
+    entries = _read_entries(path)
     resolution = _entry_number(path, entries, "resolution")
     negate = _entry_number(path, entries, "negate", 0) != 0
     occupied = _entry_number(path, entries, "occupied_thresh", 0.65)
     free = _entry_number(path, entries, "free_thresh", 0.196)
-    mode = entries.get("mode", "trinary")
+    mode = str(entries.get("mode", "trinary"))
     check_thresholds(occupied, free)
-    grey, opaque = _read_image(path.parent / _entry(path, entries, "image"), with_alpha=mode == "trinary")
+    grey, opaque = _read_image(path.parent / str(_entry(path, entries, "image")), with_alpha=mode == "trinary")
     occ = grey if negate else 1 - grey
     cells: NDArray[np.float64]
     if mode == "trinary":
@@ -175,78 +169,42 @@ def _read_image(path: Path, with_alpha: bool) -> tuple[NDArray[np.float64], NDAr
     return rgba[..., : 4 if with_alpha else 3].mean(axis=2), rgba[..., 3] == 1
 
 
-def _number(value: float) -> str:
-    """Exact, and a number to every YAML parser: version 1.1 takes 1e-05 for a string, but not 1.0e-05."""
-    text = repr(float(value))
-    return text.replace("e", ".0e") if "e" in text and "." not in text else text
-
-
-def _scalar(name: str) -> str:
-    return name if _PLAIN_NAME.fullmatch(name) else json.dumps(name, ensure_ascii=False)
-
-
-def _read_flat_yaml(path: Path) -> dict[str, str]:
-    """Keys and values of a YAML file without nesting; a block list becomes ``[a, b, c]``."""
+def _read_entries(path: Path) -> dict[str, Any]:
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise BadInput(f"{path}: cannot be read: {reason}") from None
-    entries: dict[str, str] = {}
-    key = ""
-    for number, raw in enumerate(lines, start=1):
-        line = raw.strip()
-        if not _QUOTED_VALUE.fullmatch(line):
-            line = re.sub(r"(^|\s)#.*", "", line).strip()
-        if not line or line == "---":
-            continue
-        if line.startswith("- ") and key:
-            entries[key] = f"{entries[key]}, {line[2:]}".lstrip(", ")
-            continue
-        key, colon, value = (part.strip() for part in line.partition(":"))
-        if not colon:
-            raise BadInput(f"{path}: line {number}: expected 'key: value', got {raw.strip()[:80]!r}")
-        entries[key] = _unquoted(value)
+        entries = yaml.safe_load(path.read_bytes())
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "context_mark", None) or getattr(error, "problem_mark", None)
+        where = f"line {mark.line + 1}: " if mark is not None else ""
+        raise BadInput(f"{path}: {where}not YAML: {getattr(error, 'problem', None) or error}") from None
+    if not isinstance(entries, dict):
+        raise BadInput(f"{path}: line 1: expected 'key: value', as in a map of map_server")
     return entries
 
 
-def _unquoted(value: str) -> str:
-    if value[:1] in ("'", '"'):
-        value = value[: value.rindex(value[0]) + 1]  # what follows is a comment
-    if len(value) >= 2 and value[0] == "'":
-        return value[1:-1].replace("''", "'")
-    if value.startswith('"'):
-        try:
-            return str(json.loads(value))
-        except ValueError:
-            return value
-    return value
-
-
-def _entry(path: Path, entries: dict[str, str], key: str) -> str:
-    if not entries.get(key):
+def _entry(path: Path, entries: Mapping[str, Any], key: str) -> Any:
+    if entries.get(key) in (None, ""):
         raise BadInput(f"{path}: has no '{key}:'; a map needs image, resolution and origin")
     return entries[key]
 
 
-def _entry_number(path: Path, entries: dict[str, str], key: str, default: float | None = None) -> float:
+def _entry_number(path: Path, entries: Mapping[str, Any], key: str, default: float | None = None) -> float:
     if default is not None and key not in entries:
         return default
-    text = _entry(path, entries, key)
-    if text.lower() in ("true", "false"):
-        return float(text.lower() == "true")
+    value = _entry(path, entries, key)
     try:
-        return float(text)
-    except ValueError:
-        raise BadInput(f"{path}: {key} must be a number, got {text!r}") from None
+        return float(value)  # YAML 1.1 takes 1e-05 for a text
+    except (TypeError, ValueError):
+        raise BadInput(f"{path}: {key} must be a number, got {value!r}") from None
 
 
-def _origin(path: Path, entries: dict[str, str]) -> tuple[float, float]:
-    text = _entry(path, entries, "origin")
+def _origin(path: Path, entries: Mapping[str, Any]) -> tuple[float, float]:
+    value = _entry(path, entries, "origin")
     try:
-        x, y, yaw = (float(part) for part in text.strip("[]").split(","))
-    except ValueError:
-        raise BadInput(f"{path}: origin must be [x, y, yaw], got {text!r}") from None
+        x, y, yaw = (float(part) for part in value)
+    except (TypeError, ValueError):
+        raise BadInput(f"{path}: origin must be [x, y, yaw], got {value!r}") from None
     if not math.isclose(yaw, 0.0, abs_tol=1e-9):
         raise BadInput(f"{path}: the map is turned by {yaw:g} rad; only maps with yaw 0 can be read")
     return x, y

@@ -12,6 +12,7 @@ from bayesmap.io.frames import Chain
 from bayesmap.io.laser_messages import LaserMessage, Layout
 from bayesmap.io.pose_sources import PoseSource
 from bayesmap.io.robot_messages import Bad
+from bayesmap.space.rigid import planar, upright
 
 AT_ONCE = 1 << 18
 """Beams whose poses are found at a time."""
@@ -110,30 +111,30 @@ def poses_at_first_rays(
 ) -> tuple[NDArray[np.float64], float]:
     """Poses in the plane at the first rays, shape (S, 3), and 1 for an upright sensor or -1 for one upside down."""
     motion = chain.at(stamps)
-    upright = motion.upright()
-    steep = np.abs(upright) < STEEPEST
+    height = upright(motion)
+    steep = np.abs(height) < STEEPEST
     if steep.any():
         scan = int(np.argmax(steep))
-        angle = math.degrees(math.acos(np.clip(abs(upright[scan]), 0, 1)))
+        angle = math.degrees(math.acos(np.clip(abs(height[scan]), 0, 1)))
         raise BadInput(
             f"{name}: in scan {scan} the frame {layout.frame!r} is tilted by {angle:.0f} degrees: it does not scan "
             "the plane of the map; choose another topic with --scan-topic"
         )
-    if (upright > 0).any() and (upright < 0).any():
+    if (height > 0).any() and (height < 0).any():
         raise BadInput(f"{name}: the frame {layout.frame!r} is upright in some scans and upside down in others")
-    tilted = float(np.abs(upright).min())
+    tilted = float(np.abs(height).min())
     if tilted < LEVEL:
         notes.append(
             f"the frame {layout.frame!r} is tilted by up to {math.degrees(math.acos(tilted)):.0f} degrees; "
             "its beams were taken as level"
         )
-    if upright[0] < 0:
+    if height[0] < 0:
         notes.append(f"the frame {layout.frame!r} is mounted upside down; its beams sweep the other way")
-    return motion.planar(), -1.0 if upright[0] < 0 else 1.0
+    return planar(motion), -1.0 if height[0] < 0 else 1.0
 
 
 def poses_of_rays(chain: Chain, rays: NDArray[np.int64]) -> NDArray[np.float64]:
     """The sensor's pose in the plane as each ray was sent, shape (S, A, 3)."""
     times = rays.ravel()
-    parts = [chain.at(times[i : i + AT_ONCE]).planar() for i in range(0, len(times), AT_ONCE)]
+    parts = [planar(chain.at(times[i : i + AT_ONCE])) for i in range(0, len(times), AT_ONCE)]
     return np.concatenate(parts).reshape(*rays.shape, 3)

@@ -23,8 +23,7 @@ from numpy.typing import NDArray
 from bayesmap.kernels.scan_refinement import refine_scans
 from bayesmap.poses.odometry_motion import COMMON
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.se2 import interpolate
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between, interpolate, wrapped
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]

@@ -18,8 +18,8 @@ from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import inverse, transform
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.poses.se2 import transform
+from bayesmap.space.planar import between, compose, inverse, wrapped
 
 Floats = NDArray[np.float64]
 

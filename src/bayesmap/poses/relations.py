@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.se2 import interpolate, inverse
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, compose, interpolate, inverse
 
 Floats = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""Small changes of poses, and their derivatives; points and times: what estimation adds to `bayesmap.space.planar`.
+"""Small changes of poses, their derivatives, and points: what estimation adds to `bayesmap.space.planar`.
 
 Poses are arrays (x, y, yaw) whose last axis has length 3, metres and radians. A small change of a pose is written in
 the pose's *own* frame: ``retract(pose, step) = compose(pose, step)``, and Jacobians are with respect to such steps
@@ -11,17 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import compose
 
 Floats = NDArray[np.float64]
-
-
-def inverse(a: Floats) -> Floats:
-    """The pose of the outer frame in the frame of a."""
-    cosine, sine = np.cos(a[..., 2]), np.sin(a[..., 2])
-    return np.stack(
-        [-cosine * a[..., 0] - sine * a[..., 1], sine * a[..., 0] - cosine * a[..., 1], -a[..., 2]], axis=-1
-    )
 
 
 def retract(poses: Floats, steps: Floats) -> Floats:
@@ -65,23 +57,3 @@ def rotation(yaw_rad: Floats) -> Floats:
     matrix[..., 1, 0] = sine
     matrix[..., 2, 2] = 1.0
     return matrix
-
-
-def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
-    """Poses at other times: along the straight relative motion between neighbours; outside, the nearest end.
-
-    Args:
-        stamps_s: shape (S,), ascending; equal stamps are allowed, the later pose then counts.
-        poses: shape (S, 3).
-        at_s: shape (N,).
-
-    Returns:
-        Shape (N, 3).
-    """
-    if len(stamps_s) == 1:
-        return np.repeat(poses, len(at_s), axis=0)
-    before = np.clip(np.searchsorted(stamps_s, at_s, side="right") - 1, 0, len(stamps_s) - 2)
-    gap = stamps_s[before + 1] - stamps_s[before]
-    share = np.where(gap > 0, (at_s - stamps_s[before]) / np.where(gap > 0, gap, 1.0), 1.0)
-    motion = between(poses[before], poses[before + 1])
-    return compose(poses[before], motion * np.clip(share, 0.0, 1.0)[:, None])
