@@ -1,4 +1,7 @@
-import multiprocessing
+"""Forked processes, and sensors that are known by name alone."""
+
+import os
+import subprocess
 import sys
 
 import numpy as np
@@ -50,14 +53,28 @@ def test_a_loaded_run_with_a_sensor_of_the_user_s_own_is_scored_when_given_that_
     assert loaded.log_score(SCANS, sensor=Sonar(0.2)) == run.log_score(SCANS)
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="fork is the way of Linux")
-@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning", "ignore:.*fork.*:RuntimeWarning")
-def test_a_forked_child_infers_what_its_parent_does():
-    here = infer(threads=2).occupancy
-    with multiprocessing.get_context("fork").Pool(1) as pool:
-        there = pool.apply_async(infer_in_child).get(timeout=60)
-    np.testing.assert_array_equal(there, here)
+IN_CHILD = """
+import multiprocessing, warnings
+import numpy as np
+from test_fork_and_fingerprint import infer
 
-
-def infer_in_child():
+def occupancy(_=None):
     return infer(threads=2).occupancy
+
+here = occupancy()
+warnings.simplefilter("ignore")  # of threads and forks
+with multiprocessing.get_context("fork").Pool(1) as pool:
+    np.testing.assert_array_equal(pool.apply_async(occupancy).get(timeout=60), here)
+print("the same")
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="fork is the way of Linux")
+def test_a_forked_child_infers_what_its_parent_does():
+    """In a process of its own: what other tests have loaded here, such as Ray, does not survive a fork."""
+    folder = os.pathsep.join([os.path.dirname(__file__), *sys.path])
+    done = subprocess.run(
+        [sys.executable, "-c", IN_CHILD], env=os.environ | {"PYTHONPATH": folder}, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.stdout == "the same\n", done.stderr
