@@ -1,5 +1,6 @@
 """Processes that are started to ignore Ctrl-C, as a script's shell starts jobs in the background."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -85,8 +86,12 @@ def test_in_a_child():
 def test_tests_may_press_ctrl_c_even_where_they_were_started_to_ignore_it(tmp_path, with_settings):
     """The second case shows what the settings of all tests (tests/conftest.py) are for."""
     (tmp_path / "test_pressed.py").write_text(PRESSED)
+    tests = Path(__file__).parents[1]
     if with_settings:
-        (tmp_path / "conftest.py").write_text((Path(__file__).parents[1] / "conftest.py").read_text())
+        (tmp_path / "conftest.py").write_text((tests / "conftest.py").read_text())
     run = f"{IGNORE}\nimport pytest\nraise SystemExit(pytest.main(['-q', '-p', 'no:cacheprovider']))"
-    done = subprocess.run([sys.executable, "-c", run], cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", run], cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(tests)}, capture_output=True,
+        text=True, check=False,
+    )  # fmt: skip
     assert ("2 passed" if with_settings else "2 failed") in done.stdout

@@ -5,7 +5,6 @@ import importlib.util
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -15,7 +14,6 @@ import pytest
 ROOT = Path(__file__).parents[2]
 TUTORIAL = ROOT / "docs" / "tutorial"
 FIGURES = TUTORIAL / "figures"
-CHROMIUM = shutil.which("chromium")
 
 
 def loaded(name):
@@ -127,18 +125,3 @@ def test_the_interactive_page_is_made_by_its_script():
     made = loaded("interactive").interactive_page().decode()
     assert recording(html) == recording(made)
     assert recording(html)["draws"]["chains"] * recording(html)["draws"]["count"] == 1000
-
-
-@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
-def test_the_interactive_page_opens_from_a_disk():
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        page, requests = browser.new_page(), []
-        page.on("request", lambda request: requests.append(request.url))
-        page.goto((TUTORIAL / "interactive.html").as_uri())
-        page.wait_for_function("() => window.bayesmap?.snapshot().painted?.sweeps === 1000")
-        page.get_by_role("radio", name="One draw").check()
-        page.wait_for_function("() => window.bayesmap.snapshot().painted.layer === 'draw'")
-        browser.close()
-    assert [url for url in requests if not url.startswith(("file:", "blob:", "data:"))] == []
