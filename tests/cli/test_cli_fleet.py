@@ -10,7 +10,10 @@ from shell import call
 import bayesmap as bm
 from bayesmap.cli import fleet
 
-pytestmark = pytest.mark.xdist_group("ray")
+pytestmark = [
+    pytest.mark.xdist_group("ray"),
+    pytest.mark.filterwarnings(r"ignore:os\.fork\(\) was called:RuntimeWarning"),  # Ray forks; JAX may be loaded
+]
 
 
 @pytest.fixture

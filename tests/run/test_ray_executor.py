@@ -18,7 +18,11 @@ from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import NOTHING
 
-pytestmark = [pytest.mark.xdist_group("ray"), pytest.mark.filterwarnings("ignore::ResourceWarning")]
+pytestmark = [
+    pytest.mark.xdist_group("ray"),
+    pytest.mark.filterwarnings("ignore::ResourceWarning"),
+    pytest.mark.filterwarnings(r"ignore:os\.fork\(\) was called:RuntimeWarning"),  # Ray forks; JAX may be loaded
+]
 
 ANGLES = np.linspace(0, 2 * np.pi, 60, endpoint=False)
 WALLS, POSE = bm.worlds.tutorial()

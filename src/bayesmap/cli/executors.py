@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from bayesmap.errors import BadInput
@@ -35,3 +38,10 @@ def executor_of(executor: str) -> Executor | None:
     from bayesmap.run.ray_executor import RayExecutor
 
     return RayExecutor(address)
+
+
+@contextlib.contextmanager
+def stdout_for_results() -> Iterator[None]:
+    """While chains run on a cluster: Ray prints what happens to its nodes on standard output, which is for results."""
+    with contextlib.redirect_stdout(sys.stderr):
+        yield

@@ -14,7 +14,7 @@ import click
 
 from bayesmap.cli import cells, inferring, sensors
 from bayesmap.cli.command import FAILURE, INTERRUPTED, PROBLEMS, Call
-from bayesmap.cli.executors import ray_address
+from bayesmap.cli.executors import ray_address, stdout_for_results
 from bayesmap.cli.fleet_worker import Sent, infer_log
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.input_files import LOG, need_file
@@ -105,7 +105,8 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
     interrupted = False
     try:
         if on_ray:
-            _RayFleet(call, address, attempt).run(ready)
+            with stdout_for_results():
+                _RayFleet(call, address, attempt).run(ready)
         else:
             for entry in ready:
                 interrupted = attempt(entry, functools.partial(_infer_here, call, entry)) is False

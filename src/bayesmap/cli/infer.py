@@ -80,7 +80,8 @@ def _run(
     reading = inferring.read(call.console, log, values)
     train, heldout = inferring.split(reading.scans, values["holdout"])
     saved = inferring.saved(folder) if folder.resuming else None
-    run = inferring.sample(folder, reading.scans, train, values, sensor, saved, executor)
+    with executors.stdout_for_results():
+        run = inferring.sample(folder, reading.scans, train, values, sensor, saved, executor)
     if not run.finished:
         inferring.leave(folder, run, reading, go_on)
 
