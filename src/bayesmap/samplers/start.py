@@ -49,12 +49,12 @@ def start_map(
     """
     grid = problem.grid
     if not isinstance(start, str):
-        given = np.asarray(start) != 0
+        given = np.asarray(start)
         if given.shape[-2:] != grid.shape or given.ndim not in (2, 3) or (given.ndim == 3 and chain >= len(given)):
             raise BadInput(
                 f"infer: the start has shape {given.shape}, expected {grid.shape}, or a map for each chain before that"
             )
-        return np.asarray(given if given.ndim == 2 else given[chain])
+        return np.asarray((given if given.ndim == 2 else given[chain]) != 0)
     if start in ("zeros", "ones"):
         return np.full(grid.shape, start == "ones")
     if start not in get_args(Start):
