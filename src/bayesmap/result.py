@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.posterior.deciding import Deciding
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.score import log_score
 from bayesmap.posterior.scoring import Score, score_posterior
@@ -31,7 +32,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Run:
+class Run(Deciding):
     """The posterior over a map, and over poses where they were unknown, that a call of `bayesmap.infer` found.
 
     Attributes:

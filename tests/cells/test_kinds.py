@@ -50,3 +50,53 @@ def test_the_old_names_of_a_surface_s_numbers_still_work():
     assert prior_from(
         {"kind": "surface", "a": 0.1, "b": 0.2, "wander": 0.3, "spread": 0.2, "dof": 3.0, "extent": 0.5}
     ) == (bm.Surface(0.1, 0.2, 0.3, 0.2, 3.0, 0.5))
+
+
+@pytest.fixture(scope="module", params=[bm.Independent(0.2), bm.Beta(), bm.Surface()], ids=lambda p: p.words.kind)
+def run(request):
+    grid = bm.Grid((8, 6), 0.5)
+    walls = np.zeros(grid.shape, dtype=bool)
+    walls[6] = True
+    sensor = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01)
+    angles = np.linspace(-0.3, 0.3, 9)
+    scans = bm.simulate(walls, grid, [1.2, 1.4, 0.0], angles, sensor=sensor, max_range_m=6.0, seed=1)
+    return bm.infer(scans, grid, prior=request.param, sensor=sensor, chains=2, warmup=5, draws=12, seed=2)
+
+
+def test_drawn_stops_are_the_draws_themselves_and_not_what_they_expect(run):
+    posterior = run.posterior
+    stops = np.concatenate(list(posterior.prior.drawn_stops(posterior.draws)))
+    chance = stops if stops.ndim == 2 else stops[..., 0]
+    assert chance.shape == (24, run.grid.n_cells)
+    known = posterior.draws.index.get("cell", np.arange(run.grid.n_cells))
+    for number, (chain, draw) in enumerate(posterior.draws.numbers()):
+        np.testing.assert_array_equal(chance[number, known], run.map_of(chain, draw).ravel()[known].astype(np.float32))
+    some = np.array([3, 17, 40], dtype=np.int32)
+    np.testing.assert_array_equal(
+        np.concatenate(list(posterior.prior.drawn_stops(posterior.draws, some))), stops[:, some]
+    )
+
+
+def test_cells_that_no_beam_touched_are_drawn_from_the_prior(run):
+    """Their mean is the prior's: five standard errors, a false alarm in 1 700 000."""
+    posterior = run.posterior
+    if posterior.kind == "binary":
+        pytest.skip("binary draws hold all cells")
+    untouched = np.setdiff1d(np.arange(run.grid.n_cells), posterior.draws.index["cell"]).astype(np.int32)
+    assert len(untouched) > 5
+    stops = np.concatenate(list(posterior.prior.drawn_stops(posterior.draws, untouched)))
+    chance = stops if stops.ndim == 2 else stops[..., 0]
+    a, b = posterior.prior.a, posterior.prior.b
+    error = np.sqrt(a * b / ((a + b) ** 2 * (a + b + 1)) / chance.size)
+    assert abs(chance.mean() - posterior.prior.mean) < 5 * error
+    assert chance.std() > 0.1
+
+
+def test_thinned_draws_are_some_of_each_chain(run):
+    draws = run.posterior.draws
+    few = draws.thinned(7)
+    assert (few.chains, few.count) == (2, 3)
+    name = draws.specs[0].name
+    np.testing.assert_array_equal(few.arrays[name], draws.arrays[name][:, [0, 6, 11]])
+    assert draws.thinned(1).count == 1
+    assert draws.thinned(1000).count == 12

@@ -65,8 +65,9 @@ def test_of_joint_draws_it_is_what_enumeration_says():
     exact, error = exact_information(maps, weights, sensor, 200_000, 2)
     draws = maps[rng.choice(6, size=600, p=weights)].astype(np.float32)
     found = expected_information(draws, GRID, sensor, POSE, ANGLES, max_range_m=6.0, hit_depth=0.0)
-    assert found.nats[0] == pytest.approx(exact, abs=4 * np.hypot(found.standard_error[0], error))
-    assert found.standard_error[0] < 0.1 * exact
+    assert found.at_least[0] == pytest.approx(exact, abs=4 * np.hypot(found.at_least_error[0], error))
+    assert found.at_most[0] == pytest.approx(exact, abs=4 * np.hypot(found.at_most_error[0], error))
+    assert found.at_least_error[0] < 0.1 * exact
     # A wrong twin: the maps without their weights.
     assert abs(exact_information(maps, np.full(6, 1 / 6), bm.Gaussian(4.0), 200_000, 2)[0] - exact) > 0.2
 
@@ -74,8 +75,22 @@ def test_of_joint_draws_it_is_what_enumeration_says():
 def test_a_map_that_is_known_leaves_nothing_to_learn():
     known = np.tile(np.random.default_rng(3).random(GRID.n_cells) < 0.3, (20, 1)).astype(np.float32)
     found = expected_information(known, GRID, bm.Gaussian(0.2), POSE, ANGLES, max_range_m=6.0)
-    assert found.nats[0] == pytest.approx(0.0, abs=1e-9)
-    assert found.most == pytest.approx(np.log(20))
+    assert found.at_least[0] == pytest.approx(0.0, abs=1e-9)
+    assert found.at_most[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_few_draws_of_a_map_of_which_nothing_is_known_give_bounds_and_not_a_wrong_number():
+    """Eight draws cannot tell more than log 8; that many beams tell more stands in the upper bound."""
+    rng = np.random.default_rng(4)
+    maps = rng.random((400, GRID.n_cells)) < 0.15
+    sensor = bm.Gaussian(0.05)
+    angles = np.linspace(-np.pi, np.pi, 24, endpoint=False)
+    options = {"max_range_m": 6.0, "hit_depth": 0.0}
+    pose = np.array([[0.3, 3.1, 0.1]])
+    many = expected_information(maps.astype(np.float32), GRID, sensor, pose, angles, **options)
+    few = expected_information(maps[:8].astype(np.float32), GRID, sensor, pose, angles, **options)
+    assert few.at_least[0] <= np.log(8) + 1e-9 < many.at_least[0]
+    assert few.at_least[0] < many.at_least[0] <= many.at_most[0] <= few.at_most[0] + 4 * few.at_most_error[0]
 
 
 def plain_fsmi(occupied, pose, angle, sigma, hit, passed):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,12 @@ class Draws:
     def numbers(self) -> Iterator[tuple[int, int]]:
         """Chain and draw of every draw."""
         return ((chain, draw) for chain in range(self.chains) for draw in range(self.count))
+
+    def thinned(self, most: int) -> Draws:
+        """At most so many draws of all chains together, but one of each chain, evenly spread over every chain."""
+        each = min(self.count, max(1, most // self.chains))
+        chosen = np.linspace(0, self.count - 1, each).round().astype(np.intp)
+        return replace(self, arrays={name: values[:, chosen] for name, values in self.arrays.items()})
 
     def shape_of(self, spec: ArraySpec) -> tuple[int, ...]:
         """Sizes of an array's dimensions beside chain and draw."""

@@ -189,6 +189,14 @@ class CellPrior(ABC):
         if batch:
             yield np.stack(batch)
 
+    def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+        """As `predictive_stops`, but each draw is a whole map, in which nothing is an expectation.
+
+        This is what is decided by: whether a path is free in a draw, and how well two draws can be told apart. By
+        default the same, which is right where `predictive_stops` gives drawn states.
+        """
+        return self.predictive_stops(draws, wanted)
+
     def default_draws(self, beams: int, cells: int, chains: int) -> int:
         """Draws of each chain where none are asked for."""
         return 1000

@@ -25,6 +25,9 @@ LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
 
 CELLS_AT_ONCE = 8192
 
+FRESH_CELLS = 1 << 16
+"""States drawn from the prior, of which cells that no beam touched take theirs."""
+
 FEWEST_DRAWS, MOST_DRAWS = 50, 200
 BEAMS_OF_FEWEST = 100_000
 MOST_DRAW_BYTES = 1 << 30
@@ -154,6 +157,22 @@ class Reflective(CellPrior):
             stops = np.full((len(some), len(cells)), self.mean, dtype=np.float32)
             stops[:, known] = some[:, place[known]]
             yield stops
+
+    def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+        """The same with drawn reflectivities; cells that no beam of the run touched draw theirs from the prior."""
+        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
+        place, known = places_among(draws.index["cell"], cells)
+        drawn = draws.arrays["reflectivity"].reshape(draws.size, -1)
+        rng = np.random.default_rng(1)
+        # As surfaces from the prior are: drawn once, and taken up from another place by each draw of the map.
+        fresh = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
+        number = 0
+        for batch in self.predictive_stops(draws, wanted):
+            for stops in batch if batch.ndim == 2 else batch[..., 0]:
+                stops[:] = fresh[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
+                stops[known] = drawn[number, place[known]]
+                number += 1
+            yield batch
 
 
 @dataclass(frozen=True)

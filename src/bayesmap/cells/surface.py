@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
-from bayesmap.cells.reflectivity import EXPECTED, REFLECTIVITY, Reflective, places_among
+from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, Reflective, places_among
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 MOST_SPREAD = 3.0
-FRESH_CELLS = 1 << 16  # surfaces drawn from the prior, of which predictions take those that they need
 
 PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")
 """What a surface is made of: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""

@@ -26,6 +26,8 @@ COMMANDS = {
     "slam": "Infer walls and trajectory from a log with raw odometry.",
     "score": "Score a saved run, or others' maps and poses.",
     "localize": "Say where scans were taken in a saved run's map.",
+    "plan": "Find a short path in a saved run's map, and its risk.",
+    "explore": "Say where in a saved run's map to look next.",
     "render": "Draw a saved run.",
     "export": "Write a saved run for robots and other programs.",
     "app": "Draw walls, drag the robot, watch the posterior live.",

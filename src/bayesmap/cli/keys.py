@@ -180,6 +180,19 @@ LOCALIZE = (
     SEED,
 )
 
+PLAN = (
+    Key("radius", float, 0.25, "Of the robot, a disc, in metres."),
+    Key("risk", float, 0.01, "The most that the probability of touching something may be."),
+)
+
+EXPLORE = (
+    Key("candidates", int, 200, "Places that are considered."),
+    Key("views", int, 5, "Best views to show, apart from each other."),
+    Key("radius", float, 0.25, "Of the robot, a disc, in metres: where it fits, it can look from."),
+    Key("draws", int, 50, "Maps that are compared; more bring the bounds together, at the square of the work."),
+    SEED,
+)
+
 SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "infer": INFER,
     "slam": SLAM,
@@ -189,5 +202,7 @@ SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "export": EXPORT,
     "score": SCORE,
     "localize": LOCALIZE,
+    "plan": PLAN,
+    "explore": EXPLORE,
 }
 """The tables of a configuration file: one a command."""

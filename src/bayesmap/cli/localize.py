@@ -14,6 +14,7 @@ from bayesmap.cli.console import write_out
 from bayesmap.cli.input_files import need_file
 from bayesmap.cli.progress import share
 from bayesmap.cli.reading import options_of
+from bayesmap.cli.typed_numbers import numbers_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -143,28 +144,18 @@ def _target(output: str, force: bool) -> Path:
     return target
 
 
-def _numbers(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
-    try:
-        found = [float(part) for part in text.split(",")]
-    except ValueError:
-        found = []
-    if len(found) not in counts or not all(map(math.isfinite, found)):
-        raise click.BadParameter(f"{text!r} is not {form}", param_hint=f"'{flag}'")
-    return found
-
-
 def _near(text: str | None) -> Near | None:
     from bayesmap.localization.localize import Near
 
     if text is None:
         return None
-    x, y, degrees, *spread = _numbers(text, "--prior", "X,Y,DEGREES or X,Y,DEGREES,M,DEGREES", (3, 5))
+    x, y, degrees, *spread = numbers_of(text, "--prior", "X,Y,DEGREES or X,Y,DEGREES,M,DEGREES", (3, 5))
     pose = (x, y, math.radians(degrees))
     return Near(pose, spread[0], math.radians(spread[1])) if spread else Near(pose)
 
 
 def _area(text: str | None) -> list[float] | None:
-    return None if text is None else _numbers(text, "--area", "X0,X1,Y0,Y1", (4,))
+    return None if text is None else numbers_of(text, "--area", "X0,X1,Y0,Y1", (4,))
 
 
 def _slice(text: str | None, count: int) -> slice:

@@ -61,6 +61,10 @@ RULES = {
     "frames": ONE_OR_MORE,
     "occupied_thresh": SHARE,
     "free_thresh": SHARE,
+    "radius": LENGTH,
+    "risk": Rule(lambda x: 0 < x < 1, "a number above 0 and below 1"),
+    "candidates": ONE_OR_MORE,
+    "views": ONE_OR_MORE,
 }
 """By the name of the setting, in whichever section it is."""
 

@@ -143,13 +143,14 @@ class ScanLikelihood:
     device: str = "cpu"
 
     def beams(
-        self, cells: NDArray[np.float32], poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+        self, cells: "NDArray[np.float32] | Cells", poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
         """Log density of each reading, invalid ones 0, in nats, (P, A).
 
         Args:
             cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
-                as `bayesmap.kernels.cell_stop` has them; N cells of the whole grid.
+                as `bayesmap.kernels.cell_stop` has them; N cells of the whole grid. Or these, already put where
+                kernels read them, if they are weighed by often.
             poses: P poses in the world frame, (P, 3).
             scan: which scan is weighed there, (P,).
             chain: under which chain's cells, (P,).
@@ -202,8 +203,10 @@ def grid_frame(grid: Grid, hit_depth: float) -> Frame:
     return frame
 
 
-def put_cells(cells: NDArray[np.float32], device: str) -> Cells:
+def put_cells(cells: "NDArray[np.float32] | Cells", device: str) -> Cells:
     """Maps of some chains where kernels read them: (C, N) stop probabilities, or (C, N, 6) surfaces."""
+    if not isinstance(cells, np.ndarray):
+        return cells
     packed = Cells()
     packed.surfaces = int(cells.ndim == 3)
     if cells.ndim == 3:

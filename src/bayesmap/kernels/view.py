@@ -20,9 +20,9 @@ wp.set_module_options({"enable_backward": False})
 
 Floats = NDArray[np.float64]
 
-CERTAIN = wp.constant(wp.float64(1.0e-9))
+CERTAIN = wp.constant(wp.float64(1.0e-6))
 """A beam less likely than this to get so far is at its end."""
-NEGLIGIBLE = wp.constant(wp.float64(6.0))
+NEGLIGIBLE = wp.constant(wp.float64(4.0))
 """Standard deviations past which a reading is not expected."""
 
 
@@ -71,7 +71,7 @@ def draw_stops(
 
 
 def drawn_stops(
-    cells: NDArray[np.float32],
+    cells: "NDArray[np.float32] | Cells",
     grid: Grid,
     poses: Floats,
     chain: NDArray[np.intp],
@@ -84,7 +84,8 @@ def drawn_stops(
     """Draw where the beams of a scan at each pose stop.
 
     Args:
-        cells: maps, (C, N) stop probabilities or (C, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`.
+        cells: maps, (C, N) stop probabilities or (C, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`; or
+            these, already put where kernels read them.
         grid: of the maps.
         poses: in the world frame, (P, 3).
         chain: which map each pose is in, (P,).
@@ -121,29 +122,23 @@ def normal_below(x: wp.float64) -> wp.float64:
     return wp.float64(0.5) * wp.erfc(-x * wp.float64(0.7071067811865476))
 
 
-@wp.func
-def surprise(update: wp.float64, odds: wp.float64) -> wp.float64:
-    """FSMI's f(delta, r): information in nats of an update of the odds r by the factor delta."""
-    one = wp.float64(1.0)
-    return wp.log((odds + one) / (odds + one / update)) - wp.log(update) / (odds * update + one)
-
-
 @wp.kernel
 def add_beam_information(
     first: int,
     frame: Frame,
     occupied: wp.array(dtype=wp.float64),
+    of_hit: wp.array(dtype=wp.float64),
+    of_pass: wp.array(dtype=wp.float64),
     poses: wp.array2d(dtype=wp.float64),
     angles: wp.array(dtype=wp.float64),
     longest_m: wp.float64,
     sigma_m: wp.float64,
-    hit_factor: wp.float64,
-    pass_factor: wp.float64,
     out: wp.array(dtype=wp.float64),
 ):
     """One thread a beam: FSMI's information, over pairs of a cell that the beam stops in and one that it is read in.
 
-    For the cell k in which the reading falls, what is learnt is C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i); it falls
+    For the cell k in which the reading falls, what is learnt is C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), the
+    functions of the cells' odds r being ``of_hit`` and ``of_pass``; it falls
     there with probability sum_j P(stop in j) G_kj, G_kj being the noise about cell j's distance between the edges of
     cell k. The sum over j is over cells whose distance lies within some standard deviations of cell k.
     """
@@ -182,22 +177,24 @@ def add_beam_information(
                     if behind.cell_x == behind.x and behind.cell_y == behind.y:
                         behind_enter = wp.min(behind.next_x, behind.next_y)
                         if is_inside(behind, frame.nx, frame.ny):
-                            q = occupied[behind.cell_x * frame.ny + behind.cell_y]
-                            learnt += surprise(pass_factor, q / (one - q))
+                            learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
                     behind = walk_next(behind)
                 ahead = behind
                 begin = behind_enter
                 known = learnt
+                below = wp.float64(0.0)
+                if weight > CERTAIN:
+                    below = normal_below((begin - middle) / sigma)
                 while weight > CERTAIN and ahead.distance <= ahead.end and begin < high:
                     if ahead.cell_x == ahead.x and ahead.cell_y == ahead.y:
                         over = wp.min(ahead.next_x, ahead.next_y)
+                        below_over = normal_below((over - middle) / sigma)
                         if is_inside(ahead, frame.nx, frame.ny):
-                            q = occupied[ahead.cell_x * frame.ny + ahead.cell_y]
-                            odds = q / (one - q)
-                            share = normal_below((over - middle) / sigma) - normal_below((begin - middle) / sigma)
-                            total += weight * share * (known + surprise(hit_factor, odds))
-                            known += surprise(pass_factor, odds)
+                            cell = ahead.cell_x * frame.ny + ahead.cell_y
+                            total += weight * (below_over - below) * (known + of_hit[cell])
+                            known += of_pass[cell]
                         begin = over
+                        below = below_over
                     ahead = walk_next(ahead)
             enter = leave
         w = walk_next(w)
@@ -205,11 +202,15 @@ def add_beam_information(
     if survive > CERTAIN:
         while behind.distance <= behind.end:
             if is_inside(behind, frame.nx, frame.ny) and behind.cell_x == behind.x and behind.cell_y == behind.y:
-                q = occupied[behind.cell_x * frame.ny + behind.cell_y]
-                learnt += surprise(pass_factor, q / (one - q))
+                learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
             behind = walk_next(behind)
         total += survive * learnt
     out[b] = total
+
+
+def surprise(update: float, odds: Floats) -> Floats:
+    """FSMI's f(delta, r): information in nats of an update of the odds r by the factor delta."""
+    return np.asarray(np.log((odds + 1.0) / (odds + 1.0 / update)) - np.log(update) / (odds * update + 1.0))
 
 
 def independent_information(
@@ -241,12 +242,15 @@ def independent_information(
     """
     device = devices.resolve(device)
     out: Any = wp.zeros(len(poses) * len(angles_rad), dtype=wp.float64, device=device)
+    odds = occupied / (1.0 - occupied)
     inputs = [
         grid_frame(grid, 0.5),
         devices.to_device(occupied, wp.float64, device),
+        devices.to_device(surprise(hit_factor, odds), wp.float64, device),
+        devices.to_device(surprise(pass_factor, odds), wp.float64, device),
         devices.to_device(poses, wp.float64, device),
         devices.to_device(angles_rad, wp.float64, device),
-        *(wp.float64(value) for value in (longest_m, sigma_m, hit_factor, pass_factor)),
+        *(wp.float64(value) for value in (longest_m, sigma_m)),
         out,
     ]
     launch(add_beam_information, len(poses) * len(angles_rad), inputs, device)

@@ -1,14 +1,15 @@
 """Where to look next: how much one more scan from a pose is expected to tell about the map, in nats.
 
-Two estimates. `expected_information` is the mutual information of a whole scan with the map, from joint draws: a scan
-is simulated in a draw and weighed in all of them. `bayesmap.kernels.view.independent_information` is the formula of
-FSMI for independent cells and beams, fast enough for thousands of poses, and too large where beams tell the same
-twice.
+Two estimates. `expected_information` bounds the mutual information of a whole scan with the map from both sides, by
+joint draws: a scan is simulated in a draw and weighed in all of them. `beam_information` is the formula of FSMI for
+independent cells and beams: fast enough for thousands of poses, but it knows neither what beams tell twice nor that a
+cell which stops half of the beams may be well known to do just that.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
+from bayesmap.posterior.progress_shares import ignored
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses
@@ -32,15 +34,24 @@ say at most."""
 class Information:
     """What one more scan is expected to tell.
 
+    The information lies between two estimates, on average over draws: with many beams that tell something they are
+    apart, and more draws bring them closer.
+
     Attributes:
-        nats: from each pose, (P,).
-        standard_error: of these, (P,): from the finite number of draws and simulated scans.
-        most: the logarithm of the number of draws: no estimate can be larger, and those near it are too small.
+        at_least: nats from each pose, (P,): a lower bound, no more than the logarithm of the number of draws.
+        at_least_error: Monte Carlo error of that, (P,): standard errors.
+        at_most: nats from each pose, (P,): an upper bound.
+        at_most_error: likewise.
+        draws: of the map that were compared.
+        independent: nats by the formula for independent cells and beams, (P,); None where it was not asked for.
     """
 
-    nats: Floats
-    standard_error: Floats
-    most: float
+    at_least: Floats
+    at_least_error: Floats
+    at_most: Floats
+    at_most_error: Floats
+    draws: int
+    independent: Floats | None = None
 
 
 def expected_information(
@@ -55,15 +66,19 @@ def expected_information(
     hit_depth: float = 0.5,
     seed: int = 0,
     device: str = "cpu",
+    on_progress: Callable[[float], None] = ignored,
 ) -> Information:
-    """Mutual information of the map and one more scan from each pose, from joint draws of the map.
+    """Bounds on the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
-    In draw d a scan z_d is simulated; the estimate is the mean over d of
+    In draw d a scan z_d is simulated. With its density p(z_d | e) in each of D draws e, the means over d of
 
-        log p(z_d | map d) - log (1 / D) sum_e p(z_d | map e)
+        log p(z_d | d) - log (1 / D) sum_e p(z_d | e)                    all draws e, d among them
+        log p(z_d | d) - log (1 / (D - 1)) sum_{e != d} p(z_d | e)       d left out
 
-    over all D draws e, d included: the nested estimator with its inner sample reused. It is exact as the draws become
-    many, never over log D, and on average too small by about half the variance of the inner mean.
+    are at most, and at least, the information, on average over draws (Foster et al., "A unified stochastic gradient
+    approach to designing Bayesian-optimal experiments", AISTATS 2020). The first is never over log D, and the second is
+    far too large where every draw explains its own scan alone. But beams are independent given the map, so a scan tells
+    no more than the sum of what its beams tell, each by the second line: the smaller of the two is the upper bound.
 
     Args:
         cells: D draws of the map, (D, N) stop probabilities or (D, N, 6) surfaces, as
@@ -77,12 +92,13 @@ def expected_information(
         hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
         seed: of the simulated scans.
         device: where to compute.
+        on_progress: told which share is done, from 0 to 1.
 
     Raises:
         BadInput: poses or angles that are none, or fewer than two draws.
     """
     from bayesmap.kernels.random import mix
-    from bayesmap.kernels.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.scan_likelihood import ScanLikelihood, put_cells
     from bayesmap.kernels.view import drawn_stops
     from bayesmap.sensors.model import RangeLimits
 
@@ -90,23 +106,49 @@ def expected_information(
     if draws < 2:
         raise BadInput(f"information: {draws} draws of the map; two are the least that can differ")
     limits = RangeLimits(min_range_m, max_range_m)
-    nats, errors = np.empty(len(where)), np.empty(len(where))
-    every = np.arange(draws)
+    maps, every = put_cells(cells, device), np.arange(draws)
+    scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
+    found = np.empty((4, len(where)))
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
         key = mix(seed, i, STREAM_VIEW)
-        distance_m, spread_m = drawn_stops(cells, grid, at, every, angles, max_range_m, hit_depth, key, device)
+        distance_m, spread_m = drawn_stops(maps, grid, at, every, angles, max_range_m, hit_depth, key, device)
         rng = np.random.default_rng([seed, i, STREAM_VIEW])
         met = np.isfinite(distance_m)
         distance_m[met] += spread_m[met] * rng.standard_normal(met.sum())
         readings = sensor.sample(rng, np.maximum(distance_m, 0.0), limits)
-        scans = Scans(at, angles, readings, max_range_m, min_range_m)
-        likelihood = ScanLikelihood(scans, grid, sensor, hit_depth, device)
-        scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
-        weighed = likelihood(cells, np.broadcast_to(pose, (len(scan), 3)), scan, chain).reshape(draws, draws)
-        gains = weighed[every, every] - (special.logsumexp(weighed, axis=1) - math.log(draws))
-        nats[i], errors[i] = gains.mean(), gains.std(ddof=1) / math.sqrt(draws)
-    return Information(nats, errors, math.log(draws))
+        likelihood = ScanLikelihood(
+            Scans(at, angles, readings, max_range_m, min_range_m), grid, sensor, hit_depth, device
+        )
+        weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, chain)
+        found[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
+        on_progress((i + 1) / len(where))
+    return Information(found[0], found[1], found[2], found[3], draws)
+
+
+def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
+    """Lower bound, its error, upper bound, its error.
+
+    Args:
+        weighed: log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
+    """
+    draws = len(weighed)
+    every, others = np.arange(draws), np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
+    whole = weighed.sum(axis=2)
+    own = whole[every, every]
+
+    def left_out(log_p: Floats) -> Floats:
+        hidden = log_p + others.reshape(draws, draws, *(1,) * (log_p.ndim - 2))
+        return np.asarray(special.logsumexp(hidden, axis=1) - math.log(draws - 1))
+
+    lower = own - (special.logsumexp(whole, axis=1) - math.log(draws))
+    uppers = (own - left_out(whole), (weighed[every, every] - left_out(weighed)).sum(axis=1))
+    upper = min(uppers, key=lambda gains: float(gains.mean()))
+    per_draw = math.sqrt(draws)
+    return (
+        float(lower.mean()), float(lower.std(ddof=1)) / per_draw,
+        float(upper.mean()), float(upper.std(ddof=1)) / per_draw,
+    )  # fmt: skip
 
 
 def beam_information(

@@ -192,11 +192,6 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
     return path[kept]
 
 
-def _no_dearer(path: Floats, i: int, j: int, danger: Floats, grid: Grid, price: float) -> bool:
-    """Whether the straight line between two corners costs no more than the path between them."""
-    return _cost(path[[i, j]], danger, grid, price) <= _cost(path[i : j + 1], danger, grid, price) + 1e-9
-
-
 def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
     """Length plus price along a polyline, sampled every half cell."""
     total = 0.0

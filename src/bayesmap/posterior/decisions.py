@@ -1,0 +1,262 @@
+"""What to do, given a posterior: is a path free, which way to go, where to look next.
+
+The parts are in `passage`, `route` and `information`; here they are given the draws of a run.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.posterior.information import Information, beam_information, best_views, expected_information
+from bayesmap.posterior.passage import FreeProbability, cells_about, checked_path, free_probability, in_the_way
+from bayesmap.posterior.posterior import Posterior
+from bayesmap.posterior.progress_shares import OnShare, ignored, parts, watched
+from bayesmap.posterior.route import Route, blocked_probability, plan_route
+
+if TYPE_CHECKING:
+    from bayesmap.cells.draws import Draws
+    from bayesmap.cells.kind import CellPrior
+    from bayesmap.sensors.model import SensorModel
+    from bayesmap.space.grid import Grid
+
+Floats = NDArray[np.float64]
+
+SEARCH_DRAWS = 60
+"""Draws by which ways are proposed; all draws then judge each of them."""
+
+INFORMATION_DRAWS = 50
+"""Draws that are compared, unless the caller says otherwise: the work grows with their square."""
+
+REACHABLE = 0.5
+"""A robot can be where its disc touches nothing with at least this probability, as a place to look from."""
+
+HEADINGS = 8
+"""Directions in which a sensor without a full circle is tried at each place."""
+
+FULL_CIRCLE_RAD = np.radians(350.0)
+
+
+class Drawn(Protocol):
+    """A map by its draws: a posterior, or chains that are still running."""
+
+    @property
+    def prior(self) -> CellPrior:
+        """Of the cells: it knows what they do to beams."""
+
+    @property
+    def draws(self) -> Draws:
+        """The maps."""
+
+
+def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProbability:
+    """The probability that a disc can go along a path (`bayesmap.posterior.passage`).
+
+    Raises:
+        BadInput: no draws, a path that is none, or leaves the map, or a radius that is not positive.
+    """
+    _need_draws(posterior, "free_probability")
+    corners, grid = checked_path(path), posterior.draws.grid
+    _need_radius(radius_m)
+    inside = (corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))
+    if not inside.all():
+        place = int(np.nonzero(~inside.all(axis=1))[0][0])
+        raise BadInput(f"path: point {place}, {corners[place].tolist()}, lies outside the map, {_extent(grid)}")
+    cells = cells_about(corners, radius_m, grid)
+    batches = posterior.prior.drawn_stops(posterior.draws, cells)
+    return free_probability(in_the_way(batches, cells, grid, corners, radius_m), posterior.draws.chains)
+
+
+def shortest_safe_path(
+    posterior: Posterior,
+    start: ArrayLike,
+    goal: ArrayLike,
+    radius_m: float,
+    risk: float,
+    on_progress: OnShare = ignored,
+) -> Route:
+    """The shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
+
+    Raises:
+        BadInput: no draws; start or goal outside the map, or blocked; no path between them; a radius that is not
+            positive, or a risk outside (0, 1).
+    """
+    _need_draws(posterior, "plan")
+    _need_radius(radius_m)
+    ends = [checked_path(point) for point in (start, goal)]
+    if any(len(end) != 1 for end in ends):
+        raise BadInput("plan: start and goal are one point each: x, y in metres")
+    blocked = blocked_anywhere(posterior, radius_m, on_progress)
+    return plan_route(
+        blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk,
+        lambda path: path_is_free(posterior, path, radius_m),
+    )  # fmt: skip
+
+
+def blocked_anywhere(posterior: Drawn, radius_m: float, on_progress: OnShare = ignored) -> Floats:
+    """Probability that a disc about each cell's centre touches something, by `SEARCH_DRAWS` draws, (nx, ny)."""
+    draws = posterior.draws.thinned(SEARCH_DRAWS)
+    batches = watched(posterior.prior.drawn_stops(draws), draws.size, on_progress)
+    return blocked_probability(batches, draws.grid, radius_m)
+
+
+def information_of(
+    posterior: Posterior,
+    poses: ArrayLike,
+    angles_rad: ArrayLike | None = None,
+    *,
+    max_range_m: float | None = None,
+    sensor: SensorModel | None = None,
+    draws: int | None = None,
+    seed: int = 0,
+    device: str = "cpu",
+    on_progress: OnShare = ignored,
+) -> Information:
+    """What one more scan from each pose is expected to tell (`bayesmap.posterior.information`); see
+    `bayesmap.Run.information_gain`.
+    """
+    _need_draws(posterior, "information_gain")
+    if draws is not None and draws < 2:
+        raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
+    scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
+    if law is None:
+        raise BadInput("information_gain: the sensor model of this run is not one of bayesmap's; pass sensor=")
+    angles = scans.angles_rad if angles_rad is None else angles_rad
+    longest_m = scans.max_range_m if max_range_m is None else max_range_m
+    if not 0 < longest_m < np.inf:
+        raise BadInput(f"information_gain: max_range_m must be a positive number of metres, got {longest_m!r}")
+    some = posterior.draws.thinned(INFORMATION_DRAWS if draws is None else draws)
+    joint = expected_information(
+        np.concatenate(list(posterior.prior.drawn_stops(some))), posterior.grid, law, poses, angles,
+        max_range_m=longest_m, min_range_m=scans.min_range_m, hit_depth=float(posterior.settings["hit_depth"]),
+        seed=seed, device=device, on_progress=on_progress,
+    )  # fmt: skip
+    independent = beam_information(
+        posterior.occupancy, posterior.grid, poses, angles,
+        max_range_m=longest_m, sigma_m=typical_sigma_m(law, longest_m), device=device,
+    )  # fmt: skip
+    return replace(joint, independent=independent)
+
+
+def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
+    """The spread of readings about a wall at a quarter of the largest range, in metres: half the width of the middle
+    68 % of 4000 drawn hits.
+    """
+    from bayesmap.sensors.model import RangeLimits
+
+    at_m = 0.25 * max_range_m
+    drawn = sensor.sample(np.random.default_rng(0), np.full(4000, at_m), RangeLimits(0.0, max_range_m))
+    low, high = np.quantile(drawn[np.isfinite(drawn)], [0.16, 0.84])
+    return float(max(0.5 * (high - low), 1e-3))
+
+
+@dataclass(frozen=True, eq=False)
+class Views:
+    """Where to look next.
+
+    Attributes:
+        candidates: poses that were considered, (P, 3).
+        independent: nats that the formula for independent cells and beams expects from each, (P,).
+        best: numbers of the best candidates, by what joint draws say at most, the best first, (V,).
+        information: of these, (V,).
+    """
+
+    candidates: Floats
+    independent: Floats
+    best: NDArray[np.intp]
+    information: Information
+
+
+def next_views(
+    posterior: Posterior,
+    candidates: int,
+    views: int,
+    radius_m: float,
+    *,
+    draws: int | None = None,
+    seed: int = 0,
+    on_progress: OnShare = ignored,
+) -> Views:
+    """The most telling poses among candidates that a robot can get to.
+
+    Candidates are spread over the places at which a disc is free with probability `REACHABLE` and which such places
+    connect with where the robot was last. The fast formula goes over all; twice as many as are wanted, apart from each
+    other, are then compared by joint draws.
+
+    Raises:
+        BadInput: no draws, counts below 1, or no such place.
+    """
+    _need_draws(posterior, "explore")
+    _need_radius(radius_m)
+    for name, count in (("candidates", candidates), ("views", views)):
+        if count < 1:
+            raise BadInput(f"explore: {name} must be 1 or more, got {count!r}")
+    search, weigh = parts(on_progress, 1.0, 2.0)
+    scans, law = posterior.scans, posterior.sensor
+    if law is None:
+        raise BadInput("explore: the sensor model of this run is not one of bayesmap's")
+    poses = _spread(posterior, blocked_anywhere(posterior, radius_m, search), candidates, seed)
+    headings = _headings(scans.angles_rad)
+    every = np.repeat(poses, len(headings), axis=0)
+    every[:, 2] += np.tile(headings, len(poses))
+    nats = beam_information(
+        posterior.occupancy, posterior.grid, every, scans.angles_rad,
+        max_range_m=scans.max_range_m, sigma_m=typical_sigma_m(law, scans.max_range_m),
+    ).reshape(len(poses), -1)  # fmt: skip
+    turn = nats.argmax(axis=1)
+    poses[:, 2] += headings[turn]
+    nats = nats[np.arange(len(poses)), turn]
+    apart_m = 0.05 * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
+    few = best_views(nats, poses, 2 * views, apart_m)
+    found = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
+    order = np.argsort(-found.at_most, kind="stable")[:views]
+    assert found.independent is not None
+    information = Information(
+        found.at_least[order], found.at_least_error[order], found.at_most[order], found.at_most_error[order],
+        found.draws, found.independent[order],
+    )  # fmt: skip
+    return Views(poses, nats, few[order], information)
+
+
+def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:
+    """Poses at random places that the robot can get to, (P, 3); at most ``count``, fewer if there are fewer cells."""
+    from scipy import ndimage
+
+    grid = posterior.grid
+    open_cells = (blocked <= 1.0 - REACHABLE) & posterior.observed
+    labels, areas = ndimage.label(open_cells, structure=np.ones((3, 3)))
+    if areas == 0:
+        raise BadInput("explore: nowhere on the map is the disc free with probability one half; try a smaller radius")
+    x, y, _ = posterior.scans.poses[-1]
+    centres = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1) + 0.0
+    cells = np.argwhere(open_cells)
+    nearest = cells[np.hypot(*(centres[tuple(cells.T)] - [x, y]).T).argmin()]
+    there = np.argwhere(labels == labels[tuple(nearest)])
+    rng = np.random.default_rng([seed, 6])
+    chosen = there[rng.permutation(len(there))[:count]]
+    return np.column_stack([centres[tuple(chosen.T)], np.zeros(len(chosen))])
+
+
+def _headings(angles_rad: Floats) -> Floats:
+    """Yaws to try: one for a full circle."""
+    count = 1 if np.ptp(angles_rad) * (1 + 1 / max(len(angles_rad), 1)) >= FULL_CIRCLE_RAD else HEADINGS
+    return np.arange(count) / count * 2 * np.pi
+
+
+def _need_draws(posterior: Drawn, who: str) -> None:
+    if posterior.draws.size == 0:
+        raise BadInput(f"{who}: the run has no draws; resume it, or take a method that draws maps")
+
+
+def _need_radius(radius_m: float) -> None:
+    if not 0 < radius_m < np.inf:
+        raise BadInput(f"radius: must be a positive number of metres, got {radius_m!r}")
+
+
+def _extent(grid: Grid) -> str:
+    x0, x1, y0, y1 = grid.extent_m
+    return f"x {x0:g} to {x1:g}, y {y0:g} to {y1:g}"

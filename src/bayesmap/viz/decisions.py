@@ -1,0 +1,156 @@
+"""Pictures of decisions: the way to go, and where to look next, over the mean map."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import PathCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+from bayesmap.viz import maps, palette
+from bayesmap.viz.overlays import draw_sensor
+
+Floats = NDArray[np.float64]
+
+HEIGHT_IN, BAR_IN, FOOT_IN = 5.6, 1.3, 0.6
+CIRCLE = 24
+"""Corners of the outline of a disc."""
+
+
+def route_figure(
+    grid: Grid,
+    occupancy: ArrayLike,
+    observed: ArrayLike | None,
+    path: ArrayLike,
+    radius_m: float,
+    *,
+    title: str = "",
+    label: str = "probability of wall",
+) -> Figure:
+    """A path over the mean map, and all that a disc which moves along it sweeps.
+
+    Args:
+        grid: of the map.
+        occupancy: (nx, ny).
+        observed: cells to draw; the others are hatched. All if None.
+        path: corners in the world frame, (P, 2).
+        radius_m: of the disc.
+        title: what is said of the path.
+        label: what the occupancy is.
+
+    Raises:
+        BadInput: shapes that do not fit.
+    """
+    figure, ax = _map_figure(grid, occupancy, observed, label)
+    draw_route(ax, path, radius_m)
+    ax.set_title(title, fontsize=9)
+    return _with_legend(figure, ax)
+
+
+def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
+    """A path and what a disc that moves along it sweeps.
+
+    Raises:
+        BadInput: a path that is not (P, 2).
+    """
+    corners = np.asarray(path, dtype=np.float64)
+    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
+        raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")
+    swept = PathPatch(_swept(corners, radius_m), facecolor=palette.SENSOR, edgecolor="none", alpha=0.3, zorder=3.2)
+    swept.set_label("what the robot sweeps")
+    ax.add_patch(swept)
+    ax.plot(*corners.T, color=palette.SENSOR, linewidth=1.4, label="path", zorder=3.4)
+    ax.plot(*corners[0], "o", color=palette.TEXT, markersize=5, label="start", zorder=3.5)
+    ax.plot(*corners[-1], "*", color=palette.TEXT, markersize=9, label="goal", zorder=3.5)
+    return swept
+
+
+def views_figure(
+    grid: Grid,
+    occupancy: ArrayLike,
+    observed: ArrayLike | None,
+    candidates: ArrayLike,
+    nats: ArrayLike,
+    best: ArrayLike,
+    *,
+    label: str = "probability of wall",
+) -> Figure:
+    """Candidate views over the mean map, coloured by what they would tell, and the best ones, numbered.
+
+    Args:
+        grid: of the map.
+        occupancy: (nx, ny).
+        observed: cells to draw; the others are hatched. All if None.
+        candidates: poses, (P, 3).
+        nats: expected from each, (P,).
+        best: numbers of candidates, the best first.
+        label: what the occupancy is.
+
+    Raises:
+        BadInput: shapes that do not fit.
+    """
+    figure, ax = _map_figure(grid, occupancy, observed, label)
+    dots = draw_candidates(ax, candidates, nats)
+    figure.colorbar(dots, ax=ax, label="expected information, independent cells [nats]", shrink=0.8)
+    poses = np.asarray(candidates, dtype=np.float64)
+    for rank, i in enumerate(np.asarray(best, dtype=np.intp).tolist(), 1):
+        draw_sensor(ax, poses[i])[0].set_label("best views" if rank == 1 else "_")
+        ax.annotate(
+            str(rank), (poses[i, 0], poses[i, 1]), xytext=(7, 7), textcoords="offset points", fontsize=10,
+            fontweight="bold", color=palette.TEXT, zorder=3.8,
+            bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
+        )  # fmt: skip
+    return _with_legend(figure, ax)
+
+
+def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
+    """A dot at each candidate, the telling ones on top.
+
+    Raises:
+        BadInput: shapes that do not fit.
+    """
+    poses, told = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
+    if poses.ndim != 2 or poses.shape[1] != 3 or told.shape != poses.shape[:1]:
+        raise BadInput(f"picture: candidates have shape {poses.shape} and nats {told.shape}; give (P, 3) and (P,)")
+    order = np.argsort(told)
+    return ax.scatter(
+        poses[order, 0], poses[order, 1], c=told[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
+        edgecolors="white", label="candidates", zorder=3.3,
+    )  # fmt: skip
+
+
+def _map_figure(grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, label: str) -> tuple[Figure, Axes]:
+    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.5, 3.0)) + BAR_IN
+    figure = Figure(figsize=(width_in, HEIGHT_IN + FOOT_IN), dpi=160, facecolor="white", layout="constrained")
+    FigureCanvasAgg(figure)
+    ax = figure.subplots()
+    image = maps.draw_probability(ax, grid, occupancy, observed)
+    figure.colorbar(image, ax=ax, label=label, shrink=0.8)
+    return figure, ax
+
+
+def _with_legend(figure: Figure, ax: Axes) -> Figure:
+    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
+    return figure
+
+
+def _swept(corners: Floats, radius_m: float) -> Path:
+    """The union of discs along a polyline, as overlapping outlines that wind the same way."""
+    turn = np.arange(CIRCLE) / CIRCLE * 2 * np.pi
+    circle = radius_m * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    shapes = [corner + circle for corner in corners]
+    for start, end in itertools.pairwise(corners):
+        way = end - start
+        length = float(np.hypot(*way))
+        if length > 0:
+            side = radius_m * np.array([-way[1], way[0]]) / length
+            shapes.append(np.stack([start - side, end - side, end + side, start + side]))
+    return Path.make_compound_path(*(Path(np.concatenate([shape, shape[:1]]), closed=True) for shape in shapes))

@@ -1,0 +1,115 @@
+"""`plan` and `explore`: decisions as text, as JSON, as a picture."""
+
+import json
+import signal
+
+import numpy as np
+import pytest
+from shell import call, start
+
+from bayesmap.io.logs import read_log
+from bayesmap.result import load
+
+
+@pytest.fixture(scope="module")
+def ends(office):
+    """Two places at which the robot was."""
+    poses = read_log(office).poses
+    return [f"{x:.3f},{y:.3f}" for x, y, _ in (poses[0], poses[2])]
+
+
+def test_a_plan_as_text_ends_with_its_probability_and_picture(office_run, ends, tmp_path):
+    picture = tmp_path / "way.png"
+    result = call("plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "--radius", "0.1", "-o", picture)
+    assert result.exit_code == 0, result.stderr
+    *corners, sentence, written = result.stdout.splitlines()
+    assert corners[0] == ends[0]
+    assert corners[-1] == ends[1]
+    assert "free with probability" in sentence
+    assert "independent cells" in sentence
+    assert written == str(picture)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_plan_as_json_is_what_the_run_says(office_run, ends, tmp_path):
+    result = call(
+        "plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "--radius", "0.1", "--risk", "0.9",
+        "-o", tmp_path / "way.svg", "--json",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    free = load(office_run / "run.nc").free_probability(document["path"], 0.1)
+    assert document["free_probability"] == free.probability
+    assert document["standard_error"] == pytest.approx(free.standard_error)
+    assert document["independent_cells"] == pytest.approx(free.independent)
+    assert document["within_risk"] == (1 - free.probability <= 0.9)
+    length = np.hypot(*np.diff(document["path"], axis=0).T).sum()
+    assert document["length_m"] == pytest.approx(length)
+    assert (tmp_path / "way.svg").exists()
+
+
+@pytest.mark.parametrize("risk", [1e-9, 0.999])
+def test_a_risk_that_no_path_keeps_is_warned_of(office_run, ends, tmp_path, risk):
+    result = call(
+        "plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "--radius", "0.12", "--risk", risk,
+        "-o", tmp_path / "way.png", "--json",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document["within_risk"] == (1 - document["free_probability"] <= risk)
+    assert ("this is the safest" in result.stderr) == (not document["within_risk"])
+
+
+def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):
+    picture = tmp_path / "views.png"
+    options = ("--candidates", "30", "--views", "3", "--draws", "8", "--radius", "0.15")
+    result = call("explore", office_run / "run.nc", *options, "-o", picture, "--json")
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    nats = [view["at_most_nats"] for view in document["views"]]
+    assert nats == sorted(nats, reverse=True)
+    assert 1 <= len(nats) <= 3
+    assert all(view["at_least_nats"] <= np.log(8) + 1e-9 for view in document["views"])
+    assert all(len(view["pose"]) == 3 for view in document["views"])
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    text = call("explore", office_run / "run.nc", *options, "-o", picture)
+    assert text.stdout.splitlines()[-1] == str(picture)
+    assert len(text.stdout.splitlines()) == len(nats) + 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (["plan", "--from", "1,2", "--to", "3"], 2, "is not X,Y"),
+        (["plan", "--from", "1,2"], 2, "Missing option '--to'"),
+        (["plan", "--from", "900,2", "--to", "1,2"], 3, "outside the map"),
+        (["plan", "--from", "1,2", "--to", "1,2", "--radius", "0"], 3, "--radius must be a positive"),
+        (["plan", "--from", "1,2", "--to", "1,2", "--risk", "1"], 3, "--risk must be a number above 0"),
+        (["plan", "--from", "1,2", "--to", "1,2", "-o", "way.txt"], 3, "end its name in one of"),
+        (["explore", "--candidates", "0"], 3, "--candidates must be"),
+        (["explore", "--draws", "1"], 3, "draws must be 2 or more"),
+        (["explore", "--radius", "50"], 3, "smaller radius"),
+    ],
+)
+def test_what_is_refused(office_run, arguments, code, message):
+    command, *rest = arguments
+    result = call(command, office_run / "run.nc", *rest)
+    assert result.exit_code == code, result.stderr
+    assert message in result.stderr
+
+
+def test_a_missing_run_is_bad_input():
+    result = call("explore", "nowhere.nc")
+    assert result.exit_code == 3
+    assert "nowhere.nc" in result.stderr
+
+
+def test_ctrl_c_leaves_no_picture(office_run, tmp_path):
+    picture = tmp_path / "views.png"
+    process = start("explore", office_run / "run.nc", "--candidates", "100000", "--views", "500", "-o", picture)
+    with pytest.raises(Exception, match="timed out"):
+        process.wait(timeout=3)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 130, err
+    assert list(tmp_path.iterdir()) == []
