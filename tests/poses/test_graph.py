@@ -1,18 +1,18 @@
 """Pose graphs: sparse against dense, loops that are wrong, covariances."""
 
 import numpy as np
+from scipy import sparse
 
 from bayesmap.poses.graph import (
     ANCHOR,
     RIDGE,
     Factors,
-    factorised,
     normal_equations,
     optimise,
     quadratic,
-    relative_covariances,
     solve_step,
 )
+from bayesmap.poses.precision import Precision, filled_pattern, relative_covariances
 from bayesmap.poses.se2 import between_jacobians, retract
 from bayesmap.space.planar import between, compose
 
@@ -61,15 +61,39 @@ def test_a_sparse_step_equals_the_dense_one():
 def test_relative_covariances_equal_the_dense_ones():
     matrix, _ = dense([CHAIN, LOOP], POSES)
     covariance = np.linalg.inv(matrix)
-    solver = factorised(normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])[0])
-    pairs = np.array([[0, 5], [3, 9], [11, 2], [4, 4]])
-    found = relative_covariances(solver, POSES, pairs[:, 0], pairs[:, 1], batch=3)
+    precision = Precision(normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])[0])
+    pairs = np.array([[0, 5], [3, 9], [11, 2], [4, 4], [6, 7], [0, 11]])
+    found = relative_covariances(precision, POSES, pairs[:, 0], pairs[:, 1])
     for (i, j), block in zip(pairs, found, strict=True):
         by_i, by_j = between_jacobians(between(POSES[i], POSES[j]))
         jacobian = np.zeros((3, 3 * COUNT))
         jacobian[:, 3 * i : 3 * i + 3] += by_i
         jacobian[:, 3 * j : 3 * j + 3] += by_j
         np.testing.assert_allclose(block, jacobian @ covariance @ jacobian.T, rtol=1e-5, atol=1e-10)
+
+
+def test_blocks_of_the_inverse_are_the_same_on_the_pattern_and_off_it():
+    matrix = normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])[0]
+    inverse = np.linalg.inv(matrix.toarray()).reshape(COUNT, 3, COUNT, 3)
+    first, second = (a.ravel() for a in np.mgrid[:COUNT, :COUNT])
+    for at_once in (2, 400):
+        found = Precision(matrix).blocks(first, second, at_once)
+        np.testing.assert_allclose(found, inverse[first, :, second, :], rtol=1e-6, atol=1e-10)
+
+
+def test_the_pattern_holds_every_entry_of_the_factor():
+    """Random matrices: the pattern that elimination can fill, against the dense Cholesky factor."""
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        links = rng.random((30, 30)) < 0.06
+        dense_matrix = np.where(links | links.T, 0.1 * rng.normal(), 0.0) + 5.0 * np.eye(30)
+        place = rng.permutation(30)
+        begin, row = filled_pattern(sparse.csc_matrix(dense_matrix), place)
+        moved = np.empty_like(dense_matrix)
+        moved[np.ix_(place, place)] = dense_matrix
+        held = np.zeros((30, 30), bool)
+        held[row, np.repeat(np.arange(30), np.diff(begin))] = True
+        np.testing.assert_array_equal(held, np.abs(np.linalg.cholesky(moved)) > 0)
 
 
 def test_the_optimum_has_no_slope():

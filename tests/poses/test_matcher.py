@@ -127,3 +127,20 @@ def test_bad_input_is_refused():
         match(GRIDS, points, np.zeros((1, 3)), 0.5, 0.5, grid_of=np.array([3]))
     with pytest.raises(BadInput, match="finite"):
         match(GRIDS, points, np.full((1, 3), np.nan), 0.5, 0.5)
+
+
+def test_maxima_by_numpy_are_those_of_the_kernel():
+    import warp as wp
+
+    from bayesmap.kernels.likelihood_grid import next_level, widen
+
+    pyramid = np.random.default_rng(3).integers(0, 255, (2, 2, 37, 21), dtype=np.uint8)
+    for level in (1, 2, 4):
+        half = 1 << (level - 1)
+        stack = np.zeros((2, level + 1, 37, 21), np.uint8)
+        stack[:, level - 1] = pyramid[:, 0]
+        on_device = wp.array(stack, dtype=wp.uint8, device="cpu")
+        wp.launch(next_level, dim=2 * 37, inputs=[0, level, on_device], device="cpu")
+        found = np.empty((2, 37, 21), np.uint8)
+        widen(pyramid[:, 0], found, half)
+        np.testing.assert_array_equal(found, on_device.numpy()[:, level])

@@ -1,12 +1,15 @@
 """From raw odometry to a trajectory, end to end, in a small building."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from simulated import off, recording
 
 from bayesmap.errors import BadInput
+from bayesmap.poses import slam
+from bayesmap.poses.rematch import Rematch
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
@@ -99,6 +102,25 @@ def test_odometry_that_never_goes_backwards_while_the_robot_does():
     scans = replace(SCANS.select(index), poses=np.array(poses), stamps_s=np.arange(len(index)) * 0.2)
     result = infer_trajectory(scans, threads=1)
     assert worst_m(result.poses, truth) < 0.1
+
+
+def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
+    """Two scans are moved; after alignment one is explained better than before, the other worse."""
+    poses = np.zeros((4, 3))
+    better = poses + np.array([1.0, 0.0, 0.0])
+    answers = iter(
+        [
+            Rematch(np.full(4, 0.5), np.full(4, 0.9), better, np.array([False, True, True, False])),
+            Rematch(np.array([0.5, 0.8, 0.4, 0.5]), np.full(4, 0.9), better, np.array([False, False, True, False])),
+            Rematch(np.array([0.5, 0.8, 0.5, 0.5]), np.full(4, 0.9), better, np.zeros(4, bool)),
+        ]
+    )
+    monkeypatch.setattr(slam, "rematch", lambda *args, **kwargs: next(answers))
+    run = slam._Run(SCANS, False, 1, "cpu", None, lambda stage, done, of: None)
+    monkeypatch.setattr(run, "align", lambda name, geometry, at, *rest, **more: SimpleNamespace(poses=at, pairs=None))
+    aligned, scores = run.improve(None, SimpleNamespace(poses=poses, pairs=None), None, 1.0, 1.0)
+    np.testing.assert_array_equal(aligned.poses[:, 0], [0.0, 1.0, 0.0, 0.0])
+    np.testing.assert_array_equal(scores, [0.5, 0.8, 0.5, 0.5])
 
 
 def test_an_interrupted_run_goes_on_where_it_was(tmp_path, trajectory):

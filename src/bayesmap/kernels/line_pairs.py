@@ -55,26 +55,54 @@ class Sums:
 
 
 @wp.func
+def turns_of(x: float, y: float) -> float:
+    """The angle of (x, y) in turns, from -1/2 to 1/2, to a twentieth of a degree: enough to name a beam.
+
+    A polynomial of the smaller by the larger coordinate; several times as fast as atan2, and as often as anything here.
+    """
+    ax = wp.abs(x)
+    ay = wp.abs(y)
+    t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
+    t2 = t * t
+    angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309
+    if ay > ax:
+        angle = 0.25 - angle
+    if x < 0.0:
+        angle = 0.5 - angle
+    return wp.where(y < 0.0, -angle, angle)
+
+
+@wp.func
+def beam_towards(scene: Scene, x: float, y: float) -> int:
+    """The beam that points towards (x, y); -1 where there is none."""
+    bins = scene.beam_of_angle.shape[0]
+    bin = int((turns_of(x, y) + 0.5) * float(bins))
+    return scene.beam_of_angle[wp.clamp(bin, 0, bins - 1)]
+
+
+@wp.func
 def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int:
     """The nearest point of scan j within reach, among beams that point towards (x, y); -1 none, -2 out of view."""
-    away = wp.sqrt(x * x + y * y)
-    bins = scene.beam_of_angle.shape[0]
-    bin = int((wp.atan2(y, x) * 0.15915494309 + 0.5) * float(bins))
-    middle = scene.beam_of_angle[wp.clamp(bin, 0, bins - 1)]
+    middle = beam_towards(scene, x, y)
     if middle < 0:
         return -2
-    wide = wp.min(MOST_BEAMS, int(wp.asin(wp.min(1.0, reach / wp.max(away, 1.0e-6))) / scene.step) + 1)
-    beams = scene.kind.shape[1]
+    u = wp.min(1.0, reach / wp.max(wp.sqrt(x * x + y * y), 1.0e-6))
+    # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
+    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / scene.step) + 1)
+    beams = scene.points.shape[1]
+    low = middle - wide
+    high = middle + wide
+    if scene.full_circle == 0:
+        low = wp.max(low, 0)
+        high = wp.min(high, beams - 1)
     closest = reach * reach
     found = int(-1)
-    for k in range(-wide, wide + 1):
-        c = middle + k
-        if scene.full_circle != 0:
-            c = (c + beams) % beams
-        if c < 0 or c >= beams:
-            continue
-        if scene.kind[j, c] == wp.uint8(0):
-            continue
+    for k in range(low, high + 1):
+        c = k
+        if c < 0:
+            c += beams
+        if c >= beams:
+            c -= beams
         p = scene.points[j, c]
         dx = p[0] - x
         dy = p[1] - y
@@ -111,8 +139,9 @@ def pair_scans(
     reach: float,
     scale: float,
     alike: float,
+    stride: int,
 ) -> Sums:
-    """Sums over the points of scan i on scan j, with i at pose z in j's frame.
+    """Sums over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame.
 
     ``reach``: furthest that paired points may lie apart; ``scale``: Geman and McClure's c; ``alike``: least cosine
     between the normals of a pair.
@@ -144,7 +173,7 @@ def pair_scans(
     k = int(0)
     while k < scene.kind.shape[1]:
         b = k
-        k += scene.stride
+        k += stride
         if scene.kind[i, b] == wp.uint8(0):
             continue
         p = scene.points[i, b]
@@ -271,7 +300,7 @@ def sum_pairs(
 ):
     """One thread a pair of scans."""
     p = first + wp.tid()
-    sums = pair_scans(scene, weights, source[p], target[p], relative[p], reach, scale, alike)
+    sums = pair_scans(scene, weights, source[p], target[p], relative[p], reach, scale, alike, scene.stride)
     second[p] = sums.second
     slack[p] = sums.slack
     gradient[p] = sums.first

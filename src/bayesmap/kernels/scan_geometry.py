@@ -13,6 +13,9 @@ wp.set_module_options({"enable_backward": False})
 
 POINT = wp.constant(wp.uint8(1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
+NOWHERE_M = wp.constant(
+    wp.float32(1.0e6)
+)  # where beams without a point end: whoever seeks the nearest passes them over
 REACHES = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
 
 
@@ -42,7 +45,7 @@ def scan_points(
     for b in range(ranges.shape[1]):
         r = ranges[s, b]
         kind[s, b] = wp.uint8(0)
-        points[s, b] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
+        points[s, b] = wp.vec2f(NOWHERE_M, NOWHERE_M)
         if r > nearest and r < farthest:  # false for NaN and for either infinity
             points[s, b] = wp.vec2f(wp.float32(r * wp.cos(angles[b])), wp.float32(r * wp.sin(angles[b])))
             kind[s, b] = POINT

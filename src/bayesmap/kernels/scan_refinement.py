@@ -44,13 +44,13 @@ def refine(
 ):
     """One thread a job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
-    Coordinates are x, y and yaw in the world's axes. Information is that of the pairs alone, less slack.
+    While they shrink every other point is enough. Coordinates are x, y and yaw in the world's axes. Information is that
+    of the pairs alone, less slack.
     """
     k = first + wp.tid()
     i = job_scan[k]
     x = start[k]
     count = wp.float64(offsets[k + 1] - offsets[k])
-    gain = wp.float64(1.0) / (sigma * sigma * (count + wp.float64(1.0)))
     settled = int(0)
     found = wp.mat33d()
     for step in range(steps):
@@ -59,6 +59,8 @@ def refine(
         share = wp.min(1.0, 1.5 * float(step) / float(wp.max(steps - 1, 1)))
         r = reach[0] * wp.pow(reach[1] / reach[0], share)
         c = scale[0] * wp.pow(scale[1] / scale[0], share)
+        sparse = wp.where(share < 1.0, 2, 1)
+        gain = wp.float64(sparse) / (sigma * sigma * (count + wp.float64(1.0)))
         second = wp.mat33d()
         slack = wp.mat33d()
         gradient = wp.vec3d()
@@ -68,7 +70,7 @@ def refine(
         seen = int(0)
         for q in range(offsets[k], offsets[k + 1]):
             frame = other_pose[q]
-            sums = pair_scans(scene, weights, i, other[q], pose_between(frame, x), r, c, alike)
+            sums = pair_scans(scene, weights, i, other[q], pose_between(frame, x), r, c, alike, sparse * scene.stride)
             turn = turn_of(frame[2])
             second += turn * sums.second * wp.transpose(turn)
             slack += turn * sums.slack * wp.transpose(turn)

@@ -7,18 +7,10 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.line_pairs import Scene, nearest_point, scene_of
+from bayesmap.kernels.line_pairs import Scene, beam_towards, nearest_point, scene_of
 from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
-
-
-@wp.func
-def beam_towards(scene: Scene, x: float, y: float) -> int:
-    """The beam that points towards (x, y); -1 where there is none."""
-    bins = scene.beam_of_angle.shape[0]
-    bin = int((wp.atan2(y, x) * 0.15915494309 + 0.5) * float(bins))
-    return scene.beam_of_angle[wp.clamp(bin, 0, bins - 1)]
 
 
 @wp.kernel

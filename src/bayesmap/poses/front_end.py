@@ -64,7 +64,7 @@ POINTS = 200
 
 REACH_M, SCALE_M = (0.3, 0.12), (0.15, 0.05)
 ALIKE = 0.7
-STEPS = 12
+STEPS = 8
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.sparse.linalg import splu
 
+from bayesmap.poses.precision import Precision
 from bayesmap.poses.se2 import between_jacobians, retract
 from bayesmap.space.planar import between, wrapped
 
@@ -118,16 +118,11 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
     return matrix, gradient.ravel()
 
 
-def factorised(matrix: Any) -> Any:
-    """The sparse LU of a symmetric positive matrix, whose ``solve`` is used."""
-    return splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, diag_pivot_thresh=0.0)
-
-
-def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Any]:
+def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precision]:
     """The Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
     matrix, gradient = normal_equations(count, parts)
-    solver = factorised(matrix)
-    return -np.asarray(solver.solve(gradient)).reshape(count, 3), solver
+    precision = Precision(matrix)
+    return -precision.solve(gradient).reshape(count, 3), precision
 
 
 def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> tuple[Floats, Floats]:
@@ -153,34 +148,6 @@ def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> 
             break
         relaxed = max(1.0, relaxed / 1.6)
     return poses, weights
-
-
-def relative_covariances(
-    solver: Any, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp], batch: int = 400
-) -> Floats:
-    """Covariance of between(first, second) under the Gaussian of a factorised matrix, (M, 3, 3), in the first's frame.
-
-    Solved a few hundred poses at a time: memory is the number of poses times ``batch``.
-    """
-    count = len(poses)
-    result = np.empty((len(first), 3, 3))
-    by_first, by_second = between_jacobians(between(poses[first], poses[second]))
-    needed, where = np.unique(np.concatenate([first, second]), return_inverse=True)
-    own = np.empty((len(needed), 3, 3))
-    cross = np.empty((len(first), 3, 3))
-    at = where[: len(first)]
-    for begin in range(0, len(needed), batch):
-        some = needed[begin : begin + batch]
-        right = np.zeros((3 * count, 3 * len(some)))
-        right[(3 * some[:, None] + np.arange(3)).ravel(), np.arange(3 * len(some))] = 1.0
-        columns = solver.solve(right).reshape(count, 3, len(some), 3)
-        own[begin : begin + len(some)] = columns[some, :, np.arange(len(some)), :]
-        mine = np.nonzero((at >= begin) & (at < begin + len(some)))[0]
-        cross[mine] = columns[second[mine], :, at[mine] - begin, :]  # covariance of the second with the first
-    a, b = own[at], own[where[len(first) :]]
-    result = by_first @ a @ np.swapaxes(by_first, 1, 2) + by_second @ b @ np.swapaxes(by_second, 1, 2)
-    mixed = by_second @ cross @ np.swapaxes(by_first, 1, 2)
-    return np.asarray(result + mixed + np.swapaxes(mixed, 1, 2))
 
 
 def _add(into: Floats, where: NDArray[np.intp], values: Floats) -> None:

@@ -108,8 +108,8 @@ def close_loops(
     closures, weights, loops = None, np.empty(0), NO_FACTORS
     for number, search in enumerate(ROUNDS, start=1):
         parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
-        _, solver = solve_step(len(poses), parts)
-        closures = find_closures(geometry, track.keys, poses, solver, half_width_m, search, threads)
+        _, precision = solve_step(len(poses), parts)
+        closures = find_closures(geometry, track.keys, poses, precision, half_width_m, search, threads)
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)

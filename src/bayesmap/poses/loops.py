@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.scan_refinement import refine_scans
 from bayesmap.kernels.view_agreement import view_counts
-from bayesmap.poses.graph import Factors, relative_covariances
+from bayesmap.poses.graph import Factors
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import match
+from bayesmap.poses.precision import Precision, relative_covariances
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.se2 import transform
 from bayesmap.space.planar import between, compose, inverse, wrapped
@@ -111,7 +112,7 @@ def find_closures(
     geometry: ScanGeometry,
     keys: NDArray[np.intp],
     poses: Floats,
-    solver: object,
+    precision: Precision,
     half_width_m: float,
     search: Search,
     threads: int | None = None,
@@ -122,13 +123,13 @@ def find_closures(
         geometry: of all scans.
         keys: the scans that are keys.
         poses: of the keys, (K, 3).
-        solver: the factorised matrix of the graph of the keys, for relative covariances.
+        precision: of the graph of the keys, for relative covariances.
         half_width_m: of submaps' grids.
         search: how far to look.
         threads: to compute with; by default all cores.
     """
     along = path_m(poses)
-    first, second, sigma = _candidates(along, poses, _middles(geometry, keys, poses), solver, half_width_m, search)
+    first, second, sigma = _candidates(along, poses, _middles(geometry, keys, poses), precision, half_width_m, search)
     if not len(first):
         return _none()
     half_m = np.clip(SIGMAS * sigma[:, :2].max(axis=1), 0.4, search.most_m)
@@ -166,7 +167,7 @@ def find_closures(
 
 
 def _candidates(
-    along: Floats, poses: Floats, middles: Floats, solver: object, half_width_m: float, search: Search
+    along: Floats, poses: Floats, middles: Floats, precision: Precision, half_width_m: float, search: Search
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
 
@@ -181,7 +182,9 @@ def _candidates(
     earlier, later, distance = sought[earlier[near]], sought[later[near]], distance[near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))
-    covariance = relative_covariances(solver, poses, earlier, later)
+    # That of the pose a few metres along is as good, and saves solving for each.
+    nearby = sought[3 * (np.searchsorted(sought, later) // 3)]
+    covariance = relative_covariances(precision, poses, earlier, nearby)
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
     reach = np.minimum(SIGMAS * sigma[:, :2].max(axis=1), search.most_m) + np.minimum(0.7 * half_width_m, 8.0)
     turned = np.abs(wrapped(poses[earlier, 2] - poses[later, 2]))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import ANCHOR, RIDGE, Quadratic, factorised, normal_equations, relative_covariances
+from bayesmap.poses.graph import ANCHOR, RIDGE, Quadratic, normal_equations
+from bayesmap.poses.precision import Precision, relative_covariances
 from bayesmap.poses.se2 import retract
 
 Floats = NDArray[np.float64]
@@ -36,9 +36,9 @@ class PoseGaussian:
     curvature: Floats
 
     @cached_property
-    def solver(self) -> Any:
+    def precision(self) -> Precision:
         """The factorised precision matrix of steps in the poses' own frames, (3 K, 3 K)."""
-        return factorised(normal_equations(len(self.poses), [self._part])[0])
+        return Precision(normal_equations(len(self.poses), [self._part])[0])
 
     @property
     def _part(self) -> Quadratic:
@@ -46,7 +46,7 @@ class PoseGaussian:
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
         """Covariance (scale matrix of Student's t) of between(first, second), in the first's frame, (N, 3, 3)."""
-        return relative_covariances(self.solver, self.poses, np.asarray(first), np.asarray(second))
+        return relative_covariances(self.precision, self.poses, np.asarray(first), np.asarray(second))
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t with 4 degrees of freedom.
@@ -72,5 +72,5 @@ class PoseGaussian:
                 for axis in range(3):
                     own[:, axis] += np.bincount(ends, force[:, axis], poses)
             stretch = np.sqrt(DEGREES_OF_FREEDOM / rng.chisquare(DEGREES_OF_FREEDOM))
-            draws[n] = retract(self.poses, stretch * self.solver.solve(own.ravel()).reshape(poses, 3))
+            draws[n] = retract(self.poses, stretch * self.precision.solve(own.ravel()).reshape(poses, 3))
         return draws

@@ -59,6 +59,7 @@ def rematch(
     half_width_m: float,
     *,
     poor_score: float = 0.0,
+    search: bool = True,
     threads: int | None = None,
 ) -> Rematch:
     """Match every scan to its partners' likelihood grid.
@@ -69,6 +70,7 @@ def rematch(
         pairs: the partners of each scan.
         half_width_m: of the grids.
         poor_score: scans that no pose in the narrow window explains better than this are sought in a wide one.
+        search: look for better poses; otherwise scores at the given ones are all that is found.
         threads: to compute with; by default all cores.
     """
     count = len(poses)
@@ -94,8 +96,10 @@ def rematch(
         points = [geometry.points_of(int(k), POINTS) for k in some]
         here = np.zeros((len(some), 3))
         now = match(grids, points, here, 0.0, 0.0, least=-9.0, threads=threads).scores[:, 0]
+        scores[some] = best_scores[some] = now
+        if not search:
+            continue
         near = match(grids, points, here, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR, threads=threads)
-        scores[some] = now
         found = near.found[:, 0]
         best = np.where(found, near.scores[:, 0], now)
         place = np.where(found[:, None], near.poses[:, 0], 0.0)

@@ -35,6 +35,9 @@ FARTHEST_M = 30.0
 ANGLE_TOLERANCE = 0.003
 """A smaller relative error of the angle between beams is not corrected: over half a circle it turns by 0.3 degrees."""
 
+IMPROVEMENTS = 2
+"""How often scans are matched anew without themselves."""
+
 MATCH_REACH = 0.8
 """Scans are compared if their sensors are no further apart than this share of the grids' half width."""
 
@@ -242,19 +245,31 @@ class _Run:
     def improve(
         self, geometry: ScanGeometry, aligned: Alignment, factors: Factors, reach_m: float, half_width_m: float
     ) -> tuple[Alignment, Floats]:
-        """Match scans anew, each without itself; where that moves some, align again; put back those that got worse."""
-        poor = 0.0
-        scores = np.zeros(len(aligned.poses))
-        for number in range(2):
-            again = rematch(geometry, aligned.poses, aligned.pairs, half_width_m, poor_score=poor, threads=self.threads)
-            self.progress("rematch", number + 1, 2)
-            scores = again.scores
-            poor = 0.6 * float(np.median(again.best_scores))
-            if not again.moved.any():
+        """Match scans anew, each without itself; those that others explain better elsewhere are moved, and all aligned.
+
+        A scan that its new place and the alignment after it explain worse than before is put back, and stays.
+        """
+        count = len(aligned.poses)
+        poor, old, before = 0.0, aligned.poses, np.zeros(count)
+        moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        for number in range(IMPROVEMENTS + 1):
+            again = rematch(
+                geometry, aligned.poses, aligned.pairs, half_width_m, poor_score=poor, search=number < IMPROVEMENTS,
+                threads=self.threads,
+            )  # fmt: skip
+            self.progress("rematch", number + 1, IMPROVEMENTS + 1)
+            back = moved & (again.scores < before)
+            stays |= back
+            moved = again.moved & ~stays
+            before = np.where(back, before, again.scores)
+            if not (moved | back).any():
                 break
-            poses = np.where(again.moved[:, None], again.best_poses, aligned.poses)
+            poor = 0.6 * float(np.median(again.best_scores))
+            poses = np.where(back[:, None], old, aligned.poses)
+            poses = np.where(moved[:, None], again.best_poses, poses)
+            old = aligned.poses
             aligned = self.align("aligned-rematched", geometry, poses, factors, reach_m, 6, wide=False)
-        return aligned, scores
+        return aligned, before
 
 
 def _check(scans: Scans, no_odometry: bool) -> None:

@@ -1,0 +1,68 @@
+"""Entries of the inverse of a sparse symmetric matrix where its factor has entries, without the rest."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.kernel
+def invert_on_pattern(
+    begin: wp.array(dtype=wp.int32),
+    row: wp.array(dtype=wp.int32),
+    lower: wp.array(dtype=wp.float64),
+    pivot: wp.array(dtype=wp.float64),
+    column_sums: wp.array(dtype=wp.float64),
+    inverse: wp.array(dtype=wp.float64),
+):
+    """One thread: columns from the last to the first. Z_rj = -sum_k L_kj Z_rk, and Z_jj = 1 / D_j - sum_k L_kj Z_kj."""
+    columns = begin.shape[0] - 1
+    for back in range(columns):
+        j = columns - 1 - back
+        first = begin[j] + 1
+        last = begin[j + 1]
+        for a in range(first, last):
+            column_sums[a - first] = wp.float64(0.0)
+        for a in range(first, last):
+            p = begin[row[a]]
+            column_sums[a - first] -= lower[a] * inverse[p]
+            for b in range(a + 1, last):
+                # Rows of this column are among those of column row[a]: both are ascending.
+                while row[p] < row[b]:
+                    p += 1
+                column_sums[b - first] -= lower[a] * inverse[p]
+                column_sums[a - first] -= lower[b] * inverse[p]
+        own = wp.float64(1.0) / pivot[j]
+        for a in range(first, last):
+            inverse[a] = column_sums[a - first]
+            own -= lower[a] * inverse[a]
+        inverse[begin[j]] = own
+
+
+def selected_inverse(
+    begin: NDArray[np.int32], row: NDArray[np.int32], lower: NDArray[np.float64], pivot: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Entries of (L D L^T)^-1 where L has entries, in the order of L's.
+
+    Takahashi, Fagan and Chin (1973), "Formation of a sparse bus impedance matrix and its application to short circuit
+    study"; it takes about as many operations as the factorisation.
+
+    Args:
+        begin: column j of L has the entries begin[j] to begin[j + 1], (n + 1,).
+        row: of each entry, ascending in each column, the diagonal first. The pattern must be closed under elimination.
+        lower: L's entries, with a unit diagonal.
+        pivot: D, (n,).
+    """
+    devices.start()
+    inverse = wp.zeros(len(row), dtype=wp.float64, device="cpu")
+    longest = int(np.diff(begin).max(initial=1))
+    inputs: list[Any] = [devices.to_device(begin, wp.int32, "cpu"), devices.to_device(row, wp.int32, "cpu")]
+    inputs += [devices.to_device(lower, wp.float64, "cpu"), devices.to_device(pivot, wp.float64, "cpu")]
+    inputs += [wp.zeros(longest, dtype=wp.float64, device="cpu"), inverse]
+    wp.launch(invert_on_pattern, dim=1, inputs=inputs, device="cpu")
+    return np.asarray(inverse.numpy())
