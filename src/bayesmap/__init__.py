@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from bayesmap.poses.prior import Known as Known
     from bayesmap.poses.prior import Odometry as Odometry
     from bayesmap.poses.prior import Uncertain as Uncertain
+    from bayesmap.posterior.information import Information as Information
+    from bayesmap.posterior.passage import FreeProbability as FreeProbability
+    from bayesmap.posterior.route import Route as Route
     from bayesmap.programs.mapping import mapping_model as mapping_model
     from bayesmap.result import Run as FieldRun  # noqa: F401 -- what runs of two kinds of cells were once called
     from bayesmap.result import Run as Run
@@ -52,15 +55,18 @@ _HOME = {
     "Beta": "bayesmap.cells.reflectivity",
     "BeamMixture": "bayesmap.sensors.mixture",
     "FieldRun": "bayesmap.result",
+    "FreeProbability": "bayesmap.posterior.passage",
     "Gaussian": "bayesmap.sensors.noise",
     "Grid": "bayesmap.space.grid",
     "Independent": "bayesmap.cells.binary",
+    "Information": "bayesmap.posterior.information",
     "KnownMap": "bayesmap.localization.known_map",
     "MapWidget": "bayesmap.app.widget",
     "Near": "bayesmap.localization.localize",
     "OdometryNoise": "bayesmap.sim.odometry",
     "RayExecutor": "bayesmap.run.ray_executor",
     "Reading": "bayesmap.space.scans",
+    "Route": "bayesmap.posterior.route",
     "Run": "bayesmap.result",
     "Scans": "bayesmap.space.scans",
     "SensorModel": "bayesmap.sensors.model",

@@ -7,9 +7,9 @@ normal the residual is the offset itself, in x and y, and weighs less: returns o
 between beams there, and those of two scans are not the same points.
 
 With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives
-of half the cost by z (Gauss and Newton's). ``slack`` is what normals that are known with errors add to H although they
-tell nothing: sum w spread T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's
-angle for points of unit variance. Along a corridor H is slack and nothing else.
+of half the cost by z (Gauss-Newton). ``slack`` is what errors of the normals add to H without information: sum w spread
+T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's angle for points of unit
+variance. Along a corridor H is slack alone.
 """
 
 from typing import Any
@@ -24,7 +24,7 @@ from bayesmap.kernels.parallel import launch
 wp.set_module_options({"enable_backward": False})
 
 MOST_BEAMS = wp.constant(25)  # looked at to either side
-DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, tell no place
+DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, fix no pose
 
 
 @wp.struct
@@ -56,10 +56,7 @@ class Sums:
 
 @wp.func
 def turns_of(x: float, y: float) -> float:
-    """The angle of (x, y) in turns, from -1/2 to 1/2, to a twentieth of a degree: enough to name a beam.
-
-    A polynomial of the smaller by the larger coordinate; several times as fast as atan2, and as often as anything here.
-    """
+    """The angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, several times as fast as atan2."""
     ax = wp.abs(x)
     ay = wp.abs(y)
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
