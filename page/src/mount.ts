@@ -2,10 +2,11 @@
 
 import { DAMAGED, takeFragment, toFragment } from "./fragment";
 import { Editor } from "./input/editor";
-import { Hand } from "./input/hand";
+import { Hand, READING } from "./input/hand";
 import { MapKeys, pageKey } from "./input/keys";
 import { Pointer } from "./input/pointer";
 import { CursorLayer } from "./layers/cursor";
+import { DecisionsLayer } from "./layers/decisions";
 import { FieldLayer } from "./layers/field";
 import { Stack, type Scene } from "./layers/layer";
 import { MarksLayer } from "./layers/marks";
@@ -14,6 +15,7 @@ import { RaysLayer } from "./layers/rays";
 import { GUTTER, Viewport } from "./layers/viewport";
 import { bar } from "./panels/bar";
 import { traceChart, weightChart } from "./panels/chart";
+import { decisionsPanel } from "./panels/decisions";
 import { helpDialog, newDialog, shareDialog } from "./panels/dialogs";
 import { download, h, mark, put } from "./panels/dom";
 import { head } from "./panels/head";
@@ -59,7 +61,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const ui = new Ui(session, hand, editor, command, (layer) => player.showLayer(layer), embedded);
 
   // the map
-  const layers = [new FieldLayer(), new RaysLayer(), new MarksLayer(), new CursorLayer()];
+  const layers = [new FieldLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new CursorLayer()];
   const canvases = layers.map(({ name }) => h("canvas", { className: name }));
   const canvas = canvases[canvases.length - 1]; // on top: it has the focus and the pointer
   Object.assign(canvas, { tabIndex: 0, role: "application" });
@@ -80,7 +82,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const share = shareDialog(ui);
   const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
-  const panels = [posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)), viewPanel(ui, player, shown), scanPanel(ui), sensors, model, inference, clear];
+  const panels = [decisionsPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)), viewPanel(ui, player, shown), scanPanel(ui), sensors, model, inference, clear];
   const panel = h("aside", { "aria-label": "Controls" }, ...panels);
   const isRun = () => session.recorded || session.document?.source.kind === "run";
   ui.visible(sensors, () => session.editable);
@@ -112,6 +114,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
       shape = String(session.shape);
       view.fit(session.shape);
       hand.cursor = hand.hover = null;
+      session.decisions.forget();
       canvas.setAttribute("aria-label", `Map, ${session.shape[0]} by ${session.shape[1]} cells`);
     }
     stack.paint(scene());
@@ -121,7 +124,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     }
     const { x, y } = view.transform;
     onMap.chip.style.transform = `translate(${Math.max(x, GUTTER.left)}px, ${Math.max(y - 28, 6)}px)`;
-    mark(canvas, "data-tool", session.editable ? hand.tool : "pan");
+    mark(canvas, "data-tool", session.editable || READING.has(hand.tool) ? hand.tool : "pan");
     ui.refresh();
   }
   const observer = new ResizeObserver(() => {

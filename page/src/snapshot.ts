@@ -33,6 +33,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     scan: session.scan,
     status: { text: status.text, level: status.level },
     connected: session.connection.connected,
+    decisions: { path: session.decisions.path, views: session.decisions.views, trouble: session.decisions.trouble },
     worker: session.worker,
     running: session.running,
     draws: session.draws,

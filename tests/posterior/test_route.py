@@ -67,6 +67,24 @@ def test_a_route_has_no_more_length_than_the_straight_line_needs_in_an_empty_hal
         assert found.length_m <= np.hypot(*(goal - start)) * 1.001 + 1e-6
 
 
+def test_large_cells_that_are_surely_walls_are_gone_round_and_no_corner_is_cut():
+    """With cells of a metre the straight line and the diagonal past the wall's corner both touch it."""
+    grid = Grid((6, 5), 1.0, (-0.5, -0.5))
+    walls = np.zeros((8, *grid.shape), dtype=np.float32)
+    walls[:, 2, 3:] = 1.0
+    draws = walls.reshape(8, -1)
+
+    def judge(path):
+        cells = cells_about(path, 0.25, grid)
+        return free_probability(in_the_way([draws[:, cells]], cells, grid, path, 0.25), chains=2)
+
+    blocked = blocked_probability([draws], grid, 0.25)
+    found = plan_route(blocked, grid, np.array([1.0, 3.0]), np.array([4.0, 3.0]), 0.05, judge)
+    assert found.free.probability == 1.0
+    assert found.within_risk
+    assert found.length_m == pytest.approx(2 * np.sqrt(2) + 1 + 1, abs=1.01)
+
+
 def test_surfaces_block_where_they_lie():
     """A surface that its cell holds beyond its own square blocks the square that it is in."""
     draws = np.zeros((1, GRID.n_cells, 6), dtype=np.float32)

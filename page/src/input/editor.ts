@@ -38,7 +38,7 @@ export class Editor {
   }
 
   /** Another sensor: at a place in metres, in the free cell nearest to a cell, or in the most open place. */
-  addSensor(where: { world: Point } | { near: Point } | "where there is room") {
+  addSensor(where: { world: Point; yaw?: number } | { near: Point } | "where there is room") {
     const { session } = this;
     const { document } = session;
     if (!document) return;
@@ -51,7 +51,7 @@ export class Editor {
     if (!place) session.say("There is no free cell for a sensor.", "warning");
     else if (document.sensors.length >= LIMITS.sensors) session.say(`There can be ${LIMITS.sensors} sensors at most.`, "warning");
     else if (!this.refuses(place)) {
-      session.act({ type: "sensor", op: "add", x: place.x, y: place.y, yaw: 0 });
+      session.act({ type: "sensor", op: "add", x: place.x, y: place.y, yaw: typeof where === "object" && "world" in where ? (where.yaw ?? 0) : 0 });
       this.hand.selected = Math.max(0, ...document.sensors.map((sensor) => sensor.id)) + 1;
     }
   }

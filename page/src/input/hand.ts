@@ -4,7 +4,9 @@ import { inside } from "../geometry/cells";
 import type { Point, Sensor } from "../protocol";
 import type { Session } from "../state/session";
 
-export type Tool = "draw" | "erase" | "sensor" | "pan";
+export type Tool = "draw" | "erase" | "sensor" | "pan" | "path" | "look";
+/** Tools that change nothing. */
+export const READING = new Set<Tool>(["pan", "path", "look"]);
 const REST_MS = 120;
 
 export class Hand {
@@ -38,6 +40,7 @@ export class Hand {
 
   choose(tool: Tool) {
     this.tool = tool;
+    this.session.decisions.look(tool === "look");
     this.session.changed();
   }
 

@@ -1,17 +1,18 @@
 // The keyboard, on the map and on the whole page.
 
-import { clamp } from "../geometry/cells";
+import { centreOf, clamp } from "../geometry/cells";
 import { GUTTER, type Viewport } from "../layers/viewport";
 import type { Layer, Point } from "../protocol";
 import type { Session } from "../state/session";
 import type { Editor } from "./editor";
-import type { Hand, Tool } from "./hand";
+import { READING, type Hand, type Tool } from "./hand";
 
 /** What keys do, for the help. */
 export const KEYS = [
   ["D, E, S, P", "draw, erase, sensor, pan"],
+  ["G, L", "path, look next"],
   ["arrows", "move the cursor, the sensor or the view; with Shift by five cells"],
-  ["Space", "draw or erase at the cursor; next sensor"],
+  ["Space", "draw or erase at the cursor; next sensor; start or goal of a path"],
   ["[ and ]", "turn the sensor"],
   ["A, Delete", "add, remove a sensor"],
   ["R, Escape", "run, cancel"],
@@ -94,6 +95,11 @@ export class MapKeys {
 
   private space(event: Event) {
     const { session, hand, editor } = this;
+    if (hand.tool === "path" && session.document) {
+      if (!hand.cursor) this.arrow(0, 0);
+      else session.decisions.point(centreOf(hand.cursor, session.document.grid));
+      return;
+    }
     if (!session.editable) return;
     if (hand.tool === "sensor") {
       const sensors = session.document?.sensors ?? [];
@@ -110,7 +116,7 @@ export class MapKeys {
   }
 }
 
-const TOOLS: { [key: string]: Tool } = { d: "draw", e: "erase", s: "sensor", p: "pan" };
+const TOOLS: { [key: string]: Tool } = { d: "draw", e: "erase", s: "sensor", p: "pan", g: "path", l: "look" };
 const LAYERS: { [key: string]: Layer } = { m: "mean", n: "draw", h: "entropy" };
 const COMMANDS: { [key: string]: string } = { "+": "in", "=": "in", "-": "out", "0": "fit", "?": "help" };
 
@@ -130,7 +136,7 @@ export function pageKey(
     return;
   }
   if (typing || event.altKey) return;
-  if (TOOLS[letter] && session.editable) chosen.tool(TOOLS[letter]);
+  if (TOOLS[letter] && (session.editable || (READING.has(TOOLS[letter]) && !session.recorded))) chosen.tool(TOOLS[letter]);
   else if (LAYERS[letter]) chosen.layer(LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });

@@ -6,9 +6,11 @@ import type { Viewport } from "../layers/viewport";
 import type { MapDocument, Point } from "../protocol";
 import type { Session } from "../state/session";
 import type { Editor } from "./editor";
-import type { Hand } from "./hand";
+import { READING, type Hand } from "./hand";
 
 const REACH = { touch: 24, other: 11 };
+/** A hand that moves no further has clicked. */
+const CLICK_PIXELS = 5;
 /** A second finger may follow a first at once, and then the first was no stroke. */
 const SECOND_FINGER_MS = 90;
 
@@ -17,6 +19,7 @@ type Gesture =
   | { kind: "sensor"; id: number; drag: number; grip: Point }
   | { kind: "turn"; id: number; drag: number }
   | { kind: "pan"; last: Point }
+  | { kind: "pick"; first: Point }
   | { kind: "pinch"; middle: Point; spread: number };
 
 export class Pointer {
@@ -76,7 +79,8 @@ export class Pointer {
     this.fingers.set(event.pointerId, point);
     if (this.fingers.size === 2) return this.begin({ kind: "pinch", ...this.spread() });
     if (this.gesture) return;
-    if (event.button === 1 || hand.tool === "pan" || !session.editable) return this.begin({ kind: "pan", last: point });
+    if (event.button === 0 && (hand.tool === "path" || hand.tool === "look")) return this.begin({ kind: "pick", first: point });
+    if (event.button === 1 || READING.has(hand.tool) || !session.editable) return this.begin({ kind: "pan", last: point });
     const grip = this.gripAt(point, event, document);
     if (grip) {
       this.begin(grip);
@@ -149,6 +153,9 @@ export class Pointer {
       if (!sensor || !session.document) return;
       const world = this.metres(point, session.document);
       this.editor.moveSensor(sensor, { yaw: Math.atan2(world.y - sensor.y, world.x - sensor.x) }, gesture.drag, event);
+    } else if (gesture.kind === "pick") {
+      // a hand that moves on has taken hold of the map
+      if (Math.hypot(point.x - gesture.first.x, point.y - gesture.first.y) > CLICK_PIXELS) this.begin({ kind: "pan", last: point });
     } else if (gesture.kind === "pan") {
       view.pan(point.x - gesture.last.x, point.y - gesture.last.y, session.shape);
       gesture.last = point;
@@ -168,12 +175,28 @@ export class Pointer {
     if (event.type === "pointerup" && this.gesture?.kind === "stroke" && this.gesture.onWall) {
       this.editor.setWalls([this.gesture.last], false, this.gesture.id, event);
     }
+    if (event.type === "pointerup" && this.gesture?.kind === "pick") this.pick(this.gesture.first);
     this.fingers.delete(event.pointerId);
     if (this.fingers.size === 0) {
       this.gesture = null;
       this.hand.busy = false;
     }
     if (event.pointerType === "touch") this.hand.point(this.cellAt(this.at(event))); // a finger cannot hover: its last cell stays
+  }
+
+  /** A point of a path, or the place for another sensor. */
+  private pick(point: Point) {
+    const { session, hand, editor } = this;
+    if (!session.document) return;
+    const place = this.metres(point, session.document);
+    if (hand.tool === "path") return session.decisions.point(place);
+    const found = session.decisions.nearest(place);
+    const { views } = session.decisions;
+    if (found === null || !views) return;
+    const [x, y, yaw] = views.pose.subarray(3 * found, 3 * found + 3);
+    const nats = `${views.nats[found].toFixed(1)} nats`;
+    if (session.editable) editor.addSensor({ world: { x, y }, yaw });
+    else session.say(`A scan from ${x.toFixed(2)}, ${y.toFixed(2)} m would tell ${nats}`);
   }
 
   private spread() {

@@ -1,6 +1,7 @@
 // The whole map as a file, at twice the pixels, as it looks now.
 
 import { clamp } from "../geometry/cells";
+import { DecisionsLayer } from "./decisions";
 import { FieldLayer } from "./field";
 import type { Layer, Scene } from "./layer";
 import { MarksLayer } from "./marks";
@@ -22,7 +23,7 @@ export function picture({ session, look }: Scene): Promise<Blob | null> {
   context.scale(RATIO, RATIO);
   context.fillStyle = look.theme.ground;
   context.fillRect(0, 0, view.width, view.height);
-  const layers: Layer[] = [new FieldLayer(), new RaysLayer(), new MarksLayer()];
+  const layers: Layer[] = [new FieldLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer()];
   for (const layer of layers) {
     context.save();
     layer.paint(context, { session, view, look: { ...look, hover: null, cursor: null, selected: null } });

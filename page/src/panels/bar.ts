@@ -1,6 +1,6 @@
 // The tools of the hand, and zoom.
 
-import type { Tool } from "../input/hand";
+import { READING, type Tool } from "../input/hand";
 import { h } from "./dom";
 import type { Ui } from "./ui";
 
@@ -9,6 +9,8 @@ const TOOLS = [
   ["erase", "Erase", "erase"],
   ["sensor", "Sensor", "sensor"],
   ["pan", "Pan", "pan"],
+  ["path", "Path", "path"],
+  ["look", "Look next", "look"],
 ] as const;
 
 export function bar(ui: Ui) {
@@ -16,11 +18,11 @@ export function bar(ui: Ui) {
   const tools = ui.segmented<Tool>(
     "Tool",
     TOOLS,
-    () => (session.editable || !session.document ? hand.tool : "pan"),
+    () => (session.editable || !session.document || READING.has(hand.tool) ? hand.tool : "pan"),
     (tool) => hand.choose(tool),
-    (tool) => session.editable || tool === "pan",
+    (tool) => session.editable || (READING.has(tool) && !session.recorded) || tool === "pan",
   );
-  ui.visible(tools, () => !session.document || session.editable);
+  ui.visible(tools, () => !session.recorded);
   return h(
     "div",
     { className: "bar" },

@@ -4,9 +4,12 @@ import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
 import type { Buffers, Connection, Field, MapDocument, Message, Pair, Scan, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
+import { Decisions } from "./decisions";
 import { Latency } from "./latency";
 import { Progress } from "./progress";
 import { Status, type Level } from "./status";
+
+const QUESTIONS = new Set(["inspect", "path", "views"]);
 
 /** It changes by `receive` and `act`, and calls `changed` after. */
 export class Session {
@@ -30,6 +33,7 @@ export class Session {
   generation = -1;
   /** Number of the last message that changes something. */
   acted = 0;
+  readonly decisions = new Decisions(this);
   readonly status = new Status();
   readonly progress = new Progress();
   readonly latency = new Latency();
@@ -91,7 +95,7 @@ export class Session {
   act(message: Message, event?: Event) {
     if (!this.document && message.type !== "hello") return;
     const sent = { ...message, seq: ++this.seq };
-    if (message.type !== "inspect") this.acted = this.seq; // a question changes nothing, and no state confirms it
+    if (!QUESTIONS.has(message.type)) this.acted = this.seq; // a question changes nothing, and no state confirms it
     if (FORESEEN.has(message.type)) {
       this.pending.push(sent);
       this.foresee(sent);
@@ -134,6 +138,7 @@ export class Session {
   painted() {
     this.counts.paints++;
     if (this.shown) this.latency.painted(this.shown.generation);
+    this.decisions.ask();
   }
 
   /** Seconds until the chain on show is done, or null where nothing can be said. */
@@ -183,6 +188,11 @@ export class Session {
         break;
       case "cell":
         this.cell = { x: message.x, y: message.y, beams: message.beams };
+        break;
+      case "path":
+      case "views":
+      case "undecided":
+        this.decisions.receive(message, buffers);
         break;
       case "status":
         this.status.say(message.text, message.level ?? "info", this.acted);

@@ -23,7 +23,7 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
 from bayesmap.app.starting import starts
 from bayesmap.app.stream import Stream
-from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Report, ShowScan, Task
+from bayesmap.app.tasks import Cancel, Export, FindPath, FindViews, Infer, Inspect, Look, Report, ShowScan, Task
 from bayesmap.app.weighing import Weighing
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
@@ -85,6 +85,8 @@ class Engine:
                 self._rays(self._scene, task.index)
         elif isinstance(task, Inspect):
             self._inspect(task)
+        elif isinstance(task, FindPath | FindViews):
+            self._decide(task)
         elif isinstance(task, Export):
             self._export(task)
 
@@ -278,6 +280,22 @@ class Engine:
             if task.x < table.grid.shape[0] and task.y < table.grid.shape[1]:
                 beams = int(np.count_nonzero(table.cells == task.x * table.grid.shape[1] + task.y))
         self._send(Report({"type": "cell", "x": task.x, "y": task.y, "beams": beams}, {}, task.client))
+
+    def _decide(self, task: FindPath | FindViews) -> None:
+        from bayesmap.app.deciding import path_message, views_message
+
+        buffers: dict[str, NDArray[Any]] = {}
+        try:
+            if self._result is None:
+                raise BadInput("there is nothing to decide by yet")
+            if isinstance(task, FindPath):
+                kind, header = "path", path_message(self._result, task)
+            else:
+                kind, (header, buffers) = "views", views_message(self._result, task)
+        except BadInput as error:
+            self._report("undecided", client=task.client, text=str(error))
+            return
+        self._report(kind, buffers, client=task.client, **header)
 
     def _export(self, task: Export) -> None:
         if self._result is None and self._job is not None:

@@ -169,6 +169,20 @@ def _view(value: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+def _point(name: str, value: object) -> list[float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise Refused(f"{name}: not a pair of metres", "send [x, y]")
+    return [_metres(name, v) for v in value]
+
+
+def _path(value: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        **{name: _point(name, value.get(name)) for name in ("start", "goal")},
+        "radius": number("radius", value.get("radius"), 1e-3, 100.0),
+        "risk": number("risk", value.get("risk"), 1e-6, 1.0 - 1e-6),
+    }
+
+
 FIELDS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "hello": _hello,
     "set": _set,
@@ -187,6 +201,8 @@ FIELDS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "view": _view,
     "scan": lambda value: {"index": _whole("index", value.get("index"))},
     "inspect": lambda value: {name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("x", "y")},
+    "path": _path,
+    "views": lambda value: {},
     "export": lambda value: {"what": _one_of("what", value.get("what"), ("run", "map", "html", "document"))},
 }
 """What a message of each type holds, checked."""

@@ -16,9 +16,10 @@ from bayesmap.app.adopting import adopted
 from bayesmap.app.document import LIMITS, VERSION, Document, Refused
 from bayesmap.app.edits import EDITS, edit, gesture_of, merged
 from bayesmap.app.history import History
-from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Look, Mode, Report, ShowScan, Task
+from bayesmap.app.tasks import Cancel, Export, FindPath, FindViews, Infer, Inspect, Look, Mode, Report, ShowScan, Task
 
 Message = Mapping[str, Any]
+QUESTIONS = ("inspect", "path", "views")
 REPLAYED = ("scan", "field")
 """What a page that connects late is sent again."""
 
@@ -83,8 +84,8 @@ class Session:
             What to do, in order.
         """
         kind = message["type"]
-        if kind == "inspect":
-            return self._inspect(client, message)
+        if kind in QUESTIONS:
+            return self._asked(client, message)
         if self._in_flight and gesture_of(message, client) is not None and kind in EDITS:
             if self._waiting is None:
                 self._waiting = client, message
@@ -211,7 +212,13 @@ class Session:
         header = {"type": "download", "name": "document.json", "mime": "application/json"}
         return [ToPage(header, {"data": data}, client), self._state()]
 
-    def _inspect(self, client: int, message: Message) -> Effects:
+    def _asked(self, client: int, message: Message) -> Effects:
+        """A question: it changes nothing, and no state confirms it."""
+        if message["type"] == "path":
+            start, goal = (tuple(message[name]) for name in ("start", "goal"))
+            return [ToWorker(FindPath(client, start, goal, message["radius"], message["risk"]))]
+        if message["type"] == "views":
+            return [ToWorker(FindViews(client))]
         nx, ny = self.document.grid.shape
         if message["x"] >= nx or message["y"] >= ny:
             return [self._status("inspect: a cell outside the map", "warning", client)]

@@ -28,6 +28,9 @@ DRAW_BYTES = 128 << 20
 LOOKS = 32
 """At which cells some beam says something is counted so often in a run, besides at sweeps 1, 2, 4 and so on."""
 
+RECENT, RECENT_BYTES = 200, 16 << 20
+"""Maps of each chain that are remembered where none are kept, to decide by."""
+
 DIAGNOSIS_SHARE = 0.1
 """Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
 
@@ -71,7 +74,7 @@ class Stream:
             most_kept=max(1, BUFFER_BYTES // max(one, 1)), stops=tuple(sorted(self._look_at)),
         )  # fmt: skip
         self.seconds, self.counted = 0.0, 0
-        self._latest = empty
+        self._latest = self._recent = empty
         self._sums = np.zeros((CHAINS, *model.grid.shape))
         self._rhat = self._ess = math.nan
         self._diagnose_at, self._diagnosed = 0.0, 0
@@ -96,6 +99,7 @@ class Stream:
         latest = replace(self._latest, arrays=info.draws)
         if latest.count:
             self._latest = latest
+            self._recent = _joined(self._recent, latest)
             for chain in range(CHAINS):
                 one = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
                 self._sums[chain] += self.model.cells.mean_map(one) * latest.count
@@ -112,6 +116,11 @@ class Stream:
     def draws(self) -> Draws:
         """The kept draws."""
         return self._record.draws
+
+    @property
+    def recent(self) -> Draws:
+        """The last maps, kept or not: at most `RECENT` of each chain, as far as they fit in `RECENT_BYTES`."""
+        return self._recent
 
     def mean(self) -> NDArray[np.float64]:
         """Mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
@@ -164,3 +173,13 @@ class Stream:
             n_incidences=self.problem.n_incidences,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
         )  # fmt: skip
+
+
+def _joined(before: Draws, after: Draws) -> Draws:
+    """The last draws of both, as many as are to be remembered."""
+    one = sum(a[:, :1].nbytes for a in after.arrays.values())
+    most = min(RECENT, max(1, RECENT_BYTES // max(one, 1)))
+    if before.index.keys() != after.index.keys():
+        before = replace(after, arrays={name: a[:, :0] for name, a in after.arrays.items()})
+    joined = {name: np.concatenate([before.arrays[name], a], axis=1)[:, -most:] for name, a in after.arrays.items()}
+    return replace(after, arrays=joined)

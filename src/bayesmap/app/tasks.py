@@ -72,6 +72,32 @@ class Inspect:
 
 
 @dataclass(frozen=True)
+class FindPath:
+    """A path for a disc between two points.
+
+    Attributes:
+        client: the page.
+        start: metres, world frame.
+        goal: likewise.
+        radius_m: of the disc.
+        risk: the most that the probability of touching something may be.
+    """
+
+    client: int
+    start: tuple[float, float]
+    goal: tuple[float, float]
+    radius_m: float
+    risk: float
+
+
+@dataclass(frozen=True)
+class FindViews:
+    """Where one more scan would tell most."""
+
+    client: int
+
+
+@dataclass(frozen=True)
 class Export:
     """A file of the present result."""
 
@@ -79,7 +105,7 @@ class Export:
     what: str
 
 
-Task = Infer | Cancel | Look | ShowScan | Inspect | Export
+Task = Infer | Cancel | Look | ShowScan | Inspect | FindPath | FindViews | Export
 
 
 @dataclass(frozen=True)
@@ -87,8 +113,8 @@ class Report:
     """An answer of the worker's: a message for the page, or for the session alone.
 
     Attributes:
-        header: the message; of type scan, field, cell, download or status, which the page knows, or ready, finished or
-            failed, which are the session's, or alive, which is the supervisor's.
+        header: the message; of type scan, field, cell, path, views, download or status, which the page knows, or ready,
+            finished or failed, which are the session's, or alive, which is the supervisor's.
         buffers: arrays by name.
         client: who asked, where it is for one page alone.
     """

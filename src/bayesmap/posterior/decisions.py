@@ -72,7 +72,7 @@ def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProb
 
 
 def shortest_safe_path(
-    posterior: Posterior,
+    posterior: Drawn,
     start: ArrayLike,
     goal: ArrayLike,
     radius_m: float,

@@ -26,13 +26,17 @@ PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Metres of detour that a path takes rather than go one metre where the disc is blocked with probability 1 - 1 / e."""
 
 STEPS = {
-    (1, 0): (), (0, 1): (), (1, 1): (), (1, -1): (),
-    (2, 1): ((1, 0), (1, 1)), (1, 2): ((0, 1), (1, 1)), (2, -1): ((1, 0), (1, -1)), (1, -2): ((0, -1), (1, -1)),
+    (1, 0): (), (0, 1): (), (1, 1): ((1, 0), (0, 1)), (1, -1): ((1, 0), (0, -1)),
+    (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
+    (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
 }  # fmt: skip
-"""To the cells that an edge of the graph leads to, and back, sixteen directions; and the cells that it crosses."""
+"""To the cells that an edge of the graph leads to, and back, sixteen directions; and the cells that it crosses, or comes
+close to a corner of."""
 
 SURE = 1.0 - 1e-6
 """Cells in which the disc is blocked with more than this probability are no part of the graph."""
+
+MOST_DANGER = -math.log1p(-SURE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,11 +128,14 @@ def plan_route(
                 "plan: no path leads from start to goal: the disc is blocked on all ways in nearly every draw; try a "
                 "smaller radius"
             )
-        path = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
-        path = _straightened(path, danger, grid, price)
-        free = judge(path)
-        length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
-        routes.append(Route(path, length_m, free, 1.0 - free.probability <= risk))
+        whole = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
+        # What blocks the disc between the centres of two cells is known to neither: a straight line may be the riskier.
+        for path in (_straightened(whole, danger, grid, price), whole):
+            free = judge(path)
+            length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
+            routes.append(Route(path, length_m, free, 1.0 - free.probability <= risk))
+            if routes[-1].within_risk:
+                break
         if routes[-1].within_risk:
             break
     fit = [route for route in routes if route.within_risk]
@@ -157,7 +164,7 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
     nx, ny = shape
     x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
     flat = danger.ravel()
-    passable = flat < -math.log1p(-SURE)
+    passable = flat < MOST_DANGER
     rows, columns, costs = [], [], []
     for (dx, dy), crossed in STEPS.items():
         here = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
@@ -193,12 +200,15 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
 
 
 def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
-    """Length plus price along a polyline, sampled every half cell."""
+    """Length plus price along a polyline, sampled every quarter cell; infinite through cells that are no part of the
+    graph.
+    """
     total = 0.0
     for start, end in itertools.pairwise(path):
         length = float(np.hypot(*(end - start)))
-        n = max(2, int(np.ceil(2 * length / grid.resolution)) + 1)
+        n = max(2, int(np.ceil(4 * length / grid.resolution)) + 1)
         points = start + np.linspace(0, 1, n)[:, None] * (end - start)
         cell = np.clip(np.floor(grid.to_cells(points)).astype(int), 0, np.array(grid.shape) - 1)
-        total += length * (1.0 + price * float(danger[cell[:, 0], cell[:, 1]].mean()))
+        near = danger[cell[:, 0], cell[:, 1]]
+        total += length * (1.0 + price * float(near.mean())) if near.max() < MOST_DANGER else math.inf
     return total

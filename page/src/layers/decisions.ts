@@ -1,0 +1,77 @@
+// The path that was found, with all that the robot sweeps, and how much is to be learnt from where.
+
+import { entropyRgb } from "../colour";
+import { clamp, toCells } from "../geometry/cells";
+import type { Point } from "../protocol";
+import { clipToMap, type Layer, type Scene } from "./layer";
+
+const LARGEST_DOT = 9;
+const SMALLEST_DOT = 2.5;
+
+export class DecisionsLayer implements Layer {
+  readonly name = "decisions";
+
+  depends({ session }: Scene) {
+    return [session.decisions.version, session.document?.grid.resolution];
+  }
+
+  paint(context: CanvasRenderingContext2D, scene: Scene) {
+    const { session } = scene;
+    if (!session.document) return;
+    clipToMap(context, scene);
+    if (session.decisions.looking) this.views(context, scene);
+    this.path(context, scene);
+  }
+
+  private views(context: CanvasRenderingContext2D, { session, view, look }: Scene) {
+    const { views } = session.decisions;
+    const grid = session.document?.grid;
+    if (!views?.nats.length || !grid) return;
+    const [low, high] = [Math.min(...views.nats), Math.max(...views.nats)];
+    const radius = clamp((0.38 * views.spacing * view.transform.scale) / grid.resolution, SMALLEST_DOT, LARGEST_DOT);
+    const best = views.nats.indexOf(high);
+    for (let i = 0; i < views.nats.length; i++) {
+      const place = view.fromGrid(toCells({ x: views.pose[3 * i], y: views.pose[3 * i + 1] }, grid), grid.shape[1]);
+      context.beginPath();
+      context.arc(place.x, place.y, radius, 0, 2 * Math.PI);
+      context.fillStyle = `rgb(${entropyRgb(clamp((views.nats[i] - low) / Math.max(high - low, 1e-9), 0, 1)).map(Math.round)})`;
+      context.fill();
+      if (i !== best) continue;
+      context.lineWidth = 2.5;
+      context.strokeStyle = look.theme.truth;
+      context.stroke();
+    }
+  }
+
+  private path(context: CanvasRenderingContext2D, { session, view, look }: Scene) {
+    const { start, goal, path, radius } = session.decisions;
+    const grid = session.document?.grid;
+    if (!grid || !start) return;
+    const at = (place: Point) => view.fromGrid(toCells(place, grid), grid.shape[1]);
+    if (path) {
+      context.beginPath();
+      for (const [x, y] of path.path) {
+        const place = at({ x, y });
+        context.lineTo(place.x, place.y);
+      }
+      context.lineJoin = context.lineCap = "round";
+      context.strokeStyle = path.within_risk ? look.theme.sensor : look.theme.truth;
+      context.globalAlpha = 0.3;
+      context.lineWidth = (2 * radius * view.transform.scale) / grid.resolution;
+      context.stroke();
+      context.globalAlpha = 1;
+      context.lineWidth = 2;
+      context.stroke();
+    }
+    for (const place of goal ? [start, goal] : [start]) {
+      const { x, y } = at(place);
+      context.beginPath();
+      context.arc(x, y, 5, 0, 2 * Math.PI);
+      context.fillStyle = place === start ? look.theme.sensor : look.theme.truth;
+      context.fill();
+      context.lineWidth = 2;
+      context.strokeStyle = look.theme.halo;
+      context.stroke();
+    }
+  }
+}

@@ -1,0 +1,108 @@
+// What is asked of the posterior, and its answers: a path between two points, and where to look next.
+
+import type { Buffers, Message, Pair, Point } from "../protocol";
+import type { Session } from "./session";
+
+/** A path for a disc, and how probable it is that it touches nothing. */
+export type Path = {
+  path: Pair[];
+  length_m: number;
+  radius: number;
+  within_risk: boolean;
+  probability: number;
+  standard_error: number;
+  independent: number;
+  draws: number;
+};
+/** Poses (n, 3) and the nats that one more scan from each is expected to tell. */
+export type Views = { pose: Float32Array; nats: Float32Array; spacing: number };
+
+export class Decisions {
+  start: Point | null = null;
+  goal: Point | null = null;
+  radius = 0.25;
+  risk = 0.01;
+  path: Path | null = null;
+  views: Views | null = null;
+  /** Why there is no answer. */
+  trouble = "";
+  /** Counts what there is to paint anew. */
+  version = 0;
+  /** Whether the map of where to look next is wanted. */
+  looking = false;
+  private askedPath = "";
+  private askedViews = "";
+
+  constructor(private readonly session: Session) {}
+
+  /** The first point of a path, then the second, then the first of another. */
+  point(place: Point) {
+    if (this.start && !this.goal) this.goal = place;
+    else [this.start, this.goal] = [place, null];
+    this.path = null;
+    this.trouble = "";
+    this.version++;
+    this.ask();
+    this.session.changed();
+  }
+
+  set(change: { radius?: number; risk?: number }) {
+    Object.assign(this, change);
+    this.ask();
+  }
+
+  look(on: boolean) {
+    if (this.looking === on) return;
+    this.looking = on;
+    this.trouble = "";
+    if (!on) [this.views, this.askedViews] = [null, ""];
+    this.version++;
+    this.ask();
+    this.session.changed();
+  }
+
+  forget() {
+    this.start = this.goal = this.path = this.views = null;
+    this.askedPath = this.askedViews = "";
+    this.version++;
+  }
+
+  /** Asks where the question or the picture is another than at the last time: once while chains run, and at their end. */
+  ask() {
+    const { session, start, goal, radius, risk } = this;
+    const { shown } = session;
+    if (!shown || shown.generation !== session.generation || session.recorded) return;
+    const picture = `${shown.generation} ${session.sampling}`;
+    const question = `${picture} ${JSON.stringify([start, goal, radius, risk])}`;
+    if (start && goal && !shown.approximate && question !== this.askedPath) {
+      this.askedPath = question;
+      session.act({ type: "path", start: [start.x, start.y], goal: [goal.x, goal.y], radius, risk });
+    }
+    if (this.looking && (!shown.approximate || session.document?.method === "propagate") && picture !== this.askedViews) {
+      this.askedViews = picture;
+      session.act({ type: "views" });
+    }
+  }
+
+  receive(message: Message, buffers: Buffers) {
+    this.trouble = message.type === "undecided" ? message.text : "";
+    if (message.type === "path") this.path = message as unknown as Path;
+    if (message.type === "views" && this.looking) {
+      this.views = { pose: buffers.pose as Float32Array, nats: buffers.nats as Float32Array, spacing: message.spacing };
+    }
+    if (message.type === "undecided") this.path = null;
+    this.version++;
+  }
+
+  /** Number of the view that is nearest to a place, or null. */
+  nearest(place: Point): number | null {
+    const { views } = this;
+    if (!views?.nats.length) return null;
+    let [best, least] = [0, Infinity];
+    for (let i = 0; i < views.nats.length; i++) {
+      const away = Math.hypot(views.pose[3 * i] - place.x, views.pose[3 * i + 1] - place.y);
+      if (away < least) [best, least] = [i, away];
+    }
+    return best;
+  }
+}

@@ -1,0 +1,114 @@
+"""Decisions on the page: a path between two points, and a map of where to look next."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.document import Document
+from bayesmap.app.result import Result
+from bayesmap.app.tasks import FindPath, FindViews
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
+from bayesmap.errors import BadInput
+from bayesmap.posterior.decisions import shortest_safe_path, typical_sigma_m
+from bayesmap.posterior.information import beam_information
+
+MOST_VIEWS = 400
+"""Places of the map of where to look next."""
+
+PASSABLE = 0.3
+"""A sensor may stand where beams are stopped with no more than this probability."""
+
+HEADINGS = 8
+MOST_ANGLES = 180
+"""Beams by which a view is judged; of more, every so many-th, and each counts for those left out."""
+
+
+@dataclass(frozen=True)
+class Maps:
+    """The draws of a result and the prior that knows what they mean, as `bayesmap.posterior.decisions` wants them."""
+
+    prior: CellPrior
+    draws: Draws
+
+
+def maps_of(result: Result) -> Maps:
+    """The kept draws, or the latest of chains that keep none.
+
+    Raises:
+        BadInput: a method without draws.
+    """
+    if result.run is not None and result.run.n_draws:
+        return Maps(result.run.posterior.prior, result.run.posterior.draws)
+    if result.stream is not None:
+        draws = result.stream.draws if result.stream.draws.count else result.stream.recent
+        if draws.count:
+            return Maps(result.stream.model.cells, draws)
+    raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
+
+
+def path_message(result: Result, task: FindPath) -> dict[str, Any]:
+    """The message `path`: the shortest path that is safe enough, and the probability that it is free.
+
+    Raises:
+        BadInput: no draws, or no path.
+    """
+    route = shortest_safe_path(maps_of(result), task.start, task.goal, task.radius_m, task.risk)
+    return {
+        "path": route.path.tolist(),
+        "length_m": route.length_m,
+        "radius": task.radius_m,
+        "within_risk": route.within_risk,
+        "probability": route.free.probability,
+        "standard_error": route.free.standard_error,
+        "independent": route.free.independent,
+        "draws": int(route.free.blocked.size),
+    }
+
+
+def views_message(result: Result, task: FindViews) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Header and buffers of the message `views`: poses on a lattice of free places, and the nats expected from each.
+
+    By the formula for independent cells and beams (`bayesmap.posterior.information.beam_information`).
+
+    Raises:
+        BadInput: no place at which a sensor could stand.
+    """
+    document, mean = result.document, result.mean()
+    poses, spacing_m = _lattice(document, mean, result.observed())
+    scans = result.scene.scans
+    every = -(-len(scans.angles_rad) // MOST_ANGLES)
+    angles = scans.angles_rad[::every]
+    full = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles) > 6.1
+    turns = np.zeros(1) if full else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
+    many = np.repeat(poses, len(turns), axis=0)
+    many[:, 2] += np.tile(turns, len(poses))
+    nats = every * beam_information(
+        mean, document.grid, many, angles,
+        max_range_m=scans.max_range_m, sigma_m=typical_sigma_m(result.scene.sensor, scans.max_range_m),
+    ).reshape(len(poses), -1)  # fmt: skip
+    best = nats.argmax(axis=1)
+    poses[:, 2] = turns[best]
+    numbers = {"pose": poses.astype(np.float32), "nats": nats.max(axis=1).astype(np.float32)}
+    return {"spacing": spacing_m}, numbers
+
+
+def _lattice(
+    document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], float]:
+    """Poses at the middles of free cells, at most `MOST_VIEWS`, (P, 3), and how far they are apart, metres."""
+    grid = document.grid
+    free = observed & (mean < PASSABLE)
+    if not free.any():
+        raise BadInput("nothing is known to be free yet: there is no place to look from")
+    stride = 1
+    while free[stride // 2 :: stride, stride // 2 :: stride].sum() > MOST_VIEWS:
+        stride += 1
+    cells = np.argwhere(free[stride // 2 :: stride, stride // 2 :: stride]) * stride + stride // 2
+    places = (cells + 0.5) * grid.resolution + np.array(grid.origin)
+    return np.column_stack([places, np.zeros(len(places))]), stride * grid.resolution

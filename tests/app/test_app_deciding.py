@@ -1,0 +1,119 @@
+"""Paths and views from the worker."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from acted_engine import Heard
+from acted_session import Acted
+
+from bayesmap.app.document import Refused, WallMap
+from bayesmap.app.messages import check
+from bayesmap.app.opened import opened_run
+from bayesmap.app.tasks import FindPath, FindViews
+from bayesmap.app.worlds import tutorial_document
+from bayesmap.posterior.decisions import path_is_free
+
+DOCUMENT = replace(tutorial_document(), sweeps=300)
+PATH = FindPath(7, (6.0, 15.0), (10.0, 14.0), 0.4, 0.05)
+
+
+def answered(heard, task):
+    (report,) = heard.ask(task)
+    assert report.client == 7
+    return report.header, report.buffers
+
+
+@pytest.mark.parametrize("mode", ["live", "run"])
+def test_a_path_s_probability_is_that_of_the_draws(mode):
+    heard = Heard()
+    heard.infer(DOCUMENT, mode)
+    header, _ = answered(heard, PATH)
+    assert header["type"] == "path"
+    assert header["generation"] == heard.generation
+    stream = heard.engine._result.stream
+    draws = stream.draws if mode == "run" else stream.recent
+
+    class Maps:
+        prior = stream.model.cells
+
+    Maps.draws = draws
+    free = path_is_free(Maps(), header["path"], 0.4)
+    assert header["probability"] == free.probability
+    assert header["within_risk"] == (1 - free.probability <= 0.05)
+    assert header["path"][0] == [6.0, 15.0]
+    assert header["path"][-1] == [10.0, 14.0]
+
+
+def test_a_path_needs_draws():
+    heard = Heard()
+    heard.infer(replace(DOCUMENT, method="propagate"), "preview")
+    header, _ = answered(heard, PATH)
+    assert header["type"] == "undecided"
+    assert "draws" in header["text"]
+
+
+def test_where_no_way_leads_that_is_said():
+    heard = Heard()
+    heard.infer(DOCUMENT, "run")
+    header, _ = answered(heard, replace(PATH, goal=(900.0, 3.0)))
+    assert header["type"] == "undecided"
+    assert "outside" in header["text"]
+
+
+def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
+    heard = Heard()
+    _, field = heard.infer(DOCUMENT, "live")
+    header, buffers = answered(heard, FindViews(7))
+    assert header["type"] == "views"
+    assert header["spacing"] == 1.0
+    pose, nats = buffers["pose"], buffers["nats"]
+    assert pose.shape == (len(nats), 3)
+    cells = np.floor(pose[:, :2] + 0.5).astype(int)
+    assert (field["p"].reshape(21, 21)[tuple(cells.T)] < 0.31 * 255).all()
+    assert (nats > 0).all()
+    own = np.hypot(*(pose[:, :2] - [6.0, 15.0]).T).argmin()
+    assert nats[own] < 0.7 * nats.max()  # looking again from the same place tells less
+
+
+def test_a_large_map_has_no_more_places_than_can_be_told_apart():
+    heard = Heard()
+    walls = np.zeros((120, 80), dtype=bool)
+    grid = replace(DOCUMENT.grid, shape=(120, 80))
+    document = replace(DOCUMENT, grid=grid, walls=WallMap(walls), max_range=60.0, sweeps=5)
+    heard.infer(document, "live")
+    _, buffers = answered(heard, FindViews(7))
+    assert 0 < len(buffers["nats"]) <= 400
+
+
+def test_a_saved_run_is_decided_by_too():
+    heard = Heard()
+    heard.infer(DOCUMENT, "run")
+    from bayesmap.app.exports import as_run
+
+    opened = opened_run(as_run(heard.engine._result), "run.nc")
+    shown = Heard(opened)
+    shown.infer(opened.document)
+    header, _ = answered(shown, PATH)
+    assert header["type"] == "path"
+    views, _ = answered(shown, FindViews(7))
+    assert views["type"] == "views"
+
+
+def test_questions_change_nothing():
+    acted = Acted()
+    before = acted.session.generation
+    acted.act("path", start=[0, 0], goal=[1.5, 2], radius=0.2, risk=0.1)
+    acted.act("views")
+    assert acted.session.generation == before
+    assert acted.tasks[-2:] == [FindPath(1, (0.0, 0.0), (1.5, 2.0), 0.2, 0.1), FindViews(1)]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"start": [0]}, {"goal": "here"}, {"goal": [0, float("inf")]}, {"radius": 0}, {"risk": 1}, {"risk": None}],
+)
+def test_a_question_that_is_none_is_refused(change):
+    message = {"type": "path", "start": [0, 0], "goal": [1, 2], "radius": 0.2, "risk": 0.1, **change}
+    with pytest.raises(Refused):
+        check(message)

@@ -1,0 +1,103 @@
+"""Decisions on the page: two clicks give a path and its probability; a click on the map of views places a sensor."""
+
+import re
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from page_driver import act, centre, document, press_and_drag, served, settled, snapshot, until
+
+import bayesmap as bm
+
+VIEWS = "() => { const v = bayesmap.snapshot().decisions.views; return {pose: [...v.pose], nats: [...v.nats]}; }"
+
+
+def click(page, x, y):
+    page.mouse.click(*centre(page, x, y))
+
+
+def found_path(page):
+    until(page, "s.decisions.path || s.decisions.trouble")
+    return snapshot(page)["decisions"]["path"]
+
+
+def test_two_clicks_give_a_path_and_its_probability(page):
+    settled(page)
+    page.get_by_role("radio", name="Path").check(force=True)
+    said = page.locator(".said")
+    playwright.expect(said).to_contain_text("Click where the robot is")
+    click(page, 6, 15)
+    playwright.expect(said).to_contain_text("where it is to go")
+    click(page, 10, 14)
+    path = found_path(page)
+    assert path["path"][0] == pytest.approx([6, 15], abs=0.5)
+    assert path["path"][-1] == pytest.approx([10, 14], abs=0.5)
+    assert 0 <= path["probability"] <= 1
+    assert re.search(rf"free with probability {path['probability']:.3f}", said.inner_text())
+    assert "Independent cells" in said.inner_text()
+    before = snapshot(page)["layers"]["decisions"]
+    click(page, 3, 3)  # the start of another
+    until(page, "!s.decisions.path")
+    assert snapshot(page)["layers"]["decisions"] > before
+
+
+def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
+    page = open_page(server, document(noise=0.1, prior=0.1))
+    settled(page)
+    page.get_by_role("radio", name="Path").check(force=True)
+    click(page, 6, 15)
+    click(page, 10, 14)
+    until(page, "s.decisions.path")
+    first = snapshot(page)["generation"]
+    page.get_by_role("radio", name="Draw", exact=True).check(force=True)
+    act(page, lambda: press_and_drag(page, [(8, 13), (8, 17)], steps=4))
+    settled(page)
+    until(page, "s.decisions.path?.generation > argument || s.decisions.trouble", first)
+
+
+def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
+    """Look, infer, choose the next view, look again: the map is known better, and less is left to learn there."""
+    page.get_by_role("radio", name="Look next").check(force=True)
+    settled(page)
+    until(page, "s.decisions.views && s.decisions.views.nats.length > 5")
+    views = page.evaluate(
+        "() => { const v = bayesmap.snapshot().decisions.views; return {pose: [...v.pose], nats: [...v.nats]}; }"
+    )
+    pose, nats = np.reshape(views["pose"], (-1, 3)), np.array(views["nats"])
+    best = int(nats.argmax())
+    before = snapshot(page)
+    playwright.expect(page.locator(".said")).to_contain_text(f"{nats.max():.1f} nats")
+    walls = before["walls"]
+    open_best = next(i for i in np.argsort(-nats) if not walls[tuple(np.round(pose[i, :2]).astype(int))])
+    act(page, lambda: click(page, *np.round(pose[open_best, :2]).astype(int).tolist()))
+    after = settled(page)
+    assert len(after["sensors"]) == len(before["sensors"]) + 1
+    new = after["sensors"][-1]
+    assert [new["x"], new["y"]] == pytest.approx(pose[open_best, :2].tolist(), abs=1e-3)
+    assert after["observed"].sum() > before["observed"].sum()
+    until(page, "s.decisions.views && Math.max(...s.decisions.views.nats) !== argument", float(nats[best]))
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_saved_run_of_surfaces_has_paths_and_views(open_page, tmp_path, scheme):
+    grid = bm.Grid((40, 30), 0.2)
+    walls = np.zeros(grid.shape, dtype=bool)
+    walls[[0, -1]] = walls[:, [0, -1]] = True
+    walls[20, :18] = True
+    poses = np.column_stack([np.linspace(1, 3, 8), np.linspace(2, 4.5, 8), np.linspace(0, 1, 8)])
+    sensor = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.01, p_no_return=0.01)
+    angles = np.linspace(-np.pi, np.pi, 120, endpoint=False)
+    scans = bm.simulate(walls, grid, poses, angles, sensor=sensor, max_range_m=12.0, seed=1)
+    bm.infer(scans, grid, prior=bm.Surface(), sensor=sensor, chains=2, warmup=10, draws=20).save(tmp_path / "run.nc")
+    with served(tmp_path / "run.nc") as (address, _):
+        page = open_page(address, color_scheme=scheme)
+        page.get_by_role("radio", name="Path").check(force=True)
+        click(page, 7, 12)
+        click(page, 12, 22)
+        assert found_path(page)["draws"] == 40
+        page.get_by_role("radio", name="Look next").check(force=True)
+        until(page, "s.decisions.views")
+        click(page, 12, 20)
+        playwright.expect(page.get_by_role("status").first).to_be_visible()
+        page.get_by_text("would tell").first.wait_for()
+        assert len(snapshot(page)["sensors"]) == 0
