@@ -95,6 +95,8 @@ def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeyp
     if chains > 1:
         assert found.rhat_max == pytest.approx(np.nanmax(rhats), rel=1e-9)
     assert found.ess_min == pytest.approx(np.nanmin(sizes), rel=1e-9)
+    assert found.low == (np.array(sizes) < diagnostics.ESS_LIMIT).sum()
+    assert found.judged == len(sizes) + found.disagreeing
     constant = ~within
     same = (flat == flat[:1, :1]).all(axis=(0, 1))
     assert found.unchanged == same.sum() >= 2

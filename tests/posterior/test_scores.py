@@ -112,15 +112,25 @@ def test_the_summary_is_json_and_names_problems(run):
     assert summary.unchanged_cells == (run.draws == run.draws[:1, :1]).all(axis=(0, 1)).sum()
     bad = dataclasses.replace(
         summary, rhat_log_joint=1.2, rhat_max=1.3, ess_min=12.0, disagreeing_cells=3, finished=False,
-        effective_sample_size=5.0,
+        effective_sample_size=5.0, rhat_high_cells=30, ess_low_cells=20, judged_cells=100,
     )  # fmt: skip
     problems = " / ".join(bad.problems())
-    for words in ("stopped before", "log joint is 1.200", "is 1.300", "3 cells", "is 12", "size of 5.0"):
+    for words in (
+        "stopped before",
+        "log joint is 1.200",
+        "30 cells is over",
+        "is 1.300",
+        "3 cells",
+        "20 cells is under",
+        "is 12",
+        "of 5.0",
+    ):
         assert words in problems
     good = dataclasses.replace(
-        summary, rhat_log_joint=1.0, rhat_log_likelihood=1.0, rhat_max=1.0, ess_min=500.0, disagreeing_cells=0
-    )
-    assert good.problems() == []
+        summary, rhat_log_joint=1.0, rhat_log_likelihood=1.0, rhat_max=1.1, ess_min=50.0, disagreeing_cells=0,
+        rhat_high_cells=1, ess_low_cells=1, judged_cells=100,
+    )  # fmt: skip
+    assert good.problems() == []  # one cell in a hundred, by chance
 
 
 @pytest.mark.parametrize("method", ["exact", "importance", "propagate"])

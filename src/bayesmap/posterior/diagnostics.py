@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 CELLS_AT_ONCE = 4096
 RHAT_LIMIT = 1.05
 """Above this, chains have not mixed."""
+ESS_LIMIT = 100.0
+"""Under this, means and intervals are too noisy."""
 
 
 def split_chains(values: Floats) -> Floats:
@@ -116,6 +118,8 @@ class CellDiagnostics:
             a cell's state is a number, which no two draws share.
         disagreeing: cells constant in each chain, but not the same in all: chains that never met.
         high: cells with an R-hat over `RHAT_LIMIT`, those that disagree included.
+        low: cells with an effective sample size under `ESS_LIMIT`.
+        judged: cells of which both are known, and those that disagree.
     """
 
     rhat_max: float
@@ -123,6 +127,8 @@ class CellDiagnostics:
     unchanged: int | None
     disagreeing: int | None
     high: int
+    low: int
+    judged: int
 
 
 def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> CellDiagnostics:
@@ -136,15 +142,17 @@ def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> 
     if constant is not None and agreed is not None:
         disagreeing = int((constant & ~agreed & among.ravel()).sum())
         changed, unchanged = np.flatnonzero(among.ravel() & ~constant), int(agreed.sum())
-    worst, least, high = float("nan"), float("nan"), disagreeing
+    worst, least, high, low, judged = float("nan"), float("nan"), disagreeing, 0, disagreeing
     if draws.count >= 4:
         for i in range(0, len(changed), CELLS_AT_ONCE):
             halves = split_chains(prior.traces(draws, changed[i : i + CELLS_AT_ONCE]).astype(np.float64))
             varied = np.ptp(halves.reshape(-1, halves.shape[-1]), axis=0) > 0
             if not varied.any():
                 continue
-            rhats = plain_rhat(halves[..., varied])
+            rhats, sizes = plain_rhat(halves[..., varied]), plain_ess(halves[..., varied])
             high += int((rhats > RHAT_LIMIT).sum())
+            low += int((sizes < ESS_LIMIT).sum())
+            judged += int(varied.sum())
             worst = float(np.fmax(worst, np.fmax.reduce(rhats)))
-            least = float(np.fmin(least, np.fmin.reduce(plain_ess(halves[..., varied]))))
-    return CellDiagnostics(worst, least, unchanged, None if unchanged is None else disagreeing, high)
+            least = float(np.fmin(least, np.fmin.reduce(sizes)))
+    return CellDiagnostics(worst, least, unchanged, None if unchanged is None else disagreeing, high, low, judged)
