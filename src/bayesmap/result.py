@@ -55,9 +55,11 @@ class Run(Deciding):
 
     @property
     def occupancy(self) -> Floats:
-        """Posterior mean of the probability that a cell stops a beam, (nx, ny): of a wall, or of the reflectivity.
+        """Posterior mean of the probability that a cell stops a beam, (nx, ny).
 
-        Reflectivities are the mean of what the draws expect: the mean of ``draws`` has the same limit and more noise.
+        Of binary walls it is the probability of a wall; with surfaces that a beam which comes to the cell's square is
+        stopped inside it, whichever cell the surface belongs to (docs/surfaces.md). But for walls it is the mean of
+        what the draws expect: the mean of ``draws`` has the same limit and more noise.
         """
         return self.posterior.occupancy
 
@@ -75,7 +77,8 @@ class Run(Deciding):
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """All kept maps, (chain, draw, nx, ny): walls, or reflectivities with the prior's mean where no beam comes.
+        """All kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam, with the prior's mean where no beam
+        comes.
 
         Made on first use: a byte or four for each cell of each draw.
         """
@@ -94,8 +97,8 @@ class Run(Deciding):
         return self.posterior.draws.count
 
     def map_of(self, chain: int, draw: int) -> NDArray[Any]:
-        """One draw, (nx, ny): walls or reflectivities; chain and draw are counted from 0, negative ones from the
-        end.
+        """One draw, (nx, ny): walls, or chances to stop a beam; chain and draw are counted from 0, negative ones from
+        the end.
         """
         return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
 
@@ -123,7 +126,7 @@ class Run(Deciding):
         return summarise_poses(self.poses)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
-        """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each.
+        """Central credible interval of each cell's chance to stop a beam: lower and upper end, (nx, ny) each.
 
         Raises:
             BadInput: a level outside (0, 1), a run that was stopped before its first draw, or binary walls, which have

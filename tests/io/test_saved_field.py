@@ -50,7 +50,8 @@ def test_it_opens_as_plain_netcdf(kind, tmp_path):
     with netCDF4.Dataset(tmp_path / "run.nc") as file:
         draws = file["posterior"]
         x, y = draws["cell_x"][:], draws["cell_y"][:]
-        np.testing.assert_array_equal(draws["reflectivity"][:], run.draws[:, :, x, y])
+        shown = "stop_chance" if kind == "surfaces" else "reflectivity"
+        np.testing.assert_array_equal(draws[shown][:], run.draws[:, :, x, y])
         np.testing.assert_array_equal(draws["expected"][:], run.posterior.draws.values("expected").astype(np.float32))
         np.testing.assert_allclose(file["sample_stats"]["lp"][:], run.log_joint)
         np.testing.assert_array_equal(file["constant_data"]["occupancy"][:], run.occupancy)
@@ -74,6 +75,7 @@ def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
     ("group", "name"),
     [
         ("posterior", "reflectivity"), ("posterior", "expected"), ("posterior", "surface_mean_x"),
+        ("posterior", "stop_chance"),
         ("sample_stats", "log_likelihood"), ("chain_state", "state"), ("chain_state", "informed"),
         ("chain_state", "counts"), ("posterior", "cell_x"), ("constant_data", "occupancy"),
         ("observed_data", "range_m"),

@@ -118,8 +118,11 @@ def log_likelihoods(paths, states, sensor, plain, beta=1.0):
     return np.log(joint(paths, states, sensor, plain, beta).sum(axis=-1))
 
 
-def draw_states(rng, prior, centres, count=()):
-    """States from the prior, (*count, T, 6); ``centres`` (T, 2) in metres, and the edge of a cell."""
+def draw_states(rng, prior, centres, count=(), *, anywhere=False):
+    """States from the prior, (*count, T, 6); ``centres`` (T, 2) in metres, and the edge of a cell.
+
+    With ``anywhere`` means may lie outside their cells: a wrong prior.
+    """
     centres, edge = centres
     shape = (*count, len(centres))
     states = np.zeros((*shape, 6))
@@ -128,7 +131,10 @@ def draw_states(rng, prior, centres, count=()):
         size = int(np.prod(shape))
         sigma = draw_covariances(rng, prior, size) * edge**2
         factor = np.linalg.cholesky(np.reshape(sigma, (*shape, 2, 2)))
-        states[..., 1:3] = centres + prior.wander * edge * rng.standard_normal((*shape, 2))
+        away = prior.wander * rng.standard_normal((*shape, 2))
+        while not anywhere and (outside := abs(away) > 0.5).any():  # a mean lies in its own cell
+            away[outside] = prior.wander * rng.standard_normal(outside.sum())
+        states[..., 1:3] = centres + edge * away
         states[..., 3], states[..., 4], states[..., 5] = factor[..., 0, 0], factor[..., 1, 0], factor[..., 1, 1]
     return states
 
@@ -146,7 +152,7 @@ def draw_covariances(rng, prior, count):
 
 def log_prior(prior, states, centres):
     """Log density of (logit m, mean, log l11, l21, log l22) of every cell, (..., T); normalised but for the factor
-    that thins out large surfaces.
+    that thins out large surfaces, and for the mean's being inside its cell.
     """
     centres, edge = centres
     m = states[..., 0]
@@ -160,7 +166,8 @@ def log_prior(prior, states, centres):
         jacobian = np.log(4) + 3 * np.log(states[..., 3]) + 2 * np.log(states[..., 5])
         of_mean = stats.norm.logpdf(states[..., 1:3], centres, prior.wander * edge).sum(axis=-1)
         thinned = -np.trace(sigma, axis1=1, axis2=2).reshape(m.shape) / (2 * (prior.extent * edge) ** 2)
-        total = total + of_sigma + jacobian + of_mean + thinned
+        outside = (abs(states[..., 1:3] - centres) > 0.5 * edge).any(axis=-1)
+        total = np.where(outside, -np.inf, total + of_sigma + jacobian + of_mean + thinned)
     return total
 
 

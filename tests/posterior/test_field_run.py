@@ -18,6 +18,7 @@ GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)
 PRIORS = {"reflectivities": bm.Beta(0.5, 1.0), "surfaces": bm.Surface(0.5, 1.0)}
 KINDS = pytest.mark.parametrize("kind", PRIORS)
+SHOWN = {"reflectivities": ("reflectivity", "expected"), "surfaces": ("stop_chance", "expected_stop_chance")}
 TRAIN = scans_of_all_kinds(5, GRID, poses=30)
 
 
@@ -38,9 +39,10 @@ def test_draws_and_their_mean_cover_the_grid(kind):
     assert isinstance(run, bm.FieldRun)
     assert run.draws.shape == (2, 8, 4, 3)
     assert run.n_draws == 8
-    expected = of(run, "expected").mean(axis=(0, 1), dtype=float)
+    drawn, expected = (of(run, name) for name in SHOWN[kind])
+    expected = expected.mean(axis=(0, 1), dtype=float)
     np.testing.assert_allclose(run.occupancy.ravel()[of(run, "cell")], expected, atol=1e-12)
-    np.testing.assert_array_equal(run.draws.reshape(2, 8, -1)[..., of(run, "cell")], of(run, "reflectivity"))
+    np.testing.assert_array_equal(run.draws.reshape(2, 8, -1)[..., of(run, "cell")], drawn)
     np.testing.assert_allclose(run.map_of(1, 3), run.draws[1, 3], atol=1e-6)
     assert run.log_joint.shape == (2, 8)
 
@@ -61,7 +63,7 @@ def test_where_no_beam_comes_draws_and_intervals_are_the_prior_s():
 @KINDS
 def test_intervals_are_quantiles_of_the_draws(kind):
     run = run_of(kind)
-    flat = of(run, "reflectivity").reshape(16, -1).astype(float)
+    flat = of(run, SHOWN[kind][0]).reshape(16, -1).astype(float)
     for level in (0.5, 0.9):
         lower, upper = run.interval(level)
         for end, q in ((lower, 0.5 - level / 2), (upper, 0.5 + level / 2)):

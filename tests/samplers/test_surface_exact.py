@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 from oracle.field_law import draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import build_worlds, copies
+from oracle.field_worlds import build_worlds, centres_of, copies
 from oracle.verdict import ALPHA
 from oracle.weighted import p_values, surface_coordinates, weighted
 
@@ -35,6 +35,7 @@ TWO = bm.Scans(
 NOTHING = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[np.inf, 1.9]], max_range_m=2.0)  # no reading ends in the cell
 
 WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
+SMALL = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.25)  # most draws of a Wishart are too large
 CASES = {
     "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
     "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
@@ -44,16 +45,16 @@ CASES = {
 
 
 @cache
-def prior_states(shape, prior):
+def prior_states(shape, prior, anywhere=False):
     """A million states from the prior, in metres, and centres and edge of their cells."""
     cell = np.arange(shape[0] * shape[1])
     centres = (np.stack([cell // shape[1] + 0.5, cell % shape[1] + 0.5], axis=-1) * EDGE, EDGE)
-    return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,)), centres
+    return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,), anywhere=anywhere), centres
 
 
-def by_importance(shape, scans, law, prior, beta=1.0):
+def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
     """Draws from the prior, weighted by their likelihood."""
-    states, centres = prior_states(shape, prior)
+    states, centres = prior_states(shape, prior, anywhere)
     paths = paths_of(build_worlds(scans, bm.Grid(shape, EDGE), prior, law, 1).problem.rays)
     parts = [states[i : i + AT_ONCE] for i in range(0, DRAWS, AT_ONCE)]
     log_weights = [log_likelihoods(paths, part, law, False, beta).sum(axis=-1) for part in parts]
@@ -74,6 +75,33 @@ def test_draws_follow_the_posterior(name):
     law = by_importance(*case)
     assert law.size > 8 * COPIES
     assert p_values(drawn(*case, sweeps=400), law).min() > ALPHA / TESTS
+
+
+@pytest.mark.parametrize("name", ["two cells", "one cell without readings"])
+def test_no_surface_leaves_its_cell(name):
+    mine = drawn(*CASES[name], sweeps=60)
+    away = abs(mine.reshape(COPIES, -1, 6)[..., 1:3])
+    assert 0.45 < away.max() < 0.5 + 1e-5
+    if name == "one cell without readings":  # the twin: a prior that lets it
+        assert p_values(mine, by_importance(*CASES[name], anywhere=True)).min() < ALPHA / TESTS
+
+
+def test_a_cell_that_stops_nothing_takes_its_surfaces_from_the_prior():
+    """In every fourth sweep, without a look at the beams; what was drawn from the prior stays so."""
+    worlds = copies(NOTHING, bm.Grid((1, 1), EDGE), SMALL, BLUNT, COPIES)
+    centres = centres_of(worlds.problem.rays)
+    states = draw_states(np.random.default_rng(7), SMALL, centres)
+    states[:, 0] = 1e-20
+    sampler = worlds.sampler(3, states)
+    before, after = (worlds.split(s) for s in (states, worlds.sweep(sampler, 4)))
+    some = (abs(before[..., 3:] - after[..., 3:]) > 1e-5).any(axis=-1)
+    assert 0.5 < some.mean() <= 1.0
+    mine = surface_coordinates(after, np.array([[0.5, 0.5]]), 1.0)[:, 1:]
+    prior, of_prior = prior_states((1, 1), SMALL)
+    values = surface_coordinates(prior, *of_prior)[:, 1:]
+    assert p_values(mine, weighted(values, np.zeros(len(values)))).min() > ALPHA / TESTS
+    size = (prior[:, 0, 3:] ** 2).sum(axis=-1) / (SMALL.extent * EDGE) ** 2
+    assert p_values(mine, weighted(values, 0.5 * size)).min() < ALPHA / TESTS  # the twin: large ones as often as not
 
 
 @pytest.mark.parametrize("beta", [0.0, 0.4])

@@ -34,6 +34,8 @@ MOST_DRAW_BYTES = 1 << 30
 """Of all chains' draws, if beams were to touch every cell of the grid."""
 BYTES_A_CELL = 4
 
+KernelNumbers = tuple[float, float, float, float, float, float, float]
+
 REFLECTIVITY = ArraySpec("reflectivity", ("cell",), "float32", "half", "chance that the cell stops a beam")
 EXPECTED = ArraySpec(
     "expected", ("cell",), "float32", "half", "mean of the reflectivity given the draw's surfaces and stops"
@@ -56,6 +58,8 @@ class Reflective(CellPrior):
 
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True
+    shown: ClassVar[tuple[str, str]] = ("reflectivity", "expected")
+    """Arrays of what maps, intervals and diagnostics show: as drawn, and its mean given the draw's stops."""
     thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # three beams in ten stopped is no place for a robot
 
     def __post_init__(self) -> None:
@@ -105,30 +109,35 @@ class Reflective(CellPrior):
         fitting = MOST_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
         return max(FEWEST_DRAWS, min(affordable, fitting, MOST_DRAWS))
 
-    def kernel_numbers(self, edge_m: float) -> tuple[float, float, float, float, float, float]:
+    def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """The prior as the kernels of `bayesmap.kernels.cell_draws` take it, lengths in metres: a, b, and a surface's
         prior, which is not looked at.
         """
-        return self.a, self.b, edge_m, edge_m**2, 3.0, edge_m
+        return self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m
+
+    def _shown(self, draws: Draws) -> tuple[NDArray[np.float16], NDArray[np.float16]]:
+        """What maps show, drawn and expected, (chains, draws, T); reflectivities of runs that were saved without it."""
+        drawn, expected = self.shown if self.shown[0] in draws.arrays else Reflective.shown
+        return draws.arrays[drawn], draws.arrays[expected]
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
-        """Reflectivities, (nx, ny); the prior's mean where no beam comes."""
-        return draws.to_grid(draws.arrays["reflectivity"][chain, draw], "cell", self.mean)
+        """Chances that cells stop a beam, (nx, ny); the prior's mean where no beam comes."""
+        return draws.to_grid(self._shown(draws)[0][chain, draw], "cell", self.mean)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Posterior mean of the reflectivity, (nx, ny), that of ``expected``: it has the same limit as the mean of the
-        drawn ones, and less noise. The prior's mean where no beam comes; NaN without draws.
+        """Posterior mean of the same, (nx, ny), of what each draw expects: it has the same limit as the mean of what is
+        drawn, and less noise. The prior's mean where no beam comes; NaN without draws.
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
-        return draws.to_grid(draws.arrays["expected"].mean(axis=(0, 1), dtype=np.float64), "cell", self.mean)
+        return draws.to_grid(self._shown(draws)[1].mean(axis=(0, 1), dtype=np.float64), "cell", self.mean)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Central credible interval of each cell's reflectivity: lower and upper end, (nx, ny) each."""
+        """Central credible interval of the same: lower and upper end, (nx, ny) each."""
         from scipy import stats
 
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
-        drawn = draws.arrays["reflectivity"]
+        drawn = self._shown(draws)[0]
         ends = np.empty((2, drawn.shape[-1]))
         for i in range(0, drawn.shape[-1], CELLS_AT_ONCE):
             part = drawn[:, :, i : i + CELLS_AT_ONCE]
@@ -138,9 +147,9 @@ class Reflective(CellPrior):
         return lower, upper
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
-        """Reflectivities of some cells that beams touch in all draws, (chains, draws, n)."""
+        """The same of some cells that beams touch in all draws, (chains, draws, n)."""
         place = np.searchsorted(draws.index["cell"], cells)
-        return np.asarray(draws.arrays["reflectivity"][:, :, place])
+        return np.asarray(self._shown(draws)[0][:, :, place])
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Expected reflectivities of each draw, (draws, n), some draws at a time.

@@ -13,15 +13,24 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
-from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, Reflective, places_among
+from bayesmap.cells.reflectivity import (
+    EXPECTED,
+    FRESH_CELLS,
+    REFLECTIVITY,
+    KernelNumbers,
+    Reflective,
+    places_among,
+)
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 MOST_SPREAD = 3.0
+ROUNDING = 1e-3  # edges by which half precision may take a mean out of its cell
 
 PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")
 """What a surface is made of: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""
@@ -32,16 +41,36 @@ def _spec(part: str) -> ArraySpec:
     return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{what}, in edges of a cell")
 
 
+STOP_CHANCES = (
+    ArraySpec(
+        "stop_chance",
+        ("cell",),
+        "float32",
+        "half",
+        "chance that a beam which comes to the cell's square is stopped in it",
+    ),
+    ArraySpec(
+        "expected_stop_chance",
+        ("cell",),
+        "float32",
+        "half",
+        "mean of the stop chance given where the draw's beams stop",
+    ),
+)
+"""What maps show: it does not depend on which cell a surface belongs to (`bayesmap.kernels.square_counts`)."""
+
+
 @dataclass(frozen=True, init=False)
 class Surface(Reflective):
-    """A reflectivity in each cell as in `Beta`, and a surface: mu ~ N(centre, tau^2 I), Sigma ~ InverseWishart(nu, psi
-    I) x exp(-tr Sigma / (2 kappa^2)).
+    """A reflectivity in each cell as in `Beta`, and a surface: mu ~ N(centre, tau^2 I) inside the cell's own square,
+    Sigma ~ InverseWishart(nu, psi I) x exp(-tr Sigma / (2 kappa^2)).
 
     Lengths are in edges of a cell, so that one prior serves all resolutions.
 
     Attributes:
         a, b: of the reflectivity of what a beam meets.
-        mean_scale: tau, how far a surface's mean may lie from its cell's centre; once called ``wander``.
+        mean_scale: tau, how far a surface's mean lies from its cell's centre; once called ``wander``. It never lies
+            outside the cell: what stands there is another cell's.
         spread: sqrt(psi), the size of surfaces.
         dof: nu, how sure that is; more than 1.
         size_scale: kappa, the size beyond which surfaces are unlikely: about that of a cell; once called ``extent``.
@@ -55,8 +84,12 @@ class Surface(Reflective):
     dof: float = 3.0
     size_scale: float = 0.35
 
-    words: ClassVar[Words] = Words("surface", "reflectivities and surfaces", "mean reflectivity", "reflectivity")
-    arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED, *(_spec(part) for part in PARTS))
+    words: ClassVar[Words] = Words(
+        "surface", "reflectivities and surfaces", "mean chance that a square stops a beam",
+        "chance that a square stops a beam",
+    )  # fmt: skip
+    arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED, *STOP_CHANCES, *(_spec(part) for part in PARTS))
+    shown: ClassVar[tuple[str, str]] = ("stop_chance", "expected_stop_chance")
     has_surfaces: ClassVar[bool] = True
 
     def __init__(
@@ -120,6 +153,8 @@ class Surface(Reflective):
         shape -= 0.5 * (self.spread * edge) ** 2 * (1 / l11**2 + 1 / l22**2 + q**2)
         size = (l11**2 + l21**2 + l22**2) / (self.size_scale * edge) ** 2
         mean = (x**2 + y**2) / (self.mean_scale * edge) ** 2
+        if max(np.abs(x).max(initial=0.0), np.abs(y).max(initial=0.0)) > (0.5 + ROUNDING) * edge:
+            return -math.inf
         return super().log_prob(cells, grid) + float((shape - 0.5 * (size + mean)).sum())
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
@@ -141,11 +176,14 @@ class Surface(Reflective):
         return out
 
     def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
-        """The same without the factor that bounds their size: Bartlett's factor of the Wishart, inverted."""
+        """The same without the factor that bounds their size: a normal mean inside the cell by its inverse
+        distribution function, and Bartlett's factor of the Wishart, inverted.
+        """
         a11 = np.sqrt(rng.chisquare(self.dof, count))
         a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
         a21 = rng.standard_normal(count)
-        mean = self.mean_scale * rng.standard_normal((2, count))
+        least, most = special.ndtr(np.array([-0.5, 0.5]) / self.mean_scale)
+        mean = self.mean_scale * special.ndtri(rng.uniform(least, most, (2, count)))
         with np.errstate(divide="ignore", over="ignore"):
             shape = (self.spread / a22, -self.spread * a21 / (a11 * a22), self.spread / a11)
         return np.stack([*mean, *shape], axis=-1)
@@ -158,9 +196,15 @@ class Surface(Reflective):
         out[:, 1:3] += grid.cell_centres_m(np.arange(grid.n_cells))
         return out
 
-    def kernel_numbers(self, edge_m: float) -> tuple[float, float, float, float, float, float]:
-        """a, b, tau, psi, nu, kappa, lengths in metres."""
-        sizes = (self.mean_scale * edge_m, (self.spread * edge_m) ** 2, self.dof, self.size_scale * edge_m)
+    def kernel_numbers(self, edge_m: float) -> KernelNumbers:
+        """a, b, tau, psi, nu, kappa, half an edge, lengths in metres."""
+        sizes = (
+            self.mean_scale * edge_m,
+            (self.spread * edge_m) ** 2,
+            self.dof,
+            self.size_scale * edge_m,
+            0.5 * edge_m,
+        )
         return self.a, self.b, *sizes
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
@@ -182,7 +226,8 @@ class Surface(Reflective):
             second[:, 1, 1] += l21**2 + l22**2
         second[:, 1, 0] = second[:, 0, 1]
         n = max(draws.size, 1)
-        reflectivity = self.mean_map(draws).ravel()[held]
+        place, _ = places_among(draws.index["cell"], held)
+        reflectivity = draws.arrays["expected"][..., place].mean(axis=(0, 1), dtype=np.float64)
         return draws.grid.cell_centres_m(held) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:

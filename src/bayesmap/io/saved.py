@@ -36,7 +36,8 @@ from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = 4  # one layout for all kinds of cells; older ones are read by `bayesmap.io.saved_before`
+FORMAT_VERSION = 5  # 4 has no stop chances of surfaces; older ones are read by `bayesmap.io.saved_before`
+LAYOUT_SINCE = 4
 
 
 def save(
@@ -183,7 +184,7 @@ def _not_ours(attributes: dict[str, Any]) -> str | None:
 
 def _read(file: Any, header: dict[str, Any], version: int) -> tuple[Posterior, str]:
     """The posterior of an open file, and its checksum."""
-    if version < FORMAT_VERSION:
+    if version < LAYOUT_SINCE:
         return saved_before.read(file, header)
     constant = file["constant_data"]
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.kinds import prior_from
+from bayesmap.cells.reflectivity import EXPECTED
 from bayesmap.cells.surface import PARTS
 from bayesmap.io.checksum import checksum_of
 from bayesmap.io.saved_content import assemble, flat_index
@@ -72,7 +73,8 @@ def _read_reflectivities(file: Any, header: dict[str, Any]) -> tuple[Posterior, 
     )
     arrays = posterior.draws.arrays
     if not has_expected:
-        whole = replace(posterior.draws, specs=prior.arrays, arrays={**arrays, "expected": arrays["reflectivity"]})
+        specs = tuple(spec for spec in prior.arrays if spec in present or spec == EXPECTED)
+        whole = replace(posterior.draws, specs=specs, arrays={**arrays, "expected": arrays["reflectivity"]})
         posterior = replace(posterior, draws=whole)
     scans = posterior.scans
     by_cell = [arrays[name] for name in ("reflectivity", "expected") if name in arrays]

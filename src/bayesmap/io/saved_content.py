@@ -33,7 +33,8 @@ def assemble(
     """The posterior of an open file of any format, but for what formats keep in different places."""
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
-    specs = prior.arrays if specs is None else specs
+    # Earlier versions had fewer arrays.
+    specs = tuple(spec for spec in prior.arrays if spec.name in draws.variables) if specs is None else specs
     if POSES.name in draws.variables:
         specs = (*specs, POSES)
     if index is None:

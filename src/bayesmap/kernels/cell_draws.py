@@ -5,10 +5,10 @@ tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that
 surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of
 the ratio (`bayesmap.kernels.stops`).
 
-The prior of a surface is mu ~ N(centre, tau^2 I), and for Sigma an InverseWishart(nu, psi I) times exp(-tr Sigma / (2
-kappa^2)): beams of other cells say nothing about a surface that grows beyond its own, and the Wishart's tail alone
-would let it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these coordinates the density is
-proportional to
+The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square, and for Sigma an InverseWishart(nu,
+psi I) times exp(-tr Sigma / (2 kappa^2)): beams of other cells say nothing about a surface that grows beyond its own,
+and the Wishart's tail alone would let it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these
+coordinates the density is, inside the square, proportional to
 
     exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1 - tr Sigma / (2 kappa^2)):
 
@@ -19,7 +19,7 @@ import warp as wp
 
 from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, LEARNS, StopState, groups_of
+from bayesmap.kernels.stops import CLEAREST, GAIN_UNITS, IN_A_ROW, LEARNS, StopState, groups_of
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
 
 wp.set_module_options({"enable_backward": False})
@@ -31,11 +31,17 @@ AT_TURN = wp.constant(4)
 """In a round of sweeps a cell in which no reading ends draws its reflectivity twice, tries a candidate once, at this
 turn, and learns nothing in the others."""
 
+MEAN_TRIES = wp.constant(8)
+
+SILENT_EVERY = wp.constant(4)
+"""In one of so many sweeps a cell whose reflectivity is next to nothing takes another surface from the prior."""
+
 # Counters of one cell in one sweep.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT = wp.constant(wp.uint64(0))
 AT_BETA = wp.constant(wp.uint64(32))
 AT_FRESH = wp.constant(wp.uint64(256))
+AT_SILENT = wp.constant(wp.uint64(448))
 
 
 @wp.struct
@@ -61,6 +67,28 @@ class CellPrior:
     psi_m2: wp.float64
     nu: wp.float64
     kappa_m: wp.float64
+    half_m: wp.float64  # half of a cell's edge
+
+
+@wp.func
+def is_own(prior: CellPrior, centre: wp.vec2, cell: Cell) -> bool:
+    """Whether the surface's mean lies in the cell's own square."""
+    half = wp.float32(prior.half_m)
+    return wp.abs(cell[MEAN_X] - centre[0]) <= half and wp.abs(cell[MEAN_Y] - centre[1]) <= half
+
+
+@wp.func
+def mean_within(prior: CellPrior, key: wp.uint64, at: wp.uint64) -> wp.float32:
+    """A coordinate of a mean from its prior, from the cell's centre; takes two times `MEAN_TRIES` counters.
+
+    By rejection: of the default prior one try in five fails, and all of them once in 300 000 times, when the candidate
+    is left out of the cell and is not accepted.
+    """
+    x = prior.tau_m * normal(key, at)
+    for i in range(1, MEAN_TRIES):
+        if wp.abs(x) > prior.half_m:
+            x = prior.tau_m * normal(key, at + wp.uint64(2 * i))
+    return wp.float32(x)
 
 
 @wp.func
@@ -78,8 +106,8 @@ def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64,
     n = at_2 + wp.uint64(PER_GAMMA)
     a21 = normal(key, n)
     scale = wp.sqrt(prior.psi_m2)
-    cell[MEAN_X] = centre[0] + wp.float32(prior.tau_m * normal(key, n + wp.uint64(2)))
-    cell[MEAN_Y] = centre[1] + wp.float32(prior.tau_m * normal(key, n + wp.uint64(4)))
+    cell[MEAN_X] = centre[0] + mean_within(prior, key, n + wp.uint64(2))
+    cell[MEAN_Y] = centre[1] + mean_within(prior, key, n + wp.uint64(2 + 2 * MEAN_TRIES))
     cell[L11] = wp.float32(scale / a22)
     cell[L21] = wp.float32(-scale * a21 / (a11 * a22))
     cell[L22] = wp.float32(scale / a11)
@@ -109,6 +137,21 @@ def log_size_penalty(prior: CellPrior, cell: Cell) -> wp.float64:
     l21 = wp.float64(cell[L21])
     l22 = wp.float64(cell[L22])
     return wp.float64(-0.5) * (l11 * l11 + l21 * l21 + l22 * l22) / (prior.kappa_m * prior.kappa_m)
+
+
+@wp.func
+def renewed_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """Another surface of a cell in which next to no beam would stop, whatever the surface: given the cells the
+    readings say nothing of it, and where beams stop is drawn after it.
+
+    So its conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
+    """
+    candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
+    log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
+    accepted = wp.log(to_uniform(random_bits(key, at + AT_SILENT - wp.uint64(1)))) < log_ratio
+    if accepted and is_own(prior, centre, candidate):
+        return candidate
+    return cell
 
 
 @wp.func
@@ -156,7 +199,11 @@ def begin_sweep(
     cell[TRYING] = HIDDEN
     turns = int(active.round[a])
     centre = centre_of(c, active.ny, active.edge_m)
-    if prior_moved != 0 or turns == 0 or state.fixed_m[here] == LEARNS:
+    renewed = bool(False)
+    if plain == 0 and turns != 0 and cell[REFLECTIVITY] <= CLEAREST and (sweep + c) % SILENT_EVERY == 0:
+        cell = renewed_surface(prior, centre, cell, sweep_key(keys[chain], sweep, 1), wp.uint64(c) * PER_CELL)
+        renewed = bool(True)
+    if prior_moved != 0 or turns == 0 or renewed or state.fixed_m[here] == LEARNS:
         density = log_reflectivity_prior(prior, cell[REFLECTIVITY])
         if plain == 0:
             density += wp.float32(log_surface_prior(prior, centre, cell))
@@ -220,7 +267,8 @@ def update_free_cells(
     else:
         candidate = state.candidates[chain * groups_of(state) + c // IN_A_ROW]
         log_ratio = wp.float64(gain) * FROM_UNITS + log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
-        if wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
+        own = is_own(prior, centre_of(c, active.ny, active.edge_m), candidate)
+        if own and wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
             cell = candidate
     cell[TRYING] = HIDDEN
     state.cells[here] = cell

@@ -24,6 +24,7 @@ from bayesmap.kernels.cell_draws import (
     ActiveCells,
     CellPrior,
     centre_of,
+    is_own,
     log_reflectivity_prior,
     log_surface_prior,
 )
@@ -197,9 +198,10 @@ def update_endpoint_cells(
         here_at = at + wp.uint64(256 + 32 * i)
         candidate = stepped(framed, step, key, here_at + wp.uint64(1), i)
         moved = out_of_frame(candidate, step, centre)
-        value = log_stops(law, state.beta, rays, endpoints, listed, span, centre, moved)
-        value += log_cell_prior(prior, candidate)
-        if wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT))) < value - present:
-            framed = candidate
-            present = value
+        if is_own(prior, centre, moved):
+            value = log_stops(law, state.beta, rays, endpoints, listed, span, centre, moved)
+            value += log_cell_prior(prior, candidate)
+            if wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT))) < value - present:
+                framed = candidate
+                present = value
     state.cells[here] = out_of_frame(framed, step, centre)

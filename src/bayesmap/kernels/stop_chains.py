@@ -23,12 +23,15 @@ from bayesmap.kernels.endpoint_cells import endpoint_cells, update_endpoint_cell
 from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
+from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
 from bayesmap.kernels.stops import IN_A_ROW, LEARNS, StopState, TracedRays, decay_of_readings, draw_stops
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
-KERNELS = (begin_sweep, draw_stops, update_free_cells, update_endpoint_cells)
+KERNELS = (
+    begin_sweep, draw_stops, update_free_cells, update_endpoint_cells, count_in_squares, draw_stop_chances,
+)  # fmt: skip
 
 
 def put_rays(
@@ -126,6 +129,8 @@ class StopChains:
         self._active = active
         self._keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         self._law: tuple[Any, ...] = ()
+        self._packed: tuple[Any, Any] | None = None
+        self._squares = None if self.plain else Squares(plan.rays, chains, device)
 
         empty = partial(wp.zeros, device=device)
         parts = max(1, -(-self.threads // chains))
@@ -139,7 +144,7 @@ class StopChains:
         state.candidates = empty(chains * -(-cells // IN_A_ROW), dtype=Cell)
         state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
         state.gain = empty((chains * parts, cells), dtype=wp.int64)
-        state.stop = empty(chains * beams, dtype=wp.int32)
+        state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
         state.where = empty(chains * beams, dtype=wp.vec2)
         state.log_likelihood = empty(chains * beams, dtype=wp.float32)
         self._state = state
@@ -159,7 +164,7 @@ class StopChains:
         first: int,
         count: int,
         sensor: SensorModel,
-        prior: tuple[float, float, float, float, float, float],
+        prior: tuple[float, float, float, float, float, float, float],
         beta: float = 1.0,
         *,
         informing_after: int | None = None,
@@ -172,9 +177,10 @@ class StopChains:
             first: number of the first sweep.
             count: how many.
             sensor: the law of the readings.
-            prior: of the cells: a, b, tau_m, psi_m2, nu, kappa_m (see `bayesmap.kernels.cell_draws`).
+            prior: of the cells: a, b, tau_m, psi_m2, nu, kappa_m, half_m (see `bayesmap.kernels.cell_draws`).
             beta: inverse temperature.
-            informing_after: from this sweep on it is counted which cells beams tell something; never if None.
+            informing_after: from this sweep on it is counted which cells beams tell something; never if None. With
+                surfaces `in_squares` counts it.
             before: given chain and number of each sweep before it.
             after: likewise after it, by whatever thread has run it.
 
@@ -182,10 +188,10 @@ class StopChains:
             log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
         """
         packed = CellPrior()
-        packed.a, packed.b, packed.tau_m, packed.psi_m2, packed.nu, packed.kappa_m = prior
+        packed.a, packed.b, packed.tau_m, packed.psi_m2, packed.nu, packed.kappa_m, packed.half_m = prior
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         moved = self._law != (sensor, prior, beta)
-        self._law, self._state.beta = (sensor, prior, beta), beta
+        self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
         if moved:
             self._launch(decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
         likelihood, log_prior = (
@@ -206,7 +212,7 @@ class StopChains:
                 (update_endpoint_cells, endpoints, [number, law, packed, self._rays, self._endpoints, self._active,
                                                     state, self._lists, keys, *counts]),
             ]  # fmt: skip
-            if informing_after is not None and number >= informing_after:
+            if self.plain and informing_after is not None and number >= informing_after:
                 out.append((count_informed, touched, [self._active, state.n_cells, *counts, self._informed]))
             beam_sums, cell_sums = self._slices
             out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
@@ -282,8 +288,28 @@ class StopChains:
         """
         return self._of(self._hits, chain), self._of(self._met, chain)
 
+    @property
+    def swept(self) -> bool:
+        """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
+        return self._packed is not None
+
+    def in_squares(self, chain: int, sweep: int, kept: bool) -> InSquares:
+        """Where the beams of a chain with surfaces were stopped in the sweep with this number, its last.
+
+        ``kept`` says that the draw counts in `informed`.
+        """
+        assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
+        assert self._packed is not None, "no sweep has been made"
+        law, prior = self._packed
+        return self._squares.of_chain(
+            chain, sweep, law, prior, self._rays, self._state, self._keys, self._informed, kept
+        )
+
     def informed(self, chain: int) -> NDArray[np.int32]:
-        """In how many sweeps some beam told each cell something, and in how many it had counted, (N, 2), likewise."""
+        """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.
+
+        Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
+        """
         return self._of(self._informed, chain)
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:

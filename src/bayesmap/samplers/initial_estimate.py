@@ -20,6 +20,7 @@ CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
 FREE_ROUND, FAR_ROUND = 16, 32
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
 LOGIT_STEP = 1.0
+INSIDE = 0.98  # of a cell, in which means start
 ALONG = 0.25
 SIZE = 0.5
 ACROSS = 1.5
@@ -130,8 +131,10 @@ def start(estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.rand
     state[:, 1:3] += grid.cell_centres_m(np.arange(cells))
     l11, l21, l22 = estimate.factor_m.T * np.exp(0.5 * width * rng.standard_normal((3, len(endpoints))))
     e1, e2 = width * rng.standard_normal((2, len(endpoints)))
-    x, y = estimate.mean_m.T
-    state[endpoints, 1:] = np.stack([x + l11 * e1, y + l21 * e1 + l22 * e2, l11, l21, l22], axis=-1)
+    mean = estimate.mean_m + np.stack([l11 * e1, l21 * e1 + l22 * e2], axis=-1)
+    centre, half = grid.cell_centres_m(endpoints), INSIDE * 0.5 * grid.resolution
+    mean = np.clip(mean, centre - half, centre + half)
+    state[endpoints, 1:] = np.column_stack([mean, l11, l21, l22])
     return state
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.reflectivity import Reflective
+from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import rounds, start, steps
@@ -23,6 +23,7 @@ from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 
 if TYPE_CHECKING:
+    from bayesmap.kernels.square_counts import InSquares
     from bayesmap.kernels.stop_chains import Plan, StopChains
 
 HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
@@ -159,9 +160,20 @@ class StopGibbs:
         if draws:
             counts = np.sum([state.chains.informed(chain).T for chain in chains], axis=0)
         else:
-            counted = [state.chains.counted(chain) for chain in chains]
-            counts = np.sum([((met >= 0) & (hits + met > 0), met >= 0) for hits, met in counted], axis=0)
+            counts = np.sum([self._informed_now(state, chain) for chain in chains], axis=0)
         return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)
+
+    def _informed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
+        """Whether some beam says something of each cell where a chain stands, and whether that is known, (2, N)."""
+        if not state.problem.prior.has_surfaces:
+            hits, met = state.chains.counted(chain)
+            return np.stack([(met >= 0) & (hits + met > 0), met >= 0])
+        out = np.zeros((2, state.problem.grid.n_cells), dtype=np.bool_)
+        if state.chains.swept:
+            found = state.chains.in_squares(chain, state.sweep - 1, kept=False)
+            touched = state.problem.rays.touched
+            out[0, touched], out[1, touched] = found.stopped + found.passed > 0, True
+        return out
 
 
 def _plan(problem: StopProblem) -> Plan:
@@ -208,11 +220,24 @@ class _Draws:
     def end(self, chain: int, sweep: int) -> None:
         """Take what the sweep has counted of the cells as they stood before it."""
         number = self._number.get(sweep)
-        if number is None or "expected" not in self.arrays:
+        if number is None:
+            return
+        if self._centres is not None:
+            self._put_chances(chain, number, self._chains.in_squares(chain, sweep, kept=True))
+        if "expected" not in self.arrays:
             return
         hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))
         expected = expected_reflectivity(hits, met, self._problem.prior, self.arrays["reflectivity"][chain, number])
         self._put("expected", chain, number, expected)
+
+    def _put_chances(self, chain: int, number: int, found: InSquares) -> None:
+        """Take the chances that squares stop beams; that of a square to which no beam can come is the prior's."""
+        prior, kept = self._problem.prior, self._cells["cell"]
+        place, known = places_among(self._problem.rays.touched, kept)
+        for name, values in (("stop_chance", found.drawn), ("expected_stop_chance", found.expected)):
+            chances = np.full(len(kept), prior.mean, dtype=np.float32)
+            chances[known] = np.minimum(values[place[known]], np.float32(HIGHEST))
+            self._put(name, chain, number, chances)
 
     def _put(self, name: str, chain: int, number: int, values: NDArray[Any]) -> None:
         if name in self.arrays:

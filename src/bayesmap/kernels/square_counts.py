@@ -1,0 +1,192 @@
+r"""How many beams are stopped inside each square of the grid, and how many pass it: what maps of surfaces show.
+
+A surface need not lie in the square of the cell that it belongs to, and which of two neighbouring cells a piece of wall
+belongs to is a label. So the beams' stops are counted in the squares in which the points lie at which they were
+stopped. Of a beam that the cell k stops at about t* with variance s^2 (`bayesmap.kernels.meeting`) the point is
+drawn from its law given the reading z: if z is what came back from there, with the sensor's variance sigma^2,
+
+    t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)),
+
+and otherwise (a passing object, chance, no return) t ~ N(t*, s^2). Squares that the beam crosses before that point it
+passes; of those behind it the beam says nothing. With S beams stopped in a square and P beams that pass it, the
+chance q that a beam which comes to the square is stopped inside it is drawn from
+
+    q | stops ~ Beta(a + S, b + P).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.cell_draws import PER_CELL, CellPrior
+from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
+from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
+from bayesmap.kernels.sensor_law import SensorLaw32, returned_density, stop_density, variance_at
+from bayesmap.kernels.stops import StopState, TracedRays
+from bayesmap.kernels.variates import beta_variate, normal
+
+wp.set_module_options({"enable_backward": False})
+
+AT_SQUARE = wp.constant(wp.uint64(640))  # counters of a cell that no other variate of its sweep takes
+STREAM_POINT = wp.constant(wp.uint64(5 << 32))
+
+
+@wp.func
+def stop_point_m(
+    law: SensorLaw32,
+    reading: wp.float32,
+    decay: wp.float32,
+    distance: wp.float32,
+    variance: wp.float32,
+    key: wp.uint64,
+    counter: wp.uint64,
+) -> wp.float64:
+    """The distance at which a beam was stopped, drawn given its reading; never behind the beam's start."""
+    mean = wp.float64(distance)
+    spread = wp.float64(variance)
+    if wp.isfinite(reading):
+        from_there = returned_density(law, reading, decay, distance, variance)
+        u = wp.float32(to_uniform(random_bits(key, counter)))
+        if u * stop_density(law, reading, decay, distance, variance) < from_there:
+            total = wp.float64(variance_at(law, distance, variance))
+            mean += spread / total * (wp.float64(reading) - mean)
+            spread = spread * (total - spread) / total
+    point = mean + wp.sqrt(wp.max(spread, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
+    return wp.max(point, wp.float64(0.0))
+
+
+@wp.kernel
+def count_in_squares(
+    chain: int,
+    sweep: int,
+    law: SensorLaw32,
+    lines: Lines,
+    rays: TracedRays,
+    state: StopState,
+    keys: wp.array(dtype=wp.uint64),
+    stopped: wp.array(dtype=wp.int32),
+    behind: wp.array(dtype=wp.int32),
+):
+    """One thread a beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
+    b = wp.tid()
+    i = chain * state.n_beams + b
+    begin = rays.offsets[b]
+    end = rays.offsets[b + 1]
+    stop = state.stop[i]
+    if stop < begin or stop >= end:
+        return
+    counter = STREAM_POINT + wp.uint64(b) * wp.uint64(4)
+    where = state.where[i]
+    key = sweep_key(keys[chain], sweep, 0)
+    point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
+    line = line_of(lines, b)
+    k = end - 1
+    crossed = stretch(line, rays.cells[k])
+    if point > crossed[1]:  # further than the beam is followed
+        return
+    while k > begin and crossed[0] > point:
+        wp.atomic_add(behind, rays.cells[k], 1)
+        k -= 1
+        crossed = stretch(line, rays.cells[k])
+    wp.atomic_add(stopped, rays.cells[k], 1)
+
+
+@wp.kernel
+def draw_stop_chances(
+    chain: int,
+    sweep: int,
+    prior: CellPrior,
+    touched: wp.array(dtype=wp.int32),
+    keys: wp.array(dtype=wp.uint64),
+    crossings: wp.array(dtype=wp.int32),
+    stopped: wp.array(dtype=wp.int32),
+    behind: wp.array(dtype=wp.int32),
+    drawn: wp.array(dtype=wp.float32),
+    expected: wp.array(dtype=wp.float32),
+    kept: int,
+    n_cells: int,
+    informed: wp.array(dtype=wp.vec2i),
+):
+    """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P).
+
+    If the draw is kept, ``informed`` counts it, and whether some beam comes to the square in it.
+    """
+    i = wp.tid()
+    c = touched[i]
+    a = prior.a + wp.float64(stopped[c])
+    b = prior.b + wp.float64(crossings[c] - stopped[c] - behind[c])
+    key = sweep_key(keys[chain], sweep, 1)
+    drawn[i] = wp.float32(beta_variate(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
+    expected[i] = wp.float32(a / (a + b))
+    if kept != 0:
+        here = chain * n_cells + c
+        informed[here] = informed[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)
+
+
+class InSquares(NamedTuple):
+    """Of every touched cell's square, (T,) each: beams stopped in it, beams that pass it, and the chance that a beam
+    which comes to it is stopped in it, drawn given these counts, and its mean.
+    """
+
+    stopped: NDArray[np.int32]
+    passed: NDArray[np.int32]
+    drawn: NDArray[np.float32]
+    expected: NDArray[np.float32]
+
+
+class Squares:
+    """Room for each chain's counts, and the beams' lines, on a device."""
+
+    def __init__(self, rays: Rays, chains: int, device: str) -> None:
+        self._rays, self._device = rays, device
+        cells, touched = rays.grid.n_cells, rays.touched
+        self._crossings = np.bincount(rays.cells, minlength=cells).astype(np.int32)
+        self._lines = put_lines(rays.start_m, rays.direction, rays.grid, device)
+        self._crossings_there = devices.to_device(self._crossings, wp.int32, device)
+        self._touched = devices.to_device(touched, wp.int32, device)
+        sizes = ((cells, wp.int32), (cells, wp.int32), (len(touched), wp.float32), (len(touched), wp.float32))
+        self._room = [[wp.zeros(n, dtype=dtype, device=device) for n, dtype in sizes] for _ in range(chains)]
+
+    def of_chain(
+        self,
+        chain: int,
+        sweep: int,
+        law: SensorLaw32,
+        prior: CellPrior,
+        rays: TracedRays,
+        state: StopState,
+        keys: wp.array,
+        informed: wp.array,
+        kept: bool,
+    ) -> InSquares:
+        """Count a chain's stops, and draw the chances given the counts.
+
+        Args:
+            chain: its number on the device.
+            sweep: number of the sweep that drew the stops.
+            law: of the readings.
+            prior: of the cells.
+            rays: the beams where kernels read them.
+            state: of all chains.
+            keys: of all chains' random numbers.
+            informed: draws of which a beam says something in each square, and draws, of all chains, to be gone on with.
+            kept: whether this draw counts there.
+        """
+        stopped, behind, drawn, expected = self._room[chain]
+        for counts in (stopped, behind):
+            counts.zero_()
+        inputs = [chain, sweep, law, self._lines, rays, state, keys, stopped, behind]
+        wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
+        inputs = [
+            chain, sweep, prior, self._touched, keys, self._crossings_there, stopped, behind, drawn, expected,
+            int(kept), self._rays.grid.n_cells, informed,
+        ]  # fmt: skip
+        wp.launch(draw_stop_chances, dim=len(self._rays.touched), inputs=inputs, device=self._device)
+        touched = self._rays.touched
+        ends, unseen = (np.asarray(counts.numpy())[touched] for counts in (stopped, behind))
+        passed = self._crossings[touched] - ends - unseen
+        return InSquares(ends, passed, np.array(drawn.numpy()), np.array(expected.numpy()))
