@@ -24,6 +24,7 @@ from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure, ratio, timed, timer
 from benchmarks.peer_runner import Unavailable, peer
 from benchmarks.suites.tutorial import sweeps_of
+from benchmarks.suites.walls import agreement
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 RESOLUTION_M, MAX_RANGE_M, EVERY = 0.1, 20.0, 10
@@ -107,9 +108,7 @@ def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[F
         yield replace(whole, against=f"{what}, score of held-out beams included")
         posterior = load(Path(folder) / "run.nc").posterior
     yield Figure(f"{name}/peak_memory", max(found["peak_memory_mb"] for found in documents), "MB")
-    found = document["diagnostics"]
-    against = f"of the log likelihood {found['rhat_log_likelihood']:.3f}; {document['draws']} draws a chain"
-    yield Figure(f"{name}/rhat_log_joint", found["rhat_log_joint"], "", against=against)
+    yield from agreement(name, posterior)
     yield from score(name, scans, posterior)
 
 
