@@ -30,7 +30,7 @@ STEPS = {
     (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
     (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
 }  # fmt: skip
-"""To the cells that an edge of the graph leads to, and back, sixteen directions; and the cells that it crosses, or comes
+"""To the cells that an edge of the graph leads to, sixteen directions and back; and the cells that it crosses, or comes
 close to a corner of."""
 
 SURE = 1.0 - 1e-6
