@@ -30,8 +30,8 @@ STEPS = {
     (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
     (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
 }  # fmt: skip
-"""To the cells that an edge of the graph leads to, sixteen directions and back; and the cells that it crosses, or comes
-close to a corner of."""
+"""To the cells that an edge of the graph leads to, and back, sixteen directions; and the cells that it crosses or
+nearly touches."""
 
 SURE = 1.0 - 1e-6
 """Cells in which the disc is blocked with more than this probability are no part of the graph."""
