@@ -54,6 +54,15 @@ def trajectory_figure(
         flagged: (S,).
     """
     figure, ax = _one(grid)
+    _draw_map(ax, grid, occupancy, observed, poses, covariances)
+    if flagged is not None and flagged.any():
+        ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED, markersize=5, label="badly explained scan", zorder=5)
+    return _finished(figure, ax)
+
+
+def _draw_map(
+    ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
+) -> None:
     maps.draw_probability(ax, grid, occupancy, observed)
     ax.plot(poses[:, 0], poses[:, 1], color=AFTER, linewidth=0.8, label="trajectory", zorder=3)
     some = np.unique(np.linspace(0, len(poses) - 1, MOST_ELLIPSES).astype(int))
@@ -62,9 +71,33 @@ def trajectory_figure(
     draw_ellipses(ax, poses[some, :2], covariances[some, :2, :2], magnified)
     name = "95 % region" + (f", drawn {magnified:g} times as large" if magnified > 1 else "")
     ax.plot([], [], "o", markerfacecolor="none", markeredgecolor=AFTER, label=name)
-    if flagged is not None and flagged.any():
-        ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED, markersize=5, label="badly explained scan", zorder=5)
-    return _finished(figure, ax)
+
+
+def before_and_after_figure(
+    raw: Floats, ends: Floats, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
+) -> Figure:
+    """Left raw odometry and where its scans would put the walls, right the inferred trajectory on its map.
+
+    Args:
+        raw: (S, 3).
+        ends: where readings end as seen from the raw poses, (N, 2) in metres.
+        grid: of the map.
+        occupancy: (nx, ny).
+        observed: where a beam came, (nx, ny).
+        poses: (S, 3).
+        covariances: of x, y and yaw, (S, 3, 3).
+    """
+    height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
+    figure = Figure(figsize=(1.5 * SIZE_IN, height), dpi=110, facecolor="white", layout="constrained")
+    FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2)
+    left.plot(*ends.T, ",", color="#8a8a8a", zorder=1)
+    left.plot(raw[:, 0], raw[:, 1], color=BEFORE, linewidth=0.9, label="raw odometry")
+    left.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="what wheels and laser report")
+    _draw_map(right, grid, occupancy, observed, poses, covariances)
+    right.set(xlabel="x [m]", ylabel="y [m]", title="inferred")
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=9)
+    return figure
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
