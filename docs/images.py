@@ -15,11 +15,13 @@ from bayesmap.viz.comparison import Candidate, comparison_figure
 from bayesmap.viz.figure import write_figure
 from bayesmap.viz.palette import SURFACE
 from bayesmap.viz.surfaces import draw_surfaces
+from bayesmap.viz.trajectory import before_and_after_figure
 from bayesmap.viz.window import window
 
 IMAGES = Path(__file__).with_name("images")
 ROOMS = (6.0, 19.0), (-5.0, 6.5)  # x and y of the building's picture, metres
-LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
+DATA = Path(os.environ.get("BAYESMAP_DATA", "../shared/data"))
+LOG, ODOMETRY = DATA / "intel-corrected.log.gz", DATA / "intel-odometry.log.gz"
 
 
 def building() -> None:
@@ -38,6 +40,22 @@ def building() -> None:
     write_figure(figure, IMAGES / "building.png")
 
 
+def trajectory() -> None:
+    """A building from raw odometry: what the robot reports, and the posterior of trajectory and map."""
+    log = bm.read_log(ODOMETRY).limited(20.0)
+    run = bm.slam(log, fast=True, draws=30)
+    found = run.trajectory
+    raw = log.select(found.order)
+    some = raw.select(np.arange(0, len(raw), 4))
+    angles = some.poses[:, 2:] + some.angles_rad
+    ends = some.poses[:, None, :2] + some.ranges_m[..., None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    ends = ends[np.isfinite(some.ranges_m)]
+    figure = before_and_after_figure(
+        raw.poses, ends, run.grid, run.occupancy, run.observed, found.poses, found.covariances()
+    )
+    write_figure(figure, IMAGES / "slam.png")
+
+
 def tutorial() -> None:
     """The tutorial's map where walls are rare: block Gibbs."""
     walls, pose = bm.worlds.tutorial()
@@ -51,6 +69,7 @@ def tutorial() -> None:
 if __name__ == "__main__":
     tutorial()
     if LOG.exists():
+        trajectory()
         building()
     else:
-        print(f"{LOG} is not there: set BAYESMAP_DATA to make the building's picture")
+        print(f"{LOG} is not there: set BAYESMAP_DATA to make the building's pictures")
