@@ -75,12 +75,13 @@ export function entropyRgb(bits: number): Triple {
 }
 
 /** 512 packed pixels: by probability in 255ths where a beam has been, and 256 on where none has. */
-export function paletteOf(theme: Theme, entropy: boolean): Uint32Array {
+export function paletteOf(theme: Theme, layer: "value" | "entropy" | "width"): Uint32Array {
   const pixels = new Uint8ClampedArray(4 * 512).fill(255);
   const [free, wall] = [hexRgb(theme.unobserved), hexRgb(theme.unobservedWall)];
   for (let i = 0; i < 256; i++) {
-    pixels.set(entropy ? entropyRgb(entropyBits(i / 255)) : probabilityRgb(theme, i / 255), 4 * i);
-    pixels.set(mix(free, wall, entropy ? 0 : i / 255), 4 * (i + 256));
+    const doubt = layer === "entropy" ? entropyBits(i / 255) : i / 255;
+    pixels.set(layer === "value" ? probabilityRgb(theme, i / 255) : entropyRgb(doubt), 4 * i);
+    pixels.set(mix(free, wall, layer === "value" ? i / 255 : 0), 4 * (i + 256));
   }
   return new Uint32Array(pixels.buffer);
 }

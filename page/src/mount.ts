@@ -10,6 +10,7 @@ import { DecisionsLayer } from "./layers/decisions";
 import { FieldLayer } from "./layers/field";
 import { Stack, type Scene } from "./layers/layer";
 import { MarksLayer } from "./layers/marks";
+import { OverlayLayer } from "./layers/overlay";
 import { picture } from "./layers/picture";
 import { RaysLayer } from "./layers/rays";
 import { GUTTER, Viewport } from "./layers/viewport";
@@ -61,7 +62,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const ui = new Ui(session, hand, editor, command, (layer) => player.showLayer(layer), embedded);
 
   // the map
-  const layers = [new FieldLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new CursorLayer()];
+  const layers = [new FieldLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new CursorLayer()];
   const canvases = layers.map(({ name }) => h("canvas", { className: name }));
   const canvas = canvases[canvases.length - 1]; // on top: it has the focus and the pointer
   Object.assign(canvas, { tabIndex: 0, role: "application" });
@@ -70,7 +71,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const keys = new MapKeys(canvas, session, view, hand, editor);
 
   // around it
-  const shown = { truth: true, rays: true, readings: true };
+  const shown = { truth: true, rays: true, readings: true, strokes: true, trajectory: true };
   const top = head(ui);
   const tools = bar(ui);
   const onMap = { chip: chip(ui), banner: banner(ui) };

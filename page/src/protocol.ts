@@ -21,6 +21,7 @@ export type MapDocument = {
   /** Radians, of every sensor. */
   fov: number;
   readings: "noisy" | "exact";
+  cells: string;
   method: string;
   order: string;
   start: string;
@@ -33,7 +34,9 @@ export type Message = { type: string; [field: string]: any };
 export type Numbers = Uint8Array | Float32Array | Float64Array;
 export type Buffers = { [name: string]: Numbers };
 
-export type Layer = "mean" | "draw" | "entropy";
+export type Layer = "mean" | "draw" | "entropy" | "width";
+/** What the numbers of the map are: walls, or numbers with an interval, and the words for their mean and a draw's. */
+export type Quantity = { kind: string; mean: string; value: string; interval: boolean };
 /** Which field is shown; without a number the last draw. */
 export type View = { layer: Layer; chain: number; draw: number | null };
 
@@ -65,6 +68,7 @@ export type Field = {
   rhat?: number | null;
   log_joint?: number | null;
   verdict?: Verdict | null;
+  quantity?: Quantity;
   /** Log joint of every chain, (chains, n), and the sweeps that these are of, (n). */
   trace: Float32Array;
   traced: Float32Array;
@@ -96,6 +100,9 @@ export type Scan = {
 
 /** Refused: there is a server, which does not know this page's token. */
 export type Connection = { connected: boolean; retryIn_ms?: number; refused?: boolean };
+
+/** Over a run or a log: surfaces as strokes, (U, 5), from x, y to x, y and their reflectivity; where scans were taken, (S, 2). */
+export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 
 /** A way to the session. `onmessage` and `onstatus` are set by the page before it calls `open`. */
 export type Transport = {

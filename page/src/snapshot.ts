@@ -7,7 +7,8 @@ import type { Session } from "./state/session";
 /** What is known and shown. */
 export function snapshot(session: Session, view: Viewport, stack: Stack) {
   const { shown, status } = session;
-  const layer = shown?.layer === "draw" ? "draw" : session.view.layer === "entropy" ? "entropy" : "mean";
+  const own = shown?.layer === "draw" || shown?.layer === "width";
+  const layer = own ? shown.layer : session.view.layer === "entropy" ? "entropy" : "mean";
   return {
     document: session.effectiveDocument(),
     generation: session.generation,
@@ -17,6 +18,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
       approximate: shown.approximate,
       sweeps: shown.sweeps,
       method: shown.method,
+      quantity: session.quantity,
       rhat: shown.rhat,
       verdict: shown.verdict,
       trace: shown.trace,
@@ -34,6 +36,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     status: { text: status.text, level: status.level },
     connected: session.connection.connected,
     decisions: { path: session.decisions.path, views: session.decisions.views, trouble: session.decisions.trouble },
+    overlay: session.overlay && { strokes: session.overlay.strokes.length / 5, trajectory: session.overlay.trajectory.length / 2 },
     worker: session.worker,
     running: session.running,
     draws: session.draws,

@@ -1,11 +1,16 @@
 // The field: a colour for every cell, a hatch where no beam has been, the lines between large cells.
 
 import { paletteOf, type Theme } from "../colour";
-import type { Field } from "../protocol";
+import type { Field, Layer as FieldName } from "../protocol";
 import { clipToMap, type Layer, type Scene } from "./layer";
 
 const LINES_FROM_SCALE = 10;
 const HATCH_PIXELS = 7;
+
+type Kind = "value" | "entropy" | "width";
+/** What the colours of a field mean: the entropy is made of the mean here. */
+const kindOf = (field: Field, wanted: FieldName): Kind =>
+  field.layer === "width" ? "width" : wanted === "entropy" && field.layer !== "draw" ? "entropy" : "value";
 
 const sheet = () => document.createElement("canvas").getContext("2d") as CanvasRenderingContext2D;
 
@@ -37,7 +42,7 @@ export class FieldLayer implements Layer {
       context.fillRect(x, y, nx * scale, ny * scale);
       return;
     }
-    this.fill(field, nx, ny, look.theme, session.view.layer === "entropy" && field.layer !== "draw");
+    this.fill(field, nx, ny, look.theme, kindOf(field, session.view.layer));
     context.imageSmoothingEnabled = false;
     context.drawImage(this.cells.canvas, x, y, nx * scale, ny * scale);
     this.fillHatch(scene);
@@ -46,11 +51,11 @@ export class FieldLayer implements Layer {
   }
 
   /** Colours the cells, and the mask where the observed cells are others. */
-  private fill(field: Field, nx: number, ny: number, theme: Theme, entropy: boolean) {
+  private fill(field: Field, nx: number, ny: number, theme: Theme, kind: Kind) {
     const { cells, mask, drawn } = this;
-    const name = `${theme.ground} ${entropy}`;
+    const name = `${theme.ground} ${kind}`;
     if (drawn.field === field && drawn.palette === name) return;
-    const palette = this.palettes.get(name) ?? paletteOf(theme, entropy);
+    const palette = this.palettes.get(name) ?? paletteOf(theme, kind);
     this.palettes.set(name, palette);
     if (this.image.width !== nx || this.image.height !== ny) {
       this.image = new ImageData(nx, ny);

@@ -11,6 +11,8 @@ export type Look = {
   truth: boolean;
   rays: boolean;
   readings: boolean;
+  strokes: boolean;
+  trajectory: boolean;
   /** The cell under the pointer, and the keyboard's. */
   hover: Point | null;
   cursor: Point | null;

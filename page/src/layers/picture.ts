@@ -5,6 +5,7 @@ import { DecisionsLayer } from "./decisions";
 import { FieldLayer } from "./field";
 import type { Layer, Scene } from "./layer";
 import { MarksLayer } from "./marks";
+import { OverlayLayer } from "./overlay";
 import { RaysLayer } from "./rays";
 import { Viewport } from "./viewport";
 
@@ -23,7 +24,7 @@ export function picture({ session, look }: Scene): Promise<Blob | null> {
   context.scale(RATIO, RATIO);
   context.fillStyle = look.theme.ground;
   context.fillRect(0, 0, view.width, view.height);
-  const layers: Layer[] = [new FieldLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer()];
+  const layers: Layer[] = [new FieldLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer()];
   for (const layer of layers) {
     context.save();
     layer.paint(context, { session, view, look: { ...look, hover: null, cursor: null, selected: null } });

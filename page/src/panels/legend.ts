@@ -11,6 +11,8 @@ const ENTRIES = [
   ["miss", "no return"],
   ["dot", "reading"],
   ["sensor", "sensor"],
+  ["stroke", "surface"],
+  ["trajectory", "trajectory"],
   ["unobserved", "unobserved"],
 ];
 
@@ -24,14 +26,19 @@ export function legend(ui: Ui, theme: () => Theme) {
     return h("li", {}, sample, text);
   });
   ui.visible(entries[0], () => !session.document || session.document.source.kind === "simulation");
+  ui.visible(entries[ENTRIES.findIndex(([name]) => name === "stroke")], () => Boolean(session.overlay?.strokes.length));
+  ui.visible(entries[ENTRIES.findIndex(([name]) => name === "trajectory")], () => Boolean(session.overlay?.trajectory.length));
   let painted = "";
   ui.each(() => {
-    const entropy = session.view.layer === "entropy";
-    put(name, "textContent", entropy ? "entropy (bit)" : "P(wall)");
-    const key = `${entropy} ${theme().ground}`;
+    const layer = session.shown?.layer === "width" ? "width" : session.view.layer;
+    const { kind, mean, value } = session.quantity;
+    const chance = kind === "binary" ? "P(wall)" : layer === "draw" ? value : mean;
+    put(name, "textContent", layer === "entropy" ? "entropy (bit)" : layer === "width" ? "width of the 90 % interval" : chance);
+    const doubt = layer === "entropy" || layer === "width";
+    const key = `${doubt} ${theme().ground}`;
     if (painted === key) return;
     painted = key;
-    ramp.style.background = gradient(entropy ? entropyRgb : (t) => probabilityRgb(theme(), t));
+    ramp.style.background = gradient(doubt ? entropyRgb : (t) => probabilityRgb(theme(), t));
   });
   return h("ul", { className: "legend", "aria-label": "Legend" }, h("li", {}, name, "0", ramp, "1"), ...entries);
 }

@@ -26,7 +26,7 @@ export function chip(ui: Ui) {
     const field = session.shown;
     if (!field || !session.document) return put(element, "hidden", true);
     const numbered = session.draws.count ? `draw ${session.draw + 1} of ${session.draws.count}` : "draw";
-    const kind = field.layer === "draw" ? numbered : session.view.layer === "entropy" ? "entropy" : "mean";
+    const kind = field.layer === "draw" ? numbered : field.layer === "width" ? "width of the 90 % interval" : session.view.layer === "entropy" ? "entropy" : "mean";
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
     const by = field.approximate ? "approximate, belief propagation" : (other ?? `${field.sweeps} sweeps`);
     put(element, "hidden", false);
@@ -98,7 +98,11 @@ function describeCell(session: Session, cell: Point) {
   const parts = [`Cell ${cell.x}, ${cell.y}`, `${x.toFixed(digits)}, ${y.toFixed(digits)} m`];
   if (shown && shown.p.length === shape[0] * shape[1]) {
     const p = shown.p[i] / 255;
-    if (shown.layer === "draw") parts.push(p > 0.5 ? "wall in this draw" : "free in this draw");
+    const { kind, mean, value, interval } = session.quantity;
+    if (shown.layer === "width") parts.push(`90 % interval ${p.toFixed(2)} wide`);
+    else if (kind !== "binary" && shown.layer === "draw") parts.push(`${value} ${p.toFixed(2)} in this draw`);
+    else if (kind !== "binary") parts.push(`${mean} ${p.toFixed(2)}`, ...(interval ? [] : [`entropy ${entropyBits(p).toFixed(2)} bit`]));
+    else if (shown.layer === "draw") parts.push(p > 0.5 ? "wall in this draw" : "free in this draw");
     else parts.push(`P(wall) ${p.toFixed(2)}`, `entropy ${entropyBits(p).toFixed(2)} bit`);
     const beams = session.cell?.x === cell.x && session.cell.y === cell.y ? session.cell.beams : null;
     if (!shown.observed[i]) parts.push("unobserved");

@@ -11,6 +11,7 @@ const METHODS: Record<string, string> = {
   propagate: "Belief propagation",
   importance: "Importance sampling",
 };
+const CELLS: Record<string, string> = { binary: "walls", reflectivity: "reflectivities", surface: "surfaces" };
 const READINGS = { noisy: "with noise", exact: "exact" };
 const STARTS: Record<string, string> = { auto: "as is best", prior: "draws of the prior", empty: "the empty map" };
 const ORDERS: Record<string, string> = { raster: "raster", radial: "radial", random: "random" };
@@ -76,19 +77,28 @@ export function modelPanel(ui: Ui) {
   ];
   for (const element of simulated) ui.visible(element, () => session.editable);
   const prior = ui.slider("prior", () => "Prior P(wall)", { low: LIMITS.prior[0], high: LIMITS.prior[1], step: 0.01 });
-  return ui.section("Model", prior, ...simulated);
+  const isWalls = () => (session.document?.cells ?? "binary") === "binary";
+  ui.visible(prior, isWalls);
+  const cells = ui.select("Cells", CELLS, () => session.document?.cells ?? "binary", (kind) => ui.set({ cells: kind }));
+  ui.visible(cells, () => session.document?.source.kind === "log");
+  return ui.section("Model", cells, prior, ...simulated);
 }
 
 export function inferencePanel(ui: Ui) {
   const { session } = ui;
   const method = () => session.document?.method ?? "auto";
+  const isWalls = () => (session.document?.cells ?? "binary") === "binary";
   const isChain = () => /auto|gibbs|block/.test(method());
   const [least, most] = LIMITS.seed;
-  return ui.section(
-    "Inference",
+  const ofWalls = [
     ui.select("Method", METHODS, method, (value) => ui.set({ method: value })),
     ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto"),
     ui.select("Start", STARTS, () => session.document?.start ?? "auto", (start) => ui.set({ start }), isChain),
+  ];
+  for (const element of ofWalls) ui.visible(element, isWalls); // other cells have one sampler
+  return ui.section(
+    "Inference",
+    ...ofWalls,
     ui.slider("sweeps", () => UNITS[method()] ?? "Sweeps", { low: LIMITS.sweeps[0], high: LIMITS.sweeps[1], step: 1, log: true }),
     ui.numberInput("Seed", () => session.document?.seed ?? 0, (seed) => ui.set({ seed: Math.round(seed) }), { min: least, max: most, step: 1 }),
   );

@@ -10,6 +10,7 @@ const LAYERS = [
   ["mean", "Mean"],
   ["draw", "One draw"],
   ["entropy", "Entropy"],
+  ["width", "Width"],
 ] as const;
 /** Draws a second. */
 const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30 / s", "1000": "fastest" };
@@ -60,11 +61,16 @@ export class Player {
 }
 
 /** Marks that can be switched off. */
-export type Shown = { truth: boolean; rays: boolean; readings: boolean };
+export type Shown = { truth: boolean; rays: boolean; readings: boolean; strokes: boolean; trajectory: boolean };
 
 export function viewPanel(ui: Ui, player: Player, shown: Shown) {
   const { session } = ui;
   const layers = ui.segmented<Layer>("Show", LAYERS, () => session.view.layer, (layer) => player.showLayer(layer), (layer) => layer !== "draw" || session.hasDraws);
+  // walls have no interval, and the entropy of a reflectivity is none of the map's
+  const [, , entropy, width] = Array.from(layers.children) as HTMLElement[];
+  put(width, "title", "Width of each cell's 90 % interval");
+  ui.visible(entropy, () => !session.quantity.interval);
+  ui.visible(width, () => session.quantity.interval);
   const box = (label: string, name: keyof Shown) =>
     ui.checkbox(label, () => shown[name], (on) => {
       shown[name] = on;
@@ -72,7 +78,10 @@ export function viewPanel(ui: Ui, player: Player, shown: Shown) {
     });
   const truth = box("True walls", "truth");
   ui.visible(truth, () => !session.document || session.document.source.kind === "simulation");
-  const marks = h("div", { className: "checks", role: "group", "aria-label": "Marks" }, truth, box("Rays", "rays"), box("Readings", "readings"));
+  const [strokes, trajectory] = [box("Surfaces", "strokes"), box("Trajectory", "trajectory")];
+  ui.visible(strokes, () => Boolean(session.overlay?.strokes.length));
+  ui.visible(trajectory, () => Boolean(session.overlay?.trajectory.length));
+  const marks = h("div", { className: "checks", role: "group", "aria-label": "Marks" }, truth, box("Rays", "rays"), box("Readings", "readings"), strokes, trajectory);
   return ui.section("View", layers, playerControls(ui, player), marks);
 }
 

@@ -1,7 +1,7 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, Connection, Field, MapDocument, Message, Pair, Scan, State, Transport, View } from "../protocol";
+import type { Buffers, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
@@ -23,6 +23,7 @@ export class Session {
   view: View = { layer: "mean", chain: 0, draw: null };
   state: State | null = null;
   scan: Scan | null = null;
+  overlay: Overlay | null = null;
   /** The field on the canvas. */
   shown: Field | null = null;
   cell: { x: number; y: number; beams: number } | null = null;
@@ -141,6 +142,11 @@ export class Session {
     this.decisions.ask();
   }
 
+  /** What the numbers of the map are. */
+  get quantity(): Quantity {
+    return this.shown?.quantity ?? { kind: "binary", mean: "P(wall)", value: "wall", interval: false };
+  }
+
   /** Seconds until the chain on show is done, or null where nothing can be said. */
   remaining_s() {
     return this.shown && this.sampling ? this.progress.remaining_s(this.shown) : null;
@@ -182,6 +188,9 @@ export class Session {
           const { pose, angles, ranges, exact, hit } = buffers;
           this.scan = { ids: message.ids ?? [], index: message.index ?? null, pose, angles, ranges, exact, hit };
         }
+        break;
+      case "overlay":
+        this.overlay = buffers as unknown as Overlay;
         break;
       case "field":
         this.receiveField(message, buffers);

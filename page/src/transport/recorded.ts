@@ -1,7 +1,7 @@
 // A recording inside a page in one file (docs/app.md): answers as a session would.
 
 import { fromBase64, inflate, unpackBits } from "../geometry/bits";
-import type { MapDocument, Transport, Verdict, View } from "../protocol";
+import type { MapDocument, Quantity, Transport, Verdict, View } from "../protocol";
 import { deaf } from "./frame";
 
 type Rows = (number | null)[][];
@@ -13,7 +13,7 @@ export type Recording = {
   observed: string;
   draws?: { chains: number; count: number; data: string };
   log_joint?: number[][];
-  settings?: { method?: string; sweeps?: number; ess?: number | null; rhat?: number | null; verdict?: Verdict | null };
+  settings?: { method?: string; sweeps?: number; ess?: number | null; rhat?: number | null; verdict?: Verdict | null; quantity?: Quantity };
 };
 
 export function recordedTransport(recording: Recording): Transport {
@@ -53,7 +53,7 @@ export function recordedTransport(recording: Recording): Transport {
     const joint = log_joint[view.chain]?.[(view.layer === "draw" ? view.draw : null) ?? count - 1] ?? null;
     const which = drawn ? { ...view, draw: view.draw ?? count - 1 } : { layer: view.layer === "draw" ? "mean" : view.layer };
     const sweeps = settings.sweeps ?? count;
-    const figures = { sweeps, total: sweeps, ess: settings.ess, rhat: settings.rhat, verdict: settings.verdict, log_joint: joint };
+    const figures = { quantity: settings.quantity, sweeps, total: sweeps, ess: settings.ess, rhat: settings.rhat, verdict: settings.verdict, log_joint: joint };
     const method = settings.method ?? document.method;
     const buffers = { p: drawn ?? mean, observed, trace, traced };
     transport.onmessage({ type: "field", generation: 1, ...which, method, approximate: false, ...figures }, buffers);

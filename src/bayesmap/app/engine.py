@@ -23,7 +23,19 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, rays, same_readings, simulated_scene
 from bayesmap.app.starting import starts
 from bayesmap.app.stream import Stream
-from bayesmap.app.tasks import Cancel, Export, FindPath, FindViews, Infer, Inspect, Look, Report, ShowScan, Task
+from bayesmap.app.tasks import (
+    OWN_LAYERS,
+    Cancel,
+    Export,
+    FindPath,
+    FindViews,
+    Infer,
+    Inspect,
+    Look,
+    Report,
+    ShowScan,
+    Task,
+)
 from bayesmap.app.weighing import Weighing
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
@@ -76,7 +88,7 @@ class Engine:
             self._cancel()
         elif isinstance(task, Look):
             self._looks.pop(task.client, None)
-            if task.layer == "draw":
+            if task.layer in OWN_LAYERS:
                 self._looks[task.client] = task
             if self._result is not None:
                 self._show(task)
@@ -122,10 +134,12 @@ class Engine:
             self._rays(self._scene, task.scan)
             self._result = self._opened.result()
             self._frame()
+            self._overlay(self._result)
             self._finish()
             return
         scene = self._readings(document)
         self._rays(scene, None if document.simulated else task.scan)
+        self._overlay(Result(scene, document, "none"))
         if task.mode == "clear":
             self._result = Result(scene, document, "none")
             self._frame()
@@ -263,6 +277,10 @@ class Engine:
         header, buffers = rays(scene, scan)
         header.pop("type")
         self._report("scan", buffers, **header)
+
+    def _overlay(self, result: Result) -> None:
+        if (over := result.overlay()) is not None:
+            self._report("overlay", dict(over))
 
     def _elapsed(self) -> float:
         return time.perf_counter() - self._began

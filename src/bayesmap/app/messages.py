@@ -163,7 +163,7 @@ def _sensor(value: Mapping[str, Any]) -> dict[str, Any]:
 
 def _view(value: Mapping[str, Any]) -> dict[str, Any]:
     return {
-        "layer": _one_of("layer", value.get("layer"), ("mean", "draw", "entropy")),
+        "layer": _one_of("layer", value.get("layer"), ("mean", "draw", "entropy", "width")),
         **_optional(value, "chain", lambda v: _whole("chain", v)),
         **_optional(value, "draw", lambda v: _whole("draw", v)),
     }

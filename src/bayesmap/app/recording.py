@@ -90,6 +90,7 @@ def record(result: Result) -> dict[str, Any]:
         "log_joint": _numbers(joint, 2),
         "settings": {
             "method": result.method,
+            "quantity": result.quantity(),
             **{name: statistics[name] for name in ("sweeps", "ess", "rhat", "verdict")},
         },
     }

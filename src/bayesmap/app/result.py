@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,9 @@ from bayesmap.app.judging import Verdict, difference, judge_chains, judge_partic
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
-from bayesmap.app.tasks import Look
+from bayesmap.app.tasks import OWN_LAYERS, Look
 from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
 from bayesmap.posterior.diagnostics import bulk_ess
 from bayesmap.posterior.diagnostics import rhat as split_rhat
 from bayesmap.result import Run
@@ -25,6 +27,12 @@ LEVELS = 255
 TRACED = 300
 FIRST_SWEEPS = 100
 """Points of a trace that are sent with every picture: so many over all of it, and each of the first sweeps."""
+
+INTERVAL_DRAWS = 60
+"""Draws of which intervals are made."""
+
+LEAST_REFLECTIVITY = 0.1
+"""Of surfaces that are drawn as strokes."""
 
 WEIGHT_BINS = 24
 MOST_NATS = 60.0
@@ -82,6 +90,47 @@ class Result:
         """The kept maps, if this method has any."""
         kept = self.stream.draws if self.stream is not None else None if self.run is None else self.run.posterior.draws
         return kept if kept is not None and kept.count else None
+
+    @property
+    def prior(self) -> CellPrior:
+        """Of the cells on show: it has the words for them."""
+        if self.stream is not None:
+            return self.stream.model.cells
+        return self.scene.problem.prior if self.run is None else self.run.posterior.prior
+
+    @cached_property
+    def width(self) -> NDArray[np.float64] | None:
+        """Width of each cell's central 90 % interval, (nx, ny); None for walls, which have none, or without draws."""
+        draws = self.kept
+        if draws is None and self.stream is not None and self.stream.recent.count:
+            draws = self.stream.recent
+        if draws is None or not self.prior.has_interval:
+            return None
+        lower, upper = self.prior.interval(draws.thinned(INTERVAL_DRAWS), 0.9)
+        return np.asarray(upper - lower)
+
+    def quantity(self) -> dict[str, Any]:
+        """What the numbers of the map are: the kind of cells, and the words for their mean and for one draw's."""
+        words = self.prior.words
+        return {"kind": words.kind, "mean": words.mean, "value": words.value, "interval": self.prior.has_interval}
+
+    def overlay(self) -> dict[str, NDArray[np.float32]] | None:
+        """What is drawn over a run or a log: surfaces as strokes, (U, 5), from x, y to x, y in metres with their
+        reflectivity; and the places of all scans, (S, 2). None for a simulation.
+        """
+        if self.document.simulated:
+            return None
+        strokes = np.zeros((0, 5), dtype=np.float32)
+        if self.run is not None and self.run.n_draws and self.prior.has_surfaces:
+            mean, covariance, reflectivity = self.run.surfaces()
+            values, vectors = np.linalg.eigh(covariance)
+            half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
+            strokes = np.column_stack([mean - half, mean + half, reflectivity])
+            strokes = strokes[reflectivity >= LEAST_REFLECTIVITY].astype(np.float32)
+        poses = self.scene.scans.poses
+        if self.run is not None and self.run.n_draws and "poses" in self.run.posterior.draws.arrays:
+            poses = self.run.poses.mean(axis=(0, 1))
+        return {"strokes": strokes, "trajectory": np.ascontiguousarray(poses[:, :2], dtype=np.float32)}
 
     def draws(self) -> dict[str, int]:
         """How many maps are kept: {"chains", "count"}."""
@@ -173,6 +222,7 @@ class Result:
             "approximate": self.method == "propagate",
             **self.statistics(),
             "draws": self.draws(),
+            "quantity": self.quantity(),
         }
         buffers: dict[str, NDArray[Any]] = {"trace": trace, "traced": traced}
         if (weights := self.weights()) is not None:
@@ -181,7 +231,9 @@ class Result:
         if one is not None:
             drawn, header["chain"], header["draw"] = one
             p = np.rint(drawn.astype(np.float32) * LEVELS).astype(np.uint8)
+        elif look.layer == "width" and self.width is not None:
+            p = np.rint(self.width * LEVELS).astype(np.uint8)
         else:
-            header["layer"] = "mean" if look.layer == "draw" else look.layer
+            header["layer"] = "mean" if look.layer in OWN_LAYERS else look.layer
             p = np.rint(self.mean() * LEVELS).astype(np.uint8)
         return header, {"p": p, "observed": np.packbits(self.observed().ravel()), **buffers}

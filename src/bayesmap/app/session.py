@@ -16,11 +16,24 @@ from bayesmap.app.adopting import adopted
 from bayesmap.app.document import LIMITS, VERSION, Document, Refused
 from bayesmap.app.edits import EDITS, edit, gesture_of, merged
 from bayesmap.app.history import History
-from bayesmap.app.tasks import Cancel, Export, FindPath, FindViews, Infer, Inspect, Look, Mode, Report, ShowScan, Task
+from bayesmap.app.tasks import (
+    OWN_LAYERS,
+    Cancel,
+    Export,
+    FindPath,
+    FindViews,
+    Infer,
+    Inspect,
+    Look,
+    Mode,
+    Report,
+    ShowScan,
+    Task,
+)
 
 Message = Mapping[str, Any]
 QUESTIONS = ("inspect", "path", "views")
-REPLAYED = ("scan", "field")
+REPLAYED = ("scan", "field", "overlay")
 """What a page that connects late is sent again."""
 
 
@@ -248,7 +261,7 @@ class Session:
 
     def _shown(self, field: ToPage) -> Effects:
         """A field goes to the page that asked for it, or to all but those that are shown a draw."""
-        drawing = {client for client, look in self._views.items() if look.layer == "draw"}
+        drawing = {client for client, look in self._views.items() if look.layer in OWN_LAYERS}
         if field.client is not None or not drawing:
             return [field]
         return [replace(field, client=client) for client in self._seqs if client not in drawing]

@@ -12,6 +12,9 @@ from bayesmap.app.document import Document
 ALIVE_SECONDS = 1.0
 """From one sign of life of the worker's to the next."""
 
+OWN_LAYERS = ("draw", "width")
+"""Layers of which a page that wants them is sent fields of its own; the others are made of the mean."""
+
 Mode = Literal["preview", "live", "run", "clear"]
 
 
@@ -43,7 +46,7 @@ class Look:
     """Which field a page is sent from now on; one is sent at once.
 
     Attributes:
-        layer: "mean", "entropy" or "draw".
+        layer: "mean", "entropy", "draw" or "width".
         chain: whose draw.
         draw: its number, or None for the last.
         client: the page.

@@ -1,0 +1,56 @@
+// Over the map of a run or a log: surfaces as strokes, and where the scans were taken.
+
+import { clamp, toCells } from "../geometry/cells";
+import { clipToMap, type Layer, type Scene } from "./layer";
+
+/** Strokes are drawn where cells are at least so large, as in bayesmap.viz.figure. */
+const STROKES_FROM_SCALE = 2.5;
+
+export class OverlayLayer implements Layer {
+  readonly name = "overlay";
+
+  depends({ session, look }: Scene) {
+    return [session.overlay, look.strokes, look.trajectory, session.document?.grid.resolution];
+  }
+
+  paint(context: CanvasRenderingContext2D, scene: Scene) {
+    const { session, look } = scene;
+    const { overlay, document } = session;
+    if (!overlay || !document) return;
+    clipToMap(context, scene);
+    if (look.trajectory) this.trajectory(context, scene, overlay.trajectory);
+    if (look.strokes && scene.view.transform.scale >= STROKES_FROM_SCALE) this.strokes(context, scene, overlay.strokes);
+  }
+
+  private trajectory(context: CanvasRenderingContext2D, { session, view, look }: Scene, places: Float32Array) {
+    const grid = session.document?.grid;
+    if (!grid) return;
+    context.beginPath();
+    for (let i = 0; i < places.length; i += 2) {
+      const at = view.fromGrid(toCells({ x: places[i], y: places[i + 1] }, grid), grid.shape[1]);
+      context.lineTo(at.x, at.y);
+    }
+    context.strokeStyle = look.theme.sensor;
+    context.globalAlpha = 0.6;
+    context.lineWidth = 1;
+    context.lineJoin = "round";
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+
+  private strokes(context: CanvasRenderingContext2D, { session, view, look }: Scene, strokes: Float32Array) {
+    const grid = session.document?.grid;
+    if (!grid) return;
+    context.beginPath();
+    for (let i = 0; i < strokes.length; i += 5) {
+      const [x0, y0, x1, y1] = strokes.subarray(i, i + 4);
+      const [from, to] = [view.fromGrid(toCells({ x: x0, y: y0 }, grid), grid.shape[1]), view.fromGrid(toCells({ x: x1, y: y1 }, grid), grid.shape[1])];
+      context.moveTo(from.x, from.y);
+      context.lineTo(to.x, to.y);
+    }
+    context.strokeStyle = look.theme.ray;
+    context.lineCap = "round";
+    context.lineWidth = clamp(view.transform.scale / 5, 0.8, 2.5);
+    context.stroke();
+  }
+}

@@ -1,0 +1,114 @@
+"""A run's own quantity is what the page names and shows: reflectivities, their intervals, surfaces, the trajectory."""
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from page_driver import act, centre, served, snapshot, until
+
+import bayesmap as bm
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.01, p_no_return=0.01)
+
+
+def infer(prior):
+    grid = bm.Grid((40, 30), 0.2)
+    walls = np.zeros(grid.shape, dtype=bool)
+    walls[[0, -1]] = walls[:, [0, -1]] = True
+    walls[20, :18] = True
+    poses = np.column_stack([np.linspace(1, 3, 8), np.linspace(2, 4.5, 8), np.linspace(0, 1, 8)])
+    angles = np.linspace(-np.pi, np.pi, 120, endpoint=False)
+    scans = bm.simulate(walls, grid, poses, angles, sensor=SENSOR, max_range_m=12.0, seed=1)
+    return bm.infer(scans, grid, prior=prior, sensor=SENSOR, chains=2, warmup=10, draws=20)
+
+
+@pytest.fixture(scope="module")
+def surfaces(tmp_path_factory, browser):
+    run = infer(bm.Surface())
+    path = tmp_path_factory.mktemp("surfaces") / "run.nc"
+    run.save(path)
+    with served(path) as (address, _):
+        yield run, address
+
+
+def test_a_run_of_surfaces_is_called_reflectivity_everywhere(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    legend = page.get_by_role("list", name="Legend")
+    playwright.expect(legend).to_contain_text("mean reflectivity")
+    playwright.expect(legend).not_to_contain_text("P(wall)")
+    page.mouse.move(*centre(page, 20, 10))
+    readout = page.locator(".readout")
+    playwright.expect(readout).to_contain_text(f"mean reflectivity {np.rint(255 * run.occupancy[20, 10]) / 255:.2f}")
+    playwright.expect(readout).not_to_contain_text("entropy")
+    page.get_by_role("radio", name="One draw").check(force=True)
+    until(page, "s.painted.layer === 'draw'")
+    page.mouse.move(*centre(page, 20, 9))
+    playwright.expect(readout).to_contain_text("in this draw")
+    playwright.expect(readout).not_to_contain_text("free in this draw")
+    playwright.expect(legend).to_contain_text("reflectivity")
+
+
+def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    playwright.expect(page.get_by_role("radio", name="Entropy")).to_be_hidden()
+    page.get_by_role("radio", name="Width").check(force=True)
+    until(page, "s.painted.layer === 'width'")
+    lower, upper = run.interval(0.9)
+    np.testing.assert_allclose(snapshot(page)["probability"], 255 * (upper - lower), atol=1.0)
+    playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("width of the 90 % interval")
+    page.mouse.move(*centre(page, 20, 10))
+    playwright.expect(page.locator(".readout")).to_contain_text("90 % interval")
+
+
+def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    until(page, "s.overlay?.strokes > 10")
+    found = snapshot(page)
+    assert found["overlay"]["trajectory"] == 8
+    _, _, reflectivity = run.surfaces()
+    assert found["overlay"]["strokes"] == (reflectivity >= 0.1).sum()
+    for name in ("Surfaces", "Trajectory"):
+        before = snapshot(page)["layers"]["overlay"]
+        with_it = page.locator("canvas.overlay").screenshot()
+        page.get_by_role("checkbox", name=name).uncheck()
+        until(page, "s.layers.overlay > argument", before)
+        page.wait_for_timeout(50)
+        assert page.locator("canvas.overlay").screenshot() != with_it
+
+
+def test_a_run_of_walls_keeps_its_probabilities(open_page, tmp_path):
+    infer(bm.Independent(0.2)).save(tmp_path / "run.nc")
+    with served(tmp_path / "run.nc") as (address, _):
+        page = open_page(address)
+        playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("P(wall)")
+        playwright.expect(page.get_by_role("radio", name="Width")).to_be_hidden()
+        assert snapshot(page)["overlay"] == {"strokes": 0, "trajectory": 8}
+
+
+def test_an_exported_page_of_reflectivities_names_them(open_page, tmp_path):
+    from bayesmap.app.recording import run_to_html
+
+    (tmp_path / "page.html").write_text(run_to_html(infer(bm.Beta())))
+    page = open_page((tmp_path / "page.html").as_uri())
+    playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("mean reflectivity")
+
+
+def test_a_log_is_inferred_as_surfaces_where_they_are_chosen(open_page, tmp_path):
+    from bayesmap.io.carmen_writer import write_carmen
+
+    write_carmen(tmp_path / "small.log", infer(bm.Independent(0.2)).posterior.scans)
+    with served(tmp_path / "small.log") as (address, _):
+        page = open_page(address)
+        act(page, lambda: page.get_by_role("slider", name="Sweeps").fill("0"))
+        act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("surface"))
+        until(page, "s.painted.quantity.kind === 'surface' && s.painted.sweeps >= s.document.sweeps")
+        playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("mean reflectivity")
+        for name in ("Method", "Order", "Start"):
+            playwright.expect(page.get_by_role("combobox", name=name)).to_be_hidden()
+        playwright.expect(page.get_by_role("slider", name="Prior")).to_be_hidden()
+        page.get_by_role("radio", name="Width").check(force=True)
+        until(page, "s.painted.layer === 'width'")
+        act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("binary"))
+        until(page, "s.painted.quantity.kind === 'binary'")
