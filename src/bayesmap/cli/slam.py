@@ -179,7 +179,9 @@ def summary(run: Run) -> dict[str, Any]:
         out["sampled"] = {
             "sigma_m": float(np.median(poses.sigma_m)),
             "sigma_rad": float(np.median(poses.sigma_rad)),
-            "rhat_max": float(np.nanmax(poses.rhat)) if np.isfinite(poses.rhat).any() else None,
+            # Of a few draws a chain may not have moved a pose at all: that has no R-hat.
+            "rhat_max": float(poses.rhat[np.isfinite(poses.rhat)].max(initial=1.0)),
+            "unmoved": int((~np.isfinite(poses.rhat)).any(axis=-1).sum()),
         }
     return out
 
