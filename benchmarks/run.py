@@ -17,8 +17,8 @@ from benchmarks import gate
 from benchmarks.figure import Figure
 
 BASELINE = Path(__file__).with_name("baseline.json")
-SUITES = ("ranges", "tutorial", "scaling", "building", "surfaces", "walls", "programs", "generative")
-HAVE_SLOW_PARTS = {"surfaces"}
+SUITES = ("ranges", "tutorial", "scaling", "building", "surfaces", "walls", "poses", "programs", "generative")
+HAVE_SLOW_PARTS = {"surfaces", "poses"}
 
 
 def measure(suites: list[str], device: str, with_peers: bool, slow: bool) -> Iterator[Figure]:
@@ -41,7 +41,7 @@ def main() -> int:
     parser.add_argument("suites", nargs="*", help=f"of: {', '.join(SUITES)} (all)")
     parser.add_argument("--device", default="cpu")
     parser.add_argument("--no-peers", action="store_true")
-    parser.add_argument("--slow", action="store_true", help="surfaces: at 20 and 5 cm too, which takes many minutes")
+    parser.add_argument("--slow", action="store_true", help="surfaces at 20 and 5 cm, poses at full rate: many minutes")
     parser.add_argument("--json", type=Path, help="also write the figures there")
     parser.add_argument("--no-gate", action="store_true", help="compare with the baseline, but measure once, and pass")
     parser.add_argument("--save", action="store_true", help="make these figures the baseline")
