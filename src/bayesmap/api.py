@@ -105,7 +105,7 @@ def infer(
             table uses all cores in any case.
         device: "cpu" or a CUDA device such as "cuda:0".
         resume: a run with the same arguments that was stopped early: go on where it stopped.
-        on_progress: told how far the run is, about four times a second.
+        on_progress: called with how far the run is, about four times a second.
         on_checkpoint: given the run so far at the end of warm-up and every ``checkpoint_every_s`` seconds.
         checkpoint_every_s: see above.
         executor: where chains run; in this process if None.

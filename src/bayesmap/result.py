@@ -181,7 +181,7 @@ class Run(Deciding):
         Args:
             heldout_scans: scans that had no part in the run.
             sensor: another law of the readings; needed only for a loaded run whose sensor model is of your own making.
-            on_progress: told how many of how many draws have been looked at.
+            on_progress: called with how many of how many draws have been looked at.
 
         Raises:
             BadInput: no draws, no valid reading, or a sensor that cannot score this run.
@@ -207,7 +207,7 @@ class Run(Deciding):
         path: str | os.PathLike[str],
         on_progress: Callable[[int, int], None] = lambda done, total: None,
     ) -> None:
-        """Write everything to one netCDF file, whole or not at all; ``on_progress`` is told what part is written."""
+        """Write everything to one netCDF file, whole or not at all; ``on_progress`` is called with what part is written."""
         from bayesmap.io.saved import save
 
         save(self.posterior, path, on_progress)
@@ -307,7 +307,7 @@ def score(
         heldout_scans: scans that had no part in it.
         sensor: another law of the readings than the run's.
         seed: of the randomised transform of typed readings, and of the bootstrap.
-        on_progress: told which share is done, from 0 to 1.
+        on_progress: called with which share is done, from 0 to 1.
 
     Raises:
         BadInput: no valid reading, no draws, or a sensor model without compiled form.

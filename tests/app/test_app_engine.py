@@ -12,7 +12,7 @@ import bayesmap as bm
 from bayesmap.app.document import Document, Sensor, WallMap
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import simulate_document, simulated_scene
-from bayesmap.app.tasks import Cancel, Inspect, Look
+from bayesmap.app.tasks import Cancel, Inspect, View
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.model import Model
 from bayesmap.run.runner import Job, run_chains
@@ -132,7 +132,7 @@ def test_a_run_is_that_of_the_library(method):
     )  # fmt: skip
     assert np.array_equal(field[1]["p"], np.rint(255 * run.occupancy))
     for chain, draw in ((0, 0), (1, 39), (0, 17)):
-        (answer,) = heard.ask(Look("draw", chain, draw))
+        (answer,) = heard.ask(View("draw", chain, draw))
         assert (answer.header["chain"], answer.header["draw"]) == (chain, draw)
         assert np.array_equal(answer.buffers["p"] > 0, run.draws[chain, draw])
 
@@ -141,14 +141,14 @@ def test_the_mean_of_a_run_is_the_average_of_its_draws():
     heard = Heard()
     field = heard.infer(replace(tutorial_document(), sweeps=50), "run")
     assert field[0]["draws"] == {"chains": 2, "count": 50}
-    draws = [heard.ask(Look("draw", c, d))[0].buffers["p"] / 255 for c in range(2) for d in range(50)]
+    draws = [heard.ask(View("draw", c, d))[0].buffers["p"] / 255 for c in range(2) for d in range(50)]
     assert np.array_equal(field[1]["p"], np.rint(255 * np.mean(draws, axis=0)))
 
 
 def test_a_draw_past_the_end_is_the_last():
     heard = Heard()
     heard.infer(replace(tutorial_document(), sweeps=5), "run")
-    assert heard.ask(Look("draw", 7, 99))[0].header["draw"] == 4
+    assert heard.ask(View("draw", 7, 99))[0].header["draw"] == 4
 
 
 def test_cancel_keeps_the_partial_chain():
@@ -158,7 +158,7 @@ def test_cancel_keeps_the_partial_chain():
     assert not heard.engine.busy
     count = heard.all("finished")[-1]["draws"]["count"]
     assert 0 < count < 100_000
-    assert heard.ask(Look("draw", 0, count - 1))[0].header["draw"] == count - 1
+    assert heard.ask(View("draw", 0, count - 1))[0].header["draw"] == count - 1
     assert heard.ask(Cancel()) == []
 
 
@@ -253,7 +253,7 @@ def test_other_kinds_of_cells_run_on_the_page_as_in_the_library(cells):
     assert found.prior != prior
     chains = run_chains(Job(model, StopGibbs(), Schedule(0, 30), document.seed, (0, 1), parameters=found))
     assert np.array_equal(field[1]["p"], np.rint(255 * found.prior.mean_map(chains.draws)))
-    (answer,) = heard.ask(Look("draw", 1, 7))
+    (answer,) = heard.ask(View("draw", 1, 7))
     assert (answer.header["chain"], answer.header["draw"]) == (1, 7)
     assert np.array_equal(
         answer.buffers["p"], np.rint(np.float32(255) * found.prior.map_of(chains.draws, 1, 7).astype(np.float32))

@@ -15,7 +15,7 @@ from acted_engine import Heard
 import bayesmap as bm
 from bayesmap.app.opened import open_file
 from bayesmap.app.recording import run_to_html
-from bayesmap.app.tasks import Export, Look, ShowScan
+from bayesmap.app.tasks import Export, ShowScan, View
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.io.map_server import read_map
 
@@ -39,7 +39,7 @@ def test_a_saved_run_holds_the_draws(heard, tmp_path):
     run = bm.load(tmp_path / "run.nc")
     assert header["name"] == "run.nc"
     assert run.draws.shape == (2, 1000, 21, 21)
-    shown = heard.ask(Look("mean"))[0].buffers["p"]
+    shown = heard.ask(View("mean"))[0].buffers["p"]
     assert np.array_equal(np.rint(255 * run.occupancy), shown)
 
 
@@ -90,10 +90,10 @@ def test_the_page_in_one_file_is_small_and_whole(heard):
     assert recording["draws"] == {"chains": 2, "count": 500, "data": recording["draws"]["data"]}
     bits = np.unpackbits(np.frombuffer(zlib.decompress(base64.b64decode(recording["draws"]["data"]), -15), np.uint8))
     draws = bits[: 1000 * 441].reshape(2, 500, 21, 21)
-    assert np.array_equal(draws[1, -1] * 255, heard.ask(Look("draw", 1, 999))[0].buffers["p"])
+    assert np.array_equal(draws[1, -1] * 255, heard.ask(View("draw", 1, 999))[0].buffers["p"])
     assert [len(chain) for chain in recording["log_joint"]] == [500, 500]
     mean = np.frombuffer(base64.b64decode(recording["mean"]), np.uint8)
-    assert np.array_equal(mean.reshape(21, 21), heard.ask(Look("mean"))[0].buffers["p"])
+    assert np.array_equal(mean.reshape(21, 21), heard.ask(View("mean"))[0].buffers["p"])
     assert np.abs(draws.mean(axis=(0, 1)) - mean.reshape(21, 21) / 255).max() < 0.1
 
 
@@ -113,7 +113,7 @@ def test_a_saved_run_is_shown_with_its_draws_and_scans(heard, tmp_path):
     header, buffers = shown.infer(opened.document)
     assert header["draws"] == {"chains": 2, "count": 1000}
     assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
-    (draw,) = shown.ask(Look("draw", 1, 3))
+    (draw,) = shown.ask(View("draw", 1, 3))
     assert np.array_equal(draw.buffers["p"] > 0, run.draws[1, 3])
     assert shown.last("scan")[1]["exact"].size == 0
     assert len(run_to_html(run)) < 200_000
@@ -133,7 +133,7 @@ def test_a_run_of_reflectivities_is_shown_too(tmp_path):
     header, buffers = shown.infer(opened.document)
     assert header["draws"] == {"chains": 2, "count": 6}
     assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
-    (draw,) = shown.ask(Look("draw", 1, 2))
+    (draw,) = shown.ask(View("draw", 1, 2))
     assert np.abs(draw.buffers["p"] / 255.0 - run.map_of(1, 2)).max() < 0.005
     recording = recording_of(exported(shown, "html")[1].decode())
     assert recording["draws"]["count"] == 0  # a recording holds walls alone

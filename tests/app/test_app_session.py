@@ -8,7 +8,7 @@ from acted_session import Acted
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.tasks import Cancel, Export, Inspect, Look, Report, ShowScan
+from bayesmap.app.tasks import Cancel, Export, Inspect, Report, ShowScan, View
 from bayesmap.app.worlds import new_document, tutorial_document
 
 
@@ -193,7 +193,7 @@ def test_questions_go_to_the_worker():
     acted.act("view", layer="draw", chain=1, draw=5)
     acted.act("export", what="map")
     acted.act("cancel")
-    assert acted.tasks[-4:] == [Inspect(1, 3, 4), Look("draw", 1, 5, 1), Export(1, "map"), Cancel()]
+    assert acted.tasks[-4:] == [Inspect(1, 3, 4), View("draw", 1, 5, 1), Export(1, "map"), Cancel()]
     assert acted.state["view"] == {"layer": "draw", "chain": 1, "draw": 5}
 
 
@@ -212,7 +212,7 @@ def test_each_page_has_its_own_view():
     report = Report({"type": "field", "generation": acted.session.generation}, {}, 2)
     assert [effect.client for effect in acted.session.hear(report)] == [2]
     left = acted.session.leave(2)
-    assert left[0].task == Look("mean", client=2)  # nobody is shown that draw any more
+    assert left[0].task == View("mean", client=2)  # nobody is shown that draw any more
 
 
 def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
@@ -253,7 +253,7 @@ def test_a_worker_that_died_is_given_everything_again():
     assert [m["type"] for m in lost] == ["worker", "status"]
     acted.hear("ready", None, document=None)
     assert acted.inferred[-1].document.prior == 0.1
-    assert acted.tasks[-2] == Look("entropy", None, None, 1)
+    assert acted.tasks[-2] == View("entropy", None, None, 1)
 
 
 def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():

@@ -68,11 +68,11 @@ def test_editing_during_inference_paints_no_old_generation(open_page, server):
     page.evaluate("""() => {
       window.wrong = 0;
       window.last = 0;
-      const look = () => {
+      const view = () => {
         const s = bayesmap.snapshot();
         if (s.painted.generation < last) wrong++;
         last = Math.max(last, s.painted.generation);
-        requestAnimationFrame(look);
+        requestAnimationFrame(view);
       };
       look();
     }""")

@@ -16,10 +16,10 @@ def test_the_posterior_is_painted_while_the_robot_is_dragged(sensors):
     page = sensors
     page.evaluate("""() => {
       window.seen = [];
-      const look = () => {
+      const view = () => {
         const s = bayesmap.snapshot();
         seen.push([s.painted.generation, s.generation]);
-        requestAnimationFrame(look);
+        requestAnimationFrame(view);
       };
       look();
     }""")

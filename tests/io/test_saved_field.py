@@ -76,7 +76,7 @@ def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
     [
         ("posterior", "reflectivity"), ("posterior", "expected"), ("posterior", "surface_mean_x"),
         ("posterior", "stop_chance"),
-        ("sample_stats", "log_likelihood"), ("chain_state", "state"), ("chain_state", "informed"),
+        ("sample_stats", "log_likelihood"), ("chain_state", "state"), ("chain_state", "observed_counts"),
         ("chain_state", "counts"), ("posterior", "cell_x"), ("constant_data", "occupancy"),
         ("observed_data", "range_m"),
     ],

@@ -63,7 +63,7 @@ def test_a_prediction_s_density_is_the_reference_s_with_the_likelihood_of_every_
 @pytest.mark.parametrize("name", ["surfaces", "surfaces by default", "reflectivities by default"])
 def test_stops_far_from_the_reading_that_count_as_random_readings_hardly_matter(name):
     """Readings of prior surfaces, whose spread has heavy tails, with the shortcut and with every entry's own law: the
-    shortcut costs less than 0.005 nats a beam, and nothing where cells are plain.
+    shortcut costs less than 0.005 nats a beam, and nothing where cells have no surfaces.
     """
     prior = PRIORS[name]
     plain = isinstance(prior, bm.Beta)

@@ -1,4 +1,4 @@
-"""Predictions from surfaces: plain sums over cells and draws, with the formulas of `bayesmap.kernels.meeting`."""
+"""Predictions from surfaces: plain sums over cells and draws, with the formulas of `bayesmap.kernels.surface_crossing`."""
 
 import numpy as np
 import pytest

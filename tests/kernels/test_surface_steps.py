@@ -21,9 +21,9 @@ from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels import stop_chains as chains
-from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.stops import GAIN_UNITS, IN_A_ROW, StopState, TracedRays
+from bayesmap.kernels.surface_crossing import Cell
 
 EDGE, CELLS = 0.5, 10_000
 UNBOUNDED = bm.Surface(1.0, 1.0, wander=0.4, spread=0.3, dof=3.5, extent=1e6)

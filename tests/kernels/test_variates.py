@@ -12,7 +12,7 @@ from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels.cell_draws import CellPrior, fresh_surface
-from bayesmap.kernels.meeting import Cell
+from bayesmap.kernels.surface_crossing import Cell
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
 
 COUNT = 100_000

@@ -98,7 +98,7 @@ def test_scans_of_another_building_are_lost_and_those_of_this_are_not(offices):
     wrong = localize(map_here, strange, independent=True)
     found = [offset(belief.mean, pose)[0] < 0.2 for belief, pose in zip(right.beliefs, route[10:120:12], strict=True)]
     lost = [belief.p_lost > 0.5 for belief in right.beliefs]
-    # A single scan may look alike from two places; then it is a wrong one that does not fit.
+    # A single scan may look alike from two components; then it is a wrong one that does not fit.
     assert sum(found) >= 8
     assert not any(np.array(found) & np.array(lost))
     assert sum(belief.p_lost > 0.5 for belief in wrong.beliefs) >= 7

@@ -46,7 +46,7 @@ def covariances(states):
     return np.stack([np.stack([l11**2, l11 * l21], -1), np.stack([l11 * l21, l21**2 + l22**2], -1)], -1)
 
 
-def meet(states, start, direction):
+def cross_surface(states, start, direction):
     """Chance of meeting the surface; mean and variance of where, of a point of it given that it lies on the beam.
 
     On the beam, or off it by what the direction may be wrong by: the surface is widened across the beam.
@@ -70,7 +70,7 @@ def stops(paths, states, plain):
     if plain:
         chance, distance, variance = np.ones(paths.cell.shape), paths.plain_m, np.zeros(paths.cell.shape)
     else:
-        chance, distance, variance = meet(cells, paths.start[:, None], paths.direction[:, None])
+        chance, distance, variance = cross_surface(cells, paths.start[:, None], paths.direction[:, None])
     return np.where(paths.there, cells[..., 0] * chance, 0.0), distance, variance
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from oracle import density
 from oracle.field_exact import exact_reflectivities
-from oracle.field_law import Paths, draw_readings, log_likelihoods, log_prior, meet, paths_of, reading_law
+from oracle.field_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
 from oracle.field_worlds import build_worlds, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit
 from oracle.worlds import bm_limits
@@ -54,7 +54,7 @@ def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says(
         across = np.outer([-u[1], u[0]], [-u[1], u[0]]) * (0.005 * (state[1:3] - start) @ u) ** 2
         weight = stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
         mean = np.average(t, weights=weight)
-        _, distance, variance = meet(state, start, u)
+        _, distance, variance = cross_surface(state, start, u)
         assert distance == pytest.approx(mean, abs=1e-6)
         assert variance == pytest.approx(np.average((t - mean) ** 2, weights=weight), rel=1e-6)
 
@@ -65,7 +65,7 @@ def test_the_gate_is_one_through_the_middle_and_a_half_at_its_width():
     factor = np.array([[state[3], 0.0], [state[4], state[5]]])
     v = np.sqrt(n @ factor @ factor.T @ n)
     for offset, chance in ((0.0, 1.0), (2.2 * v, 0.5), (-2.2 * v, 0.5), (4.4 * v, 1 / 65), (1.1 * v, 64 / 65)):
-        assert meet(state, state[1:3] - 0.7 * u - offset * n, u)[0] == pytest.approx(chance, rel=1e-9)
+        assert cross_surface(state, state[1:3] - 0.7 * u - offset * n, u)[0] == pytest.approx(chance, rel=1e-9)
 
 
 @pytest.mark.parametrize("plain", [True, False])

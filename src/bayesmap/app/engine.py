@@ -31,10 +31,10 @@ from bayesmap.app.tasks import (
     FindViews,
     Infer,
     Inspect,
-    Look,
     Report,
     ShowScan,
     Task,
+    View,
 )
 from bayesmap.app.weighing import Weighing
 from bayesmap.cells.kinds import BUILT_IN
@@ -65,7 +65,7 @@ class Engine:
         self._opened = opened
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
-        self._looks: dict[int | None, Look] = {}  # of pages that are shown a draw
+        self._looks: dict[int | None, View] = {}  # of pages that are shown a draw
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
@@ -86,7 +86,7 @@ class Engine:
             self._job = self._work(task)
         elif isinstance(task, Cancel):
             self._cancel()
-        elif isinstance(task, Look):
+        elif isinstance(task, View):
             self._looks.pop(task.client, None)
             if task.layer in OWN_LAYERS:
                 self._looks[task.client] = task
@@ -112,7 +112,7 @@ class Engine:
             self._job = None
         except (BadInput, MemoryError) as error:
             self._fail(str(error) or "out of memory; use a smaller map")
-        except Exception as error:  # a fault of ours: better told than met again by the next worker
+        except Exception as error:  # a fault of ours: better reported than repeated by the next worker
             traceback.print_exc()
             self._fail(f"unexpected {type(error).__name__}: {error}")
         if self._wanted and (self._result is not None or self._job is None):
@@ -262,16 +262,16 @@ class Engine:
 
     def _frame(self) -> None:
         assert self._result is not None
-        for look in (Look("mean"), *self._looks.values()):
-            self._show(look)
+        for view in (View("mean"), *self._looks.values()):
+            self._show(view)
         self._framed = time.perf_counter()
 
-    def _show(self, look: Look) -> None:
+    def _show(self, view: View) -> None:
         """A field for one page, or for all that are not shown a draw."""
         assert self._result is not None
-        header, buffers = self._result.field(look)
+        header, buffers = self._result.field(view)
         spent = round(1e3 * (time.perf_counter() - self._began), 1)
-        self._report("field", buffers, client=look.client, **header, milliseconds=spent)
+        self._report("field", buffers, client=view.client, **header, milliseconds=spent)
 
     def _rays(self, scene: Scene, scan: int | None) -> None:
         header, buffers = rays(scene, scan)

@@ -15,7 +15,7 @@ from bayesmap.app.judging import Verdict, difference, judge_chains, judge_partic
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
-from bayesmap.app.tasks import OWN_LAYERS, Look
+from bayesmap.app.tasks import OWN_LAYERS, View
 from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.posterior.diagnostics import bulk_ess
@@ -152,14 +152,14 @@ class Result:
             return self.run.log_joint
         return np.zeros((0, 0))
 
-    def draw(self, look: Look) -> tuple[NDArray[Any], int, int] | None:
+    def draw(self, view: View) -> tuple[NDArray[Any], int, int] | None:
         """One map of walls or of reflectivities, its chain and its number; None where this method has none."""
         if self.stream is not None:
-            return self.stream.draw(look.chain, look.draw)
+            return self.stream.draw(view.chain, view.draw)
         if self.run is not None and self.run.n_draws:
             last = self.run.n_draws - 1
-            chain = min(look.chain or 0, len(self.run.log_joint) - 1)
-            number = last if look.draw is None else min(look.draw, last)
+            chain = min(view.chain or 0, len(self.run.log_joint) - 1)
+            number = last if view.draw is None else min(view.draw, last)
             return self.run.map_of(chain, number), chain, number
         return None
 
@@ -213,11 +213,11 @@ class Result:
         counts, _ = np.histogram(np.maximum(below, lowest), WEIGHT_BINS, (lowest, 0.0))
         return counts.astype(np.float32), lowest
 
-    def field(self, look: Look) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    def field(self, view: View) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
         """Header and buffers of the message `field`, but for its generation and its time."""
         trace, traced = self.trace()
         header: dict[str, Any] = {
-            "layer": look.layer,
+            "layer": view.layer,
             "method": self.method,
             "approximate": self.method == "propagate",
             **self.statistics(),
@@ -227,13 +227,13 @@ class Result:
         buffers: dict[str, NDArray[Any]] = {"trace": trace, "traced": traced}
         if (weights := self.weights()) is not None:
             buffers["weights"], header["lowest"] = weights
-        one = self.draw(look) if look.layer == "draw" else None
+        one = self.draw(view) if view.layer == "draw" else None
         if one is not None:
             drawn, header["chain"], header["draw"] = one
             p = np.rint(drawn.astype(np.float32) * LEVELS).astype(np.uint8)
-        elif look.layer == "width" and self.width is not None:
+        elif view.layer == "width" and self.width is not None:
             p = np.rint(self.width * LEVELS).astype(np.uint8)
         else:
-            header["layer"] = "mean" if look.layer in OWN_LAYERS else look.layer
+            header["layer"] = "mean" if view.layer in OWN_LAYERS else view.layer
             p = np.rint(self.mean() * LEVELS).astype(np.uint8)
         return header, {"p": p, "observed": np.packbits(self.observed().ravel()), **buffers}

@@ -1,4 +1,4 @@
-"""The server of the page: on loopback unless told otherwise, guarded by a token (docs/app.md)."""
+"""The server of the page: on loopback unless another host is named, guarded by a token (docs/app.md)."""
 
 from __future__ import annotations
 

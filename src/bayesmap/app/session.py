@@ -1,4 +1,4 @@
-"""The session: applies what pages ask for, decides what the worker does and what pages are told. No sockets, no clocks.
+"""The session: applies what pages ask for, decides what the worker does and what pages are sent. No sockets, no clocks.
 
 While the first picture of a generation is being computed, edits of a gesture that arrive are merged and wait; so a fast
 hand sees every picture that there is time for, and never starves.
@@ -24,11 +24,11 @@ from bayesmap.app.tasks import (
     FindViews,
     Infer,
     Inspect,
-    Look,
     Mode,
     Report,
     ShowScan,
     Task,
+    View,
 )
 
 Message = Mapping[str, Any]
@@ -74,7 +74,7 @@ class Session:
         self.live = True
         self.running = False
         self.draws = {"chains": 0, "count": 0}
-        self._views: dict[int, Look] = {}  # of pages that are shown something else than the mean
+        self._views: dict[int, View] = {}  # of pages that are shown something else than the mean
         self.scan = 0
         self.worker_ready = False
         self._mode: Mode = "live"
@@ -115,7 +115,7 @@ class Session:
     def join(self, client: int) -> Effects:
         """A page has connected; it answers with hello."""
         self._seqs[client] = 0
-        mean: Effects = [ToWorker(Look("mean", client=client))] if self._views.pop(client, None) is not None else []
+        mean: Effects = [ToWorker(View("mean", client=client))] if self._views.pop(client, None) is not None else []
         welcome = {"type": "welcome", "version": VERSION, "limits": LIMITS, "base": ""}
         worker = {"type": "worker", "state": "ready" if self.worker_ready else "starting"}
         return [*mean, ToPage(welcome, {}, client), ToPage(worker, {}, client)]
@@ -123,8 +123,8 @@ class Session:
     def leave(self, client: int) -> Effects:
         """A page has gone: the worker need not draw for it any more, and anybody may undo its steps."""
         self._seqs.pop(client, None)
-        look = self._views.pop(client, None)
-        return [*([ToWorker(Look("mean", client=client))] if look is not None else []), self._state()]
+        view = self._views.pop(client, None)
+        return [*([ToWorker(View("mean", client=client))] if view is not None else []), self._state()]
 
     def _flush(self) -> Effects:
         if self._waiting is None:
@@ -206,7 +206,7 @@ class Session:
         return self._restart() if self.live else [ToWorker(Cancel()), self._state()]
 
     def _on_view(self, client: int, message: Message) -> Effects:
-        self._views[client] = Look(message["layer"], message.get("chain"), message.get("draw"), client)
+        self._views[client] = View(message["layer"], message.get("chain"), message.get("draw"), client)
         return [ToWorker(self._views[client]), self._state()]
 
     def _on_scan(self, client: int, message: Message) -> Effects:
@@ -261,7 +261,7 @@ class Session:
 
     def _shown(self, field: ToPage) -> Effects:
         """A field goes to the page that asked for it, or to all but those that are shown a draw."""
-        drawing = {client for client, look in self._views.items() if look.layer in OWN_LAYERS}
+        drawing = {client for client, view in self._views.items() if view.layer in OWN_LAYERS}
         if field.client is not None or not drawing:
             return [field]
         return [replace(field, client=client) for client in self._seqs if client not in drawing]
@@ -316,7 +316,7 @@ class Session:
             "pages": {
                 client: {
                     "seq": seq,
-                    "view": _as_json(self._views.get(client, Look("mean"))),
+                    "view": _as_json(self._views.get(client, View("mean"))),
                     "can_undo": self.history.can_undo and self._may_step(client, self.history.undoes),
                     "can_redo": self.history.can_redo and self._may_step(client, self.history.redoes),
                 }
@@ -333,13 +333,13 @@ def addressed(header: Mapping[str, Any], client: int) -> Mapping[str, Any]:
     """A message as one page is to see it: in a state, its own last message that was applied, its view, its undo."""
     if header["type"] != "state":
         return header
-    unknown = {"seq": 0, "view": _as_json(Look("mean")), "can_undo": False, "can_redo": False}
+    unknown = {"seq": 0, "view": _as_json(View("mean")), "can_undo": False, "can_redo": False}
     own = header["pages"].get(client, unknown)
     return {**{name: value for name, value in header.items() if name != "pages"}, **own}
 
 
-def _as_json(look: Look) -> dict[str, Any]:
-    return {"layer": look.layer, "chain": look.chain, "draw": look.draw}
+def _as_json(view: View) -> dict[str, Any]:
+    return {"layer": view.layer, "chain": view.chain, "draw": view.draw}
 
 
 def refusal(refused: Refused, kind: str | None = None, seq: int | None = None) -> dict[str, Any]:

@@ -78,7 +78,7 @@ class Stream:
         self._sums = np.zeros((CHAINS, *model.grid.shape))
         self._rhat = self._ess = math.nan
         self._diagnose_at, self._diagnosed = 0.0, 0
-        self._informed = np.zeros((2, *model.grid.shape), dtype=np.int32)
+        self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = np.zeros((CHAINS, self.total))
         self._log_prior = np.zeros((CHAINS, self.total))
 
@@ -109,7 +109,7 @@ class Stream:
         self._log_likelihood[:, before : self.sweep] = info.log_likelihood
         self._log_prior[:, before : self.sweep] = info.log_prior
         if self.sweep in self._look_at:
-            self._informed += self._sampler.informed(self.state, {})
+            self._observed_counts += self._sampler.observed_counts(self.state, {})
         self.seconds += time.perf_counter() - began
 
     @property
@@ -138,7 +138,7 @@ class Stream:
 
     def observed(self) -> NDArray[np.bool_]:
         """Cells of which a beam said something in at least half of the maps that were looked at, (nx, ny)."""
-        return np.asarray(2 * self._informed[0] >= np.maximum(1, self._informed[1]))
+        return np.asarray(2 * self._observed_counts[0] >= np.maximum(1, self._observed_counts[1]))
 
     def draw(self, chain: int | None, draw: int | None) -> tuple[NDArray[Any], int, int]:
         """One map, (nx, ny), and which it is: the last where there is none such, the latest where none are kept."""
@@ -169,7 +169,7 @@ class Stream:
         log_likelihood, log_prior, warmup = self._record.log_densities
         return Chains(
             draws=self.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
-            snapshot=self._sampler.snapshot(self.state), informed=self._informed, statistics={},
+            snapshot=self._sampler.snapshot(self.state), observed_counts=self._observed_counts, statistics={},
             n_incidences=self.problem.n_incidences,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
         )  # fmt: skip

@@ -42,7 +42,7 @@ class Cancel:
 
 
 @dataclass(frozen=True)
-class Look:
+class View:
     """Which field a page is sent from now on; one is sent at once.
 
     Attributes:
@@ -108,7 +108,7 @@ class Export:
     what: str
 
 
-Task = Infer | Cancel | Look | ShowScan | Inspect | FindPath | FindViews | Export
+Task = Infer | Cancel | View | ShowScan | Inspect | FindPath | FindViews | Export
 
 
 @dataclass(frozen=True)

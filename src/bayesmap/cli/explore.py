@@ -63,16 +63,16 @@ def command(call: Call, run_file: str, output: str | None) -> None:
 
 
 def _views(found: Views) -> list[dict[str, Any]]:
-    told = found.information
-    assert told.independent is not None
+    information = found.information
+    assert information.independent is not None
     return [
         {
             "pose": [float(v) for v in found.candidates[i]],
-            "at_least_nats": float(told.at_least[k]),
-            "at_least_error": float(told.at_least_error[k]),
-            "at_most_nats": float(told.at_most[k]),
-            "at_most_error": float(told.at_most_error[k]),
-            "independent_nats": float(told.independent[k]),
+            "at_least_nats": float(information.at_least[k]),
+            "at_least_error": float(information.at_least_error[k]),
+            "at_most_nats": float(information.at_most[k]),
+            "at_most_error": float(information.at_most_error[k]),
+            "independent_nats": float(information.independent[k]),
         }
         for k, i in enumerate(found.best)
     ]

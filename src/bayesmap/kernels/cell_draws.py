@@ -17,9 +17,9 @@ the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11
 
 import warp as wp
 
-from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.stops import CLEAREST, GAIN_UNITS, IN_A_ROW, LEARNS, StopState, groups_of
+from bayesmap.kernels.surface_crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
 
 wp.set_module_options({"enable_backward": False})
@@ -173,7 +173,7 @@ def log_reflectivity_prior(prior: CellPrior, m: wp.float32) -> wp.float32:
 def begin_sweep(
     first: int,
     sweep: int,
-    plain: int,
+    without_surfaces: int,
     prior: CellPrior,
     prior_moved: int,
     active: ActiveCells,
@@ -200,21 +200,21 @@ def begin_sweep(
     turns = int(active.round[a])
     centre = centre_of(c, active.ny, active.edge_m)
     renewed = bool(False)
-    if plain == 0 and turns != 0 and cell[REFLECTIVITY] <= CLEAREST and (sweep + c) % SILENT_EVERY == 0:
+    if without_surfaces == 0 and turns != 0 and cell[REFLECTIVITY] <= CLEAREST and (sweep + c) % SILENT_EVERY == 0:
         cell = renewed_surface(prior, centre, cell, sweep_key(keys[chain], sweep, 1), wp.uint64(c) * PER_CELL)
         renewed = bool(True)
     if prior_moved != 0 or turns == 0 or renewed or state.fixed_m[here] == LEARNS:
         density = log_reflectivity_prior(prior, cell[REFLECTIVITY])
-        if plain == 0:
+        if without_surfaces == 0:
             density += wp.float32(log_surface_prior(prior, centre, cell))
         log_prior[i] = density
     fixed_m = LEARNS
     if turns == 0:
-        if plain == 0:
+        if without_surfaces == 0:
             fixed_m = cell[REFLECTIVITY]
     else:
         turn = (sweep + c) % turns
-        if plain == 0 and turn == AT_TURN:
+        if without_surfaces == 0 and turn == AT_TURN:
             cell[TRYING] = FRESH
             key = sweep_key(keys[chain], sweep, 1)
             at = wp.uint64(c) * PER_CELL + AT_FRESH
@@ -275,17 +275,17 @@ def update_free_cells(
 
 
 @wp.kernel
-def count_informed(
+def count_observed(
     first: int,
     active: ActiveCells,
     n_cells: int,
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
-    informed: wp.array(dtype=wp.vec2i),
+    observed_counts: wp.array(dtype=wp.vec2i),
 ):
     """One thread a chain's cell, after a sweep: has it counted beams yet, and did any beam come into the count?"""
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     here = chain * n_cells + active.cell[i - chain * active.cell.shape[0]]
     if met[here] >= 0:
-        informed[here] = informed[here] + wp.vec2i(wp.where(hits[here] + met[here] > 0, 1, 0), 1)
+        observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(hits[here] + met[here] > 0, 1, 0), 1)

@@ -11,8 +11,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.meeting import Cell, meet, ray_from
 from bayesmap.kernels.rays import Line, distance_at
+from bayesmap.kernels.surface_crossing import Cell, cross_surface, ray_from
 
 wp.set_module_options({"enable_backward": False})
 
@@ -44,7 +44,7 @@ def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3
     """
     if maps.surfaces != 0:
         state = maps.surface[row, column]
-        met = meet(state, ray_from(line.start_m, line.direction))
+        met = cross_surface(state, ray_from(line.start_m, line.direction))
         chance = wp.float64(state[0]) * wp.float64(met.chance)
         return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
     chance = wp.float64(maps.stop[row, column])

@@ -28,10 +28,21 @@ from bayesmap.kernels.cell_draws import (
     log_reflectivity_prior,
     log_surface_prior,
 )
-from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, gate_at, meet, ray_from
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.stops import LEAST, StopState, TracedRays, hit_law
+from bayesmap.kernels.surface_crossing import (
+    L11,
+    L21,
+    L22,
+    MEAN_X,
+    MEAN_Y,
+    REFLECTIVITY,
+    Cell,
+    cross_surface,
+    crossing_probability_at,
+    ray_from,
+)
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
 
@@ -82,12 +93,12 @@ def endpoint_cells(rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float
 
 
 @wp.func
-def gate_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
-    """The chance of meeting a surface whose mean lies (dx, dy) from the cell's centre: as `meeting.gate`."""
+def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
+    """The chance of meeting a surface whose mean lies (dx, dy) from the cell's centre."""
     offset = passing[0] + passing[1] * dy - passing[2] * dx
     across_1 = cell[L21] * passing[1] - cell[L11] * passing[2]
     across_2 = cell[L22] * passing[1]
-    return gate_at(offset, across_1 * across_1 + across_2 * across_2)
+    return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.func
@@ -111,14 +122,14 @@ def log_stops(
     dy = cell[MEAN_Y] - centre[1]
     m = cell[REFLECTIVITY]
     for i in range(span[0], span[1]):
-        product = product * wp.max(one - m * gate_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
+        product = product * wp.max(one - m * crossing_probability_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
         if product < FEWEST:
             total += wp.log(wp.float64(product))
             product = one
     for i in range(span[2], span[3]):
         e = listed[i]
         b = endpoints.beam[e]
-        met = meet(cell, ray_from(rays.start_m[b], rays.direction[b]))
+        met = cross_surface(cell, ray_from(rays.start_m[b], rays.direction[b]))
         p = hit_law(law, beta, endpoints.entry[e], rays.near[b], rays.range_m[b], rays.decay[b], met)
         product = product * wp.max(m * met.chance * p, LEAST)
         if product < FEWEST or product > one / FEWEST:
@@ -182,7 +193,7 @@ def update_endpoint_cells(
     n_met = int(0)
     for i in range(span[0], span[1]):
         e = listed[i]
-        g = gate_of(endpoints.passing[e], dx, dy, cell)
+        g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
         x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
     hits[here] = n_hits

@@ -13,7 +13,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.meeting import meet, ray_from
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.scan_likelihood import Cells, Frame, put_cells
 from bayesmap.kernels.sensor_law import (
@@ -24,6 +23,7 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
     variance_at,
 )
+from bayesmap.kernels.surface_crossing import cross_surface, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 
@@ -100,7 +100,7 @@ def reading_log_density(
             variance = ZERO
             if cells.surfaces != 0:
                 state = cells.surface[draw, cell]
-                met = meet(state, ray)
+                met = cross_surface(state, ray)
                 chance = state[0] * met.chance
                 distance = met.distance_m
                 variance = met.variance

@@ -15,10 +15,10 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.meeting import Cell, meet, ray_from
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.predict import add_stop, no_sum, weight_of_nothing
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
+from bayesmap.kernels.surface_crossing import Cell, cross_surface, ray_from
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -55,7 +55,7 @@ def stop_in(cells: Cells, chain: int, cell: int, start: wp.vec2, direction: wp.v
     """Chance that a beam stops in a cell that it has reached, and distance and spread in metres if it does."""
     if cells.surfaces != 0:
         state = cells.surface[chain, cell]
-        met = meet(state, ray_from(start, direction))
+        met = cross_surface(state, ray_from(start, direction))
         return wp.vec3d(
             wp.float64(state[0]) * wp.float64(met.chance),
             wp.float64(met.distance_m),

@@ -51,10 +51,10 @@ def refine(
     i = job_scan[k]
     x = start[k]
     count = wp.float64(offsets[k + 1] - offsets[k])
-    settled = int(0)
+    converged = int(0)
     found = wp.mat33d()
     for step in range(steps):
-        if settled >= 1:
+        if converged >= 1:
             continue
         share = wp.min(1.0, 1.5 * float(step) / float(wp.max(steps - 1, 1)))
         r = reach[0] * wp.pow(reach[1] / reach[0], share)
@@ -84,9 +84,9 @@ def refine(
         # H (H + s^2 S)^-1 H: H where slack is small against it, and never negative where it is not.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
         trusted = second * wp.inverse(second + slack * (sigma * sigma) + ridge)
-        told = trusted * second * gain
+        laser_information = trusted * second * gain
         pull = trusted * gradient * gain
-        whole = told + prior_information[k]
+        whole = laser_information + prior_information[k]
         move = wp.inverse(whole) * (pull + prior_information[k] * off)
         length = wp.abs(move[0]) + wp.abs(move[1]) + wp.abs(move[2])
         if not wp.isfinite(length):
@@ -95,13 +95,13 @@ def refine(
         if length > wp.float64(0.5):
             move = move * (wp.float64(0.5) / length)
         x = x - move
-        found = told
+        found = laser_information
         totals[k, 0] = cost
         totals[k, 1] = weight
         totals[k, 2] = wp.float64(matched)
         totals[k, 3] = wp.float64(seen)
         if share >= 1.0 and length < STILL:
-            settled = 1
+            converged = 1
     pose[k] = wp.vec3d(x[0], x[1], wrapped(x[2]))
     information[k] = found
 

@@ -2,7 +2,7 @@ r"""How many beams are stopped inside each square of the grid, and how many pass
 
 A surface need not lie in the square of the cell that it belongs to, and which of two neighbouring cells a piece of wall
 belongs to is a label. So the beams' stops are counted in the squares in which the points lie at which they were
-stopped. Of a beam that the cell k stops at about t* with variance s^2 (`bayesmap.kernels.meeting`) the point is
+stopped. Of a beam that the cell k stops at about t* with variance s^2 (`kernels.surface_crossing`) the point is
 drawn from its law given the reading z: if z is what came back from there, with the sensor's variance sigma^2,
 
     t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)),
@@ -109,11 +109,11 @@ def draw_stop_chances(
     expected: wp.array(dtype=wp.float32),
     kept: int,
     n_cells: int,
-    informed: wp.array(dtype=wp.vec2i),
+    observed_counts: wp.array(dtype=wp.vec2i),
 ):
     """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P).
 
-    If the draw is kept, ``informed`` counts it, and whether some beam comes to the square in it.
+    If the draw is kept, ``observed_counts`` counts it, and whether some beam comes to the square in it.
     """
     i = wp.tid()
     c = touched[i]
@@ -124,7 +124,7 @@ def draw_stop_chances(
     expected[i] = wp.float32(a / (a + b))
     if kept != 0:
         here = chain * n_cells + c
-        informed[here] = informed[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)
+        observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)
 
 
 class InSquares(NamedTuple):
@@ -160,7 +160,7 @@ class Squares:
         rays: TracedRays,
         state: StopState,
         keys: wp.array,
-        informed: wp.array,
+        observed_counts: wp.array,
         kept: bool,
     ) -> InSquares:
         """Count a chain's stops, and draw the chances given the counts.
@@ -173,7 +173,7 @@ class Squares:
             rays: the beams where kernels read them.
             state: of all chains.
             keys: of all chains' random numbers.
-            informed: draws of which a beam says something in each square, and draws, of all chains, to be gone on with.
+            observed_counts: draws in which a beam says something of each square, and draws, of all chains so far.
             kept: whether this draw counts there.
         """
         stopped, behind, drawn, expected = self._room[chain]
@@ -183,7 +183,7 @@ class Squares:
         wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
         inputs = [
             chain, sweep, prior, self._touched, keys, self._crossings_there, stopped, behind, drawn, expected,
-            int(kept), self._rays.grid.n_cells, informed,
+            int(kept), self._rays.grid.n_cells, observed_counts,
         ]  # fmt: skip
         wp.launch(draw_stop_chances, dim=len(self._rays.touched), inputs=inputs, device=self._device)
         touched = self._rays.touched

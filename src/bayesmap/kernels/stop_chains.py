@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import ActiveCells, CellPrior, begin_sweep, count_informed, update_free_cells
+from bayesmap.kernels.cell_draws import ActiveCells, CellPrior, begin_sweep, count_observed, update_free_cells
 from bayesmap.kernels.endpoint_cells import endpoint_cells, update_endpoint_cells
-from bayesmap.kernels.meeting import Cell
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
 from bayesmap.kernels.stops import IN_A_ROW, LEARNS, StopState, TracedRays, decay_of_readings, draw_stops
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
+from bayesmap.kernels.surface_crossing import Cell
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
@@ -46,7 +46,7 @@ def put_rays(
         cells: other numbers of the cells than their places in the grid, (K,).
     """
     there = TracedRays()
-    there.plain = int(distance_m is not None)
+    there.without_surfaces = int(distance_m is not None)
     there.offsets = devices.to_device(rays.offsets, wp.int32, device)
     there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
     there.near = devices.to_device(rays.near, wp.int32, device)
@@ -109,15 +109,15 @@ class StopChains:
         *,
         threads: int | None,
         counts: NDArray[np.int32] | None = None,
-        informed: NDArray[np.int32] | None = None,
+        observed_counts: NDArray[np.int32] | None = None,
     ) -> None:
         """Put chains on the device, one for each key.
 
-        ``states`` gives the cells at which a chain stands, (N, 6); ``counts`` (C, 2, N) and ``informed`` (C, N, 2) are
-        those of chains that go on.
+        ``states`` gives the cells at which a chain stands, (N, 6); ``counts`` (C, 2, N) and
+        ``observed_counts`` (C, N, 2) are those of chains that go on.
         """
         self.plan, device = plan, plan.device
-        self.device, self.plain, self.n_chains = device, int(plan.distance_m is not None), len(keys)
+        self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
         chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
         self.threads = (threads or available_cores()) if device == "cpu" else 1
         self._rays = put_rays(plan.rays, plan.distance_m, device)
@@ -130,7 +130,7 @@ class StopChains:
         self._keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
-        self._squares = None if self.plain else Squares(plan.rays, chains, device)
+        self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
 
         empty = partial(wp.zeros, device=device)
         parts = max(1, -(-self.threads // chains))
@@ -153,8 +153,8 @@ class StopChains:
             self._met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
         else:
             self._hits, self._met = (wp.array(counts[:, i].ravel(), dtype=wp.int32, device=device) for i in (0, 1))
-        there = np.zeros((chains * cells, 2), np.int32) if informed is None else informed.reshape(-1, 2)
-        self._informed = wp.array(there, dtype=wp.vec2i, device=device)
+        there = np.zeros((chains * cells, 2), np.int32) if observed_counts is None else observed_counts.reshape(-1, 2)
+        self._observed_counts = wp.array(there, dtype=wp.vec2i, device=device)
         self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
         self._slices = [empty((chains, -(-max(size, 1) // SLICE)), dtype=wp.float64) for size in (beams, touched)]
@@ -167,7 +167,7 @@ class StopChains:
         prior: tuple[float, float, float, float, float, float, float],
         beta: float = 1.0,
         *,
-        informing_after: int | None = None,
+        observing_after: int | None = None,
         before: Callable[[int, int], None] | None = None,
         after: Callable[[int, int], None] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -179,7 +179,7 @@ class StopChains:
             sensor: the law of the readings.
             prior: of the cells: a, b, tau_m, psi_m2, nu, kappa_m, half_m (see `bayesmap.kernels.cell_draws`).
             beta: inverse temperature.
-            informing_after: from this sweep on it is counted which cells beams tell something; never if None. With
+            observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
                 surfaces `in_squares` counts it.
             before: given chain and number of each sweep before it.
             after: likewise after it, by whatever thread has run it.
@@ -198,7 +198,7 @@ class StopChains:
             wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)
         )
         beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
-        endpoints = 0 if self.plain else len(self.plan.endpoints)
+        endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
         state, keys, counts = self._state, self._keys, [self._hits, self._met]
 
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
@@ -206,14 +206,14 @@ class StopChains:
             number, changed = first + i, int(moved and i == 0)
             shared = [packed, self._active, state, keys]
             out = [
-                (begin_sweep, touched, [number, self.plain, packed, changed, *shared[1:], self._log_priors]),
+                (begin_sweep, touched, [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]),
                 (draw_stops, beams, [number, law, self._rays, state, keys]),
                 (update_free_cells, touched, [number, *shared, *counts]),
                 (update_endpoint_cells, endpoints, [number, law, packed, self._rays, self._endpoints, self._active,
                                                     state, self._lists, keys, *counts]),
             ]  # fmt: skip
-            if self.plain and informing_after is not None and number >= informing_after:
-                out.append((count_informed, touched, [self._active, state.n_cells, *counts, self._informed]))
+            if self.without_surfaces and observing_after is not None and number >= observing_after:
+                out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
             beam_sums, cell_sums = self._slices
             out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
             out.append((sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
@@ -268,7 +268,7 @@ class StopChains:
             for task in tasks:
                 work(task)
             return
-        for kernel in (*KERNELS, count_informed, sum_slices, sum_of_slices):
+        for kernel in (*KERNELS, count_observed, sum_slices, sum_of_slices):
             devices.load_kernels(kernel, self.device)
         list(thread_pool(self.threads).map(work, tasks))
 
@@ -296,21 +296,21 @@ class StopChains:
     def in_squares(self, chain: int, sweep: int, kept: bool) -> InSquares:
         """Where the beams of a chain with surfaces were stopped in the sweep with this number, its last.
 
-        ``kept`` says that the draw counts in `informed`.
+        ``kept`` says that the draw counts in `observed_counts`.
         """
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
         law, prior = self._packed
         return self._squares.of_chain(
-            chain, sweep, law, prior, self._rays, self._state, self._keys, self._informed, kept
+            chain, sweep, law, prior, self._rays, self._state, self._keys, self._observed_counts, kept
         )
 
-    def informed(self, chain: int) -> NDArray[np.int32]:
+    def observed_counts(self, chain: int) -> NDArray[np.int32]:
         """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.
 
         Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
         """
-        return self._of(self._informed, chain)
+        return self._of(self._observed_counts, chain)
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
         """Of every beam of a chain: whether it stopped, at what distance in metres, and with what variance, (B,)."""

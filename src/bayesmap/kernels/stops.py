@@ -19,9 +19,9 @@ tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
 
 import warp as wp
 
-from bayesmap.kernels.meeting import TRYING, Cell, Meeting, Ray, gate, meet, ray_from
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32, no_stop_density, object_decay, stop_density
+from bayesmap.kernels.surface_crossing import TRYING, Cell, Crossing, Ray, cross_surface, crossing_probability, ray_from
 
 wp.set_module_options({"enable_backward": False})
 
@@ -45,9 +45,9 @@ STREAM_FAR = wp.constant(wp.uint64(3 << 32))
 
 @wp.struct
 class TracedRays:
-    """`Rays` on a device; ``plain`` says that cells have no surfaces, and stop beams at ``distance_m``."""
+    """`Rays` on a device; ``without_surfaces`` says that cells have no surfaces, and stop beams at ``distance_m``."""
 
-    plain: int
+    without_surfaces: int
     offsets: wp.array(dtype=wp.int32)
     cells: wp.array(dtype=wp.int32)
     distance_m: wp.array(dtype=wp.float32)
@@ -60,7 +60,7 @@ class TracedRays:
 
 @wp.struct
 class StopState:
-    """All chains: their cells, what beams told these in this sweep, and where the beams stopped.
+    """All chains: their cells, what beams say of these in this sweep, and where the beams stopped.
 
     Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the
     grid.
@@ -96,15 +96,15 @@ def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
 
 
 @wp.func
-def plain_or_meet(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Meeting:
+def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
     """Chance, distance and variance of a stop at entry k."""
-    if rays.plain != 0:
-        m = Meeting()
+    if rays.without_surfaces != 0:
+        m = Crossing()
         m.chance = wp.float32(1.0)
         m.distance_m = rays.distance_m[k]
         m.variance = wp.float32(0.0)
         return m
-    return meet(cell, ray)
+    return cross_surface(cell, ray)
 
 
 @wp.func
@@ -126,12 +126,12 @@ def pass_by(
     k: int,
     sign: int,
 ):
-    """Tell a cell that a beam passed it; with sign -1 take that back."""
+    """Count that a beam passed a cell; with sign -1 take that back."""
     one = wp.float32(1.0)
     m = cell[0]
     row = chain * state.parts + part
     if cell[TRYING] != wp.float32(0.0):
-        other = gate(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
+        other = crossing_probability(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
         ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
         wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
         return
@@ -142,10 +142,10 @@ def pass_by(
 
 @wp.func
 def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
-    """The chance of meeting a cell's surface: one where cells are plain."""
-    if rays.plain != 0:
+    """The chance of meeting a cell's surface: one where cells have no surfaces."""
+    if rays.without_surfaces != 0:
         return wp.float32(1.0)
-    return gate(cell, ray)
+    return crossing_probability(cell, ray)
 
 
 @wp.kernel
@@ -165,7 +165,7 @@ def draw_stops(
     state: StopState,
     keys: wp.array(dtype=wp.uint64),
 ):
-    """One thread a chain's beam: draw where it stops, and tell the cells."""
+    """One thread a chain's beam: draw where it stops, and count it in the cells."""
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -204,7 +204,7 @@ def draw_stops(
         m_fixed = state.fixed_m[cell_0 + c]
         if m_fixed < wp.float32(0.0) or m_fixed > CLEAREST:
             cell = state.cells[cell_0 + c]
-            m = plain_or_meet(rays, k, cell, ray)
+            m = cross_cell(rays, k, cell, ray)
             a = cell[0] * m.chance
             p = tempered(stop_density(law, reading, decay, m.distance_m, m.variance), state.beta)
             weight = wp.float64(free * a * p)
@@ -220,7 +220,7 @@ def draw_stops(
     state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
 
     if choice == FAR:
-        # Rare. Find the cell, and take back what those from it on were told.
+        # Rare. Find the cell, and take back what was counted in those from it on.
         target = wp.float32(to_uniform(random_bits(key, STREAM_FAR + wp.uint64(b)))) * stopped_far
         free = wp.float32(1.0)
         for k in range(begin, near):
@@ -242,13 +242,13 @@ def draw_stops(
     if choice < end:
         c = rays.cells[choice]
         cell = state.cells[cell_0 + c]
-        stopped = plain_or_meet(rays, choice, cell, ray)
+        stopped = cross_cell(rays, choice, cell, ray)
         state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
         row = chain * state.parts + part
         wp.atomic_add(state.hits, row, c, 1)
         if cell[TRYING] != wp.float32(0.0):
-            old = meet(cell, ray)
-            new = meet(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
+            old = cross_surface(cell, ray)
+            new = cross_surface(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
             after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
             before = wp.max(old.chance * hit_law(law, state.beta, choice, near, reading, decay, old), LEAST)
             wp.atomic_add(state.gain, row, c, in_units(wp.log(after / before)))
@@ -256,7 +256,7 @@ def draw_stops(
 
 @wp.func
 def hit_law(
-    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, m: Meeting
+    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, m: Crossing
 ) -> wp.float32:
     """p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
     if k < near:

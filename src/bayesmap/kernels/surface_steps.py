@@ -1,4 +1,4 @@
-"""Random steps of a busy cell, in a frame of its own: along its wall, and across.
+"""Random steps of an endpoint cell, in a frame of its own: along its wall, and across.
 
 Where along a wall a surface lies, and how far it extends, beams hardly say, as long as it fills its cell; where across,
 and how thick it is, they say to millimetres. Steps that know nothing of this are too short in one direction for the
@@ -12,8 +12,8 @@ A row of steps holds: sizes for logit m, mean along, mean across, log l11, l21, 
 
 import warp as wp
 
-from bayesmap.kernels.meeting import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.surface_crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 from bayesmap.kernels.variates import normal
 
 wp.set_module_options({"enable_backward": False})
@@ -67,7 +67,7 @@ def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
 def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
     """The cell, in its frame, moved by a random step, half of the time a short one.
 
-    By turns what beams hardly say (logit m, mean along, extent: a wide surface that stops few of the beams that meet it
+    By turns what beams hardly say (logit m, mean along, size: a wide surface that stops few of the beams that meet it
     looks like a small one that stops many) and what they say well (mean across, slope, thickness).
     """
     size = wp.where(to_uniform(random_bits(key, at)) < wp.float64(0.5), SHORT, wp.float64(1.0))

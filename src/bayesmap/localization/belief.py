@@ -94,7 +94,7 @@ class PoseBelief:
 
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
-        """The places where the robot may be, the likeliest first."""
+        """The components where the robot may be, the likeliest first."""
         label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         found = []
         for one in np.unique(label):

@@ -1,6 +1,6 @@
 """One scan's step: from what was believed before it to what is believed after it.
 
-Before a scan the pose's law is a mixture of normal distributions (places where the robot may be, moved by odometry) or
+Before a scan the pose's law is a mixture of normal distributions (moved by odometry) or
 uniform over the map's free cells, or some of both: a robot may have been carried away. The scan is weighed by the exact
 forward law, averaged over draws of the map; where nothing narrows the search, a search over the whole map says where to
 look. Beside all poses stands the chance that the robot is elsewhere, or the map outdated: then readings come as they do
@@ -18,8 +18,8 @@ from scipy.special import expit, logsumexp
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.particles import (
-    Places,
     Population,
+    PoseMixture,
     adapted,
     draw_population,
     groups_of,
@@ -77,21 +77,21 @@ class Prior:
     """What is believed of the pose before a scan.
 
     Attributes:
-        places: normal distributions, their masses as logs; None: nothing but that the robot is on the map.
-        uniform: share of the mass that lies uniformly over the map's free cells; 1 without places.
+        components: normal distributions, their masses as logs; None: nothing but that the robot is on the map.
+        uniform: share of the mass that lies uniformly over the map's free cells; 1 without components.
         lost: probability that the robot is elsewhere, or the map outdated.
     """
 
-    places: Places | None = None
+    components: PoseMixture | None = None
     uniform: float = 1.0
     lost: float = LOST_AT_FIRST
 
     def log_density(self, poses: Floats, known: KnownMap) -> Floats:
         """Log density of poses on the map, (P,); -inf in walls."""
         flat = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
-        if self.places is None:
+        if self.components is None:
             return np.asarray(flat)
-        own = _mixture_log_density(self.places, poses) + np.log1p(-self.uniform)
+        own = _mixture_log_density(self.components, poses) + np.log1p(-self.uniform)
         if self.uniform == 0.0:
             return np.asarray(own)
         return np.asarray(np.logaddexp(own, flat + np.log(self.uniform)))
@@ -105,7 +105,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         prior: what was believed before the scan.
         scan: the scan.
         rng: for the draws of poses.
-        look_everywhere: whether to search the whole map; needed where the prior has no places.
+        look_everywhere: whether to search the whole map; needed where the prior has no components.
     """
 
     def target(thin: int, draws: int | None) -> _Target:
@@ -132,21 +132,21 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     return _belief(known, prior, scan, population, group, rng)
 
 
-def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> Places | None:
+def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
     """Where to look first; None: everywhere alike."""
     found = None
-    if look_everywhere or prior.places is None:
+    if look_everywhere or prior.components is None:
         candidates = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES)
         if len(candidates.poses):
             count = len(candidates.poses)
             covariances = np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3))
-            found = Places(candidates.poses, covariances, np.zeros(count))
-    if prior.places is None or found is None:
-        return found if prior.places is None else prior.places
-    return Places(
-        np.concatenate([prior.places.means, found.means]),
-        np.concatenate([prior.places.covariances, found.covariances]),
-        np.concatenate([prior.places.log_mass, found.log_mass]),
+            found = PoseMixture(candidates.poses, covariances, np.zeros(count))
+    if prior.components is None or found is None:
+        return found if prior.components is None else prior.components
+    return PoseMixture(
+        np.concatenate([prior.components.means, found.means]),
+        np.concatenate([prior.components.covariances, found.covariances]),
+        np.concatenate([prior.components.log_mass, found.log_mass]),
     )
 
 
@@ -223,25 +223,27 @@ def _fit(
     target = _Target(known, prior, scan, thin, 1, weight)
     mode = belief.modes[0]
     shrunk = mode.covariance * known.weight_of(scan.ranges_m) / weight + 1e-8 * np.eye(3)
-    places = Places(mode.mean[None], shrunk[None], np.zeros(1))
-    population = draw_population(places, target, 32, rng)
+    components = PoseMixture(mode.mean[None], shrunk[None], np.zeros(1))
+    population = draw_population(components, target, 32, rng)
     for _ in range(ROUNDS):
-        places, power = adapted(places, population)
-        population = draw_population(places, target, 32, rng)
+        components, power = adapted(components, population)
+        population = draw_population(components, target, 32, rng)
         if power > NEARLY:
             break
-    best = population.poses[[int(np.argmax(population.log_weights + proposal_log_density(places, population.poses)))]]
+    best = population.poses[
+        [int(np.argmax(population.log_weights + proposal_log_density(components, population.poses)))]
+    ]
     beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
     top = known.log_likelihood(best, scan.angles_rad, scan.ranges_m, scan.limits, weight=weight)[0]
     return population.log_evidence, float(top / weight / beams)
 
 
-def _mixture_log_density(places: Places, poses: Floats) -> Floats:
-    """Log density of a mixture of normal distributions with the places' masses, (P,)."""
-    off = poses[:, None] - places.means
+def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
+    """Log density of a mixture of normal distributions with the components' masses, (P,)."""
+    off = poses[:, None] - components.means
     off[..., 2] = wrapped(off[..., 2])
-    inverse = np.linalg.inv(places.covariances)
+    inverse = np.linalg.inv(components.covariances)
     squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
-    mass = places.log_mass - logsumexp(places.log_mass)
+    mass = components.log_mass - logsumexp(components.log_mass)
     logs = mass + 0.5 * np.linalg.slogdet(inverse)[1] - 1.5 * np.log(2 * np.pi) - 0.5 * squared
     return np.asarray(logsumexp(logs, axis=1))

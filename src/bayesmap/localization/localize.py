@@ -13,7 +13,7 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.localization.belief import Mode, PoseBelief, Region
 from bayesmap.localization.filter import CARRIED, GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
 from bayesmap.localization.known_map import KnownMap
-from bayesmap.localization.particles import LEAST_SD, Places
+from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.se2 import rotation
 from bayesmap.sensors.model import RangeLimits
@@ -52,10 +52,10 @@ class Near:
             raise BadInput("Near: give pose (x, y, yaw), and sigma_m and sigma_rad above 0")
         object.__setattr__(self, "pose", pose)
 
-    def places(self) -> Places:
+    def components(self) -> PoseMixture:
         """As a normal distribution."""
         covariance = np.diag(np.array([self.sigma_m, self.sigma_m, self.sigma_rad]) ** 2)
-        return Places(np.asarray(self.pose)[None], covariance[None], np.zeros(1))
+        return PoseMixture(np.asarray(self.pose)[None], covariance[None], np.zeros(1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +160,7 @@ def follow(
     odometry = Odometry() if odometry is None else odometry
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    first = Prior() if prior is None else Prior(prior.places(), CARRIED, LOST_AT_FIRST)
+    first = Prior() if prior is None else Prior(prior.components(), CARRIED, LOST_AT_FIRST)
     believed, belief = first, None
     for i in range(len(scans)):
         stamp = None if scans.stamps_s is None else float(scans.stamps_s[i])
@@ -191,7 +191,7 @@ def moved(belief: PoseBelief, motion: Floats, sigmas: Floats) -> Prior:
     noise = turn @ np.diag(sigmas**2 + LEAST_SD**2) @ np.swapaxes(turn, 1, 2)
     ends[:, 2] = wrapped(ends[:, 2])
     mass = np.log([mode.probability for mode in belief.modes])
-    places = Places(ends, swing @ covariances @ np.swapaxes(swing, 1, 2) + noise, mass)
+    components = PoseMixture(ends, swing @ covariances @ np.swapaxes(swing, 1, 2) + noise, mass)
     lost = belief.p_lost * (1.0 - IS_FOUND) + (1.0 - belief.p_lost) * GETS_LOST
     # A robot that was lost may be back anywhere.
-    return Prior(places, CARRIED + (1.0 - CARRIED) * min(belief.p_lost * IS_FOUND, 0.5), lost)
+    return Prior(components, CARRIED + (1.0 - CARRIED) * min(belief.p_lost * IS_FOUND, 0.5), lost)

@@ -1,7 +1,7 @@
-"""Weighing poses by importance: a mixture about some places, adapted until it lies where the posterior does.
+"""Weighing poses by importance: a mixture about some components, adapted until it lies where the posterior does.
 
-Each round draws from a mixture of Student distributions about the places found so far, weighs the draws by
-target / proposal, and moves the places to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and Robert
+Each round draws from a mixture of Student distributions about the components found so far, weighs the draws by
+target / proposal, and moves the components to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and Robert
 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser.
 """
 
@@ -33,7 +33,7 @@ NEGLIGIBLE_NATS = 15.0
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class PoseMixture:
     """A mixture about some poses.
 
     Attributes:
@@ -46,11 +46,11 @@ class Places:
     covariances: Floats
     log_mass: Floats
 
-    def best(self, most: int) -> Places:
-        """The places with most mass, without those that have next to none."""
+    def best(self, most: int) -> PoseMixture:
+        """The components with most mass, without those that have next to none."""
         order = np.argsort(-self.log_mass, kind="stable")[:most]
         order = order[self.log_mass[order] > self.log_mass[order[0]] - NEGLIGIBLE_NATS]
-        return Places(self.means[order], self.covariances[order], self.log_mass[order])
+        return PoseMixture(self.means[order], self.covariances[order], self.log_mass[order])
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,64 +79,64 @@ class Population:
 
 
 def draw_population(
-    places: Places, target: Callable[[Floats], Floats], each: int, rng: np.random.Generator
+    components: PoseMixture, target: Callable[[Floats], Floats], each: int, rng: np.random.Generator
 ) -> Population:
     """Draw so many poses from each place, and weigh them by a target.
 
     Args:
-        places: the proposal, all places alike.
+        components: the proposal, all components alike.
         target: log density of poses (P, 3), not normalised, (P,).
         each: draws a place.
         rng: for the draws.
     """
-    count = len(places.means)
-    roots = np.linalg.cholesky(places.covariances)
+    count = len(components.means)
+    roots = np.linalg.cholesky(components.covariances)
     normal = rng.standard_normal((count, each, 3))
     stretch = np.sqrt(DOF / rng.chisquare(DOF, (count, each, 1)))
-    poses = places.means[:, None] + stretch * np.einsum("kij,knj->kni", roots, normal)
+    poses = components.means[:, None] + stretch * np.einsum("kij,knj->kni", roots, normal)
     poses = poses.reshape(-1, 3)
     poses[:, 2] = wrapped(poses[:, 2])
-    log_weights = target(poses) - proposal_log_density(places, poses)
+    log_weights = target(poses) - proposal_log_density(components, poses)
     # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their number.
     most = logsumexp(log_weights) - 0.5 * np.log(len(poses))
     return Population(poses, np.minimum(log_weights, most), np.repeat(np.arange(count), each))
 
 
-def groups_of(places: Places, poses: Floats) -> NDArray[np.intp]:
-    """Labels of poses by place; places closer than `OVERLAP` standard deviations are taken together, (P,)."""
+def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
+    """Labels of poses by place; components closer than `OVERLAP` standard deviations are taken together, (P,)."""
     from scipy.sparse.csgraph import connected_components
 
-    off = places.means[:, None] - places.means
+    off = components.means[:, None] - components.means
     off[..., 2] = wrapped(off[..., 2])
-    both = np.linalg.inv(places.covariances[:, None] + places.covariances)
+    both = np.linalg.inv(components.covariances[:, None] + components.covariances)
     near = np.einsum("kli,klij,klj->kl", off, both, off) < OVERLAP**2
     near |= (np.abs(off) < SAME).all(axis=2)
     _, group = connected_components(near, directed=False)
-    return np.asarray(group[_student_logs(places, poses).argmax(axis=1)], dtype=np.intp)
+    return np.asarray(group[_student_logs(components, poses).argmax(axis=1)], dtype=np.intp)
 
 
-def proposal_log_density(places: Places, poses: Floats) -> Floats:
-    """Log density of the mixture of Student distributions, all places alike, (P,)."""
-    return np.asarray(logsumexp(_student_logs(places, poses), axis=1) - np.log(len(places.means)))
+def proposal_log_density(components: PoseMixture, poses: Floats) -> Floats:
+    """Log density of the mixture of Student distributions, all components alike, (P,)."""
+    return np.asarray(logsumexp(_student_logs(components, poses), axis=1) - np.log(len(components.means)))
 
 
-def _student_logs(places: Places, poses: Floats) -> Floats:
+def _student_logs(components: PoseMixture, poses: Floats) -> Floats:
     """Log density of each place's Student distribution, (P, K)."""
-    off = poses[:, None] - places.means
+    off = poses[:, None] - components.means
     off[..., 2] = wrapped(off[..., 2])
-    inverse = np.linalg.inv(places.covariances)
+    inverse = np.linalg.inv(components.covariances)
     squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
     constant = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
     return np.asarray(constant + 0.5 * np.linalg.slogdet(inverse)[1] - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
 
 
-def adapted(places: Places, population: Population, widen: float = 1.5) -> tuple[Places, float]:
+def adapted(components: PoseMixture, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
     """Places moved to where their draws have their weight, and the least power that weights were tempered by.
 
     A power of 1 says that the proposals are near the target; less, that another round will bring them nearer.
     """
-    count, least = len(places.means), 1.0
-    means, covariances, log_mass = places.means.copy(), places.covariances.copy(), np.full(count, -np.inf)
+    count, least = len(components.means), 1.0
+    means, covariances, log_mass = components.means.copy(), components.covariances.copy(), np.full(count, -np.inf)
     for k in range(count):
         own = population.place == k
         logs = population.log_weights[own]
@@ -157,4 +157,4 @@ def adapted(places: Places, population: Population, widen: float = 1.5) -> tuple
         means[k] += shift
         log_mass[k] = top
         least = min(least, power)
-    return Places(means, covariances, log_mass), least
+    return PoseMixture(means, covariances, log_mass), least

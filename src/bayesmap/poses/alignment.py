@@ -205,10 +205,10 @@ def _laser(
     second, slack, first, totals = pair_sums(
         geometry, weights, pairs.source, pairs.target, relative, reach, scale, ALIKE, threads=threads
     )
-    told, gradient = without_slack(second, slack, first, sigma)
+    laser_information, gradient = without_slack(second, slack, first, sigma)
     scaled = 1.0 / sigma**2
     ends = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
-    return Quadratic(*ends, relative, told * scaled, gradient * scaled), totals
+    return Quadratic(*ends, relative, laser_information * scaled, gradient * scaled), totals
 
 
 def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
@@ -216,13 +216,13 @@ def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) 
 
     The minimum of the quadratic stays where it was; along directions that only slack holds the cost becomes flat.
     """
-    told = second - sigma_m**2 * slack
-    values, vectors = np.linalg.eigh(told)
-    told = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    laser_information = second - sigma_m**2 * slack
+    values, vectors = np.linalg.eigh(laser_information)
+    laser_information = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     size = np.trace(second, axis1=1, axis2=2)[:, None, None]
     ridge = second + np.eye(3) * (1e-6 * size + 1e-12)
     minimum = np.linalg.solve(ridge, first[..., None])
-    return told, (told @ minimum)[..., 0]
+    return laser_information, (laser_information @ minimum)[..., 0]
 
 
 def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:

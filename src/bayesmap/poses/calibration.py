@@ -36,7 +36,7 @@ PAIRS = 400
 """Of scans that are turned against each other, for the angle between beams."""
 
 REGULAR_WITHIN = 0.006
-"""To so much of itself the angle between beams can be told from residuals."""
+"""To so much of itself the angle between beams can be estimated from residuals."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -140,11 +140,11 @@ def follow(
         if motions is not None:
             stated = odometry.corrected(motions[i : i + len(batch)]) * [-1.0, -1.0, 1.0]
             backwards = _chained(poses[i], stated)
-        found, told, score, turned = _place(
+        found, laser_information, score, turned = _place(
             geometry, grid, window, poses, batch, predicted, variance, backwards, usual, threads
         )
         for k, scan in enumerate(batch):
-            poses[scan], information[scan], scores[scan] = found[k], told[k], score[k]
+            poses[scan], information[scan], scores[scan] = found[k], laser_information[k], score[k]
             step = variance[k] - (variance[k - 1] if k else 0.0)
             if score[k] < LOST_SCORE:
                 broken[scan], information[scan] = True, 0.0
@@ -152,7 +152,7 @@ def follow(
             since_key = since_key + step
             spread[scan] = since_key
             if motions is not None:
-                left = np.diag(np.linalg.inv(told[k] + np.diag(1.0 / variance[k])))
+                left = np.diag(np.linalg.inv(laser_information[k] + np.diag(1.0 / variance[k])))
                 if score[k] > max(KEY_SCORE, usual - 0.25) and not turned[k] and not extra[scan - 1].any():
                     odometry.learn(motions[scan - 1], between(poses[scan - 1], poses[scan]), left + 1e-5)
             against[scan] = turned[k]
@@ -280,10 +280,10 @@ def _place(
     certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
     turn = rotation(predicted[:, 2])
     prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)
-    placed, told, _ = refine_scans(
+    placed, laser_information, _ = refine_scans(
         geometry, None, batch.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(near),
         np.tile(near, jobs).astype(np.int32), np.tile(poses[near], (jobs, 1)), start, predicted, prior_information,
         POINT_SIGMA_M, STEPS, REACH_M, SCALE_M, ALIKE, threads=threads,
     )  # fmt: skip
     own = rotation(placed[:, 2])
-    return placed, np.swapaxes(own, 1, 2) @ told @ own, score, turned
+    return placed, np.swapaxes(own, 1, 2) @ laser_information @ own, score, turned

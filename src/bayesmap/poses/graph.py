@@ -137,14 +137,14 @@ def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> 
     poses = poses.copy()
     relaxed = max(1.0, 2.0 * float(loops.squares(poses).max()) / FAR) if len(loops) else 1.0
     weights = np.ones(len(loops))
-    settled = 0
+    converged = 0
     for _ in range(steps):
         if len(loops):
             weights = (relaxed * FAR / (loops.squares(poses) + relaxed * FAR)) ** 2
         step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, weights)])
         poses = retract(poses, step)
-        settled = settled + 1 if np.abs(step).max() < 1e-4 and relaxed <= 1.0 else 0
-        if settled:
+        converged = converged + 1 if np.abs(step).max() < 1e-4 and relaxed <= 1.0 else 0
+        if converged:
             break
         relaxed = max(1.0, relaxed / 1.6)
     return poses, weights

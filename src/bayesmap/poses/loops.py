@@ -249,11 +249,11 @@ def _refined(
     anchor = np.repeat(first, np.diff(offsets))
     other_poses = between(poses[anchor], poses[np.concatenate(members)])
     weak = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
-    found, told, _ = refine_scans(
+    found, laser_information, _ = refine_scans(
         geometry, None, keys[second].astype(np.int32), offsets, others, other_poses, start, start, weak,
         0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE, threads=threads,
     )  # fmt: skip
-    covariance = np.linalg.inv(told + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
+    covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
     information = np.linalg.inv(covariance)
     # Refining that ends far from where the search began has slid into something else.
     moved = between(start, found)

@@ -83,14 +83,14 @@ def place_scans(
     flat = np.concatenate(lists).astype(np.intp)
     prior = np.diag(1.0 / PRIOR_SIGMA**2)
     turn = rotation(poses[scans, 2])
-    found, told, totals = refine_scans(
+    found, laser_information, totals = refine_scans(
         geometry, None, scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans],
         poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), max(2.0 * sigma_m, 0.01), 10, (0.2, 0.08), (0.1, 0.03),
         ALIKE, threads=threads,
     )  # fmt: skip
     back = rotation(found[:, 2])
     result[scans] = found
-    information[scans] = np.swapaxes(back, 1, 2) @ told @ back
+    information[scans] = np.swapaxes(back, 1, 2) @ laser_information @ back
     matched[scans] = totals[:, 2] / np.maximum(totals[:, 3], 1.0)
     return Placement(result, information, matched)
 

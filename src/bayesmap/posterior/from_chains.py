@@ -80,7 +80,7 @@ def chains_of(posterior: Posterior) -> Chains:
         log_prior=posterior.log_prior,
         warmup_log_joint=posterior.warmup_log_joint,
         snapshot=posterior.snapshot,
-        informed=np.zeros((2, *posterior.grid.shape), dtype=np.int32),  # found again from draws and snapshot
+        observed_counts=np.zeros((2, *posterior.grid.shape), dtype=np.int32),  # found again from draws and snapshot
         statistics=posterior.statistics,
         n_incidences=posterior.counts["incidences"],
         seconds={name: posterior.seconds[name] for name in ("trace", "warm_start", "sampling")},

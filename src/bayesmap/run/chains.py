@@ -25,7 +25,7 @@ class Chains:
         log_likelihood, log_prior: the two parts of the log joint, of each kept draw, (chains, kept).
         warmup_log_joint: of each warm-up sweep, (chains, done warm-up sweeps).
         snapshot: where the chains stand.
-        informed: in how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny).
+        observed_counts: in how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny).
         statistics: what the start has to say, by name.
         n_incidences: how many cells all beams cross together.
         seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
@@ -37,7 +37,7 @@ class Chains:
     log_prior: Floats
     warmup_log_joint: Floats
     snapshot: Snapshot
-    informed: NDArray[np.int32]
+    observed_counts: NDArray[np.int32]
     statistics: Mapping[str, Floats]
     n_incidences: int
     seconds: Mapping[str, float]
@@ -57,7 +57,7 @@ class Chains:
         """Cells of which some beam says something in at least half of the maps, (nx, ny): elsewhere the prior
         speaks.
         """
-        some, looked = self.informed
+        some, looked = self.observed_counts
         return np.asarray(2 * some >= np.maximum(looked, 1))
 
 
@@ -81,7 +81,7 @@ def join(parts: Sequence[Chains]) -> Chains:
         log_prior=np.concatenate([part.log_prior for part in parts]),
         warmup_log_joint=np.concatenate([part.warmup_log_joint for part in parts]),
         snapshot=Snapshot(first.sweep, joined([part.snapshot.arrays for part in parts])),
-        informed=np.sum([part.informed for part in parts], axis=0),
+        observed_counts=np.sum([part.observed_counts for part in parts], axis=0),
         seconds={name: sum(part.seconds[name] for part in parts) for name in first.seconds},
         finished=all(part.finished for part in parts),
     )

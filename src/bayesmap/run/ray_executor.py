@@ -247,7 +247,7 @@ class _RayRun:
             else group.resume
             for group in self.groups
         ]
-        count = self.remote(ray_worker.informed)
+        count = self.remote(ray_worker.observed_counts)
         counts = [
             count(self.name, *self.shared, group.chain_ids, part.snapshot, part.draws.arrays)
             for group, part in zip(self.groups, parts, strict=True)
@@ -255,8 +255,8 @@ class _RayRun:
         ]
         return join(
             [
-                replace(part, informed=outcome(self.ray, informed))
-                for part, informed in zip(parts, counts, strict=True)
+                replace(part, observed_counts=outcome(self.ray, observed_counts))
+                for part, observed_counts in zip(parts, counts, strict=True)
                 if part is not None
             ]
         )

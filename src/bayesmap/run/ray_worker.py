@@ -88,7 +88,7 @@ def advance(
     return segment, snapshot
 
 
-def informed(
+def observed_counts(
     run: str,
     job: Job,
     problem: list[Any],
@@ -96,7 +96,7 @@ def informed(
     snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
 ) -> NDArray[np.int32]:
-    """`bayesmap.samplers.sampler.Sampler.informed` of chains that stand at a snapshot, with their draws so far."""
+    """`bayesmap.samplers.sampler.Sampler.observed_counts` of chains that stand at a snapshot, with their draws so far."""
     here = held(run, job, problem)
     state = job.sampler.init(here.problem, chain_ids, job.seed, snapshot)
-    return job.sampler.informed(state, draws)
+    return job.sampler.observed_counts(state, draws)

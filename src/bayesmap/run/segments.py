@@ -107,7 +107,7 @@ def chains_of_segments(
         resume: what the chains had done before the first segment.
 
     Returns:
-        The chains. Their ``informed`` are zeros: the sampler alone can count these (`Sampler.informed`).
+        The chains. Their ``observed_counts`` are zeros: the sampler alone can count these (`Sampler.observed_counts`).
     """
     first = segments[0]
     draws = [segment.draws.arrays for segment in segments]
@@ -122,7 +122,7 @@ def chains_of_segments(
     return Chains(
         draws=replace(first.draws, arrays=arrays), log_likelihood=log_likelihood, log_prior=log_prior,
         warmup_log_joint=warmup, snapshot=snapshot,
-        informed=np.zeros((2, *first.draws.grid.shape), dtype=np.int32),
+        observed_counts=np.zeros((2, *first.draws.grid.shape), dtype=np.int32),
         statistics=first.statistics if resume is None else resume.statistics,
         n_incidences=first.n_incidences, seconds=spent, finished=snapshot.sweep >= schedule.sweeps,
     )  # fmt: skip

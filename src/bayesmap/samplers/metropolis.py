@@ -143,7 +143,7 @@ class Metropolis:
         names = state.maps[0]
         return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in names})
 
-    def informed(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+    def observed_counts(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """The cells that beams touch, (2, nx, ny)."""
         touched = state.problem.touched().astype(np.int32)
         return np.stack([touched, np.ones_like(touched)])

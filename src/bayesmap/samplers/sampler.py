@@ -163,7 +163,7 @@ class Sampler(Protocol[P, S]):
     def snapshot(self, state: S) -> Snapshot:
         """Copies of what is needed to go on."""
 
-    def informed(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+    def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """In how many maps some beam says something of each cell, and in how many was looked, of all chains, (2, nx,
         ny): of the draws; without any, of the maps at which the chains stand.
         """

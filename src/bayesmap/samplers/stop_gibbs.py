@@ -96,10 +96,10 @@ class StopGibbs:
             return out
 
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
-        informed = on_grid("informed")
+        observed_counts = on_grid("observed_counts")
         chains = StopChains(
             _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"),
-            informed=None if informed is None else np.ascontiguousarray(informed.transpose(0, 2, 1)),
+            observed_counts=None if observed_counts is None else np.ascontiguousarray(observed_counts.transpose(0, 2, 1)),
         )  # fmt: skip
         return StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
 
@@ -119,7 +119,7 @@ class StopGibbs:
         new = StopChains(
             _plan(problem), old.cells, state.keys, threads=problem.threads,
             counts=np.stack([np.stack(old.counted(chain)) for chain in chains]),
-            informed=np.stack([old.informed(chain) for chain in chains]),
+            observed_counts=np.stack([old.observed_counts(chain) for chain in chains]),
         )  # fmt: skip
         return replace(state, problem=problem, chains=new)
 
@@ -135,7 +135,7 @@ class StopGibbs:
         draws = _Draws(problem, chains, keep, kept)
         log_likelihood, log_prior = chains.sweeps(
             state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
-            informing_after=keep.after if keep.every else None, before=draws.begin, after=draws.end,
+            observing_after=keep.after if keep.every else None, before=draws.begin, after=draws.end,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
@@ -148,17 +148,17 @@ class StopGibbs:
             {
                 "state": np.stack([state.chains.cells(chain)[kept] for chain in chains]),
                 "counts": np.stack(counts),
-                "informed": np.stack([state.chains.informed(chain)[kept].T for chain in chains]),
+                "observed_counts": np.stack([state.chains.observed_counts(chain)[kept].T for chain in chains]),
             },
         )
 
-    def informed(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+    def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Kept-phase sweeps in which some beam told a cell something, of those that counted, else of the last, (2, nx,
         ny).
         """
         chains = range(state.chains.n_chains)
         if draws:
-            counts = np.sum([state.chains.informed(chain).T for chain in chains], axis=0)
+            counts = np.sum([state.chains.observed_counts(chain).T for chain in chains], axis=0)
         else:
             counts = np.sum([self._informed_now(state, chain) for chain in chains], axis=0)
         return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)

@@ -142,7 +142,7 @@ class WallSampler(ABC):
         """The maps: everything else follows from them."""
         return Snapshot(state.sweep, {"walls": state.walls()})
 
-    def informed(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+    def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """In how many of some draws a beam reaches each cell, else of where the chains stand, (2, nx, ny)."""
         from bayesmap.kernels.reach import reach_frequency
 

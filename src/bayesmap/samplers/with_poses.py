@@ -215,10 +215,10 @@ class WithPoses:
         steps = {"pose_log_scale": state.poses.log_scale, "pose_factor": state.factor}
         return Snapshot(state.sweep, {**arrays, "poses": state.poses.poses, **steps})
 
-    def informed(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+    def observed_counts(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """In how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny)."""
         own = [
-            self.cells.informed(chain, {name: a[i : i + 1] for name, a in draws.items() if name != POSES.name})
+            self.cells.observed_counts(chain, {name: a[i : i + 1] for name, a in draws.items() if name != POSES.name})
             for i, chain in enumerate(state.cells)
         ]
         return np.asarray(np.sum(own, axis=0))

@@ -14,14 +14,14 @@ the surface *given that it lies on the beam*:
 
 A beam's direction is known up to an angle omega only: at the mean's distance d = u . (mu - p) its line may lie off by
 omega d, which spreads the readings of a wall that it grazes. So w^2 = v^2 + (omega d)^2, the variance across the beam
-of the two together. The gate keeps v: with w in it, held-out scans were predicted worse.
+of the two together. The crossing probability keeps v: with w in it, held-out scans were predicted worse.
 """
 
 import warp as wp
 
 wp.set_module_options({"enable_backward": False})
 
-GATE_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
+CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
 DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
 """Square of omega, radians: between 4 and 8 thousandths held-out scans are predicted best (docs/surfaces.md)."""
 
@@ -43,7 +43,7 @@ class Ray:
 
 
 @wp.struct
-class Meeting:
+class Crossing:
     """Probability of meeting the surface, and mean and variance of the distance at which."""
 
     chance: wp.float32
@@ -63,23 +63,23 @@ def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
 
 
 @wp.func
-def gate_at(offset: wp.float32, across: wp.float32) -> wp.float32:
+def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float32:
     """The chance of meeting a surface, by the offset of its mean and its variance across the beam."""
-    r = offset * offset / (GATE_WIDTH_SQ * across)
+    r = offset * offset / (CROSSING_WIDTH_SQ * across)
     return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
 
 
 @wp.func
-def gate(cell: Cell, ray: Ray) -> wp.float32:
+def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
     """The chance that the beam meets the cell's surface."""
     offset = ray.ux * (cell[2] - ray.y) - ray.uy * (cell[1] - ray.x)
     across_1 = cell[4] * ray.ux - cell[3] * ray.uy
     across_2 = cell[5] * ray.ux
-    return gate_at(offset, across_1 * across_1 + across_2 * across_2)
+    return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.func
-def meet(cell: Cell, ray: Ray) -> Meeting:
+def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     """Chance, and distance where."""
     rx = cell[1] - ray.x
     ry = cell[2] - ray.y
@@ -94,8 +94,8 @@ def meet(cell: Cell, ray: Ray) -> Meeting:
     across = body + unsure
     slope = (along_1 * across_1 + along_2 * across_2) / across
     area = cell[3] * cell[5]
-    m = Meeting()
-    m.chance = gate_at(offset, body)
+    m = Crossing()
+    m.chance = crossing_probability_at(offset, body)
     m.distance_m = wp.max(ray.ux * rx + ray.uy * ry - slope * offset, wp.float32(0.0))
     # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
     m.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) / across
