@@ -1,8 +1,8 @@
 """Weighing poses by importance: a mixture about some components, adapted until it lies where the posterior does.
 
 Each round draws from a mixture of Student distributions about the components found so far, weighs the draws by
-target / proposal, and moves the components to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and Robert
-2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser.
+target / proposal, and moves the components to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
+Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser.
 """
 
 from __future__ import annotations
