@@ -207,7 +207,7 @@ class Run(Deciding):
         path: str | os.PathLike[str],
         on_progress: Callable[[int, int], None] = lambda done, total: None,
     ) -> None:
-        """Write everything to one netCDF file, whole or not at all; ``on_progress`` is given the part that is written."""
+        """Write everything to one netCDF file, whole or not at all; ``on_progress`` gets the part in hand."""
         from bayesmap.io.saved import save
 
         save(self.posterior, path, on_progress)

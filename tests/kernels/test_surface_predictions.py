@@ -1,4 +1,4 @@
-"""Predictions from surfaces: plain sums over cells and draws, with the formulas of `bayesmap.kernels.surface_crossing`."""
+"""Predictions from surfaces: plain sums over cells and draws, by the formulas of `kernels.surface_crossing`."""
 
 import numpy as np
 import pytest

@@ -25,7 +25,7 @@ class Chains:
         log_likelihood, log_prior: the two parts of the log joint, of each kept draw, (chains, kept).
         warmup_log_joint: of each warm-up sweep, (chains, done warm-up sweeps).
         snapshot: where the chains stand.
-        observed_counts: in how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny).
+        observed_counts: in how many maps a beam says something of each cell, and in how many was looked, (2, nx, ny).
         statistics: what the start has to say, by name.
         n_incidences: how many cells all beams cross together.
         seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").

@@ -99,7 +99,9 @@ class StopGibbs:
         observed_counts = on_grid("observed_counts")
         chains = StopChains(
             _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"),
-            observed_counts=None if observed_counts is None else np.ascontiguousarray(observed_counts.transpose(0, 2, 1)),
+            observed_counts=(
+                None if observed_counts is None else np.ascontiguousarray(observed_counts.transpose(0, 2, 1))
+            ),
         )  # fmt: skip
         return StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
 
