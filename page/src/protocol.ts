@@ -104,6 +104,9 @@ export type Connection = { connected: boolean; retryIn_ms?: number; refused?: bo
 /** Over a run or a log: surfaces as strokes, (U, 5), from x, y to x, y and their reflectivity; where scans were taken, (S, 2). */
 export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 
+/** Beams through a cell; of walls how many speak for one there and against it, and how much in nats. */
+export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number };
+
 /** A way to the session. `onmessage` and `onstatus` are set by the page before it calls `open`. */
 export type Transport = {
   send: (message: Message) => void;

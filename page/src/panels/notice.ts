@@ -104,9 +104,13 @@ function describeCell(session: Session, cell: Point) {
     else if (kind !== "binary") parts.push(`${mean} ${p.toFixed(2)}`, ...(interval ? [] : [`entropy ${entropyBits(p).toFixed(2)} bit`]));
     else if (shown.layer === "draw") parts.push(p > 0.5 ? "wall in this draw" : "free in this draw");
     else parts.push(`P(wall) ${p.toFixed(2)}`, `entropy ${entropyBits(p).toFixed(2)} bit`);
-    const beams = session.cell?.x === cell.x && session.cell.y === cell.y ? session.cell.beams : null;
+    const facts = session.cell?.x === cell.x && session.cell.y === cell.y ? session.cell : null;
+    const beams = facts ? facts.beams : null;
     if (!shown.observed[i]) parts.push("unobserved");
     else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
+    if (facts?.nats_for !== undefined && facts.nats_against !== undefined && beams) {
+      parts.push(`for a wall ${facts.beams_for}, ${facts.nats_for.toFixed(1)} nats`, `against ${facts.beams_against}, ${facts.nats_against.toFixed(1)} nats`);
+    }
   }
   return parts.join(" \u00b7 ");
 }

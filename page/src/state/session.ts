@@ -1,7 +1,7 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, State, Transport, View } from "../protocol";
+import type { Buffers, CellFacts, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
@@ -26,7 +26,7 @@ export class Session {
   overlay: Overlay | null = null;
   /** The field on the canvas. */
   shown: Field | null = null;
-  cell: { x: number; y: number; beams: number } | null = null;
+  cell: CellFacts | null = null;
   worker = "starting";
   /** Whether the page plays a recording. */
   recorded = false;
@@ -196,7 +196,7 @@ export class Session {
         this.receiveField(message, buffers);
         break;
       case "cell":
-        this.cell = { x: message.x, y: message.y, beams: message.beams };
+        this.cell = message as unknown as CellFacts;
         break;
       case "path":
       case "views":

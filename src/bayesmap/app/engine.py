@@ -10,13 +10,14 @@ from __future__ import annotations
 import time
 import traceback
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import CHAIN_METHODS, Document
+from bayesmap.app.evidence import evidence
 from bayesmap.app.opened import Opened
 from bayesmap.app.preview import Preview
 from bayesmap.app.result import Result
@@ -292,12 +293,16 @@ class Engine:
     # Questions
 
     def _inspect(self, task: Inspect) -> None:
-        beams = 0
+        found: dict[str, Any] = {"beams": 0}
         if self._scene is not None:
             table = self._scene.problem.table
-            if task.x < table.grid.shape[0] and task.y < table.grid.shape[1]:
-                beams = int(np.count_nonzero(table.cells == task.x * table.grid.shape[1] + task.y))
-        self._send(Report({"type": "cell", "x": task.x, "y": task.y, "beams": beams}, {}, task.client))
+            nx, ny = table.grid.shape
+            if task.x < nx and task.y < ny:
+                cell = task.x * ny + task.y
+                found = {"beams": int(np.count_nonzero(table.cells == cell))}
+                if self._result is not None and self._result.prior.words.kind == "binary":
+                    found = asdict(evidence(table, self._result.mean().ravel(), cell))
+        self._send(Report({"type": "cell", "x": task.x, "y": task.y, **found}, {}, task.client))
 
     def _decide(self, task: FindPath | FindViews) -> None:
         from bayesmap.app.deciding import path_message, views_message
