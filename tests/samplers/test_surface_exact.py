@@ -35,7 +35,7 @@ TWO = bm.Scans(
 NOTHING = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[np.inf, 1.9]], max_range_m=2.0)  # no reading ends in the cell
 
 WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
-SMALL = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.25)  # most draws of a Wishart are too large
+SMALL = bm.Surface(0.02, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.25)  # most draws of a Wishart are too large
 CASES = {
     "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
     "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
@@ -95,7 +95,7 @@ def test_a_cell_that_stops_nothing_takes_its_surfaces_from_the_prior():
     sampler = worlds.sampler(3, states)
     before, after = (worlds.split(s) for s in (states, worlds.sweep(sampler, 4)))
     some = (abs(before[..., 3:] - after[..., 3:]) > 1e-5).any(axis=-1)
-    assert 0.5 < some.mean() <= 1.0
+    assert 0.2 < some.mean() <= 1.0
     mine = surface_coordinates(after, np.array([[0.5, 0.5]]), 1.0)[:, 1:]
     prior, of_prior = prior_states((1, 1), SMALL)
     values = surface_coordinates(prior, *of_prior)[:, 1:]

@@ -140,11 +140,15 @@ def log_size_penalty(prior: CellPrior, cell: Cell) -> wp.float64:
 
 
 @wp.func
-def renewed_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Another surface of a cell in which next to no beam would stop, whatever the surface: given the cells the
-    readings say nothing of it, and where beams stop is drawn after it.
+def is_silent(sweep: int, turns: int, c: int, cell: Cell) -> bool:
+    """Whether a cell in which no reading ends takes another surface from the prior at the end of a sweep."""
+    return turns != 0 and cell[REFLECTIVITY] <= CLEAREST and (sweep + c) % SILENT_EVERY == 0
 
-    So its conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
+
+@wp.func
+def renewed_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """Another surface of a cell in which next to no beam would stop, whatever the surface: neither stops nor readings
+    say anything of it. So its conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
     """
     candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
     log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
@@ -199,10 +203,7 @@ def begin_sweep(
     cell[TRYING] = HIDDEN
     turns = int(active.round[a])
     centre = centre_of(c, active.ny, active.edge_m)
-    renewed = bool(False)
-    if without_surfaces == 0 and turns != 0 and cell[REFLECTIVITY] <= CLEAREST and (sweep + c) % SILENT_EVERY == 0:
-        cell = renewed_surface(prior, centre, cell, sweep_key(keys[chain], sweep, 1), wp.uint64(c) * PER_CELL)
-        renewed = bool(True)
+    renewed = without_surfaces == 0 and is_silent(sweep - 1, turns, c, cell)
     if prior_moved != 0 or turns == 0 or renewed or state.fixed_m[here] == LEARNS:
         density = log_reflectivity_prior(prior, cell[REFLECTIVITY])
         if without_surfaces == 0:
@@ -229,6 +230,7 @@ def begin_sweep(
 def update_free_cells(
     first: int,
     sweep: int,
+    without_surfaces: int,
     prior: CellPrior,
     active: ActiveCells,
     state: StopState,
@@ -237,39 +239,47 @@ def update_free_cells(
     met: wp.array(dtype=wp.int32),
 ):
     """One thread a chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
-    neither.
+    neither; and where next to no beam would stop perhaps take another surface.
 
     ``hits`` and ``met`` keep the counts behind the cell's last reflectivity.
     """
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
-    c = active.cell[i - chain * active.cell.shape[0]]
+    place = i - chain * active.cell.shape[0]
+    c = active.cell[place]
     here = chain * state.n_cells + c
-    if state.fixed_m[here] != LEARNS:
+    cell = state.cells[here]
+    turns = int(active.round[place])
+    learns = state.fixed_m[here] == LEARNS
+    if not learns and (without_surfaces != 0 or not is_silent(sweep, turns, c, cell)):
         return
     key = sweep_key(keys[chain], sweep, 1)
     at = wp.uint64(c) * PER_CELL
-    cell = state.cells[here]
-    n_hits = int(0)
-    n_met = int(0)
-    gain = wp.int64(0)
-    for part in range(state.parts):
-        row = chain * state.parts + part
-        n_hits += state.hits[row, c]
-        n_met += state.met[row, c]
-        gain += state.gain[row, c]
-    if cell[TRYING] == HIDDEN:
-        a = prior.a + wp.float64(n_hits)
-        b = prior.b + wp.float64(n_met)
-        cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
-        hits[here] = n_hits
-        met[here] = n_met
-    else:
-        candidate = state.candidates[chain * groups_of(state) + c // IN_A_ROW]
-        log_ratio = wp.float64(gain) * FROM_UNITS + log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
-        own = is_own(prior, centre_of(c, active.ny, active.edge_m), candidate)
-        if own and wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio:
-            cell = candidate
+    centre = centre_of(c, active.ny, active.edge_m)
+    if learns:
+        n_hits = int(0)
+        n_met = int(0)
+        gain = wp.int64(0)
+        for part in range(state.parts):
+            row = chain * state.parts + part
+            n_hits += state.hits[row, c]
+            n_met += state.met[row, c]
+            gain += state.gain[row, c]
+        if cell[TRYING] == HIDDEN:
+            a = prior.a + wp.float64(n_hits)
+            b = prior.b + wp.float64(n_met)
+            cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
+            hits[here] = n_hits
+            met[here] = n_met
+        else:
+            candidate = state.candidates[chain * groups_of(state) + c // IN_A_ROW]
+            log_ratio = wp.float64(gain) * FROM_UNITS
+            log_ratio += log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
+            accepted = wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio
+            if accepted and is_own(prior, centre, candidate):
+                cell = candidate
+    if without_surfaces == 0 and is_silent(sweep, turns, c, cell):
+        cell = renewed_surface(prior, centre, cell, key, at)
     cell[TRYING] = HIDDEN
     state.cells[here] = cell
 

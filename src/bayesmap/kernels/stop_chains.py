@@ -208,7 +208,7 @@ class StopChains:
             out = [
                 (begin_sweep, touched, [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]),
                 (draw_stops, beams, [number, law, self._rays, state, keys]),
-                (update_free_cells, touched, [number, *shared, *counts]),
+                (update_free_cells, touched, [number, self.without_surfaces, *shared, *counts]),
                 (update_endpoint_cells, endpoints, [number, law, packed, self._rays, self._endpoints, self._active,
                                                     state, self._lists, keys, *counts]),
             ]  # fmt: skip
