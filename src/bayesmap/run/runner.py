@@ -151,11 +151,11 @@ def run_chains(
 
     def so_far(state: ChainState) -> Chains:
         log_likelihood, log_prior, warmup = record.log_densities
+        counts = job.sampler.observed_counts(state, record.draws.arrays)
         return Chains(
             draws=record.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
-            snapshot=job.sampler.snapshot(state),
-            observed_counts=job.sampler.observed_counts(state, record.draws.arrays), statistics=statistics, n_incidences=state.problem.n_incidences, seconds=dict(seconds),
-            finished=state.sweep >= schedule.sweeps,
+            snapshot=job.sampler.snapshot(state), observed_counts=counts, statistics=statistics,
+            n_incidences=state.problem.n_incidences, seconds=dict(seconds), finished=state.sweep >= schedule.sweeps,
         )  # fmt: skip
 
     steps = sweeps(
