@@ -23,6 +23,9 @@ export function bar(ui: Ui) {
     (tool) => session.editable || (READING.has(tool) && !session.recorded) || tool === "pan",
   );
   ui.visible(tools, () => !session.recorded);
+  TOOLS.forEach(([tool], i) => {
+    if (!READING.has(tool)) ui.visible(tools.children[i] as HTMLElement, () => !session.document || session.editable);
+  });
   return h(
     "div",
     { className: "bar" },
