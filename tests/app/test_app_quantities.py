@@ -30,7 +30,7 @@ def shown(prior):
     [
         (bm.Independent(0.2), "binary", None),
         (bm.Beta(), "reflectivity", "mean reflectivity"),
-        (bm.Surface(), "surface", "mean reflectivity"),
+        (bm.Surface(), "surface", "mean chance that a square stops a beam"),
     ],
 )
 def test_a_field_names_its_quantity(prior, kind, mean):

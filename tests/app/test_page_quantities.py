@@ -30,22 +30,24 @@ def surfaces(tmp_path_factory, browser):
         yield run, address
 
 
-def test_a_run_of_surfaces_is_called_reflectivity_everywhere(open_page, surfaces):
+def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, surfaces):
     run, address = surfaces
     page = open_page(address)
     legend = page.get_by_role("list", name="Legend")
-    playwright.expect(legend).to_contain_text("mean reflectivity")
+    playwright.expect(legend).to_contain_text(bm.Surface.words.mean)
     playwright.expect(legend).not_to_contain_text("P(wall)")
     page.mouse.move(*centre(page, 20, 10))
     readout = page.locator(".readout")
-    playwright.expect(readout).to_contain_text(f"mean reflectivity {np.rint(255 * run.occupancy[20, 10]) / 255:.2f}")
+    playwright.expect(readout).to_contain_text(
+        f"{bm.Surface.words.mean} {np.rint(255 * run.occupancy[20, 10]) / 255:.2f}"
+    )
     playwright.expect(readout).not_to_contain_text("entropy")
     page.get_by_role("radio", name="One draw").check(force=True)
     until(page, "s.painted.layer === 'draw'")
     page.mouse.move(*centre(page, 20, 9))
     playwright.expect(readout).to_contain_text("in this draw")
     playwright.expect(readout).not_to_contain_text("free in this draw")
-    playwright.expect(legend).to_contain_text("reflectivity")
+    playwright.expect(legend).to_contain_text(bm.Surface.words.value)
 
 
 def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, surfaces):
@@ -104,7 +106,7 @@ def test_a_log_is_inferred_as_surfaces_where_they_are_chosen(open_page, tmp_path
         act(page, lambda: page.get_by_role("slider", name="Sweeps").fill("0"))
         act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("surface"))
         until(page, "s.painted.quantity.kind === 'surface' && s.painted.sweeps >= s.document.sweeps")
-        playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("mean reflectivity")
+        playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text(bm.Surface.words.mean)
         for name in ("Method", "Order", "Start"):
             playwright.expect(page.get_by_role("combobox", name=name)).to_be_hidden()
         playwright.expect(page.get_by_role("slider", name="Prior")).to_be_hidden()
