@@ -56,8 +56,8 @@ def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
 
 
 def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
-    """View, infer, choose the next view, look again: the map is known better, and less is left to learn there."""
-    page.get_by_role("radio", name="View next").check(force=True)
+    """Look, infer, choose the next view, look again: the map is known better, and less is left to learn there."""
+    page.get_by_role("radio", name="Look next").check(force=True)
     settled(page)
     until(page, "s.decisions.views && s.decisions.views.nats.length > 5")
     views = page.evaluate(
@@ -95,7 +95,7 @@ def test_a_saved_run_of_surfaces_has_paths_and_views(open_page, tmp_path, scheme
         click(page, 7, 12)
         click(page, 12, 22)
         assert found_path(page)["draws"] == 40
-        page.get_by_role("radio", name="View next").check(force=True)
+        page.get_by_role("radio", name="Look next").check(force=True)
         until(page, "s.decisions.views")
         click(page, 12, 20)
         playwright.expect(page.get_by_role("status").first).to_be_visible()

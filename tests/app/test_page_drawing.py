@@ -143,7 +143,7 @@ def test_a_new_map_of_another_size_can_be_undone(page):
     settled(page)
     page.get_by_role("button", name="New map").click()
     page.get_by_label("World").select_option("blank")
-    page.get_by_label("Width").fill("40")
+    page.get_by_role("spinbutton", name="Width").fill("40")
     page.get_by_label("Height").fill("30")
     act(page, lambda: page.get_by_role("button", name="Create").click())
     shown = settled(page)
@@ -207,7 +207,8 @@ def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     assert painted_by(lambda: page.get_by_role("checkbox", name="True walls").uncheck()) == {"marks"}
     assert painted_by(lambda: page.get_by_role("radio", name="Entropy").check()) == {"field"}
     page.get_by_role("radio", name="Mean").check()
-    assert painted_by(lambda: page.keyboard.press("+")) == {"field", "rays", "marks", "cursor"}
+    everything = {"field", "overlay", "decisions", "rays", "marks", "cursor"}
+    assert painted_by(lambda: page.keyboard.press("+")) == everything
 
 
 @pytest.mark.parametrize("height", [860, 861, 777])

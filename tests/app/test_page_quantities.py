@@ -40,8 +40,6 @@ def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, surfaces):
     readout = page.locator(".readout")
     mean = f"{bm.Surface.words.mean} {np.rint(255 * run.occupancy[20, 10]) / 255:.2f}"
     playwright.expect(readout).to_contain_text(mean)
-        f"{bm.Surface.words.mean} {np.rint(255 * run.occupancy[20, 10]) / 255:.2f}"
-    )
     playwright.expect(readout).not_to_contain_text("entropy")
     page.get_by_role("radio", name="One draw").check(force=True)
     until(page, "s.painted.layer === 'draw'")
