@@ -74,7 +74,7 @@ def test_editing_during_inference_paints_no_old_generation(open_page, server):
         last = Math.max(last, s.painted.generation);
         requestAnimationFrame(view);
       };
-      look();
+      view();
     }""")
     page.get_by_role("radio", name="Draw", exact=True).check()
     page.mouse.move(*centre(page, 2, 2))
