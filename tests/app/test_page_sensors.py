@@ -21,7 +21,7 @@ def test_the_posterior_is_painted_while_the_robot_is_dragged(sensors):
         seen.push([s.painted.generation, s.generation]);
         requestAnimationFrame(view);
       };
-      look();
+      view();
     }""")
     before = snapshot(page)
     page.mouse.move(*centre(page, 10, 10))
