@@ -102,7 +102,7 @@ def test_a_large_map_is_dragged_on_too(open_page, server):
     page = open_page(server, document())
     page.get_by_role("button", name="New map").click()
     page.get_by_label("World").select_option("building")
-    page.get_by_label("Width").fill("500")
+    page.get_by_role("spinbutton", name="Width").fill("500")
     page.get_by_label("Height").fill("500")
     act(page, lambda: page.get_by_role("button", name="Create").click())
     page.get_by_role("radio", name="Sensor").check()
