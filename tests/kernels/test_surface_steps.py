@@ -82,6 +82,11 @@ def stop_as_ever(
         state.stop[b] = rays.offsets[b + 1]
 
 
+def inside_the_cell(mean, spread):
+    """A normal distribution of an offset from the cell's centre, within the cell."""
+    return stats.truncnorm((-EDGE / 2 - mean) / spread, (EDGE / 2 - mean) / spread, mean, spread)
+
+
 def closed_form_p_values(surfaces):
     """Of every marginal of the closed form, and of what is independent under it; surfaces (N, 5) about the centre."""
     x, y, l11, l21, l22 = surfaces.T
@@ -92,8 +97,8 @@ def closed_form_p_values(surfaces):
     slope = (l21 / l11 - p12 / p11) * np.sqrt(p11) / l22
     one, two = p11 / l11**2, (p22 - p12**2 / p11) / l22**2
     tests = [
-        stats.kstest((x - weight * float(MEAN_X)) / spread, stats.norm.cdf),
-        stats.kstest((y - weight * float(MEAN_Y)) / spread, stats.norm.cdf),
+        stats.kstest(x, inside_the_cell(weight * float(MEAN_X), spread).cdf),
+        stats.kstest(y, inside_the_cell(weight * float(MEAN_Y), spread).cdf),
         stats.kstest(one, stats.chi2(nu - 1).cdf),
         stats.kstest(two, stats.chi2(nu).cdf),
         stats.kstest(slope, stats.norm.cdf),
