@@ -66,7 +66,7 @@ class Engine:
         self._opened = opened
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
-        self._looks: dict[int | None, View] = {}  # of pages that are shown a draw
+        self._views: dict[int | None, View] = {}  # of pages that are shown a draw
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
@@ -88,9 +88,9 @@ class Engine:
         elif isinstance(task, Cancel):
             self._cancel()
         elif isinstance(task, View):
-            self._looks.pop(task.client, None)
+            self._views.pop(task.client, None)
             if task.layer in OWN_LAYERS:
-                self._looks[task.client] = task
+                self._views[task.client] = task
             if self._result is not None:
                 self._show(task)
         elif isinstance(task, ShowScan):
@@ -263,7 +263,7 @@ class Engine:
 
     def _frame(self) -> None:
         assert self._result is not None
-        for view in (View("mean"), *self._looks.values()):
+        for view in (View("mean"), *self._views.values()):
             self._show(view)
         self._framed = time.perf_counter()
 
