@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import threading
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -83,6 +83,8 @@ def turns(
                 yield Turns(about, [], process, timeout_s)
             finally:
                 process.kill()
+                with suppress(OSError):  # what it was told last may not have reached it
+                    process.stdin.close()
 
 
 def _read(process: "subprocess.Popen[str]", timeout_s: float) -> dict[str, Any]:

@@ -5,7 +5,7 @@ import pytest
 from scipy import integrate, stats
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.prior import Known, Odometry, Uncertain, pose_prior_from
+from bayesmap.poses.prior import Known, Odometry, Uncertain
 from bayesmap.space.planar import between, compose, wrapped
 
 PRIORS = {"uncertain": Uncertain(0.1, 0.05), "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01)}
@@ -120,11 +120,6 @@ def test_the_first_pose_of_odometry_is_the_frame():
     law = PRIORS["odometry"].law(trajectory(11))
     assert 0 not in np.concatenate(law.colours(6))
     assert law.log_prob(trajectory(11) + np.array([1e-3, 0, 0])) == -np.inf
-
-
-@pytest.mark.parametrize("prior", [Known(), *PRIORS.values()])
-def test_a_description_makes_the_same_prior(prior):
-    assert pose_prior_from(prior.describe()) == prior
 
 
 @pytest.mark.parametrize(

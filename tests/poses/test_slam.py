@@ -123,6 +123,35 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
     np.testing.assert_array_equal(scores, [0.5, 0.8, 0.5, 0.5])
 
 
+def test_poses_are_told_at_every_stage_and_come_nearer_the_truth(trajectory):
+    told = []
+    result = infer_trajectory(SCANS, threads=1, on_poses=lambda stage, poses: told.append((stage, poses.copy())))
+    np.testing.assert_array_equal(result.poses, trajectory.poses)
+    stages = [stage for stage, _ in told]
+    in_order = [stage for stage in dict.fromkeys(stages) if stage != "aligned-rematched"]  # where nothing was moved
+    assert in_order == ["front end", "loops", "aligned", "aligned-again", "rematch", "placing"]
+    np.testing.assert_array_equal(told[-1][1], result.poses)
+    assert all(poses.shape == SCANS.poses.shape for _, poses in told)
+    first, middle = told[0][1], told[stages.count("front end") // 2][1]
+    # The robot begins where the log says, and goes on by odometry from where it was found.
+    np.testing.assert_allclose(first[0], SCANS.poses[0], atol=1e-12)
+    np.testing.assert_allclose(between(middle[-2], middle[-1]), between(SCANS.poses[-2], SCANS.poses[-1]), atol=1e-9)
+    errors = [worst_m(poses) for _, poses in told]
+    assert errors[0] > 0.5 > 0.05 > errors[-1]
+    assert errors[stages.index("aligned")] < errors[stages.index("loops") - 1]
+
+
+def test_whoever_is_told_the_poses_can_end_the_inference():
+    class Enough(Exception):
+        pass
+
+    def stop(stage, poses):
+        raise Enough
+
+    with pytest.raises(Enough):
+        infer_trajectory(SCANS, threads=1, on_poses=stop)
+
+
 def test_an_interrupted_run_goes_on_where_it_was(tmp_path, trajectory):
     class Enough(Exception):
         pass

@@ -136,7 +136,7 @@ def align(
     reach_m: tuple[float, float] = REACH_M,
     scale_m: tuple[float, float] = SCALE_M,
     reselect: Callable[[Floats], Pairs] | None = None,
-    on_progress: Callable[[int], None] | None = None,
+    on_progress: Callable[[int, Floats], None] | None = None,
     threads: int | None = None,
 ) -> Alignment:
     """Align scans with all their partners and with odometry.
@@ -150,7 +150,7 @@ def align(
         reach_m: how far paired points lie apart, at the first round, and from the middle one on.
         scale_m: Geman and McClure's c, likewise.
         reselect: chooses pairs anew from the poses in the middle of the rounds.
-        on_progress: called with the number of rounds that are done.
+        on_progress: called with the number of rounds that are done and the poses, (S, 3).
         threads: to compute with; by default all cores.
     """
     count, sigma = len(poses), 0.01
@@ -175,7 +175,7 @@ def align(
         sigma = float(np.sqrt(max(totals[:, 0].sum() / max(totals[:, 1].sum(), 1e-9), 1e-8) / 2.0))
         sigma = float(np.clip(sigma, 0.002, 0.05))
         if on_progress is not None:
-            on_progress(number + 1)
+            on_progress(number + 1, poses)
         if share >= 1.0 and number > rounds // 2 + 1 and np.abs(step).max() < 2e-4:
             break
     shares = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)

@@ -1,12 +1,14 @@
 """What is wrong with odometry and with the laser's stated angles, as the scans themselves tell.
 
-Odometry: the motion that scan matching finds is, to first order,
+Odometry: the motion that it states is, to first order,
 
-    found = stated + B stated + lag (v_end - v_begin),
+    stated = (1 + C) found - lag (v_end - v_begin),
 
-B the systematic error (`bayesmap.poses.odometry_motion`) and v the stated velocity where the motion begins and ends: if
-odometry's stamps are late by ``lag``, its motion is that of another interval. Both are fitted by robust least squares,
-and what is left is the noise. From B follow the laser's place on the robot and the scale of odometry.
+C its systematic error (`bayesmap.poses.odometry_motion`), found the motion by scan matching, and v the stated velocity
+where the motion begins and ends: if odometry's stamps are late by ``lag``, its motion is that of another interval. Both
+are fitted by robust least squares, and what is left is the noise. It is the stated motion that is regressed on the one
+found, which errs less: the other way round the noise of a robot that drives straight on passes for a scale of 0. What
+corrects a stated motion is 1 + B = 1 / (1 + C); from B follow the laser's place on the robot and the scale.
 
 Angles: a scan with a wrong angle between its beams is stretched around the laser, and neighbouring scans no longer fit.
 The step is that of the lowest residual. The first beam's angle stays as stated: to turn all beams is to turn the
@@ -21,7 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.scan_refinement import refine_scans
-from bayesmap.poses.odometry_motion import COMMON
+from bayesmap.poses.motion_noise import MotionNoise, fit_noise
+from bayesmap.poses.odometry_motion import inverse_slope
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, interpolate, wrapped
 from bayesmap.space.scans import Scans
@@ -35,7 +38,7 @@ MOST_LAG_S = 0.5
 PAIRS = 400
 """Of scans that are turned against each other, for the angle between beams."""
 
-REGULAR_WITHIN = 0.006
+REGULAR_WITHIN = 0.005
 """To so much of itself the angle between beams can be estimated from residuals."""
 
 
@@ -48,14 +51,14 @@ class OdometryFit:
         slope_sigma: standard deviations of its entries, (3, 3).
         lag_s: how late odometry's stamps are, seconds: the motion from t to t' is stated for t + lag to t' + lag.
         lag_sigma_s: standard deviation of that.
-        ratios: how many times noisier than `odometry_motion.COMMON` it is: position and heading, (2,).
+        noise: what is left.
     """
 
     slope: Floats
     slope_sigma: Floats
     lag_s: float
     lag_sigma_s: float
-    ratios: Floats
+    noise: MotionNoise
 
     @property
     def laser_on_robot(self) -> Floats:
@@ -94,20 +97,22 @@ def fit_odometry(
         laser_variance: of each motion between them as found, x, y and yaw, (K - 1, 3): large where the laser cannot
             tell, as along corridors.
     """
-    motion = between(stated[scans[:-1]], stated[scans[1:]])
-    error = between(found[:-1], found[1:]) - motion
+    motion = between(found[:-1], found[1:])
+    error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
     error[:, 2] = wrapped(error[:, 2])
     timed = stamps_s is not None and np.ptp(stamps_s) > 0
     change = np.zeros_like(motion)
     if timed and stamps_s is not None:
         speed = velocities(stated, stamps_s)
-        change = speed[scans[1:]] - speed[scans[:-1]]
-    base = COMMON.sigmas(motion) ** 2
-    ratio = np.array([1.0, 1.0])
+        change = speed[scans[:-1]] - speed[scans[1:]]
+    steps = between(stated[:-1], stated[1:])
+    ways, turns = (_over(size, scans) for size in (np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])))
+    parts = np.diff(scans).astype(np.float64)
+    noise = fit_noise(error, ways, turns, parts, laser_variance)
     coefficients = np.zeros(10)
     covariance = np.eye(10)
     for _ in range(6):
-        variance = base * (ratio[[0, 0, 1]] ** 2) + laser_variance
+        variance = laser_variance + noise.over(ways, turns, parts)
         normal = np.diag(np.append(np.full(9, SLOPE_SIGMA**-2.0), LAG_SIGMA_S**-2.0))
         moment = np.zeros(10)
         rest = _left(error, motion, change, coefficients)
@@ -122,16 +127,12 @@ def fit_odometry(
         coefficients[9] = np.clip(coefficients[9], -MOST_LAG_S, MOST_LAG_S)
         covariance = np.linalg.inv(normal)
         rest = _left(error, motion, change, coefficients)
-        ratio = np.array(
-            [
-                _ratio(rest[:, :2], base[:, :2], laser_variance[:, :2]),
-                _ratio(rest[:, 2:], base[:, 2:], laser_variance[:, 2:]),
-            ]
-        )
+        noise = fit_noise(rest, ways, turns, parts, laser_variance)
     deviation = np.sqrt(np.diag(covariance))
     return OdometryFit(
-        coefficients[:9].reshape(3, 3), deviation[:9].reshape(3, 3), float(coefficients[9]) if timed else 0.0,
-        float(deviation[9]), ratio,
+        inverse_slope(coefficients[:9].reshape(3, 3)), deviation[:9].reshape(3, 3),
+        float(coefficients[9]) if timed else 0.0,
+        float(deviation[9]), noise,
     )  # fmt: skip
 
 
@@ -141,14 +142,9 @@ def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -
     return rest
 
 
-def _ratio(rest: Floats, base: Floats, laser: Floats) -> float:
-    """The noise's size in units of the common one: robust, by the median of squares less what the laser adds."""
-    good = laser < 0.5 * base
-    if good.sum() < 20:
-        return 1.0
-    squared = np.maximum(rest[good] ** 2 - laser[good], 0.0) / base[good]
-    clipped = np.minimum(squared, 20.0 * np.median(squared) + 1e-3)
-    return float(np.clip(np.sqrt(clipped.mean()), 0.3, 30.0))
+def _over(sizes: Floats, scans: NDArray[np.intp]) -> Floats:
+    """Sizes of motions from scan to scan, (S - 1,), added up between some scans, (K - 1,)."""
+    return np.asarray(np.diff(np.concatenate([[0.0], np.cumsum(sizes)])[scans]))
 
 
 def angle_step_ratio(
@@ -211,8 +207,7 @@ def angle_step_ratio(
 
 
 def _regular(factor: float, stated_deg: float) -> float:
-    """The factor that makes the step a multiple of an eighth of a degree, as lasers have, where that is as likely."""
-    step = factor * stated_deg
-    regular = round(8.0 * step) / 8.0
-    near = regular > 0 and abs(step / regular - 1.0) < REGULAR_WITHIN
-    return regular / stated_deg if near else factor
+    """The factor, or what lasers have if it is as likely: a step as stated, or a multiple of an eighth of a degree."""
+    regular = round(8.0 * factor * stated_deg) / 8.0 / stated_deg
+    nearest = min((1.0, regular), key=lambda f: abs(factor - f))
+    return nearest if regular > 0 and abs(factor / nearest - 1.0) < REGULAR_WITHIN else factor

@@ -1,9 +1,12 @@
 """From one scan to the next: every scan is matched to the latest key scans, in the order of time.
 
-A scan's window is where odometry says that it may be. The best place in it, by branch and bound over the likelihood
-grid of the latest key scans, is refined by point-to-line pairs under odometry's Gaussian. Scans that lie close together
-are matched to the same key scans at once; the first that has moved far enough, or that the key scans do not explain,
-becomes a key scan, and those after it begin anew.
+Scans that lie close together are matched to the same key scans at once (`bayesmap.poses.next_scans`); the first that
+has moved far enough, or that the key scans do not explain, becomes a key scan, and those after it begin anew.
+
+A scan that contradicts the key scans wherever odometry allows is passed over if one of those after it fits again:
+somebody walked by. If none does, odometry was wrong, or the robot was carried: the path breaks there, and what follows
+is matched to scans after the break alone. Where the parts lie is found from places that were seen twice
+(`bayesmap.poses.rejoin`).
 """
 
 from __future__ import annotations
@@ -14,13 +17,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.scan_refinement import refine_scans
-from bayesmap.poses.likelihood_grid import LikelihoodGrids, likelihood_grids
-from bayesmap.poses.matcher import Pull, match
+from bayesmap.poses.likelihood_grid import likelihood_grids
+from bayesmap.poses.next_scans import (
+    Elsewhere,
+    Placed,
+    Window,
+    chained,
+    contradicts,
+    place_anywhere,
+    place_near,
+    predict,
+)
 from bayesmap.poses.odometry_motion import RunningOdometry
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import rotation
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between
 
 Floats = NDArray[np.float64]
 
@@ -37,34 +47,27 @@ WINDOW = 12
 BATCH = 12
 """Scans matched to the same key scans at once, at most."""
 
-UNUSUAL = 0.04
-"""A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
-
 POOR_SCORE = 0.45
-"""Below this wider windows are searched."""
+POOR_BELOW = 0.25
+"""A scan explained worse than this, or so much worse than usual, may contradict the key scans."""
 
-LOST_SCORE = 0.2
-"""A scan that even so is explained no better than this is somewhere else."""
+LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])
+"""And so does one whose pose odometry and laser leave so uncertain, standard deviations."""
+
+SLIPPED_BELOW = 0.15
+"""A scan explained no more than this worse than usual may be taken to be where a wide search about odometry has it."""
+
+LEARN_BELOW = 0.25
+"""Motions of scans explained so much worse than usual teach nothing about odometry."""
+
+BACKWARDS_M = 1.0
+"""Over a longer motion nobody takes ahead for back."""
+
+PATIENCE, PATIENCE_M, PATIENCE_RAD = 10, 1.5, np.radians(90.0)
+"""Scans after it that may show that it was an exception: so many, over so much of the way by odometry."""
 
 UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
 """Standard deviations of a motion of which nothing is known."""
-
-POOR_BELOW = 0.25
-"""And so it is where the scan is explained so much worse than usual."""
-
-WIDE_M = 1.0
-WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
-"""Ranges of angles, and by how much better a place in them must explain the scan: about the prediction, then all."""
-
-POINT_SIGMA_M = 0.02
-"""Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
-
-POINTS = 200
-"""Of each scan, so many at most are matched."""
-
-REACH_M, SCALE_M = (0.3, 0.12), (0.15, 0.05)
-ALIKE = 0.7
-STEPS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +82,7 @@ class Track:
         keys: indices of the key scans, ascending.
         against: scans before which the robot went backwards although odometry states ahead, or the other way, (S,).
         slope: the systematic error of odometry that was found, (3, 3).
-        broken: scans whose motion from the one before nothing confirms, (S,).
+        broken: scans that begin a new part of the path: nothing confirms the motion from the one before, (S,).
         noise_ratios: how many times larger than an ordinary robot's odometry's noise is, position and heading, (2,).
     """
 
@@ -100,7 +103,7 @@ def follow(
     stamps_s: Floats | None,
     impossible: NDArray[np.bool_] | None = None,
     *,
-    on_progress: Callable[[int], None] | None = None,
+    on_progress: Callable[[int, Floats], None] | None = None,
     threads: int | None = None,
 ) -> Track:
     """Match every scan to those before it.
@@ -111,62 +114,208 @@ def follow(
             robot is taken to go on as it did.
         stamps_s: (S,), needed where there is no odometry.
         impossible: motions that no robot can have made, (S - 1,): they are taken to be unknown.
-        on_progress: called with the number of scans that are done.
+        on_progress: called with the number of scans that are done and the poses, (S, 3), zero from there on; they are
+            written on, so that whoever keeps them copies them.
         threads: to compute with; by default all cores.
     """
-    count = len(geometry)
-    half_width_m = grid_half_width(geometry)
-    poses, information = np.zeros((count, 3)), np.zeros((count, 3, 3))
-    spread, scores = np.zeros((count, 3)), np.ones(count)
-    odometry = RunningOdometry()
-    keys, grid, drawn = [0], None, -1
-    broken, against = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-    extra = np.zeros((max(count - 1, 0), 3))
-    if motions is not None and impossible is not None and impossible.any():
-        motions = np.where(impossible[:, None], 0.0, motions)
-        extra[impossible] = UNKNOWN**2
-    since_key, usual = np.zeros(3), 0.6
-    i = 0
-    while i < count - 1:
-        if drawn != keys[-1]:
-            window = np.array(keys[-WINDOW:][::-1])
-            grid = _window_grid(geometry, window, poses, half_width_m, threads, grid)
-            drawn = keys[-1]
-        assert grid is not None
-        batch = _batch(i, count, motions, poses[i], poses[keys[-1]])
-        predicted, variance = _predict(poses, i, batch, motions, stamps_s, odometry)
-        variance = variance + np.cumsum(extra[i : i + len(batch)], axis=0)
-        backwards = None
-        if motions is not None:
-            stated = odometry.corrected(motions[i : i + len(batch)]) * [-1.0, -1.0, 1.0]
-            backwards = _chained(poses[i], stated)
-        found, laser_information, score, turned = _place(
-            geometry, grid, window, poses, batch, predicted, variance, backwards, usual, threads
-        )
-        for k, scan in enumerate(batch):
-            poses[scan], information[scan], scores[scan] = found[k], laser_information[k], score[k]
-            step = variance[k] - (variance[k - 1] if k else 0.0)
-            if score[k] < LOST_SCORE:
-                broken[scan], information[scan] = True, 0.0
-                step = step + UNKNOWN**2
-            since_key = since_key + step
-            spread[scan] = since_key
-            if motions is not None:
-                left = np.diag(np.linalg.inv(laser_information[k] + np.diag(1.0 / variance[k])))
-                if score[k] > max(KEY_SCORE, usual - 0.25) and not turned[k] and not extra[scan - 1].any():
-                    odometry.learn(motions[scan - 1], between(poses[scan - 1], poses[scan]), left + 1e-5)
-            against[scan] = turned[k]
-            usual += 0.05 * (score[k] - usual)
-            i = int(scan)
-            moved = between(poses[keys[-1]], poses[scan])
-            far = np.hypot(moved[0], moved[1]) > KEY_DISTANCE_M or abs(moved[2]) > KEY_TURN_RAD
-            if far or broken[scan] or (score[k] < KEY_SCORE and np.abs(moved).max() > 0.05):
-                keys.append(i)
-                since_key = np.zeros(3)
-                break
+    path = _Path(geometry, motions, stamps_s, impossible, threads)
+    while path.at < len(geometry) - 1:
+        path.advance()
         if on_progress is not None:
-            on_progress(i + 1)
-    return Track(poses, information, spread, scores, np.array(keys), broken, against, odometry.slope, odometry.ratios)
+            on_progress(path.at + 1, path.poses)
+    return Track(
+        path.poses, path.information, path.spread, path.scores, np.array(path.keys), path.broken, path.against,
+        path.odometry.slope, path.odometry.ratios,
+    )  # fmt: skip
+
+
+class _Path:
+    """The path as far as it has been followed: `at` is the last scan that has a pose."""
+
+    def __init__(
+        self,
+        geometry: ScanGeometry,
+        motions: Floats | None,
+        stamps_s: Floats | None,
+        impossible: NDArray[np.bool_] | None,
+        threads: int | None,
+    ) -> None:
+        count = len(geometry)
+        self.geometry, self.stamps_s, self.threads = geometry, stamps_s, threads
+        self.half_width_m = grid_half_width(geometry)
+        self.unknown = np.zeros(max(count - 1, 0), np.bool_)
+        if motions is not None and impossible is not None:
+            motions, self.unknown = np.where(impossible[:, None], 0.0, motions), impossible
+        self.motions = motions
+        self.odometry = RunningOdometry()
+        self.poses, self.information = np.zeros((count, 3)), np.zeros((count, 3, 3))
+        self.spread, self.scores = np.zeros((count, 3)), np.ones(count)
+        self.broken, self.against = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        self.at, self.keys, self.begin = 0, [0], 0
+        self.since_key, self.usual = np.zeros(3), 0.6
+        self.plain, self.left = True, np.zeros(3)  # since the last key scan, and what matching the last scan left open
+        self.window = self._window(None)
+
+    def advance(self) -> None:
+        """Give poses to the next scans, one at least."""
+        if self.window.keys[0] != self.keys[-1]:
+            self.window = self._window(self.window)
+        batch = _batch(self.at, len(self.poses), self.motions, self.poses[self.at], self.poses[self.keys[-1]])
+        if self.unknown[self.at]:
+            scan, placed = self.at + 1, self._near(batch[:1])[0]
+            self._leap(scan, placed, self._anywhere(scan, placed.predicted[0], float(placed.scores[0])))
+            return
+        known = np.nonzero(self.unknown[self.at : int(batch[-1])])[0]
+        batch = batch[: int(known[0]) if len(known) else len(batch)]
+        placed, wrong = self._near(batch)
+        if wrong[0] and self.motions is not None:
+            batch = self._patience()
+            placed, wrong = self._near(batch)
+        if not wrong[0]:
+            self._take(batch, placed, int(np.argmax(wrong)) if wrong.any() else len(batch))
+        elif not wrong.all():
+            self._pass_over(batch, placed, int(np.argmin(wrong)))
+        else:
+            scan = int(batch[0])
+            found = self._anywhere(scan, placed.predicted[0], float(placed.scores[0]))
+            if found is None or not self._slipped(scan, placed, found):
+                self._leap(scan, placed, found)
+
+    def _take(self, batch: NDArray[np.intp], placed: Placed, count: int) -> None:
+        """Accept the first few of a batch, up to one that becomes a key scan."""
+        for k in range(count):
+            scan = int(batch[k])
+            self._put(scan, placed, k)
+            moved = between(self.poses[self.keys[-1]], self.poses[scan])
+            far = np.hypot(moved[0], moved[1]) > KEY_DISTANCE_M or abs(moved[2]) > KEY_TURN_RAD
+            if far or (placed.scores[k] < KEY_SCORE and np.abs(moved).max() > 0.05):
+                self._key(scan)
+                break
+
+    def _pass_over(self, batch: NDArray[np.intp], placed: Placed, fits: int) -> None:
+        """Leave scans that nothing explains where odometry has them, up to one that fits: a key scan."""
+        for k in range(fits + 1):
+            self._put(int(batch[k]), placed, k)
+        skipped = batch[:fits]
+        self.information[skipped] = 0.0
+        self.poses[skipped] = placed.predicted[:fits]
+        self._key(int(batch[fits]))
+
+    def _slipped(self, scan: int, placed: Placed, found: Elsewhere) -> bool:
+        """Take a scan that fits as well as usual not far from where odometry has it: wheels slipped. False if not."""
+        if not found.near or found.score < self.usual - SLIPPED_BELOW:
+            return False
+        if contradicts(self.geometry, self.window, scan, found.pose, self.threads):
+            return False
+        self.poses[scan], self.information[scan], self.scores[scan] = found.pose, found.information, found.score
+        self.spread[scan] = self.since_key + placed.variance[0] + UNKNOWN**2
+        self.at, self.plain = scan, False
+        self._key(scan)
+        return True
+
+    def _leap(self, scan: int, placed: Placed, found: Elsewhere | None) -> None:
+        """Go on at a scan that nothing before confirms, from where a wide search, or else odometry, has it.
+
+        Scans just before it that were explained as badly, though nothing contradicted them, go with it.
+        """
+        pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
+        while begin - 1 > self.keys[self.begin] and self.scores[begin - 1] < self._poor_below():
+            begin -= 1
+        if begin < scan:
+            if self.keys[-1] >= begin:
+                self.keys = [key for key in self.keys if key < begin]
+                self.window = self._window(self.window)
+            pose, score = self.poses[begin], float(self.scores[begin])
+            found = self._anywhere(begin, pose, score)
+        self.poses[begin], self.scores[begin] = (pose, score) if found is None else (found.pose, found.score)
+        self.information[begin], self.at = 0.0, begin
+        self.spread[begin] = self.since_key + placed.variance[0] + UNKNOWN**2
+        self.broken[begin] = True
+        self._key(begin)
+        self.begin = len(self.keys) - 1
+
+    def _anywhere(self, scan: int, pose: Floats, score: float) -> Elsewhere | None:
+        """Where a scan fits clearly better than with a score at a pose, in wide windows about that."""
+        return place_anywhere(self.geometry, self.window, scan, pose, score, self.threads)
+
+    def _poor_below(self) -> float:
+        return max(POOR_SCORE, self.usual - POOR_BELOW)
+
+    def _put(self, scan: int, placed: Placed, k: int) -> None:
+        self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
+        self.scores[scan], self.against[scan] = placed.scores[k], placed.turned[k]
+        variance, score = placed.variance[k], float(placed.scores[k])
+        self.since_key = self.since_key + variance - (placed.variance[k - 1] if k else 0.0)
+        self.spread[scan] = self.since_key
+        if self.motions is not None:
+            left = np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / variance)))
+            usual = score > max(KEY_SCORE, self.usual - LEARN_BELOW)
+            if usual and not placed.turned[k]:
+                found = between(self.poses[scan - 1], self.poses[scan])
+                self.odometry.learn_noise(self.motions[scan - 1], found, left + 1e-5)
+            else:
+                self.plain = False
+            self.left = left
+        self.usual += 0.05 * (score - self.usual)
+        self.at = scan
+
+    def _key(self, scan: int) -> None:
+        if self.motions is not None and self.plain and not self.broken[scan]:
+            before = self.keys[-1]
+            stated = chained(np.zeros(3), self.motions[before:scan])[-1]
+            self.odometry.learn_slope(stated, between(self.poses[before], self.poses[scan]), self.left + 1e-5)
+        self.plain = True
+        self.keys.append(scan)
+        self.since_key = np.zeros(3)
+
+    def _near(self, scans: NDArray[np.intp]) -> tuple[Placed, NDArray[np.bool_]]:
+        """Places of the scans that follow, and which of them contradict the key scans."""
+        span = slice(self.at, int(scans[-1]))
+        predicted, variance = predict(self.poses, self.at, scans, self.motions, self.stamps_s, self.odometry)
+        backwards = None
+        if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < BACKWARDS_M:
+            stated = self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0]
+            backwards = chained(self.poses[self.at], stated)
+        placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual, self.threads)
+        wrong = placed.scores < self._poor_below()
+        for k in np.nonzero(wrong)[0]:
+            wrong[k] = self._doubtful(int(scans[k]), placed, int(k))
+        return placed, wrong
+
+    def _doubtful(self, scan: int, placed: Placed, k: int) -> bool:
+        """Whether a badly explained scan contradicts the key scans, fits with another heading, or may be anywhere.
+
+        One that fits clearly better near by is put there.
+        """
+        if contradicts(self.geometry, self.window, scan, placed.poses[k], self.threads):
+            return True
+        left = np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / placed.variance[k])))
+        if (np.sqrt(left) > LOST_SIGMA).any():
+            return True
+        found = self._anywhere(scan, placed.predicted[k], float(placed.scores[k]))
+        if found is not None and found.near:
+            placed.poses[k], placed.information[k], placed.scores[k] = found.pose, found.information, found.score
+        return found is not None and not found.near
+
+    def _patience(self) -> NDArray[np.intp]:
+        """The next scans that may still fit the key scans."""
+        assert self.motions is not None
+        steps = self.motions[self.at : self.at + PATIENCE]
+        way, turn = np.cumsum(np.hypot(steps[:, 0], steps[:, 1])), np.cumsum(np.abs(steps[:, 2]))
+        near = (
+            (way < PATIENCE_M) & (turn < PATIENCE_RAD) & ~np.maximum.accumulate(self.unknown[self.at :][: len(steps)])
+        )
+        count = max(1, int(near.sum()))
+        return np.arange(self.at + 1, self.at + 1 + count)
+
+    def _window(self, before: Window | None) -> Window:
+        some = np.array(self.keys[self.begin :][-WINDOW:][::-1])
+        poses = self.poses[some]
+        grid = likelihood_grids(
+            self.geometry, [some], [poses], poses[0, :2], self.half_width_m, threads=self.threads,
+            reuse=None if before is None else before.grid,
+        )  # fmt: skip
+        return Window(some, poses, grid)
 
 
 def grid_half_width(geometry: ScanGeometry) -> float:
@@ -174,19 +323,6 @@ def grid_half_width(geometry: ScanGeometry) -> float:
     some = slice(None, None, max(1, len(geometry) // 500))
     away = np.linalg.norm(geometry.host_points[some][geometry.host_kind[some] > 0], axis=-1)
     return float(np.clip(np.percentile(away, 97.0) + 1.0, 4.0, 30.0)) if len(away) else 4.0
-
-
-def _window_grid(
-    geometry: ScanGeometry,
-    window: NDArray[np.intp],
-    poses: Floats,
-    half_width_m: float,
-    threads: int | None,
-    reuse: LikelihoodGrids | None,
-) -> LikelihoodGrids:
-    return likelihood_grids(
-        geometry, [window], [poses[window]], poses[window[0], :2], half_width_m, threads=threads, reuse=reuse
-    )
 
 
 def _batch(i: int, count: int, motions: Floats | None, here: Floats, key: Floats) -> NDArray[np.intp]:
@@ -199,91 +335,3 @@ def _batch(i: int, count: int, motions: Floats | None, here: Floats, key: Floats
     off = between(key, here)
     near = (travelled < KEY_DISTANCE_M - np.hypot(off[0], off[1])) & (turned < KEY_TURN_RAD - abs(off[2]))
     return np.arange(i + 1, i + 2 + int(np.argmin(near) if not near.all() else len(near) - 1))
-
-
-def _predict(
-    poses: Floats,
-    i: int,
-    batch: NDArray[np.intp],
-    motions: Floats | None,
-    stamps_s: Floats | None,
-    odometry: RunningOdometry,
-) -> tuple[Floats, Floats]:
-    """Where the scans of a batch should be, (N, 3), and variances of x, y and yaw in their own frames, (N, 3)."""
-    if motions is None:
-        gap, before = 0.2, 0.2
-        if stamps_s is not None and i > 0:
-            gap, before = max(stamps_s[i + 1] - stamps_s[i], 0.0), max(stamps_s[i] - stamps_s[i - 1], 0.0)
-        last = between(poses[i - 1], poses[i]) if i > 0 else np.zeros(3)
-        share = min(gap / before, 1.5) if before > 1e-3 else 1.0
-        sigma = np.array([0.05 + 0.5 * min(gap, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap, 1.0)])
-        return compose(poses[i], last * share)[None], sigma[None] ** 2
-    stated = motions[i : i + len(batch)]
-    return _chained(poses[i], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
-
-
-def _chained(start: Floats, motions: Floats) -> Floats:
-    """Poses after each of some motions, (N, 3)."""
-    poses, here = np.empty((len(motions), 3)), start
-    for k, motion in enumerate(motions):
-        here = poses[k] = compose(here, motion)
-    return poses
-
-
-def _place(
-    geometry: ScanGeometry,
-    grid: LikelihoodGrids,
-    window: NDArray[np.intp],
-    poses: Floats,
-    batch: NDArray[np.intp],
-    predicted: Floats,
-    variance: Floats,
-    reversed_: Floats | None,
-    usual: float,
-    threads: int | None,
-) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
-    """Poses, information by the laser in their own frames, scores, and whether motions were against those stated."""
-    points = [geometry.points_of(int(scan), POINTS) for scan in batch]
-    sigma = np.sqrt(variance)
-    half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
-    half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
-    sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
-    pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
-    best = match(grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull, threads=threads)
-    start, score = best.poses[:, 0], best.scores[:, 0]
-    predicted, turned = predicted.copy(), np.zeros(len(batch), np.bool_)
-    doubtful = np.nonzero(score < usual - UNUSUAL)[0]
-    if reversed_ is not None and len(doubtful):
-        back = match(
-            grid, [points[k] for k in doubtful], reversed_[doubtful], half_m[doubtful], half_rad[doubtful],
-            least=score[doubtful] + 0.5 * UNUSUAL, pull=pull, threads=threads,
-        )  # fmt: skip
-        better = back.found[:, 0]
-        start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
-        predicted[doubtful[better]] = reversed_[doubtful[better]]
-        turned[doubtful[better]] = True
-    for wide_rad, gain in WIDER:
-        poor = np.nonzero(score < max(POOR_SCORE, usual - POOR_BELOW))[0]
-        if not len(poor):
-            break
-        wide = match(
-            grid, [points[k] for k in poor], predicted[poor], WIDE_M, wide_rad, least=score[poor] + gain,
-            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0), threads=threads,
-        )  # fmt: skip
-        better = wide.found[:, 0]
-        start[poor[better]], score[poor[better]] = wide.poses[better, 0], wide.scores[better, 0]
-        # What odometry said cannot be right: it does not hold the scan back.
-        predicted[poor[better]] = wide.poses[better, 0]
-    jobs = len(batch)
-    near = window[: WINDOW if jobs == 1 else WINDOW // 2]
-    # A pose before this one is itself off by about a centimetre.
-    certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
-    turn = rotation(predicted[:, 2])
-    prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)
-    placed, laser_information, _ = refine_scans(
-        geometry, None, batch.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(near),
-        np.tile(near, jobs).astype(np.int32), np.tile(poses[near], (jobs, 1)), start, predicted, prior_information,
-        POINT_SIGMA_M, STEPS, REACH_M, SCALE_M, ALIKE, threads=threads,
-    )  # fmt: skip
-    own = rotation(placed[:, 2])
-    return placed, np.swapaxes(own, 1, 2) @ laser_information @ own, score, turned

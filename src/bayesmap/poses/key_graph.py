@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.front_end import Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
-from bayesmap.poses.loops import Closures, Search, find_closures
+from bayesmap.poses.loops import Search, find_closures, path_m
+from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.submap_matching import Closures
 from bayesmap.space.planar import between, compose, wrapped
 
 Floats = NDArray[np.float64]
@@ -41,17 +43,24 @@ class ClosedGraph:
         poses: of the keys, (K, 3).
         closures: those found in the last round.
         weights: Geman and McClure's weight of each closure, from 0 to 1: near 0 where it was not believed.
+        joined: of the parts of the path, which are joined to an earlier one by places that both saw, (P,).
     """
 
     poses: Floats
     closures: Closures
     weights: Floats
+    joined: NDArray[np.bool_]
 
 
-def chain_of(track: Track) -> Factors:
-    """Links from each key scan to the next, with what laser and odometry together tell."""
+def chain_of(track: Track, poses: Floats) -> Factors:
+    """Links from each key scan to the next, with what laser and odometry together tell.
+
+    Where the path breaks they are those of the given poses of the keys, (K, 3), with hardly any information.
+    """
     keys = track.keys
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
+    broken = track.broken[keys[1:]]
+    relative[broken] = between(poses[:-1][broken], poses[1:][broken])
     laser = track.information[keys[1:]] / DEFLATION
     odometry = np.zeros_like(laser)
     index = np.arange(3)
@@ -66,10 +75,13 @@ def chain_of(track: Track) -> Factors:
     return Factors(order, order + 1, relative, np.linalg.inv(covariance))
 
 
-def poses_between_keys(track_poses: Floats, keys: NDArray[np.intp], key_poses: Floats) -> Floats:
+def poses_between_keys(
+    track_poses: Floats, keys: NDArray[np.intp], key_poses: Floats, broken: NDArray[np.bool_] | None = None
+) -> Floats:
     """All scans' poses, (S, 3), from new poses of the keys.
 
-    Each keeps its motion from the key before; what that misses the next key by is spread along the way.
+    Each keeps its motion from the key before; what that misses the next key by is spread along the way, but where the
+    path is broken between the two, (S,).
     """
     count = len(track_poses)
     before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
@@ -80,6 +92,8 @@ def poses_between_keys(track_poses: Floats, keys: NDArray[np.intp], key_poses: F
     expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
     change = key_poses[after] - expected
     change[:, 2] = wrapped(change[:, 2])
+    if broken is not None:
+        change[broken[keys[after]]] = 0.0
     step = np.maximum(keys[after] - keys[before], 1)
     share = (np.arange(count) - keys[before]) / step
     result = result + change * np.where(after > before, share, 0.0)[:, None]
@@ -91,7 +105,7 @@ def close_loops(
     geometry: ScanGeometry,
     track: Track,
     *,
-    on_progress: Callable[[int], None] | None = None,
+    on_progress: Callable[[int, Floats], None] | None = None,
     threads: int | None = None,
 ) -> ClosedGraph:
     """Find loop closures and solve the graph, in rounds: closing the sure ones shows where the others are.
@@ -99,23 +113,34 @@ def close_loops(
     Args:
         geometry: of all scans.
         track: what the front end found.
-        on_progress: called with the number of rounds that are done.
+        on_progress: called with the number of rounds that are done and the poses of the keys, (K, 3).
         threads: to compute with; by default all cores.
     """
-    chain = chain_of(track)
-    poses = track.poses[track.keys]
+    keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
+    breaks, joined = track.broken[keys], np.ones(1, np.bool_)
+    part = np.cumsum(breaks).astype(np.intp)
+    if breaks.any():
+        poses, joined = rejoin(geometry, keys, poses, path_m(poses, breaks), part, half_width_m, threads)
+    guess, chain = poses, chain_of(track, poses)
     closures, weights, loops = None, np.empty(0), NO_FACTORS
     for number, search in enumerate(ROUNDS, start=1):
         parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
         _, precision = solve_step(len(poses), parts)
-        closures = find_closures(geometry, track.keys, poses, precision, half_width_m, search, threads)
+        closures = find_closures(geometry, keys, poses, path_m(poses, breaks), precision, half_width_m, search, threads)
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)
         if on_progress is not None:
-            on_progress(number)
+            on_progress(number, poses)
         if number > 1 and np.hypot(*(poses - before)[:, :2].T).max() < SETTLED_M:
             break
     assert closures is not None
-    return ClosedGraph(poses, closures, weights)
+    # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
+    for k in np.nonzero(~joined)[0]:
+        across = (part[closures.first] < k) & (part[closures.second] == k)
+        begin = int(np.searchsorted(part, k))
+        off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
+        right = np.hypot(off[0], off[1]) < SAME_M and abs(off[2]) < SAME_RAD
+        joined[k] = right and (across & (weights > 0.5)).sum() >= AGREE
+    return ClosedGraph(poses, closures, weights, joined)

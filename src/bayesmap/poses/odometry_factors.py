@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.calibration import OdometryFit, stated_at
-from bayesmap.poses.front_end import Track
+from bayesmap.poses.calibration import stated_at
+from bayesmap.poses.front_end import UNKNOWN, Track
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.odometry_motion import COMMON
-from bayesmap.poses.prior import Odometry
 from bayesmap.space.planar import between, compose, wrapped
 
 Floats = NDArray[np.float64]
@@ -18,53 +18,59 @@ STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
 """How firmly, without odometry, the front end's own links hold."""
 
 
-def chain_factors(track: Track) -> Factors:
-    """Weak links from key scan to key scan as the front end found them."""
+GUESSED = np.diag(1.0 / UNKNOWN**2)
+"""How firmly a link holds that nothing is known of: it keeps parts of the path from drifting away."""
+
+
+def chain_factors(track: Track, poses: Floats) -> Factors:
+    """Weak links from key scan to key scan as the front end found them; where it broke, as the keys are, (K, 3)."""
     keys = track.keys
     order = np.arange(len(keys) - 1)
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
-    return Factors(order, order + 1, relative, np.tile(STEADY, (len(order), 1, 1)))
+    links = Factors(order, order + 1, relative, np.tile(STEADY, (len(order), 1, 1)))
+    return guessed(links, poses, track.broken[keys[1:]])
+
+
+def guessed(links: Factors, poses: Floats, where: NDArray[np.bool_]) -> Factors:
+    """Links from key scan to key scan; some replaced by where the keys are, (K, 3), as if hardly anything was known."""
+    relative, information = links.relative.copy(), links.information.copy()
+    relative[where] = between(poses[:-1][where], poses[1:][where])
+    information[where] = GUESSED
+    return Factors(links.first, links.second, relative, information)
 
 
 def corrected_factors(
     stated: Floats,
     stamps_s: Floats | None,
     motions: Floats,
-    impossible: NDArray[np.bool_],
+    rejected: NDArray[np.bool_],
     keys: NDArray[np.intp],
+    poses: Floats,
     slope: Floats,
-    ratios: Floats,
+    variances: Callable[[Floats], Floats],
     lag_s: float = 0.0,
 ) -> Factors:
-    """Odometry from key scan to key scan, corrected for its systematic error and its lag."""
+    """Odometry from key scan to key scan, corrected for its systematic error and its lag.
+
+    Where a stated motion is rejected, (S - 1,), the keys' present poses, (K, 3), hold loosely. ``variances`` gives
+    those of x, y and yaw, (S - 1, 3), of stated motions from scan to scan, (S - 1, 3).
+    """
     if lag_s != 0.0:
         late = stated_at(stated, stamps_s, lag_s)
         motions = between(late[:-1], late[1:])
     corrected = motions + motions @ slope.T
     corrected[:, 2] = wrapped(corrected[:, 2])
-    variances = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
-    return composed(corrected, variances, keys, impossible)
+    lost = np.concatenate([[0], np.cumsum(rejected)])
+    return guessed(composed(corrected, variances(motions), keys), poses, lost[keys[1:]] > lost[keys[:-1]])
 
 
-def noise_of(fit: OdometryFit) -> Odometry:
-    """The noise that was found, as the prior's parameters."""
-    xy, yaw = float(fit.ratios[0]), float(fit.ratios[1])
-    return Odometry(
-        COMMON.m_per_m * xy, COMMON.m_per_rad * xy, COMMON.rad_per_m * yaw, COMMON.rad_per_rad * yaw,
-        COMMON.still_m * xy, COMMON.still_rad * yaw,
-    )  # fmt: skip
-
-
-def composed(
-    motions: Floats, variances: Floats, keys: NDArray[np.intp], rejected: NDArray[np.bool_] | None = None
-) -> Factors:
+def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
     """Motions from scan to scan composed to factors from each key scan to the next; variances add up along the way.
 
     Args:
         motions: from scan to scan, corrected, (S - 1, 3).
         variances: of x, y and yaw of each motion, (S - 1, 3).
         keys: indices of the keys, (K,).
-        rejected: motions that no robot can have made: factors over them are left out.
     """
     relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
     longest = int(np.diff(keys).max(initial=1))
@@ -85,8 +91,4 @@ def composed(
         relative[active] = compose(relative[active], motion)
     relative[:, 2] = wrapped(relative[:, 2])
     order = np.arange(len(keys) - 1)
-    factors = Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64))
-    if rejected is None:
-        return factors
-    bad = np.concatenate([[0], np.cumsum(rejected)])
-    return factors.select(bad[keys[1:]] == bad[keys[:-1]])
+    return Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64))

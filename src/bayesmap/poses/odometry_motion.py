@@ -1,9 +1,9 @@
 """The motions that odometry states between scans, and what is learnt about its errors on the way.
 
 Errors of odometry are in part the same all the time: wheels of other sizes than assumed, a base of another width, a
-laser beside the point that odometry follows. To first order all of these add a linear function of the stated motion,
-``error = B motion``, which is found by recursive least squares as scans are matched. The rest is noise as that of
-`bayesmap.poses.prior.Odometry`, whose size is estimated in the same pass.
+laser beside the point that odometry follows. To first order all of these make odometry state ``(1 + C) motion``, and C
+is found by recursive least squares from key scan to key scan, where matching errs less than odometry. The rest is noise
+as that of `bayesmap.poses.prior.Odometry`, whose size is estimated in the same pass from scan to scan.
 """
 
 from __future__ import annotations
@@ -31,18 +31,32 @@ MEMORY = 300.0
 """Motions over which the size of the noise is averaged: floors differ."""
 
 SLOPE_SIGMA = 0.15
-"""Standard deviation of the entries of B before any motion was seen: 15 % of the motion."""
+"""Standard deviation of the entries of C before any motion was seen: 15 % of the motion."""
 
 
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, NDArray[np.bool_]]:
     """Motions from scan to scan in the earlier one's frame, (S - 1, 3), and which of them no robot can have made."""
     motions = between(poses[:-1], poses[1:])
     length = np.hypot(motions[:, 0], motions[:, 1])
-    impossible = length > max(2.0, 20.0 * float(np.median(length)) if len(length) else 2.0)
     if stamps_s is not None and np.ptp(stamps_s) > 0:
-        gap = np.maximum(np.diff(stamps_s), 0.0) + 0.3
-        impossible |= length > FAST_M_PER_S * gap + 0.5
-    return motions, impossible
+        return motions, length > FAST_M_PER_S * (np.maximum(np.diff(stamps_s), 0.0) + 0.3) + 0.5
+    return motions, length > max(2.0, 20.0 * float(np.median(length)) if len(length) else 2.0)
+
+
+def variances(motions: Floats, ratios: Floats) -> Floats:
+    """Variances of x, y and yaw, (..., 3), of odometry so many times noisier than `COMMON`: position and heading.
+
+    A heading that is off half-way moves what comes after: over a long motion, as where scans are missing, that counts.
+    """
+    variance = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
+    lever_m = 0.5 * np.hypot(motions[..., 0], motions[..., 1])
+    variance[..., :2] += (lever_m**2 * variance[..., 2])[..., None]
+    return np.asarray(variance)
+
+
+def inverse_slope(systematic: Floats) -> Floats:
+    """1 / (1 + C) - 1, (3, 3): what corrects a motion that is stated as (1 + C) times what it is."""
+    return np.asarray(np.linalg.inv(np.eye(3) + systematic) - np.eye(3))
 
 
 class RunningOdometry:
@@ -53,11 +67,12 @@ class RunningOdometry:
         self._moment = np.zeros((3, 3))
         self._squares = np.array([PRIOR_COUNT * FIRST_RATIO**2] * 2)
         self._count = PRIOR_COUNT
+        self._systematic: Floats = np.zeros((3, 3))
         self._slope: Floats = np.zeros((3, 3))
 
     @property
     def slope(self) -> Floats:
-        """B: the mean error by the stated motion, (3, 3)."""
+        """B = 1 / (1 + C) - 1: what to add to a stated motion, by the stated motion, (3, 3)."""
         return self._slope
 
     @property
@@ -73,23 +88,28 @@ class RunningOdometry:
 
     def variances(self, motions: Floats) -> Floats:
         """Variances of x, y and yaw of each motion's remaining error, (..., 3)."""
-        return np.asarray((COMMON.sigmas(motions) * self.ratios[[0, 0, 1]]) ** 2)
+        return variances(motions, self.ratios)
 
-    def learn(self, motion: Floats, found: Floats, laser_variance: Floats) -> None:
-        """Take note of one motion: as stated, as matched, and the variances that matching leaves."""
-        error = found - motion
+    def learn_slope(self, stated: Floats, found: Floats, laser_variance: Floats) -> None:
+        """Take note of the systematic error of one motion of some length: as stated and as matched, (3,) each."""
+        error = stated - found
         error[2] = wrapped(error[2])
-        variance = self.variances(motion) + laser_variance
-        rest = error - self._slope @ motion
+        variance = self.variances(stated) + laser_variance
+        rest = error - self._systematic @ found
         rest[2] = wrapped(rest[2])
-        squared = rest**2 / variance
-        if (squared < 16.0).all():
-            weight = 1.0 / np.maximum(variance, 1e-6)
-            scale = 1e-4  # what a unit of the normal matrix stands for: keeps the prior's SLOPE_SIGMA meaningful
-            gain = float(np.exp(np.mean(np.log(weight)))) * scale
-            self._normal += gain * np.outer(motion, motion) * SLOPE_SIGMA**2 / scale
-            self._moment += gain * np.outer(error, motion) * SLOPE_SIGMA**2 / scale
-            self._slope = np.asarray(np.linalg.solve(self._normal, self._moment.T).T, np.float64)
+        if not (rest**2 < 16.0 * variance).all():
+            return
+        # One weight for the three: the entries of C share a normal matrix.
+        gain = float(np.exp(-np.mean(np.log(np.maximum(variance, 1e-6))))) * SLOPE_SIGMA**2
+        self._normal += gain * np.outer(found, found)
+        self._moment += gain * np.outer(error, found)
+        self._systematic = np.asarray(np.linalg.solve(self._normal, self._moment.T).T, np.float64)
+        self._slope = inverse_slope(self._systematic)
+
+    def learn_noise(self, motion: Floats, found: Floats, laser_variance: Floats) -> None:
+        """Take note of the noise of one motion from scan to scan: as stated and as matched, (3,) each."""
+        rest = found - motion - self._slope @ motion
+        rest[2] = wrapped(rest[2])
         base = COMMON.sigmas(motion) ** 2
         excess = np.maximum(rest**2 - laser_variance, 0.0) / base
         keep = 1.0 - 1.0 / MEMORY

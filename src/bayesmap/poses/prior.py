@@ -199,13 +199,6 @@ class Motions(PosePrior):
         return {"kind": "motions", "count": len(self.relative), "checksum": digest.hexdigest()}
 
 
-def pose_prior_from(description: dict[str, object]) -> PosePrior:
-    """The prior of a description."""
-    values = dict(description)
-    kinds: dict[object, type[PosePrior]] = {"known": Known, "uncertain": Uncertain, "odometry": Odometry}
-    return kinds[values.pop("kind")](**values)
-
-
 @dataclass(frozen=True, eq=False)
 class _Fixed(PoseLaw):
     poses: Floats

@@ -17,23 +17,28 @@ from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.key_graph import close_loops, poses_between_keys
-from bayesmap.poses.odometry_factors import chain_factors, corrected_factors, noise_of
-from bayesmap.poses.odometry_motion import stated_motions
+from bayesmap.poses.next_scans import chained
+from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
+from bayesmap.poses.odometry_motion import stated_motions, variances
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
-from bayesmap.space.planar import compose
+from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
+OnPoses = Callable[[str, Floats], None]
 
 FARTHEST_M = 30.0
 """Hits beyond are not matched: beams are then half a metre apart and more."""
 
 ANGLE_TOLERANCE = 0.003
 """A smaller relative error of the angle between beams is not corrected: over half a circle it turns by 0.3 degrees."""
+
+LOOKS = 60
+"""How often the front end says where the robot is, at most."""
 
 IMPROVEMENTS = 2
 """How often scans are matched anew without themselves."""
@@ -52,6 +57,7 @@ def infer_trajectory(
     device: str = "cpu",
     checkpoint: str | os.PathLike[str] | None = None,
     on_progress: Progress | None = None,
+    on_poses: OnPoses | None = None,
 ) -> Trajectory:
     """Infer where a robot was from its scans and its raw odometry.
 
@@ -65,6 +71,10 @@ def infer_trajectory(
         device: "cpu" or a CUDA device.
         checkpoint: a folder for finished stages: a run that is interrupted and started again on the same scans goes on.
         on_progress: called as (stage, done, of).
+        on_poses: called as (stage, poses) now and then in the front end, and after each round of every other stage
+            that is not taken from the checkpoint: where all scans are as far as is known, (S, 3), in the order of time
+            and the frame of `Trajectory.poses`. Scans that the front end has not come to go on by odometry. What it
+            raises ends the inference.
 
     Raises:
         BadInput: fewer than two scans, scans without a single hit, or no odometry and too few scans a second.
@@ -78,10 +88,10 @@ def infer_trajectory(
         checkpoint,
         fingerprint(
             scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s,
-            settings=f"1 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
+            settings=f"2 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
         ),
     )  # fmt: skip
-    run = _Run(scans, no_odometry, threads, device, stages, on_progress or (lambda stage, done, of: None))
+    run = _Run(scans, no_odometry, threads, device, stages, on_progress or (lambda stage, done, of: None), on_poses)
     return run.trajectory(order, calibrate_angles)
 
 
@@ -96,12 +106,15 @@ class _Run:
         device: str,
         stages: Stages,
         progress: Progress,
+        on_poses: OnPoses | None = None,
     ) -> None:
         self.scans, self.threads, self.device = scans, threads, device
-        self.stages, self.progress = stages, progress
+        self.stages, self.progress, self.on_poses = stages, progress, on_poses
         self.motions, self.impossible = stated_motions(scans.poses, scans.stamps_s)
         self.stated = scans.poses
         self.no_odometry = no_odometry
+        self.origin = scans.poses[0] if not no_odometry else np.zeros(3)
+        self.track: Track | None = None
 
     def geometry(self, angles_rad: Floats) -> ScanGeometry:
         return scan_geometry(
@@ -112,7 +125,7 @@ class _Run:
         scans, threads = self.scans, self.threads
         angles, ratio = scans.angles_rad, 1.0
         geometry = self.geometry(angles)
-        track = self.front_end(geometry)
+        self.track = track = self.front_end(geometry)
         self.go_backwards(track.against)
         keys = track.keys
         closed = self.stages.get("loops", lambda: self.loops(geometry, track))
@@ -120,7 +133,7 @@ class _Run:
         reach_m = MATCH_REACH * half_width_m
         key_geometry = geometry.select(keys)
         poses = closed["poses"]
-        first = self.align("aligned", key_geometry, poses, self.first_factors(track), reach_m, 8, wide=True)
+        first = self.align("aligned", key_geometry, poses, self.first_factors(track, poses), reach_m, 8, wide=True)
         poses = first.poses
         if calibrate_angles:
             found = angle_step_ratio(
@@ -137,12 +150,14 @@ class _Run:
                 poses[:, 2] -= 0.5 * (ratio - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
                 geometry = self.geometry(angles)
                 key_geometry = geometry.select(keys)
-        fit, factors = self.odometry(first, keys, track)
+        fit, factors = self.odometry(first, track)
         second = self.align("aligned-again", key_geometry, poses, factors, reach_m, 8, wide=ratio != 1.0)
         final, scores = self.improve(key_geometry, second, factors, reach_m, min(half_width_m, 14.0))
-        start = poses_between_keys(track.poses, keys, final.poses)
+        start = poses_between_keys(track.poses, keys, final.poses, track.broken)
         placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, threads=threads)
         self.progress("placing", len(scans), len(scans))
+        if self.on_poses is not None:
+            self.on_poses("placing", compose(self.origin, placed.poses))
         residuals = Factors(
             closed["first"], closed["second"], closed["relative"], np.zeros((len(closed["first"]), 3, 3))
         )
@@ -153,12 +168,11 @@ class _Run:
         explained = placed.matched.copy()
         explained[keys] = scores
         nearest = _nearest(keys, len(scans))
-        breaks = np.nonzero(track.broken)[0]
-        origin = scans.poses[0] if not self.no_odometry else np.zeros(3)
-        gaussian = replace(final.gaussian, poses=compose(origin, final.poses))
-        noise = None if fit is None else noise_of(fit)
+        breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
+        gaussian = replace(final.gaussian, poses=compose(self.origin, final.poses))
+        noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
-            compose(origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys),
+            compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys),
             explained, flag_unexplained(explained, keys), breaks, closures,
             Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors,
         )  # fmt: skip
@@ -166,12 +180,22 @@ class _Run:
     def front_end(self, geometry: ScanGeometry) -> Track:
         motions = None if self.no_odometry else self.motions
         count = len(self.scans)
+        next_look = 0
+
+        def on_progress(done: int, poses: Floats) -> None:
+            nonlocal next_look
+            self.progress("front end", done, count)
+            if self.on_poses is not None and done >= next_look:
+                next_look = done + -(-count // LOOKS)
+                stated = self.stated[done - 1 :]
+                rest = between(stated[:1], stated[1:]) * (0.0 if self.no_odometry else 1.0)
+                known = np.concatenate([poses[:done], compose(poses[done - 1], rest)])
+                self.on_poses("front end", compose(self.origin, known))
 
         def compute() -> Arrays:
             track = follow(
-                geometry, motions, self.scans.stamps_s, self.impossible,
-                on_progress=lambda done: self.progress("front end", done, count), threads=self.threads,
-            )  # fmt: skip
+                geometry, motions, self.scans.stamps_s, self.impossible, on_progress=on_progress, threads=self.threads
+            )
             return dict(track.__dict__)
 
         return Track(**self.stages.get("front-end", compute))
@@ -180,44 +204,46 @@ class _Run:
         """Take motions that scans contradict in their direction the other way round."""
         if not self.no_odometry and against.any():
             self.motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
-            poses = [self.stated[0]]
-            for motion in self.motions:
-                poses.append(compose(poses[-1], motion))
-            self.stated = np.array(poses)
+            self.stated = np.vstack([self.stated[:1], chained(self.stated[0], self.motions)])
+
+    def report(self, stage: str, done: int, of: int, key_poses: Floats) -> None:
+        """Say how far a stage is, and where all scans are by the present poses of the key scans."""
+        self.progress(stage, done, of)
+        if self.on_poses is not None and self.track is not None:
+            known = poses_between_keys(self.track.poses, self.track.keys, key_poses, self.track.broken)
+            self.on_poses(stage, compose(self.origin, known))
 
     def loops(self, geometry: ScanGeometry, track: Track) -> Arrays:
         closed = close_loops(
-            geometry, track, on_progress=lambda done: self.progress("loops", done, 3), threads=self.threads
+            geometry, track, on_progress=lambda done, at: self.report("loops", done, 3, at), threads=self.threads
         )
         return {
             "poses": closed.poses, "first": closed.closures.first, "second": closed.closures.second,
-            "relative": closed.closures.relative, "weights": closed.weights,
+            "relative": closed.closures.relative, "weights": closed.weights, "joined": closed.joined,
         }  # fmt: skip
 
-    def first_factors(self, track: Track) -> Factors:
+    def first_factors(self, track: Track, poses: Floats) -> Factors:
         if self.no_odometry:
-            return chain_factors(track)
-        return corrected_factors(
-            self.stated, self.scans.stamps_s, self.motions, self.impossible, track.keys, track.slope, track.noise_ratios
-        )
+            return chain_factors(track, poses)
+        return self.corrected(track, poses, track.slope, lambda motions: variances(motions, track.noise_ratios))
 
-    def odometry(self, aligned: Alignment, keys: NDArray[np.intp], track: Track) -> tuple[OdometryFit | None, Factors]:
+    def odometry(self, aligned: Alignment, track: Track) -> tuple[OdometryFit | None, Factors]:
         if self.no_odometry:
-            return None, chain_factors(track)
-        order = np.arange(len(keys) - 1)
+            return None, chain_factors(track, aligned.poses)
+        order = np.arange(len(track.keys) - 1)
         covariance = aligned.gaussian.relative_covariances(order, order + 1)
         variance = np.diagonal(covariance, axis1=1, axis2=2)
-        fit = fit_odometry(self.stated, self.scans.stamps_s, aligned.poses, keys, variance)
-        return fit, corrected_factors(
-            self.stated,
-            self.scans.stamps_s,
-            self.motions,
-            self.impossible,
-            keys,
-            fit.slope,
-            fit.ratios,
-            lag_s=fit.lag_s,
-        )
+        fit = fit_odometry(self.stated, self.scans.stamps_s, aligned.poses, track.keys, variance)
+        return fit, self.corrected(track, aligned.poses, fit.slope, fit.noise.variances, fit.lag_s)
+
+    def corrected(
+        self, track: Track, poses: Floats, slope: Floats, noise: Callable[[Floats], Floats], lag_s: float = 0.0
+    ) -> Factors:
+        """Odometry between key scans, but where it was refused or the path breaks."""
+        return corrected_factors(
+            self.stated, self.scans.stamps_s, self.motions, self.impossible | track.broken[1:], track.keys, poses,
+            slope, noise, lag_s,
+        )  # fmt: skip
 
     def align(
         self,
@@ -239,7 +265,7 @@ class _Run:
         spans = {} if wide else {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
         return align(
             geometry, poses, factors, pairs, rounds=rounds, reselect=again, threads=threads,
-            on_progress=lambda done: self.progress(name, done, rounds), **spans,
+            on_progress=lambda done, at: self.report(name, done, rounds, at), **spans,
         )  # fmt: skip
 
     def improve(
@@ -257,7 +283,8 @@ class _Run:
                 geometry, aligned.poses, aligned.pairs, half_width_m, poor_score=poor, search=number < IMPROVEMENTS,
                 threads=self.threads,
             )  # fmt: skip
-            self.progress("rematch", number + 1, IMPROVEMENTS + 1)
+            rematched = np.where(again.moved[:, None], again.best_poses, aligned.poses)
+            self.report("rematch", number + 1, IMPROVEMENTS + 1, rematched)
             back = moved & (again.scores < before)
             stays |= back
             moved = again.moved & ~stays

@@ -1,0 +1,227 @@
+"""Where are the next scans, by odometry and by the latest key scans?
+
+A scan's window is where odometry says that it may be. The best place in it, by branch and bound over the likelihood
+grid of the latest key scans, is refined by point-to-line pairs under odometry's Gaussian. Whether a scan that is badly
+explained there contradicts the key scans, or merely sees what they did not, is told by free space: points that stand
+where the others saw through, and the other way round.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.kernels.scan_refinement import refine_scans
+from bayesmap.kernels.view_agreement import mutual_view_counts
+from bayesmap.poses.likelihood_grid import LikelihoodGrids
+from bayesmap.poses.matcher import Pull, match
+from bayesmap.poses.odometry_motion import RunningOdometry
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.se2 import rotation
+from bayesmap.space.planar import between, compose
+
+Floats = NDArray[np.float64]
+
+UNUSUAL = 0.04
+"""A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
+
+WIDE_M = 1.0
+WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
+"""Ranges of angles, and by how much better a place in them must explain the scan: about the prediction, then all."""
+
+POINT_SIGMA_M = 0.02
+"""Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
+
+POINTS = 200
+"""Of each scan, so many at most are matched."""
+
+REACH_M, SCALE_M = (0.3, 0.12), (0.15, 0.05)
+ALIKE = 0.7
+STEPS = 8
+SEVERAL = 6
+"""Of the newest key scans so many refine scans of which several are placed at once."""
+
+NEAR_M, CLEAR_M = 0.2, 0.5
+"""A point so near the other scan's is matched; one that stands so far before what the other saw contradicts."""
+
+MOST_AGAINST = 0.2
+"""Of the points that tell, so many may contradict: people walk about."""
+
+LEAST_TOLD = 60
+"""Fewer points, over all key scans of the window, tell nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """The latest key scans: their indices, newest first, their poses (W, 3), and their likelihood grid."""
+
+    keys: NDArray[np.intp]
+    poses: Floats
+    grid: LikelihoodGrids
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Where N scans are, by odometry and the window.
+
+    Attributes:
+        predicted: by odometry, (N, 3).
+        variance: of that, x, y and yaw in their own frames, (N, 3).
+        poses: as placed, (N, 3).
+        information: by the laser alone, in the poses' own frames, (N, 3, 3).
+        scores: how well the window explains each, from 0 to 1, (N,).
+        turned: whether the robot went the other way than odometry states, (N,).
+    """
+
+    predicted: Floats
+    variance: Floats
+    poses: Floats
+    information: Floats
+    scores: Floats
+    turned: NDArray[np.bool_]
+
+
+def predict(
+    poses: Floats,
+    i: int,
+    batch: NDArray[np.intp],
+    motions: Floats | None,
+    stamps_s: Floats | None,
+    odometry: RunningOdometry,
+) -> tuple[Floats, Floats]:
+    """Where the scans of a batch should be, (N, 3), and variances of x, y and yaw in their own frames, (N, 3)."""
+    if motions is None:
+        gap, before = 0.2, 0.2
+        if stamps_s is not None and i > 0:
+            gap, before = max(stamps_s[i + 1] - stamps_s[i], 0.0), max(stamps_s[i] - stamps_s[i - 1], 0.0)
+        last = between(poses[i - 1], poses[i]) if i > 0 else np.zeros(3)
+        share = min(gap / before, 1.5) if before > 1e-3 else 1.0
+        sigma = np.array([0.05 + 0.5 * min(gap, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap, 1.0)])
+        return compose(poses[i], last * share)[None], sigma[None] ** 2
+    stated = motions[i : i + len(batch)]
+    return chained(poses[i], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
+
+
+def chained(start: Floats, motions: Floats) -> Floats:
+    """Poses after each of some motions, (N, 3)."""
+    poses, here = np.empty((len(motions), 3)), start
+    for k, motion in enumerate(motions):
+        here = poses[k] = compose(here, motion)
+    return poses
+
+
+def place_near(
+    geometry: ScanGeometry,
+    window: Window,
+    scans: NDArray[np.intp],
+    predicted: Floats,
+    variance: Floats,
+    backwards: Floats | None,
+    usual: float,
+    threads: int | None,
+) -> Placed:
+    """The best places within what odometry allows.
+
+    Args:
+        geometry: of all scans.
+        window: the latest key scans.
+        scans: N scans.
+        predicted: where odometry says they are, (N, 3).
+        variance: of x, y and yaw in their own frames, (N, 3).
+        backwards: where they are if the robot went the other way than odometry states, (N, 3), or None.
+        usual: the score of scans that are explained as usual.
+        threads: to compute with; by default all cores.
+    """
+    points = [geometry.points_of(int(scan), POINTS) for scan in scans]
+    sigma = np.sqrt(variance)
+    half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
+    half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
+    sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
+    pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
+    best = match(window.grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull, threads=threads)
+    start, score = best.poses[:, 0], best.scores[:, 0]
+    centre, turned = predicted.copy(), np.zeros(len(scans), np.bool_)
+    doubtful = np.nonzero(score < usual - UNUSUAL)[0]
+    if backwards is not None and len(doubtful):
+        back = match(
+            window.grid, [points[k] for k in doubtful], backwards[doubtful], half_m[doubtful], half_rad[doubtful],
+            least=score[doubtful] + 0.5 * UNUSUAL, pull=pull, threads=threads,
+        )  # fmt: skip
+        better = back.found[:, 0]
+        start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
+        centre[doubtful[better]] = backwards[doubtful[better]]
+        turned[doubtful[better]] = True
+    poses, information = _refined(geometry, window, scans, start, centre, variance, threads)
+    return Placed(predicted, variance, poses, information, score, turned)
+
+
+@dataclass(frozen=True, eq=False)
+class Elsewhere:
+    """A place far from where odometry has a scan: its pose (3,), the laser's information there, and its score.
+
+    ``near`` says whether it lies about the prediction, within `WIDE_M` and the first of `WIDER`.
+    """
+
+    pose: Floats
+    information: Floats
+    score: float
+    near: bool
+
+
+def place_anywhere(
+    geometry: ScanGeometry, window: Window, scan: int, predicted: Floats, score: float, threads: int | None
+) -> Elsewhere | None:
+    """The best place of a scan in wide windows about a prediction, (3,), if clearly better than the given score."""
+    points = [geometry.points_of(scan, POINTS)]
+    for number, (wide_rad, gain) in enumerate(WIDER):
+        wide = match(
+            window.grid, points, predicted[None], WIDE_M, wide_rad, least=score + gain, pull=Pull(WIDE_M, wide_rad),
+            step_rad=np.radians(1.0), threads=threads,
+        )  # fmt: skip
+        if wide.found[0, 0]:
+            variance = np.array([[0.05, 0.05, 0.02]])  # what odometry said cannot be right: it does not hold it back
+            poses, information = _refined(
+                geometry, window, np.array([scan]), wide.poses[:, 0], wide.poses[:, 0], variance, threads
+            )
+            return Elsewhere(poses[0], information[0], float(wide.scores[0, 0]), number == 0)
+    return None
+
+
+def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats, threads: int | None) -> bool:
+    """Whether a scan at a pose and the key scans of the window see through what the other one sees."""
+    keys, count = window.keys.astype(np.int32), len(window.keys)
+    one = np.full(count, scan, np.int32)
+    here = np.broadcast_to(pose, (count, 3))
+    stride = max(1, geometry.beams // 90)
+    seen = between(window.poses, here)
+    matched, against, _ = mutual_view_counts(geometry, keys, one, seen, NEAR_M, CLEAR_M, stride, threads).sum(axis=0)
+    told = int(matched + against)
+    return told >= LEAST_TOLD and against > MOST_AGAINST * told
+
+
+def _refined(
+    geometry: ScanGeometry,
+    window: Window,
+    scans: NDArray[np.intp],
+    start: Floats,
+    predicted: Floats,
+    variance: Floats,
+    threads: int | None,
+) -> tuple[Floats, Floats]:
+    """Poses refined under odometry's Gaussian, and the laser's information in their own frames."""
+    jobs = len(scans)
+    near = slice(None, None if jobs == 1 else SEVERAL)
+    keys, poses = window.keys[near], window.poses[near]
+    # A pose before this one is itself off by about a centimetre.
+    certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
+    turn = rotation(predicted[:, 2])
+    prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)
+    placed, laser_information, _ = refine_scans(
+        geometry, None, scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys),
+        np.tile(keys, jobs).astype(np.int32), np.tile(poses, (jobs, 1)), start, predicted, prior_information,
+        POINT_SIGMA_M, STEPS, REACH_M, SCALE_M, ALIKE, threads=threads,
+    )  # fmt: skip
+    own = rotation(placed[:, 2])
+    return placed, np.swapaxes(own, 1, 2) @ laser_information @ own

@@ -1,0 +1,235 @@
+"""Parts of a broken path put together again, by places that were seen from two of them.
+
+Where the front end broke the path, nothing says how the part after lies to the part before: wheels slipped, scans are
+missing, or the robot was carried. Submaps of the part are matched to those of all others, with any heading: near where
+a wide search or odometry puts it, and everywhere. A relative pose of two parts is believed if several
+pairs of places agree on it, and no other relative pose has nearly as many.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.kernels.view_agreement import mutual_view_counts
+from bayesmap.poses.loops import places_along
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.submap_matching import Closures, joined, match_submaps
+from bayesmap.space.planar import between, compose, inverse, wrapped
+
+Floats = NDArray[np.float64]
+
+NEAR_M, NEAR_PLACES = 3.0, 6
+"""Each place is compared with the nearest so many of other parts that lie, as far as is known, no further off,"""
+
+SPACING_M, QUERIES, QUERIES_IN_ALL = 1.0, 24, 96
+"""Places that are looked for: so far apart along a part, so many of each, and so many in all parts, evenly spread."""
+
+EVERYWHERE_M = 3.0
+"""and with others everywhere: so far apart. Windows reach as far."""
+
+NEAR_SCORE, FAR_SCORE = 0.6, 0.72
+"""Matches below are not looked at: where places are compared with all others chance finds better ones."""
+
+CHANCE = 0.5
+"""A place votes with the square of its score above this."""
+
+TRIED = 6
+"""Relative poses of two parts that are held against what their scans see through."""
+
+AGREE = 3
+"""Places of a part that must agree on its pose relative to another part."""
+
+RIVAL = 0.6
+"""Another relative pose with so large a share of the best one's matches makes both doubtful."""
+
+SAME_M, SAME_RAD = 0.5, np.radians(6.0)
+"""Relative poses of parts that differ by no more are one: parts bend."""
+
+MET_M, COMPARED = 5.0, 600
+"""Key scans of two parts that come to lie so near are held against each other, so many pairs at most."""
+
+NEAR_VIEW_M, CLEAR_VIEW_M, MOST_AGAINST = 0.2, 0.4, 0.15
+"""A point so near one of the other scan is matched; so far before what it saw contradicts; of both, so many may."""
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """How a part lies to another: ``motion`` brings the later part's poses, as they are, to the earlier one's frame."""
+
+    earlier: int
+    later: int
+    motion: Floats
+    votes: float
+
+
+def rejoin(
+    geometry: ScanGeometry,
+    keys: NDArray[np.intp],
+    poses: Floats,
+    along: Floats,
+    parts: NDArray[np.intp],
+    half_width_m: float,
+    threads: int | None = None,
+) -> tuple[Floats, NDArray[np.bool_]]:
+    """Put the parts of a path together.
+
+    Args:
+        geometry: of all scans.
+        keys: the scans that are keys, (K,).
+        poses: of the keys as the front end left them, (K, 3).
+        along: distance along the path with gaps where it breaks, (K,).
+        parts: the part that each key belongs to, 0, 0, ..., 1, ..., (K,).
+        half_width_m: of submaps' grids.
+        threads: to compute with; by default all cores.
+
+    Returns:
+        poses with every part that was found moved, (K, 3), and which parts are joined to an earlier one by places that
+        both saw, (P,); part 0 is.
+    """
+    found = []
+    for (first, second, centres), half_m, least in (
+        (_near_pairs(poses, along, parts), NEAR_M, NEAR_SCORE),
+        (_all_pairs(along, parts), EVERYWHERE_M, FAR_SCORE),
+    ):
+        every = np.ones(len(first))
+        closures = match_submaps(
+            geometry, keys, poses, along, first, second, centres, half_m * every, np.pi * every, half_width_m, least,
+            threads,
+        )  # fmt: skip
+        found.append(closures)
+    closures, islands, where = joined(found), parts.copy(), poses
+    while True:
+        joint = _surest(_candidates(closures, where, islands), geometry, keys, where, islands, threads)
+        if joint is None:
+            break
+        later = islands == joint.later
+        where = np.where(later[:, None], compose(joint.motion, where), where)
+        islands = np.where(later, joint.earlier, islands)
+    return _assembled(where, poses, parts, islands)
+
+
+def _surest(
+    pairs: Iterator[list[Joint]],
+    geometry: ScanGeometry,
+    keys: NDArray[np.intp],
+    poses: Floats,
+    parts: NDArray[np.intp],
+    threads: int | None,
+) -> Joint | None:
+    """The joint with the most votes that contradicts nothing and has no rival."""
+    best = None
+    for candidates in pairs:
+        if not candidates or (best is not None and candidates[0].votes <= best.votes):
+            continue
+        held = [j for j in candidates if _consistent(geometry, keys, poses, parts, j, threads)]
+        if held and (len(held) == 1 or held[1].votes < RIVAL * held[0].votes):
+            best = held[0] if best is None or held[0].votes > best.votes else best
+    return best
+
+
+def _near_pairs(
+    poses: Floats, along: Floats, parts: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+    """Places of each part and those of earlier parts near it; and the relative poses to begin with."""
+    places = places_along(along, SPACING_M)
+    first, second = [], []
+    for part in range(1, int(parts[-1]) + 1):
+        for query in _queries(places, parts, part):
+            others = places[parts[places] < part]
+            off = np.hypot(*(poses[others, :2] - poses[query, :2]).T)
+            near = others[off < NEAR_M]
+            near = near[np.argsort(off[off < NEAR_M], kind="stable")][:NEAR_PLACES]
+            first += near.tolist()
+            second += [int(query)] * len(near)
+    one, two = np.array(first, np.intp), np.array(second, np.intp)
+    return one, two, between(poses[one], poses[two])
+
+
+def _all_pairs(along: Floats, parts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+    """Some places of each part and all places of earlier ones, as if both stood at the same point."""
+    places = places_along(along, EVERYWHERE_M)
+    queries = np.concatenate([_queries(places_along(along, SPACING_M), parts, p) for p in range(1, int(parts[-1]) + 1)])
+    one, two = (grid.ravel() for grid in np.meshgrid(places, queries, indexing="ij"))
+    earlier = parts[one] < parts[two]
+    return one[earlier], two[earlier], np.zeros((int(earlier.sum()), 3))
+
+
+def _queries(places: NDArray[np.intp], parts: NDArray[np.intp], part: int) -> NDArray[np.intp]:
+    own, most = places[parts[places] == part], min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // int(parts[-1])))
+    return np.asarray(own if len(own) <= most else own[np.arange(most) * len(own) // most])
+
+
+def _candidates(closures: Closures, poses: Floats, parts: NDArray[np.intp]) -> Iterator[list[Joint]]:
+    """For each pair of parts, relative poses that enough places agree on, the one with the most votes first."""
+    # Where the later part's frame comes to lie: what brings its key to where the match has it.
+    motions = compose(compose(poses[closures.first], closures.relative), inverse(poses[closures.second]))
+    pairs = np.stack([parts[closures.first], parts[closures.second]], axis=1)
+    for earlier, later in np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0):
+        own = np.nonzero((pairs == (earlier, later)).all(axis=1))[0]
+        # Compared where the later part's keys come to lie: a turn about a far origin moves them.
+        at = compose(motions[own][:, None], poses[closures.second[own]][None])
+        off = np.hypot(*np.moveaxis((at - at[np.arange(len(own)), np.arange(len(own))][None])[..., :2], -1, 0))
+        turn = np.abs(wrapped(motions[own][:, None, 2] - motions[own][None, :, 2]))
+        same = (off < SAME_M) & (turn < SAME_RAD)
+        # Several matches of one place are one voice: its loudest.
+        places, voice = np.unique(closures.second[own], return_inverse=True)
+        loud = np.where(same, (closures.scores[own][None] - CHANCE) ** 2, 0.0)
+        heard = np.stack([loud[:, voice == k].max(axis=1) for k in range(len(places))], axis=1)
+        votes, enough = heard.sum(axis=1), (heard > 0.0).sum(axis=1) >= AGREE
+        found: list[Joint] = []
+        while enough.any() and len(found) < TRIED:
+            best = int(np.argmax(np.where(enough, votes, -1.0)))
+            found.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
+            enough &= ~same[best]
+        yield found
+
+
+def _consistent(
+    geometry: ScanGeometry,
+    keys: NDArray[np.intp],
+    poses: Floats,
+    parts: NDArray[np.intp],
+    joint: Joint,
+    threads: int | None,
+) -> bool:
+    """Whether the scans of two parts, joined so, see through little of what the other part's see."""
+    one, two = np.nonzero(parts == joint.earlier)[0], np.nonzero(parts == joint.later)[0]
+    here, there = poses[one], compose(joint.motion, poses[two])
+    a, b = np.nonzero(np.hypot(*np.moveaxis(here[:, None, :2] - there[None, :, :2], -1, 0)) < MET_M)
+    some = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
+    a, b = a[some], b[some]
+    stride = max(1, geometry.beams // 60)
+    scans = keys[one[a]].astype(np.int32), keys[two[b]].astype(np.int32)
+    seen = between(here[a], there[b])
+    matched, against, _ = mutual_view_counts(geometry, *scans, seen, NEAR_VIEW_M, CLEAR_VIEW_M, stride, threads).sum(
+        axis=0
+    )
+    return bool(against <= MOST_AGAINST * (matched + against))
+
+
+def _assembled(
+    where: Floats, poses: Floats, parts: NDArray[np.intp], islands: NDArray[np.intp]
+) -> tuple[Floats, NDArray[np.bool_]]:
+    """All islands in one frame: one that nothing joins stays as the front end has it, seen from the part before it.
+
+    Args:
+        where: poses of the keys, right within an island, (K, 3).
+        poses: as the front end has them, right within a part, (K, 3).
+        parts: of the keys.
+        islands: the first part of the parts that are joined, by keys.
+    """
+    result, placed = where.copy(), np.ones(int(parts[-1]) + 1, np.bool_)
+    for part in range(1, len(placed)):
+        begin = int(np.searchsorted(parts, part))
+        if islands[begin] != part:
+            continue  # joined to an earlier part
+        placed[part] = False
+        guess = compose(result[begin - 1], between(poses[begin - 1], poses[begin]))
+        motion = compose(guess, inverse(where[begin]))
+        own = islands == part
+        result[own] = compose(motion, where[own])
+    return result, placed

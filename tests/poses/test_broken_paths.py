@@ -1,0 +1,142 @@
+"""Scans that contradict those before them: passed over, or the path breaks and its parts are put together again."""
+
+from dataclasses import replace
+
+import numpy as np
+from simulated import odometry_of, off, path_around, recording, ring, scans_of
+
+from bayesmap.poses.front_end import follow
+from bayesmap.poses.odometry_motion import stated_motions
+from bayesmap.poses.rejoin import AGREE, rejoin
+from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.slam import infer_trajectory
+from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import Scans
+
+
+def uneven_recording(laps=1.6):
+    """As `recording`, in a ring whose sides differ: one that looks the same from both ends has two answers."""
+    walls = ring()
+    walls[240:255, 3:45] = True
+    walls[330:345, 60:103] = True
+    walls[100:103, -60:-3] = True
+    walls[103:180, 160:175] = False
+    walls[-103:-60, 60:75] = True
+    truth = path_around(laps)
+    angles, ranges = scans_of(walls, truth)
+    stamps = 1000.0 + np.arange(len(truth)) / 5.0
+    return Scans(odometry_of(truth), angles, ranges, max_range_m=12.0, stamps_s=stamps), truth
+
+
+SCANS, TRUTH = uneven_recording()
+
+
+def followed(scans):
+    geometry = scan_geometry(scans, farthest_m=30.0, angles_rad=scans.angles_rad, threads=1)
+    motions, impossible = stated_motions(scans.poses, scans.stamps_s)
+    return geometry, follow(geometry, motions, scans.stamps_s, impossible, threads=1)
+
+
+def worst_m(poses, truth):
+    error = off(poses, truth)
+    return np.hypot(error[:, 0], error[:, 1]).max()
+
+
+def carried(kept=(70, 110), to=None):
+    """Scans of a robot that is carried on from where it was, while its odometry stands still."""
+    before, after = np.arange(0, kept[0]), np.arange(kept[1], len(TRUTH))
+    stated = SCANS.poses
+    going_on = compose(stated[before[-1]], between(stated[after[0]], stated[after]))
+    index = np.concatenate([before, after])
+    poses = np.concatenate([stated[before], going_on])
+    return replace(SCANS.select(index), poses=poses, stamps_s=1000.0 + 0.2 * np.arange(len(index))), TRUTH[index]
+
+
+def test_an_ordinary_path_does_not_break():
+    _, track = followed(SCANS)
+    assert not track.broken.any()
+
+
+def test_scans_in_which_somebody_stands_before_the_laser_are_passed_over():
+    ranges = SCANS.ranges_m.copy()
+    ranges[40:43, 20:170] = 0.4
+    _, track = followed(replace(SCANS, ranges_m=ranges))
+    assert not track.broken.any()
+    assert not np.isin([40, 41, 42], track.keys).any()
+    assert (track.information[40:43] == 0.0).all()
+    assert np.hypot(*off(track.poses, TRUTH)[44:60, :2].T).max() < 0.1
+
+
+def test_the_path_of_a_robot_that_was_carried_breaks_there_and_is_put_together_again():
+    scans, truth = carried()
+    _, track = followed(scans)
+    assert track.broken.sum() == 1
+    assert track.broken[70:72].any()
+    assert worst_m(track.poses, truth) > 1.0
+    found = infer_trajectory(scans, threads=1)
+    assert worst_m(found.poses, truth) < 0.05
+    assert len(found.breaks) == 0, "places seen from both parts tell how they lie"
+
+
+def test_a_part_that_saw_no_place_of_the_others_is_named():
+    scans, _ = carried()
+    one_lap = scans.select(slice(0, 95))  # it ends before it comes to where it was
+    found = infer_trajectory(one_lap, threads=1)
+    assert len(found.breaks) == 1
+    assert found.breaks[0] in (70, 71)
+
+
+def test_a_motion_that_no_robot_can_have_made_breaks_the_path():
+    poses = SCANS.poses.copy()
+    poses[60:] = compose(np.array([30.0, -8.0, 1.0]), poses[60:])
+    scans = replace(SCANS, poses=poses)
+    assert stated_motions(scans.poses, scans.stamps_s)[1][59]
+    _, track = followed(scans)
+    assert track.broken[60]
+    assert worst_m(infer_trajectory(scans, threads=1).poses, TRUTH) < 0.05
+
+
+def test_a_long_motion_over_a_long_time_is_believed():
+    """Scans are missing for a minute, odometry went on: 20 times the usual way is no reason to doubt it."""
+    stamps = np.arange(100.0)
+    poses = np.column_stack([np.arange(100) * 0.1 + 6.0 * (np.arange(100) >= 50), np.zeros(100), np.zeros(100)])
+    stamps[50:] += 60.0
+    assert not stated_motions(poses, stamps)[1].any()
+    assert stated_motions(poses, None)[1][49]
+
+
+def test_parts_are_joined_from_any_heading_and_from_afar():
+    """The second part as the front end might leave it: moved by metres and turned."""
+    geometry, track = followed(SCANS)
+    keys = track.keys
+    broken_at = len(keys) // 2
+    poses = track.poses[keys].copy()
+    poses[broken_at:] = compose(np.array([9.0, -14.0, 2.5]), poses[broken_at:])
+    along = np.arange(len(keys)) * 0.4 + 1000.0 * (np.arange(len(keys)) >= broken_at)
+    parts = (np.arange(len(keys)) >= broken_at).astype(np.intp)
+    found, joined = rejoin(geometry, keys, poses, along, parts, 8.0, threads=1)
+    assert joined.all()
+    assert worst_m(found, track.poses[keys]) < 0.1
+
+
+def test_parts_that_too_few_places_join_stay_where_they_are():
+    """Fewer places than must agree are shared: the front end's guess stands."""
+    geometry, track = followed(SCANS)
+    keys = track.keys[: len(track.keys) // 2 - 3]
+    poses = track.poses[keys].copy()
+    broken_at = len(keys) - AGREE + 1
+    poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])
+    along = np.arange(len(keys)) * 0.4 + 1000.0 * (np.arange(len(keys)) >= broken_at)
+    parts = (np.arange(len(keys)) >= broken_at).astype(np.intp)
+    found, joined = rejoin(geometry, keys, poses, along, parts, 8.0, threads=1)
+    np.testing.assert_array_equal(joined, [True, False])
+    np.testing.assert_allclose(found, poses, atol=1e-12)
+
+
+def test_a_building_that_looks_the_same_from_both_ends_leaves_the_break_named():
+    """Two relative poses explain what was seen nearly as well: to choose one would be to guess."""
+    scans, truth = recording(laps=1.6, noise=1.0)
+    index = np.setdiff1d(np.arange(len(truth)), np.arange(70, 110))
+    poses = np.concatenate([scans.poses[:70], compose(scans.poses[69], between(scans.poses[110], scans.poses[110:]))])
+    carried_on = replace(scans.select(index), poses=poses, stamps_s=1000.0 + 0.2 * np.arange(len(index)))
+    np.testing.assert_array_equal(infer_trajectory(carried_on, threads=1).breaks, [70])
