@@ -35,13 +35,35 @@ class Exact:
         return p / p.sum()
 
 
-def enumerate_posterior(scans, grid, p_wall, log_likelihood):
+def neighbours(shape):
+    """All pairs of cells that share an edge, by flat index."""
+    places = [(x, y) for x in range(shape[0]) for y in range(shape[1])]
+    return [
+        (i, j)
+        for i, (a, b) in enumerate(places)
+        for j, (c, d) in enumerate(places)
+        if i < j and abs(a - c) + abs(b - d) == 1
+    ]
+
+
+def log_prior_of_all(shape, p_wall, coupling=0.0):
+    """Log p(map) of all 2^n maps, normalised; ``coupling`` is what each pair of like neighbours adds."""
+    maps = all_maps(shape[0] * shape[1])
+    p_wall = np.broadcast_to(p_wall, shape).ravel()
+    with np.errstate(divide="ignore"):
+        log_p = np.where(maps, np.log(p_wall), np.log1p(-p_wall)).sum(axis=1)
+    if coupling:
+        for a, b in neighbours(shape):
+            log_p = log_p + coupling * (maps[:, a] == maps[:, b])
+        log_p = log_p - log_p.max() - np.log(np.exp(log_p - log_p.max()).sum())
+    return log_p
+
+
+def enumerate_posterior(scans, grid, p_wall, log_likelihood, coupling=0.0):
     """Enumerate. ``log_likelihood(z, d)`` scores one reading at an array of distances in metres (inf: no wall)."""
     n = grid.shape[0] * grid.shape[1]
     maps = all_maps(n)
-    p_wall = np.broadcast_to(p_wall, grid.shape).ravel()
-    with np.errstate(divide="ignore"):
-        log_joint = np.where(maps, np.log(p_wall), np.log1p(-p_wall)).sum(axis=1)
+    log_joint = log_prior_of_all(grid.shape, p_wall, coupling)
     starts, angles = beams(scans.poses, scans.angles_rad, grid)
     metres = touches(starts, angles, grid.shape) * grid.resolution
     for z, to_cell in zip(scans.ranges_m.ravel(), metres, strict=True):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from oracle import density
-from oracle.enumeration import Exact, enumerate_posterior
+from oracle.enumeration import Exact, all_maps, enumerate_posterior, log_prior_of_all
 from oracle.formula import beams, distances
 
 import bayesmap as bm
@@ -18,7 +18,7 @@ class Case:
 
     grid: bm.Grid
     scans: bm.Scans
-    prior: bm.Independent
+    prior: bm.Independent | bm.Ising
     sensor: bm.SensorModel
     walls: np.ndarray  # from which the scans were drawn
     exact: Exact
@@ -60,7 +60,7 @@ def random_prior(rng, kind, shape):
     return p
 
 
-def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_per_pose=9, lattice=False):
+def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_per_pose=9, lattice=False, coupling=0.0):
     """Draw a map from the prior and scans from the map; the poses stand anywhere, in walls and outside too.
 
     On a ``lattice`` they stand on corners, lines and in the middle of cells, and look along multiples of 45 degrees.
@@ -77,13 +77,17 @@ def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_pe
     limits = (0.1, 3.0)
     p_wall = random_prior(rng, prior, shape)
     walls = rng.random(shape) < p_wall
+    if coupling:
+        walls = all_maps(walls.size)[rng.choice(1 << walls.size, p=np.exp(log_prior_of_all(shape, p_wall, coupling)))]
+        walls = walls.reshape(shape)
     starts, directions = beams(poses, angles, grid)
     metres = distances(walls, starts, directions) * grid.resolution
     readings = sensor.sample(rng, metres, bm_limits(*limits)).reshape(n_poses, -1)
     readings[rng.random(readings.shape) < 0.05] = np.nan
     scans = bm.Scans(poses, angles, readings, max_range_m=limits[1], min_range_m=limits[0])
-    exact = enumerate_posterior(scans, grid, p_wall, scorer(sensor, limits))
-    return Case(grid, scans, bm.Independent(p_wall), sensor, walls, exact)
+    exact = enumerate_posterior(scans, grid, p_wall, scorer(sensor, limits), coupling)
+    prior = bm.Ising(p_wall, coupling) if coupling else bm.Independent(p_wall)
+    return Case(grid, scans, prior, sensor, walls, exact)
 
 
 def bm_limits(low, high):

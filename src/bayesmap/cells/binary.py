@@ -1,10 +1,13 @@
 """Binary walls: a cell is a wall, which stops every beam, or free, which stops none.
 
-To the law of stops a wall is a stop probability of 1 and a free cell one of 0: there is nothing else to them.
+To the law of stops a wall is a stop probability of 1 and a free cell one of 0: there is nothing else to them. Here is
+what all priors of walls share, and the one that takes cells as independent; `bayesmap.cells.ising` has the one in which
+neighbours know of each other.
 """
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -21,8 +24,8 @@ from bayesmap.space.grid import Grid
 
 
 @dataclass(frozen=True, eq=False)
-class Independent(CellPrior):
-    """Binary walls, each cell independently a wall.
+class BinaryWalls(CellPrior):
+    """A prior of walls.
 
     Attributes:
         p_wall: probability of a wall, one number for all cells or an array of shape (nx, ny); 0 and 1 fix cells.
@@ -43,33 +46,40 @@ class Independent(CellPrior):
     has_interval: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
+        name = type(self).__name__
         p = np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim not in (0, 2):
-            raise BadInput(f"Independent: p_wall must be a number or an (nx, ny) array, got shape {p.shape}")
+            raise BadInput(f"{name}: p_wall must be a number or an (nx, ny) array, got shape {p.shape}")
         if not ((p >= 0) & (p <= 1)).all():
-            raise BadInput(f"Independent: p_wall must lie in [0, 1], got {p if p.ndim == 0 else p.min()}")
+            raise BadInput(f"{name}: p_wall must lie in [0, 1], got {p if p.ndim == 0 else p.min()}")
+
+    @property
+    def pair_coupling(self) -> float:
+        """What a pair of neighbours that are alike adds to the log prior: 0 where cells are independent."""
+        return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
-        """Wall probability of every cell, shape (nx, ny).
+        """Wall probability of every cell, shape (nx, ny), as far as its neighbours do not say otherwise.
 
         Raises:
             BadInput: an array of another shape than the grid's.
         """
         p = np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim == 2 and p.shape != grid.shape:
-            raise BadInput(f"Independent: p_wall has shape {p.shape}, but the grid is {grid.shape}")
+            raise BadInput(f"{type(self).__name__}: p_wall has shape {p.shape}, but the grid is {grid.shape}")
         return np.broadcast_to(p, grid.shape)
 
+    @abstractmethod
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
         """Log p(walls), in nats; a map of walls will do for the cells."""
-        walls = cells["walls"] if isinstance(cells, Mapping) else cells
-        p = self.probabilities(grid)
-        with np.errstate(divide="ignore"):
-            return float(np.where(walls, np.log(p), np.log1p(-p)).sum())
 
+    @abstractmethod
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
         """Draw a map of walls, shape (nx, ny)."""
-        return np.asarray(rng.random(grid.shape) < self.probabilities(grid))
+
+    def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
+        """A map for a chain to start at, (nx, ny): a draw, or where draws take long a map like one."""
+        return self.sample(rng, grid)
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
         """Draw a map."""
@@ -78,10 +88,6 @@ class Independent(CellPrior):
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Stop probabilities 0 and 1, (N,)."""
         return np.ravel(cells["walls"]).astype(np.float32)
-
-    def mean_stop(self, grid: Grid) -> Floats:
-        """The prior probability of a wall, (nx, ny)."""
-        return self.probabilities(grid)
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
         """The walls, (nx, ny)."""
@@ -130,6 +136,33 @@ class Independent(CellPrior):
         """The probabilities, if each cell has its own."""
         p = np.asarray(self.p_wall, dtype=np.float64)
         return {"p_wall": p} if p.ndim else {}
+
+
+@dataclass(frozen=True, eq=False)
+class Independent(BinaryWalls):
+    """Binary walls, each cell independently a wall.
+
+    Attributes:
+        p_wall: probability of a wall, one number for all cells or an array of shape (nx, ny); 0 and 1 fix cells.
+
+    Raises:
+        BadInput: a probability outside [0, 1].
+    """
+
+    def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
+        """Log p(walls), in nats; a map of walls will do for the cells."""
+        walls = cells["walls"] if isinstance(cells, Mapping) else cells
+        p = self.probabilities(grid)
+        with np.errstate(divide="ignore"):
+            return float(np.where(walls, np.log(p), np.log1p(-p)).sum())
+
+    def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
+        """Draw a map of walls, shape (nx, ny)."""
+        return np.asarray(rng.random(grid.shape) < self.probabilities(grid))
+
+    def mean_stop(self, grid: Grid) -> Floats:
+        """The prior probability of a wall, (nx, ny)."""
+        return self.probabilities(grid)
 
     def describe(self) -> dict[str, Any]:
         """The prior as plain JSON values."""

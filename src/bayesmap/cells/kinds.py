@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bayesmap.cells.binary import Independent
+from bayesmap.cells.ising import Ising
 from bayesmap.cells.kind import KINDS, CellPrior
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.cells.surface import Surface
@@ -13,8 +14,10 @@ from bayesmap.errors import BadInput
 
 BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independent, Beta, Surface)}
 
-_ALIASES = {"independent": "binary", "beta": "reflectivity"}
-"""What descriptions have always called two of them."""
+_NAMED: dict[str, type[CellPrior]] = {
+    "independent": Independent, "binary": Independent, "ising": Ising, "beta": Beta, "reflectivity": Beta,
+}  # fmt: skip
+"""What descriptions call priors where that is not the word of the kind, or where a kind has several."""
 
 
 def prior_from(description: Mapping[str, Any]) -> CellPrior:
@@ -24,7 +27,7 @@ def prior_from(description: Mapping[str, Any]) -> CellPrior:
         BadInput: a kind that no loaded module defines.
     """
     kind = str(description.get("kind"))
-    kind = _ALIASES.get(kind, kind)
-    if kind not in KINDS:
+    named = _NAMED.get(kind, KINDS.get(kind))
+    if named is None:
         raise BadInput(f"cells of kind {kind!r} are not known here; import the module that defines them first")
-    return KINDS[kind].from_description(description)
+    return named.from_description(description)

@@ -4,12 +4,15 @@ Every kernel that predicts asks `stop_in`, and `put_maps` fills in what that rea
 0 and 1.
 """
 
+from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.rays import Line, distance_at
 from bayesmap.kernels.surface_crossing import Cell, cross_surface, ray_from
@@ -65,3 +68,34 @@ def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
     else:
         maps.stop = devices.to_device(states, wp.float32, device)
     return maps
+
+
+@dataclass(frozen=True, eq=False)
+class HeldMaps:
+    """Draws of whole maps that stay on a device, for many predictions.
+
+    Attributes:
+        maps: `Maps` with a column for each of the grid's cells.
+        draws: rows of it.
+        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
+        device: where they are.
+    """
+
+    maps: Any
+    draws: int
+    hit_depth: float
+    device: str
+
+
+def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> HeldMaps:
+    """Put draws of all cells of a grid on a device.
+
+    Raises:
+        BadInput: no draws.
+    """
+    device = devices.resolve(device)
+    found = list(batches)
+    if not sum(map(len, found)):
+        raise BadInput("score: there is no draw to predict from")
+    states = np.concatenate(found)
+    return HeldMaps(put_maps(states, hit_depth, device), len(states), hit_depth, device)

@@ -1,11 +1,13 @@
 """Single-site Gibbs sweeps on binary walls.
 
-The conditional of a cell is Bernoulli on its prior log-odds plus the sum, over the beams that reach it, of what a wall
-there would add to their log-likelihood. Three things keep a sweep from visiting every incidence, and none changes a
-draw: a cell that no beam reaches takes a prior draw without its beams being looked at; a free cell's sum is kept until
-one of its beams moves; and where a bound already makes the cell's state certain up to a chance of e^-20 it serves
-instead of the sum (`CellIndex.gain_bound` for free cells, `CellIndex.advantage` for walls, which need not then look for
-the walls behind them), unless the uniform number turns out to be smaller than that.
+The conditional of a cell is Bernoulli on its prior log-odds, given its neighbours where the prior couples them, plus
+the sum, over the beams that reach it, of what a wall there would add to their log-likelihood. One thread draws a
+chain's cells one after the other, so that no neighbour is ever out of date. Three things keep a sweep from visiting
+every incidence, and none changes a draw: a cell that no beam reaches takes a draw of the prior without its beams being
+looked at; a free cell's sum is kept until one of its beams moves; and where a bound already makes the cell's state
+certain up to a chance of e^-20 it serves instead of the sum (`CellIndex.gain_bound` for free cells,
+`CellIndex.advantage` for walls, which need not then look for the walls behind them), unless the uniform number turns
+out to be smaller than that. Sums and bounds are of likelihoods alone, and so hold whatever the neighbours become.
 """
 
 import warp as wp
@@ -18,19 +20,16 @@ from bayesmap.kernels.state import (
     UNKNOWN,
     Chain,
     Chains,
-    Prior,
     Table,
     chain_of,
-    draw_from_prior,
-    draw_wall,
     entry_loglik,
     keep_walls,
     log_likelihood,
-    log_prior,
     next_wall,
     put_wall,
     remove_wall,
 )
+from bayesmap.kernels.wall_prior import Prior, draw_given_neighbours, draw_wall, log_prior, prior_log_odds
 
 wp.set_module_options({"enable_backward": False})
 
@@ -73,7 +72,7 @@ def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
 @wp.func
 def draw_free_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
     """Whether a free cell that beams reach becomes a wall, at an inverse temperature."""
-    logit = prior.logit[c]
+    logit = prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
         sum_gain(t, chain, c, (-CERTAIN - logit) / beta)
     if not draw_wall(logit + beta * wp.float64(chain.gain[c]), u):
@@ -87,7 +86,7 @@ def draw_free_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: in
 @wp.func
 def draw_wall_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
     """Whether a wall that beams reach stays one, at an inverse temperature."""
-    logit = prior.logit[c]
+    logit = prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
         least = wp.float64(0.0)
         for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
@@ -140,7 +139,7 @@ def gibbs_sweeps(
             c = order[place]
             bits = random_bits(keys[n], base + wp.uint64(c))
             if chain.reached[c] == 0:
-                chain.walls[c] = wp.uint8(draw_from_prior(prior, c, bits))
+                chain.walls[c] = wp.uint8(draw_given_neighbours(prior, chain.walls, c, bits))
             elif chain.walls[c] != wp.uint8(0):
                 if not draw_wall_cell(t, prior, chain, beta, c, to_uniform(bits)):
                     remove_wall(t, chain, c)

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.random import random_bits
-from bayesmap.kernels.state import Prior, Table, draw_from_prior
+from bayesmap.kernels.state import Table
+from bayesmap.kernels.wall_prior import Prior, draw_from_prior
 
 wp.set_module_options({"enable_backward": False})
 

@@ -10,8 +10,12 @@ For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a 
     message_i(wall) / message_i(free) = (A_i + T_i l_i) / (A_i + T_i S_i)
 
 (Ulusoy, Geiger and Black, *Towards probabilistic volumetric reconstruction using ray potentials*, 3DV 2015.)
-Messages are kept as ratios: then no logarithm and no exponential is needed along a beam, and damping by a half is
-a square root. A cell's belief is its prior log-odds plus the logarithms of the messages that it receives.
+A pair of neighbours that are worth J more if they are alike sends, with the log-odds h of the sender without what it
+received from the other, log(exp(J + h) + 1) - log(exp(h) + exp(J)), which is 2 artanh(tanh(J / 2) tanh(h / 2)) (Pearl's
+messages of a pairwise field, as in Yedidia, Freeman and Weiss, 2003).
+
+Messages of beams are kept as ratios: then no logarithm and no exponential is needed along a beam, and damping by a half
+is a square root. A cell's belief is its prior log-odds plus the logarithms of the messages that it receives.
 """
 
 import warp as wp
@@ -112,19 +116,69 @@ def beam_messages(
         received[c] = received[c] + wp.log(product[c])
 
 
+@wp.func
+def softplus(x: wp.float64) -> wp.float64:
+    """log(1 + exp(x))."""
+    return wp.max(x, wp.float64(0.0)) + wp.log(wp.float64(1.0) + wp.exp(-wp.abs(x)))
+
+
+@wp.func
+def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
+    """What a cell tells a neighbour, as log-odds: from its belief, less what it received from there."""
+    h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
+    return softplus(coupling + h) - (coupling + softplus(h - coupling))
+
+
+@wp.kernel
+def neighbour_messages(
+    first: int,
+    nx: int,
+    ny: int,
+    coupling: wp.float64,
+    damping: wp.float32,
+    belief: wp.array(dtype=wp.float32),
+    last: wp.array2d(dtype=wp.float32),
+    messages: wp.array2d(dtype=wp.float32),
+):
+    """One thread a cell: what it receives from its neighbours, as log-odds, from those below, above, left and right.
+
+    Rows of the messages are (x - 1, x + 1, y - 1, y + 1); where there is no neighbour they stay 0.
+    """
+    c = first + wp.tid()
+    x = c // ny
+    y = c - x * ny
+    for side in range(4):
+        d = int(-1)
+        if side == 0 and x > 0:
+            d = c - ny
+        if side == 1 and x < nx - 1:
+            d = c + ny
+        if side == 2 and y > 0:
+            d = c - 1
+        if side == 3 and y < ny - 1:
+            d = c + 1
+        if d >= 0:
+            # What came from here to there is on the other side there.
+            message = wp.float32(from_neighbour(belief[d], last[side ^ 1, d], coupling))
+            messages[side, c] = damping * last[side, c] + (wp.float32(1.0) - damping) * message
+
+
 @wp.kernel
 def cell_beliefs(
     first: int,
     logit: wp.array(dtype=wp.float64),
     received: wp.array2d(dtype=wp.float32),
+    from_neighbours: wp.array2d(dtype=wp.float32),
     odds: wp.array(dtype=wp.float32),
     belief: wp.array(dtype=wp.float32),
 ):
-    """One thread a cell: prior log-odds plus all messages."""
+    """One thread a cell: prior log-odds plus all messages; where nothing couples, neighbours have sent none."""
     c = first + wp.tid()
     total = wp.float32(logit[c])
-    if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the beams say
+    if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the others say
         for part in range(received.shape[0]):
             total += received[part, c]
+        for side in range(from_neighbours.shape[0]):
+            total += from_neighbours[side, c]
     belief[c] = total
     odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))

@@ -9,9 +9,7 @@ a chain is stored as its walls.
 
 from typing import Any
 
-import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
@@ -34,8 +32,6 @@ class Table:
     cell_gain: wp.array(dtype=wp.float32)
     cell_advantage: wp.array(dtype=wp.float32)
 
-
-CERTAIN_LEVEL = 1 << 53  # the level of probability one
 
 UNKNOWN = wp.constant(wp.uint8(0))  # `gain` has to be summed again
 BOUND = wp.constant(wp.uint8(1))  # the sum is at most `gain` for a free cell, at least `gain` for a wall
@@ -77,26 +73,6 @@ def chain_of(chains: Chains, i: int) -> Chain:
     chain.gain = chains.gain[i]
     chain.known = chains.known[i]
     return chain
-
-
-@wp.struct
-class Prior:
-    """Independent wall probabilities, cell by cell, and their log-odds.
-
-    ``level`` is the probability in units of 2^-53, for draws without floating point; ``gain`` is what a wall adds to
-    the log prior: the log-odds, but 0 in cells that the prior fixes.
-    """
-
-    level: wp.array(dtype=wp.uint64)
-    logit: wp.array(dtype=wp.float64)
-    gain: wp.array(dtype=wp.float64)
-    uniform: int
-
-
-@wp.func
-def draw_from_prior(prior: Prior, c: int, bits: wp.uint64) -> bool:
-    """Whether a uniform number, made of these bits, lies below the cell's prior probability."""
-    return (bits >> wp.uint64(11)) < prior.level[c]
 
 
 @wp.func
@@ -175,16 +151,6 @@ def remove_wall(t: Table, chain: Chain, c: int):
 
 
 @wp.func
-def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
-    """A Bernoulli draw by inversion: u < 1 / (1 + exp(-log_odds))."""
-    if log_odds > wp.float64(40.0):
-        return True
-    if log_odds < wp.float64(-40.0):
-        return False
-    return u * (wp.float64(1.0) + wp.exp(-log_odds)) < wp.float64(1.0)
-
-
-@wp.func
 def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)):
     """Pack a map, eight cells to a byte, the first in its highest bit: as `numpy.packbits` does."""
     for j in range(packed.shape[0]):
@@ -192,21 +158,6 @@ def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)
         for c in range(8 * j, wp.min(8 * j + 8, walls.shape[0])):
             bits = bits | (wp.where(walls[c] != wp.uint8(0), 128, 0) >> (c - 8 * j))
         packed[j] = wp.uint8(bits)
-
-
-@wp.func
-def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8), log_all_free: wp.float64) -> wp.float64:
-    """Log p(walls)."""
-    total = wp.float64(log_all_free)
-    if prior.uniform != 0:
-        n = int(0)
-        for c in range(walls.shape[0]):
-            n += int(walls[c])
-        return total + wp.float64(n) * prior.gain[0]
-    for c in range(walls.shape[0]):
-        if walls[c] != wp.uint8(0):
-            total += prior.gain[c]
-    return total
 
 
 @wp.func
@@ -231,15 +182,4 @@ def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
     on.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
     on.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
     on.cell_advantage = devices.to_device(index.advantage, wp.float32, device)
-    return on
-
-
-def put_prior(p_wall: NDArray[np.float64], logit: NDArray[np.float64], device: str) -> Any:
-    """A prior on a device."""
-    on = Prior()
-    on.level = devices.to_device(np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), wp.uint64, device)
-    on.logit = devices.to_device(logit, wp.float64, device)
-    fixed = (p_wall == 0) | (p_wall == 1)
-    on.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
-    on.uniform = int((p_wall == p_wall[0]).all())
     return on

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_stop import Maps, StopStates, put_maps, stop_in
+from bayesmap.kernels.cell_stop import HeldMaps, Maps, StopStates, put_maps, stop_in
 from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.predict import are_typed, law_with_cumulative
 from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
@@ -41,13 +41,14 @@ def add_stops(
     columns: wp.array(dtype=wp.int32),
     maps: Maps,
     draws: int,
+    gone: wp.float64,
     weight: wp.array(dtype=wp.float32),
     shift: wp.array(dtype=wp.float32),
     square: wp.array(dtype=wp.float32),
     no_stop: wp.array(dtype=wp.float64),
 ):
     """One thread a beam: add the weight of each stop, and the moments of where it is about the part ``maps.depth`` of
-    the cell's stretch.
+    the cell's stretch. A beam less likely than ``gone`` to get so far is at its end.
     """
     b = first + wp.tid()
     line = line_of(lines, b)
@@ -63,7 +64,7 @@ def add_stops(
                     away = stop[1] - distance_at(line, cells[k], maps.depth)
                     shift[k] = shift[k] + wp.float32(w * away)
                     square[k] = square[k] + wp.float32(w * (away * away + stop[2]))
-                if survive < LEAST_CHANCE:
+                if survive < gone:
                     break
         no_stop[b] = no_stop[b] + survive
 
@@ -93,13 +94,38 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
         BadInput: no draws.
     """
     device = devices.resolve(device)
+    there = ((put_maps(batch, hit_depth, device), len(batch)) for batch in batches)
+    return _mixed(rays, rays.columns, there, hit_depth, device, float(LEAST_CHANCE))
+
+
+def mix_held_stops(rays: Rays, held: HeldMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
+    """The same for draws of all cells that are on a device already.
+
+    Args:
+        rays: the beams.
+        held: the draws.
+        gone: a beam that is less likely than this to get to a cell is not followed so far, and counts as one that
+            stops nowhere: probabilities are off by no more than this.
+    """
+    return _mixed(rays, rays.cells, [(held.maps, held.draws)], held.hit_depth, held.device, gone)
+
+
+def _mixed(
+    rays: Rays,
+    columns: NDArray[np.int32],
+    batches: Iterable[tuple[Any, int]],
+    hit_depth: float,
+    device: str,
+    gone: float,
+) -> StopMixture:
+    """Some maps and their number at a time; ``columns`` says where they have each entry's cell."""
     sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
     no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
-    fixed = [*put_rays(rays, device), devices.to_device(rays.columns, wp.int32, device)]
+    fixed = [*put_rays(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
-    for batch in batches:
-        draws += len(batch)
-        inputs = [*fixed, put_maps(batch, hit_depth, device), len(batch), *sums, no_stop]
+    for maps, count in batches:
+        draws += count
+        inputs = [*fixed, maps, count, wp.float64(gone), *sums, no_stop]
         launch(add_stops, rays.n_beams, inputs, device)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")

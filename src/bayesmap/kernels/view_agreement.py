@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.line_pairs import Scene, beam_towards, nearest_point, scene_of
 from bayesmap.kernels.parallel import launch
+from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 
@@ -91,3 +92,21 @@ def view_counts(
     inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
     launch(compare_views, count, [*inputs, near_m, clear_m, counts], device, threads)
     return np.asarray(counts.numpy())
+
+
+def mutual_view_counts(
+    geometry: Any,
+    first: NDArray[np.int32],
+    second: NDArray[np.int32],
+    relative: NDArray[np.float64],
+    near_m: float,
+    clear_m: float,
+    stride: int = 1,
+    threads: int | None = None,
+) -> NDArray[np.int32]:
+    """`view_counts` of the second scans in the views of the first, and the other way round, added up, (P, 3).
+
+    ``relative`` are the poses of the second in the frames of the first, (P, 3).
+    """
+    there = view_counts(geometry, second, first, relative, near_m, clear_m, stride, threads)
+    return there + view_counts(geometry, first, second, inverse(relative), near_m, clear_m, stride, threads)

@@ -76,8 +76,14 @@ def mapping_model(
         hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
 
     Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, or a sensor without likelihood on JAX.
+        BadInput: shapes that do not fit, numbers that are not finite, a sensor without likelihood on JAX, or a prior
+            that couples neighbours.
     """
+    if not isinstance(prior, Independent):
+        raise BadInput(
+            f"mapping_model: the prior must be Independent, got {type(prior).__name__}; use infer, or write a program "
+            "that draws its walls and gives them to sensor_model"
+        )
     walls = _Walls(_Fixed(prior.probabilities(grid)))
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)

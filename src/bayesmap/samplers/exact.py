@@ -19,7 +19,8 @@ class Enumeration:
     """The whole posterior.
 
     Attributes:
-        unknown: flat indices of the cells that were enumerated, (n,): touched by a beam and not fixed by the prior.
+        unknown: flat indices of the cells that were enumerated, (n,): not fixed by the prior, and touched by a beam or
+            coupled to others.
         log_posterior: normalised log-probability of each of the 2^n states; bit i of the state's number is the
             wall in ``unknown[i]``.
         log_evidence: log p(readings).
@@ -64,7 +65,9 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     """
     table, p = problem.table, problem.p_wall
     free_to_vary = (p > 0) & (p < 1)
-    unknown = np.nonzero(table.observed().ravel() & free_to_vary)[0]
+    # What coupled cells that no beam touches are, the others know.
+    matters = table.observed().ravel() | (problem.coupling != 0.0)
+    unknown = np.nonzero(matters & free_to_vary)[0]
     if len(unknown) > MAX_UNKNOWN:
         raise BadInput(
             f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "
@@ -76,6 +79,9 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     log_p = np.zeros(len(state))
     for i, cell in enumerate(unknown):
         log_p += np.where(state >> i & 1, np.log(p[cell]), np.log1p(-p[cell]))
+    if problem.coupling != 0.0:
+        log_p += problem.coupling * _pairs_alike(problem, state, bit_of)
+        log_p -= special.logsumexp(log_p)
     for b in range(table.n_beams):
         still_free = np.ones(len(state), dtype=np.bool_)
         term = np.full(len(state), np.float64(table.no_hit[b]))
@@ -87,3 +93,18 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
         log_p += term
     log_evidence = float(special.logsumexp(log_p))
     return Enumeration(unknown, log_p - log_evidence, log_evidence, problem)
+
+
+def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray[np.int64]) -> NDArray[np.int64]:
+    """In how many pairs of neighbours both are walls, or both free, in each state."""
+    cells, pairs = np.arange(problem.grid.n_cells).reshape(problem.grid.shape), np.zeros(len(state), dtype=np.int64)
+
+    def walls(cell: int) -> NDArray[np.bool_]:
+        if bit_of[cell] < 0:
+            return np.full(len(state), problem.p_wall[cell] == 1.0)
+        return np.asarray(state >> bit_of[cell] & 1 == 1)
+
+    for one, other in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1])):
+        for a, b in zip(one.ravel().tolist(), other.ravel().tolist(), strict=True):
+            pairs += walls(a) == walls(b)
+    return pairs

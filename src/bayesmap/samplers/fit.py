@@ -27,7 +27,7 @@ from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import PILOT
+from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.sensors.describe import describe, from_description
@@ -114,6 +114,13 @@ def _first(problem: StopProblem) -> Parameters:
 
 def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
     """The same, sweep by sweep: what is found after each."""
+    return (found for found, _ in piloting(problem, seed, sweeps, watch))
+
+
+def piloting(
+    problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
+) -> Iterator[tuple[Parameters, Info]]:
+    """The same with what each sweep reports: its draw, too, where ``keep`` wants it."""
     if sweeps == 0:
         return
     sampler, now = StopGibbs(), _first(problem)
@@ -121,7 +128,7 @@ def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT)
     every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
     some = slice(every // 2, None, every)
     for sweep in range(sweeps):
-        state, info = sampler.step(state, 1)
+        state, info = sampler.step(state, 1, keep=keep)
         if sweep >= FIRST_SWEEP:
             step, sensor, prior = gain(sweep), now.sensor, now.prior
             sensor = refit_sensor(sensor, stops_of(state, some), problem.rays.limits, step)
@@ -132,7 +139,7 @@ def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT)
             now = Parameters(sensor, prior)
             state = replace(state, problem=problem.under(sensor, prior))
         watch.report("fit", sweep + 1, sweeps, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
-        yield now
+        yield now, info
 
 
 def fit_sensor(

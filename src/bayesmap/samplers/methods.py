@@ -27,6 +27,11 @@ WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, Asked, Watch], Found]] = {
 }  # fmt: skip
 
 
+def sampler_on_walls(name: str) -> WallSampler:
+    """The sampler of walls that a method has, with its defaults; of a method without chains that of single cells."""
+    return ON_WALLS.get(name, Gibbs)()
+
+
 def sampler_of(
     name: str, grid: Grid, order: Order, start: Start | NDArray[np.bool_] | None, rounds: int
 ) -> tuple[Sampler[Any, Any], dict[str, Any]]:

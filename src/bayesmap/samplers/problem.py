@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
-from bayesmap.cells.binary import Independent
+from bayesmap.cells.binary import BinaryWalls
 from bayesmap.model import Model
 from bayesmap.space.grid import Grid
 
@@ -32,7 +32,7 @@ class WallProblem:
     """
 
     table: BeamTable
-    prior: Independent
+    prior: BinaryWalls
     poses: NDArray[np.float64]
     device: str = "cpu"
     threads: int | None = None
@@ -60,7 +60,7 @@ class WallProblem:
         """Cells that some beam touches, (nx, ny)."""
         return self.table.observed()
 
-    def under(self, prior: Independent) -> WallProblem:
+    def under(self, prior: BinaryWalls) -> WallProblem:
         """The same table, and its index if there is one, under another prior."""
         other = replace(self, prior=prior)
         shared: dict[str, Any] = {
@@ -85,8 +85,13 @@ class WallProblem:
 
     @cached_property
     def p_wall(self) -> NDArray[np.float64]:
-        """Prior wall probability of every cell, flat, shape (N,)."""
+        """Prior wall probability of every cell, flat, shape (N,), as far as its neighbours do not say otherwise."""
         return np.ascontiguousarray(self.prior.probabilities(self.table.grid)).ravel()
+
+    @property
+    def coupling(self) -> float:
+        """What a pair of neighbours that are alike adds to the log prior; 0 where cells are independent."""
+        return self.prior.pair_coupling
 
     @cached_property
     def logit(self) -> NDArray[np.float64]:
@@ -98,9 +103,9 @@ class WallProblem:
     @cached_property
     def device_prior(self) -> Any:
         """The prior where the kernels read it."""
-        from bayesmap.kernels.state import put_prior
+        from bayesmap.kernels.wall_prior import put_prior
 
-        return put_prior(self.p_wall, self.logit, self.device)
+        return put_prior(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
     @cached_property
     def log_all_free(self) -> float:
@@ -131,7 +136,7 @@ def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.trace import trace
 
-    assert isinstance(model.cells, Independent)
+    assert isinstance(model.cells, BinaryWalls)
     device = resolve(device)
     model.cells.probabilities(model.grid)  # shapes are checked before the long work
     table = trace(model.scans, model.grid, model.sensor, hit_depth=model.hit_depth, device=device)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ class Marginals:
         converged: whether the last largest change was below the tolerance.
         finished: false if it was stopped before that, with rounds to go.
         seconds: time in the rounds.
+        prior: wall probability without any beam, (nx, ny), where that is worth telling: None if it is the prior's own.
     """
 
     p_wall: NDArray[np.float64]
@@ -36,6 +37,7 @@ class Marginals:
     converged: bool
     finished: bool
     seconds: float
+    prior: NDArray[np.float64] | None = None
 
 
 def propagate(
@@ -49,8 +51,10 @@ def propagate(
 ) -> Marginals:
     """Flood messages between beams and cells until beliefs settle, or for a number of rounds.
 
-    On a map where every beam is independent of the others (no cell on two beams) one undamped round is exact;
-    otherwise the marginals are approximate, usually too sure.
+    On a map where every beam is independent of the others (no cell on two beams, and neighbours not coupled) one
+    undamped round is exact. Where beams and coupled neighbours make a tree it is exact after as many rounds as the tree
+    is wide. Otherwise the marginals are approximate, usually too sure; above a coupling of about 0.7 they may come out
+    for one of two ways in which a whole region could be, and leave out the other.
 
     Args:
         problem: table and prior.
@@ -69,7 +73,7 @@ def propagate(
     if not 0 <= damping < 1:
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
     began = time.perf_counter()
-    beliefs = Beliefs(problem.table, problem.logit, problem.device, beta)
+    beliefs = Beliefs(problem.table, problem.logit, problem.device, beta, problem.coupling)
     observed = problem.table.observed().ravel()
     p_wall = special.expit(beliefs.log_odds().astype(np.float64))
     changes, mean_changes = [], []
@@ -91,4 +95,12 @@ def propagate(
         converged=changes[-1] < tolerance,
         finished=changes[-1] < tolerance or len(changes) == rounds,
         seconds=time.perf_counter() - began,
+    )
+
+
+def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch = SILENT) -> Marginals:
+    """The same for a start, which asks where beams say nothing: with what coupled neighbours believe without any."""
+    found = propagate(problem, rounds=rounds, watch=watch)
+    return (
+        found if problem.coupling == 0.0 else replace(found, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)
     )

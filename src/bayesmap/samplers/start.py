@@ -35,7 +35,8 @@ def start_map(
 
     A warm start is the thresholded marginals of belief propagation, the same for all chains wherever it is sure, with
     prior draws, different in each chain, in cells of which it says no more than the prior. Chains that start alike
-    can agree before they have forgotten where they began: start from "prior" to check that.
+    can agree before they have forgotten where they began: start from "prior" to check that. Where neighbours are
+    coupled "prior" is a map like a draw of it, not quite one (`bayesmap.cells.ising.Ising.start`).
 
     Args:
         problem: table and prior.
@@ -59,9 +60,10 @@ def start_map(
         return np.full(grid.shape, start == "ones")
     if start not in get_args(Start):
         raise BadInput(f"infer: start must be one of {', '.join(get_args(Start))} or a map, got {start!r}")
-    prior = problem.prior.sample(np.random.default_rng([seed, chain, STREAM_START]), grid)
+    prior = problem.prior.start(np.random.default_rng([seed, chain, STREAM_START]), grid)
     if start == "prior":
         return prior
     assert marginals is not None, "a warm start needs marginals"
-    says_nothing = np.abs(marginals.p_wall - problem.p_wall.reshape(grid.shape)) < 1e-3
+    without_beams = problem.p_wall.reshape(grid.shape) if marginals.prior is None else marginals.prior
+    says_nothing = np.abs(marginals.p_wall - without_beams) < 1e-3
     return np.where(says_nothing, prior, marginals.p_wall > 0.5)

@@ -15,7 +15,7 @@ from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.problem import WallProblem, trace_walls
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.propagate import ROUNDS, propagate
+from bayesmap.samplers.propagate import ROUNDS, propagate_to_start
 from bayesmap.samplers.sampler import NOTHING, STREAM_SWEEPS, Info, Keep, Snapshot
 from bayesmap.samplers.start import Start, default_start, start_map
 
@@ -92,7 +92,7 @@ class WallSampler(ABC):
         if resume is None:
             start, marginals = self.start if self.start is not None else default_start(problem.grid), None
             if isinstance(start, str) and start == "propagate":
-                marginals = propagate(problem, rounds=self.rounds, watch=watch)
+                marginals = propagate_to_start(problem, self.rounds, watch)
                 statistics["belief_changes"] = marginals.changes
             maps = np.stack([start_map(problem, start, chain, seed, marginals) for chain in chain_ids])
         else:

@@ -105,14 +105,9 @@ class Grid:
             BadInput: no scan at all, or an extent whose grid is over `MAX_CELLS` cells; if single scans lie so far out
                 that it must be their fault, the message names the worst of them.
         """
-        if not (math.isfinite(resolution) and resolution > 0):
-            raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
-        points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
-        if len(points) == 0:
-            raise BadInput("grid: there are no scans to cover")
-        low = np.floor((points.min(axis=0) - margin_m) / resolution)
-        high = np.ceil((points.max(axis=0) + margin_m) / resolution)
-        shape = (int(high[0] - low[0]), int(high[1] - low[1]))
+        low, high = bounds_m(scans, margin_m)
+        (nx, ny), _ = _whole_cells(low, high, resolution)
+        shape = (nx, ny)
         if shape[0] * shape[1] > MAX_CELLS:
             from bayesmap.space.outlying import accusation, outlying
 
@@ -121,7 +116,46 @@ class Grid:
                 others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
                 what = accusation(scans, int(wrong[0]))
                 raise BadInput(f"grid: covering the scans would take {_large(*shape)}: {what}{others}")
-        return cls(shape=shape, resolution=resolution, origin=(low[0] * resolution, low[1] * resolution))
+        return cls.over(low, high, resolution)
+
+    @classmethod
+    def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
+        """The smallest grid that holds a rectangle; its origin is a multiple of the resolution.
+
+        Args:
+            low: lower left corner of the rectangle in the world frame, metres.
+            high: upper right corner.
+            resolution: edge of a cell in metres.
+
+        Raises:
+            BadInput: a resolution that is not positive, or more than `MAX_CELLS` cells.
+        """
+        shape, (x, y) = _whole_cells(low, high, resolution)
+        return cls(shape=shape, resolution=resolution, origin=(x * resolution, y * resolution))
+
+
+def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The lower left and the upper right corner of what scans saw, with a margin, metres in the world frame.
+
+    Raises:
+        BadInput: no scan at all.
+    """
+    points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
+    if len(points) == 0:
+        raise BadInput("grid: there are no scans to cover")
+    (x0, y0), (x1, y1) = points.min(axis=0) - margin_m, points.max(axis=0) + margin_m
+    return (float(x0), float(y0)), (float(x1), float(y1))
+
+
+def _whole_cells(
+    low: tuple[float, float], high: tuple[float, float], resolution: float
+) -> tuple[tuple[int, int], tuple[int, int]]:
+    """How many cells cover a rectangle, and the number of the first, along x and y."""
+    if not (math.isfinite(resolution) and resolution > 0):
+        raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
+    first = tuple(math.floor(v / resolution) for v in low)
+    last = tuple(math.ceil(v / resolution) for v in high)
+    return (last[0] - first[0], last[1] - first[1]), (first[0], first[1])
 
 
 def _large(nx: int, ny: int) -> str:

@@ -1,0 +1,67 @@
+"""Fitting the coupling of an Ising prior to scans, by a pilot: stochastic expectation maximisation along a chain.
+
+After each sweep the pilot's map, in which what no beam saw is drawn along with the rest, has a coupling of greatest
+pseudo-likelihood (`bayesmap.cells.pseudo_likelihood`), and the coupling under which the next sweep is made moves there:
+all the way in the first sweeps, and then a shrinking part of it (Delyon, Lavielle and Moulines, 1999). It comes to
+where the slope of the pseudo-likelihood is zero on the mean over the posterior, as it is over maps of the prior at the
+truth. Poses that are unknown are taken as the log states them.
+
+As the pilot of a sensor it is over before the chains begin, and has a number that none of them has.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from bayesmap.cells.ising import Ising
+from bayesmap.cells.pseudo_likelihood import counts, likeliest
+from bayesmap.model import Model
+from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import PILOT
+from bayesmap.samplers.wall_sampler import WallSampler
+
+SWEEPS = 100
+WHOLE_UNTIL = 40
+FIRST = 0.5
+"""Where the pilot starts: below the coupling of about 0.88 at which, at p = 0.5, whole regions become alike."""
+
+
+def fit_coupling_to_scans(
+    model: Model,
+    sampler: WallSampler,
+    device: str,
+    *,
+    seed: int,
+    threads: int | None = None,
+    watch: Watch = SILENT,
+) -> Ising:
+    """A model's prior with the coupling that suits its scans.
+
+    Args:
+        model: its cells an `Ising`, whose wall probability is held.
+        sampler: of the pilot.
+        device: where kernels run.
+        seed: of the pilot.
+        threads: of the CPU; all cores if None.
+        watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
+
+    Raises:
+        BadInput: as `WallSampler.prepare`.
+    """
+    assert isinstance(model.cells, Ising)
+    now = replace(model.cells, coupling=FIRST)
+    problem = sampler.prepare(replace(model, cells=now), device, threads, watch)
+    state = sampler.init(problem, [PILOT], seed, watch=watch)
+    for sweep in range(SWEEPS):
+        state, info = sampler.step(state, 1)
+        walls = state.walls().reshape(problem.grid.shape) != 0
+        found = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
+        step = 1.0 if sweep < WHOLE_UNTIL else (sweep - WHOLE_UNTIL + 1.0) ** -0.7
+        now = replace(now, coupling=now.pair_coupling + step * (found - now.pair_coupling))
+        state = replace(state, problem=state.problem.under(now))
+        watch.report("fit", sweep + 1, SWEEPS, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
+        if watch.should_stop():
+            break
+    return now
