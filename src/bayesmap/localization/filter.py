@@ -108,14 +108,14 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         look_everywhere: whether to search the whole map; needed where the prior has no components.
     """
 
-    def target(thin: int, draws: int | None) -> _Target:
-        return _Target(known, prior, scan, thin, draws, known.weight_of(scan.ranges_m))
+    def target(thin: int, draws: int | None) -> Target:
+        return Target(known, prior, scan, thin, draws, known.weight_of(scan.ranges_m))
 
     thin = max(1, len(scan.angles_rad) // 60)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
     group = None
     if starts is None:
-        population = _everywhere(known, target(thin, 1), rng)
+        population = everywhere(known, target(thin, 1), rng)
     else:
         if len(starts.means) > 1:
             starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
@@ -129,7 +129,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
                 break
         population = draw_population(starts, target(1, None), 64 if len(starts.means) == 1 else 40, rng)
         group = groups_of(starts, population.poses)
-    return _belief(known, prior, scan, population, group, rng)
+    return belief_of(known, prior, scan, population, group, rng)
 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
@@ -151,7 +151,7 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
 
 
 @dataclass(frozen=True, eq=False)
-class _Target:
+class Target:
     """Log prior and likelihood of poses, with some beams and draws."""
 
     known: KnownMap
@@ -162,6 +162,7 @@ class _Target:
     weight: float
 
     def __call__(self, poses: Floats) -> Floats:
+        """Log density of poses (P, 3), not normalised, (P,)."""
         density = np.array(self.prior.log_density(poses, self.known))
         possible = np.isfinite(density)
         if possible.any():
@@ -172,7 +173,7 @@ class _Target:
         return density
 
 
-def _everywhere(known: KnownMap, target: _Target, rng: np.random.Generator) -> Population:
+def everywhere(known: KnownMap, target: Target, rng: np.random.Generator) -> Population:
     """Poses drawn uniformly over the free cells, weighed."""
     cells = np.argwhere(known.free)
     chosen = cells[rng.integers(len(cells), size=UNIFORM_DRAWS)] + rng.random((UNIFORM_DRAWS, 2))
@@ -182,7 +183,7 @@ def _everywhere(known: KnownMap, target: _Target, rng: np.random.Generator) -> P
     return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp))
 
 
-def _belief(
+def belief_of(
     known: KnownMap,
     prior: Prior,
     scan: Scan,
@@ -220,7 +221,7 @@ def _fit(
     """
     weight = _fit_weight(known, scan)
     thin = max(1, len(scan.angles_rad) // 60)
-    target = _Target(known, prior, scan, thin, 1, weight)
+    target = Target(known, prior, scan, thin, 1, weight)
     mode = belief.modes[0]
     shrunk = mode.covariance * known.weight_of(scan.ranges_m) / weight + 1e-8 * np.eye(3)
     components = PoseMixture(mode.mean[None], shrunk[None], np.zeros(1))
