@@ -25,8 +25,8 @@ EVENTS_PER_SECOND = 30.0
 
 
 @contextlib.contextmanager
-def served() -> Iterator[str]:
-    command = [sys.executable, "-m", "bayesmap", "app", "--no-browser", "--port", "0"]
+def served(*arguments: str) -> Iterator[str]:
+    command = [sys.executable, "-m", "bayesmap", "app", "--no-browser", "--port", "0", *arguments]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
         try:
             assert process.stdout is not None
@@ -191,6 +191,9 @@ def main() -> None:
             until(page, "s.running && !s.painted.approximate && s.painted.sweeps > 0")
             times.append(timed(page, "Cancel", "!s.running"))
         report("500 x 500: cancel, click to the kept chain", spread(times))
+        from benchmarks.page_building import building
+
+        building(browser, options.seconds)
         browser.close()
     time.sleep(0.1)
 

@@ -8,24 +8,33 @@ import { Pointer } from "./input/pointer";
 import { CursorLayer } from "./layers/cursor";
 import { DecisionsLayer } from "./layers/decisions";
 import { FieldLayer } from "./layers/field";
+import { GhostLayer } from "./layers/ghost";
+import { HypothesisLayer } from "./layers/hypothesis";
 import { Stack, type Scene } from "./layers/layer";
 import { MarksLayer } from "./layers/marks";
 import { OverlayLayer } from "./layers/overlay";
 import { picture } from "./layers/picture";
 import { RaysLayer } from "./layers/rays";
+import { ReadingLayer } from "./layers/reading";
 import { GUTTER, Viewport } from "./layers/viewport";
+import { WhereLayer } from "./layers/where";
 import { bar } from "./panels/bar";
 import { traceChart, weightChart } from "./panels/chart";
 import { decisionsPanel } from "./panels/decisions";
 import { helpDialog, newDialog, shareDialog } from "./panels/dialogs";
 import { download, h, mark, put } from "./panels/dom";
+import { ghostPanel } from "./panels/ghost";
 import { head } from "./panels/head";
 import { legend } from "./panels/legend";
+import { logPanel } from "./panels/log";
 import { banner, chip, foot } from "./panels/notice";
+import { posesPanel } from "./panels/poses";
 import { posteriorPanel } from "./panels/posterior";
+import { readingPanel } from "./panels/reading";
 import { clearPanel, inferencePanel, modelPanel, sensorPanel } from "./panels/settings";
 import { Ui } from "./panels/ui";
 import { Player, scanPanel, viewPanel } from "./panels/view";
+import { wherePanel } from "./panels/where";
 import type { MapDocument, Transport } from "./protocol";
 import { snapshot } from "./snapshot";
 import { Session } from "./state/session";
@@ -62,7 +71,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const ui = new Ui(session, hand, editor, command, (layer) => player.showLayer(layer), embedded);
 
   // the map
-  const layers = [new FieldLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new CursorLayer()];
+  const layers = [
+    new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new ReadingLayer(), new MarksLayer(),
+    new DecisionsLayer(), new WhereLayer(), new GhostLayer(), new CursorLayer(),
+  ];
   const canvases = layers.map(({ name }) => h("canvas", { className: name }));
   const canvas = canvases[canvases.length - 1]; // on top: it has the focus and the pointer
   Object.assign(canvas, { tabIndex: 0, role: "application" });
@@ -83,7 +95,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const share = shareDialog(ui);
   const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
-  const panels = [decisionsPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)), viewPanel(ui, player, shown), scanPanel(ui), sensors, model, inference, clear];
+  const panels = [
+    decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
+    scanPanel(ui), readingPanel(ui), viewPanel(ui, player, shown), sensors, model, posesPanel(ui), inference, clear,
+  ];
   const panel = h("aside", { "aria-label": "Controls" }, ...panels);
   const isRun = () => session.recorded || session.document?.source.kind === "run";
   ui.visible(sensors, () => session.editable);
@@ -116,6 +131,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
       view.fit(session.shape);
       hand.cursor = hand.hover = null;
       session.decisions.forget();
+      session.ghost.refit();
       canvas.setAttribute("aria-label", `Map, ${session.shape[0]} by ${session.shape[1]} cells`);
     }
     stack.paint(scene());

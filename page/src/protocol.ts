@@ -6,7 +6,7 @@ export type Point = { x: number; y: number };
 export type Grid = { shape: Pair; resolution: number; origin: Pair };
 /** Metres and radians, world frame. */
 export type Sensor = { id: number; x: number; y: number; yaw: number };
-export type Source = { kind: "simulation" | "run" | "log"; name?: string; scans?: number };
+export type Source = { kind: "simulation" | "run" | "log"; name?: string; scans?: number; bounds?: [Pair, Pair] };
 
 /** Everything that determines the picture. */
 export type MapDocument = {
@@ -21,12 +21,19 @@ export type MapDocument = {
   /** Radians, of every sensor. */
   fov: number;
   readings: "noisy" | "exact";
+  /** Standard deviations of every sensor's position, metres, and heading, radians. */
+  pose_sigma: number;
+  heading_sigma: number;
+  /** Of a log: whether the robot was there, or that is raw odometry. */
+  poses: "logged" | "odometry";
   cells: string;
   method: string;
   order: string;
   start: string;
   sweeps: number;
   seed: number;
+  /** Of a log: from how many of its scans the map is made; null is all. */
+  scans_used?: number | null;
   source: Source;
 };
 
@@ -104,6 +111,9 @@ export type Connection = { connected: boolean; retryIn_ms?: number; refused?: bo
 /** Over a run or a log: surfaces as strokes, (U, 5), from x, y to x, y and their reflectivity; where scans were taken, (S, 2). */
 export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 
+/** How far the inference of a log's trajectory is. */
+export type Stage = { name: string; text: string; done: number; of: number };
+
 /** Beams through a cell; of walls how many speak for one there and against it, and how much in nats. */
 export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number };
 
@@ -127,6 +137,9 @@ export const LIMITS = {
   angles: [10, 1000],
   max_range: [0.1, 10_000],
   fov_deg: [5, 360],
+  pose_sigma: [0, 2],
+  heading_sigma_deg: [0, 30],
   sweeps: [1, 100_000],
   seed: [0, 2 ** 31 - 1],
+  side_of_log: 1000,
 } as const;

@@ -36,6 +36,11 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     status: { text: status.text, level: status.level },
     connected: session.connection.connected,
     decisions: { path: session.decisions.path, views: session.decisions.views, trouble: session.decisions.trouble },
+    where: { found: session.where.found, trouble: session.where.trouble },
+    stage: session.stage,
+    ghost: ghostOf(session),
+    reading: { picked: session.reading.picked, found: session.reading.found, trouble: session.reading.trouble },
+    over: Boolean(session.flicker.under),
     overlay: session.overlay && { strokes: session.overlay.strokes.length / 5, trajectory: session.overlay.trajectory.length / 2 },
     worker: session.worker,
     running: session.running,
@@ -46,4 +51,9 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     layers: { ...stack.paints },
     transform: { ...view.transform },
   };
+}
+
+function ghostOf({ ghost }: Session) {
+  const { held, pose, fan, answers, trouble } = ghost;
+  return { held, pose, answers, trouble, fan: fan && { ...fan, near: fan.near && { ...fan.near } } };
 }

@@ -246,7 +246,7 @@ def test_other_kinds_of_cells_run_on_the_page_as_in_the_library(cells):
     field = heard.infer(document, "run")
     assert field[0]["sweeps"] == field[0]["total"] == 30
     assert field[0]["draws"] == {"chains": 2, "count": 30}
-    assert not any(f["approximate"] for f in heard.all("field"))
+    assert not any(f["approximate"] for f in heard.all("field") if f["method"] != "pilot")
     prior, scans = {"reflectivity": bm.Beta(), "surface": bm.Surface()}[cells], simulate_document(document)[0]
     model = Model(scans, document.grid, prior, first_sensor(prior, document.grid.resolution), hit_depth=0.5)
     found = fit(StopGibbs().prepare(model, "cpu"), document.seed, PILOT_SWEEPS)

@@ -207,7 +207,9 @@ def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     assert painted_by(lambda: page.get_by_role("checkbox", name="True walls").uncheck()) == {"marks"}
     assert painted_by(lambda: page.get_by_role("radio", name="Entropy").check()) == {"field"}
     page.get_by_role("radio", name="Mean").check()
-    everything = {"field", "overlay", "decisions", "rays", "marks", "cursor"}
+    everything = {
+        "field", "hypothesis", "overlay", "rays", "reading", "marks", "decisions", "where", "ghost", "cursor",
+    }  # fmt: skip
     assert painted_by(lambda: page.keyboard.press("+")) == everything
 
 

@@ -56,6 +56,7 @@ def show(browser, tmp_path, monkeypatch):
 @pytest.mark.parametrize("home", HOMES)
 def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
     page = show(home, LIVE)
+    settled(page)  # panels have found their places
     for label in ("True walls", "Rays", "Readings"):  # so that a cell's pixels are its probability
         page.get_by_role("checkbox", name=label).uncheck()
     before = settled(page)

@@ -127,7 +127,10 @@ def test_a_picture_is_made_in_the_page(drawn, tmp_path):
 
 def test_the_run_the_map_and_the_document_are_what_the_library_reads(drawn, tmp_path):
     drawn.get_by_role("button", name="Run", exact=True).click()
-    until(drawn, "!s.running && s.draws.count === 1000 && s.painted.generation === s.generation")
+    until(
+        drawn,
+        "!s.running && s.draws.count === 1000 && s.painted.generation === s.generation && s.painted.sweeps === 1000",
+    )
     here = snapshot(drawn)
     saved(drawn, "Saved run").save_as(tmp_path / "run.nc")
     run = bm.load(tmp_path / "run.nc")

@@ -2,7 +2,10 @@
 
 import numpy as np
 import pytest
-from page_driver import NO_WALLS, centre, document, settled, snapshot, until
+from building_log import room_run
+from page_driver import NO_WALLS, centre, document, served, settled, snapshot, until
+
+import bayesmap as bm
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 
@@ -75,7 +78,10 @@ def test_everything_fits_and_fingers_find_it(phone):
     assert 0 < high[1] < low[1] < 844 * 0.6
 
 
-@pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
+SIZES = pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
+
+
+@SIZES
 def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, height):
     page = open_page(server, document(), **{**PHONE, "viewport": {"width": width, "height": height}})
     settled(page)
@@ -83,6 +89,8 @@ def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, heig
     for role, name in (
         ("radio", "Draw"),
         ("radio", "Pan"),
+        ("radio", "Where am I?"),
+        ("radio", "Ghost"),
         ("button", "Whole map"),
         ("button", "Export"),
         ("button", "Run"),
@@ -93,3 +101,25 @@ def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, heig
         assert box["x"] + box["width"] <= width
         assert box["y"] + box["height"] <= height
     assert 21 * snapshot(page)["transform"]["scale"] > 0.7 * min(width, height)
+
+
+@SIZES
+def test_a_finger_drags_the_ghost_through_a_building(open_page, tmp_path, browser, width, height):
+    room_run(bm.Surface(), draws=10).save(tmp_path / "run.nc")
+    with served(tmp_path / "run.nc") as (address, _):
+        page = open_page(address, **{**PHONE, "viewport": {"width": width, "height": height}})
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        page.get_by_role("radio", name="Ghost").check(force=True)
+        until(page, "s.ghost.fan")
+        fingers = page.context.new_cdp_session(page)
+        for kind, cell in (
+            ("touchStart", (6, 20)),
+            ("touchMove", (10, 20)),
+            ("touchMove", (12, 12)),
+            ("touchEnd", None),
+        ):
+            at = [] if cell is None else [dict(zip("xy", centre(page, *cell), strict=True))]
+            fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+        until(page, "Math.abs(s.ghost.fan.x - 2.5) < 0.05 && Math.abs(s.ghost.fan.y - 2.5) < 0.05")
+        for chip in page.locator(".chip:visible").all():
+            assert chip.bounding_box()["x"] + chip.bounding_box()["width"] <= width

@@ -60,7 +60,10 @@ def test_the_tutorial_s_chains_are_called_converged(page):
 def test_traces_of_all_chains_are_drawn_with_axes(page):
     settled(page)
     page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "!s.running && s.draws.count === 1000 && s.painted.generation === s.generation")
+    until(
+        page,
+        "!s.running && s.draws.count === 1000 && s.painted.generation === s.generation && s.painted.sweeps === 1000",
+    )
     painted = page.evaluate("() => { const p = bayesmap.snapshot().painted; return [[...p.trace], [...p.traced]]; }")
     trace, sweeps = np.array(painted[0]).reshape(2, -1), np.array(painted[1])
     assert sweeps[0] == 1

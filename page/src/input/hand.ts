@@ -4,9 +4,9 @@ import { inside } from "../geometry/cells";
 import type { Point, Sensor } from "../protocol";
 import type { Session } from "../state/session";
 
-export type Tool = "draw" | "erase" | "sensor" | "pan" | "path" | "look";
+export type Tool = "draw" | "erase" | "sensor" | "pan" | "path" | "look" | "where" | "ghost";
 /** Tools that change nothing. */
-export const READING = new Set<Tool>(["pan", "path", "look"]);
+export const READING = new Set<Tool>(["pan", "path", "look", "where", "ghost"]);
 const REST_MS = 120;
 
 export class Hand {
@@ -41,6 +41,7 @@ export class Hand {
   choose(tool: Tool) {
     this.tool = tool;
     this.session.decisions.look(tool === "look");
+    this.session.ghost.hold(tool === "ghost");
     this.session.changed();
   }
 

@@ -11,6 +11,7 @@ import { READING, type Hand, type Tool } from "./hand";
 export const KEYS = [
   ["D, E, S, P", "draw, erase, sensor, pan"],
   ["G, L", "path, look next"],
+  ["W, O", "where am I, ghost"],
   ["arrows", "move the cursor, the sensor or the view; with Shift by five cells"],
   ["Space", "draw or erase at the cursor; next sensor; start or goal of a path"],
   ["[ and ]", "turn the sensor"],
@@ -58,7 +59,8 @@ export class MapKeys {
     else if (event.key === " ") this.space(event);
     else if (event.key === "[" || event.key === "]") {
       const turn = event.key === "[" ? TURN_RAD : -TURN_RAD;
-      if (session.editable && hand.sensor) editor.moveSensor(hand.sensor, { yaw: hand.sensor.yaw + turn }, undefined, event);
+      if (hand.tool === "ghost" && session.ghost.pose) session.ghost.move({ yaw: session.ghost.pose.yaw + turn });
+      else if (session.editable && hand.sensor) editor.moveSensor(hand.sensor, { yaw: hand.sensor.yaw + turn }, undefined, event);
     } else if (event.key.toLowerCase() === "a" && session.editable) this.addSensor();
     else if ((event.key === "Delete" || event.key === "Backspace") && session.editable) editor.removeSensor();
     else if (event.key === "Escape" && hand.cursor) hand.setCursor(null);
@@ -75,7 +77,11 @@ export class MapKeys {
   private arrow(dx: number, dy: number) {
     const { session, view, hand } = this;
     const [nx, ny] = session.shape;
-    if (hand.tool === "sensor" && hand.sensor && session.document && session.editable) {
+    if (hand.tool === "ghost" && session.ghost.pose && session.document) {
+      const { resolution } = session.document.grid;
+      const { x, y } = session.ghost.pose;
+      session.ghost.move({ x: x + dx * resolution, y: y + dy * resolution });
+    } else if ((hand.tool === "sensor" || hand.tool === "where") && hand.sensor && session.document && session.editable) {
       const { resolution } = session.document.grid;
       hand.selected = hand.sensor.id;
       this.editor.moveSensor(hand.sensor, { x: hand.sensor.x + dx * resolution, y: hand.sensor.y + dy * resolution });
@@ -116,7 +122,7 @@ export class MapKeys {
   }
 }
 
-const TOOLS: { [key: string]: Tool } = { d: "draw", e: "erase", s: "sensor", p: "pan", g: "path", l: "look" };
+const TOOLS: { [key: string]: Tool } = { d: "draw", e: "erase", s: "sensor", p: "pan", g: "path", l: "look", w: "where", o: "ghost" };
 const LAYERS: { [key: string]: Layer } = { m: "mean", n: "draw", h: "entropy" };
 const COMMANDS: { [key: string]: string } = { "+": "in", "=": "in", "-": "out", "0": "fit", "?": "help" };
 

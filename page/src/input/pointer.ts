@@ -6,6 +6,7 @@ import type { Viewport } from "../layers/viewport";
 import type { MapDocument, Point } from "../protocol";
 import type { Session } from "../state/session";
 import type { Editor } from "./editor";
+import { dragGhost, takeGhost, type GhostGesture } from "./ghosting";
 import { READING, type Hand } from "./hand";
 
 const REACH = { touch: 24, other: 11 };
@@ -20,11 +21,14 @@ type Gesture =
   | { kind: "turn"; id: number; drag: number }
   | { kind: "pan"; last: Point }
   | { kind: "pick"; first: Point }
+  | GhostGesture
   | { kind: "pinch"; middle: Point; spread: number };
 
 export class Pointer {
   private readonly fingers = new Map<number, Point>();
   private gesture: Gesture | null = null;
+  /** Whether the last thing on the map was a finger. */
+  private touched = false;
 
   /** In a notebook (embedded) the wheel belongs to the page until the map has the focus. */
   constructor(
@@ -41,7 +45,10 @@ export class Pointer {
     listen("pointermove", (event) => this.move(event));
     listen("pointerup", (event) => this.up(event));
     listen("pointercancel", (event) => this.up(event));
-    listen("pointerleave", () => hand.point(null));
+    listen("pointerleave", () => {
+      hand.point(null);
+      if (!this.touched) session.reading.point(null, 0);
+    });
     listen("wheel", (event) => this.wheel(event));
     listen("contextmenu", (event) => event.preventDefault());
   }
@@ -79,7 +86,17 @@ export class Pointer {
     this.fingers.set(event.pointerId, point);
     if (this.fingers.size === 2) return this.begin({ kind: "pinch", ...this.spread() });
     if (this.gesture) return;
+    if (event.button === 0 && hand.tool === "ghost") {
+      this.begin(takeGhost(session.ghost, point, this.reach(event), document.grid, this.view));
+      return this.dragGhost(event);
+    }
     if (event.button === 0 && (hand.tool === "path" || hand.tool === "look")) return this.begin({ kind: "pick", first: point });
+    // who asks where the robot is may drag it
+    const held = hand.tool === "where" && session.editable && event.button !== 1 ? this.gripAt(point, event, document) : null;
+    if (held?.kind === "sensor") {
+      hand.select(held.id);
+      return this.begin(held);
+    }
     if (event.button === 1 || READING.has(hand.tool) || !session.editable) return this.begin({ kind: "pan", last: point });
     const grip = this.gripAt(point, event, document);
     if (grip) {
@@ -105,7 +122,7 @@ export class Pointer {
   /** The gesture that takes hold of a sensor or its handle at a point, where there is one. */
   private gripAt(point: Point, event: PointerEvent, document: MapDocument): Gesture | null {
     const { hand, view } = this;
-    const reach = event.pointerType === "touch" ? REACH.touch : REACH.other;
+    const reach = this.reach(event);
     const near = (other: Point) => Math.hypot(point.x - other.x, point.y - other.y);
     const own = hand.tool === "sensor" && hand.sensor ? placeOf(hand.sensor, document.grid, view) : null;
     if (own && hand.sensor && near(own.handle) < Math.min(reach, near(own.point))) {
@@ -134,6 +151,9 @@ export class Pointer {
     if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, point);
     if (!gesture) {
       hand.point(this.cellAt(point));
+      this.pointAtReading(event);
+    } else if (gesture.kind === "ghost") {
+      this.dragGhost(event);
     } else if (gesture.kind === "stroke") {
       this.release();
       const path = [];
@@ -181,7 +201,29 @@ export class Pointer {
       this.gesture = null;
       this.hand.busy = false;
     }
-    if (event.pointerType === "touch") this.hand.point(this.cellAt(this.at(event))); // a finger cannot hover: its last cell stays
+    this.touched = event.pointerType === "touch";
+    if (!this.touched) return;
+    this.hand.point(this.cellAt(this.at(event))); // a finger cannot hover: its last cell stays
+    this.pointAtReading(event);
+  }
+
+  private reach({ pointerType }: PointerEvent) {
+    return pointerType === "touch" ? REACH.touch : REACH.other;
+  }
+
+  private pointAtReading(event: PointerEvent) {
+    const { document, reading, ghost } = this.session;
+    if (!document || ghost.held) return;
+    const metresAPixel = document.grid.resolution / this.view.transform.scale;
+    reading.point(this.metres(this.at(event), document), this.reach(event) * metresAPixel);
+  }
+
+  private dragGhost(event: PointerEvent) {
+    const { gesture, session } = this;
+    if (gesture?.kind !== "ghost" || !session.document) return;
+    this.hand.point(null);
+    const point = this.at(event);
+    dragGhost(session.ghost, gesture, this.metres({ x: point.x + gesture.grip.x, y: point.y + gesture.grip.y }, session.document));
   }
 
   /** A point of a path, or the place for another sensor. */

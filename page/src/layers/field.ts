@@ -27,7 +27,7 @@ export class FieldLayer implements Layer {
   private drawn = { field: null as Field | null, bits: null as Uint8Array | null, palette: "", hatch: "" };
 
   depends({ session }: Scene) {
-    return [session.shown, session.view.layer === "entropy", ...session.shape, session.document === null];
+    return [session.flicker.under ?? session.shown, session.view.layer === "entropy", ...session.shape, session.document === null];
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {
@@ -36,7 +36,7 @@ export class FieldLayer implements Layer {
     const [nx, ny] = session.shape;
     const { scale, x, y } = view.transform;
     clipToMap(context, scene);
-    const field = session.shown;
+    const field = session.flicker.under ?? session.shown;
     if (!field || field.p.length !== nx * ny) {
       context.fillStyle = look.theme.unobserved;
       context.fillRect(x, y, nx * scale, ny * scale);

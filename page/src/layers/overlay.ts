@@ -2,6 +2,7 @@
 
 import { clamp, toCells } from "../geometry/cells";
 import { clipToMap, type Layer, type Scene } from "./layer";
+import { UNUSED } from "./rays";
 
 /** Strokes are drawn where cells are at least so large, as in bayesmap.viz.figure. */
 const STROKES_FROM_SCALE = 2.5;
@@ -10,7 +11,7 @@ export class OverlayLayer implements Layer {
   readonly name = "overlay";
 
   depends({ session, look }: Scene) {
-    return [session.overlay, look.strokes, look.trajectory, session.document?.grid.resolution];
+    return [session.overlay, look.strokes, look.trajectory, session.document?.grid.resolution, session.document?.scans_used];
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {
@@ -25,16 +26,20 @@ export class OverlayLayer implements Layer {
   private trajectory(context: CanvasRenderingContext2D, { session, view, look }: Scene, places: Float32Array) {
     const grid = session.document?.grid;
     if (!grid) return;
-    context.beginPath();
-    for (let i = 0; i < places.length; i += 2) {
-      const at = view.fromGrid(toCells({ x: places[i], y: places[i + 1] }, grid), grid.shape[1]);
-      context.lineTo(at.x, at.y);
-    }
+    const scans = places.length / 2;
+    const used = Math.min(scans, session.document?.scans_used ?? scans);
     context.strokeStyle = look.theme.sensor;
-    context.globalAlpha = 0.6;
     context.lineWidth = 1;
     context.lineJoin = "round";
-    context.stroke();
+    for (const [first, last, alpha] of [[0, used, 0.6], [Math.max(0, used - 1), scans, 0.6 * UNUSED]]) {
+      context.beginPath();
+      for (let i = first; i < last; i++) {
+        const at = view.fromGrid(toCells({ x: places[2 * i], y: places[2 * i + 1] }, grid), grid.shape[1]);
+        context.lineTo(at.x, at.y);
+      }
+      context.globalAlpha = alpha;
+      context.stroke();
+    }
     context.globalAlpha = 1;
   }
 

@@ -3,11 +3,14 @@
 import { clamp } from "../geometry/cells";
 import { DecisionsLayer } from "./decisions";
 import { FieldLayer } from "./field";
+import { GhostLayer } from "./ghost";
+import { HypothesisLayer } from "./hypothesis";
 import type { Layer, Scene } from "./layer";
 import { MarksLayer } from "./marks";
 import { OverlayLayer } from "./overlay";
 import { RaysLayer } from "./rays";
 import { Viewport } from "./viewport";
+import { WhereLayer } from "./where";
 
 const WIDTH = 900;
 const RATIO = 2;
@@ -24,7 +27,10 @@ export function picture({ session, look }: Scene): Promise<Blob | null> {
   context.scale(RATIO, RATIO);
   context.fillStyle = look.theme.ground;
   context.fillRect(0, 0, view.width, view.height);
-  const layers: Layer[] = [new FieldLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer()];
+  const layers: Layer[] = [
+    new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new WhereLayer(),
+    new GhostLayer(),
+  ];
   for (const layer of layers) {
     context.save();
     layer.paint(context, { session, view, look: { ...look, hover: null, cursor: null, selected: null } });

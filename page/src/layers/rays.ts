@@ -4,17 +4,20 @@ import { clamp, toCells } from "../geometry/cells";
 import { clipToMap, type Layer, type Scene } from "./layer";
 
 const ROUND_DOTS = 600;
+/** Opacity of what belongs to scans that are not used. */
+export const UNUSED = 0.3;
 
 export class RaysLayer implements Layer {
   readonly name = "rays";
 
   depends({ session, look }: Scene) {
-    return [session.scan, session.document?.max_range, look.rays, look.readings];
+    return [session.scan, session.document?.max_range, look.rays, look.readings, session.document?.scans_used, session.ghost.held];
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, view, look } = scene;
     const { scan, document } = session;
+    if (session.ghost.held) return; // its fan would be lost among them
     if (!scan || !document || !(look.rays || look.readings)) return;
     clipToMap(context, scene);
     const { scale } = view.transform;
@@ -24,6 +27,9 @@ export class RaysLayer implements Layer {
     const count = scan.pose.length / 3;
     const [hits, misses, dots] = [new Path2D(), new Path2D(), new Path2D()];
     const radius = clamp(scale * 0.1, 1.3, 4);
+    // of a log's scan that the map is not made of only a shadow is seen
+    const used = document.scans_used ?? Infinity;
+    const dim = (scan.index ?? 0) < used ? 1 : UNUSED;
     for (let s = 0; s < count; s++) {
       const [px, py, yaw] = scan.pose.subarray(3 * s, 3 * s + 3);
       const from = view.fromGrid(toCells({ x: px, y: py }, document.grid), ny);
@@ -46,7 +52,7 @@ export class RaysLayer implements Layer {
     }
     if (look.rays) {
       context.lineWidth = 1;
-      context.globalAlpha = clamp(28 / Math.sqrt(beams * count) / 5, 0.07, 0.45);
+      context.globalAlpha = dim * clamp(28 / Math.sqrt(beams * count) / 5, 0.07, 0.45);
       context.strokeStyle = look.theme.ray;
       context.stroke(hits);
       context.strokeStyle = look.theme.noReturn;
@@ -54,8 +60,10 @@ export class RaysLayer implements Layer {
       context.globalAlpha = 1;
     }
     if (look.readings) {
+      context.globalAlpha = dim;
       context.fillStyle = look.theme.ray;
       context.fill(dots);
+      context.globalAlpha = 1;
     }
   }
 }

@@ -11,6 +11,8 @@ const TOOLS = [
   ["pan", "Pan", "pan"],
   ["path", "Path", "path"],
   ["look", "Look next", "look"],
+  ["where", "Where am I?", "where"],
+  ["ghost", "Ghost", "ghost"],
 ] as const;
 
 export function bar(ui: Ui) {

@@ -13,6 +13,8 @@ const ENTRIES = [
   ["sensor", "sensor"],
   ["stroke", "surface"],
   ["trajectory", "trajectory"],
+  ["draw", "this draw"],
+  ["ghost", "predicted reading"],
   ["unobserved", "unobserved"],
 ];
 
@@ -28,6 +30,9 @@ export function legend(ui: Ui, theme: () => Theme) {
   ui.visible(entries[0], () => !session.document || session.document.source.kind === "simulation");
   ui.visible(entries[ENTRIES.findIndex(([name]) => name === "stroke")], () => Boolean(session.overlay?.strokes.length));
   ui.visible(entries[ENTRIES.findIndex(([name]) => name === "trajectory")], () => Boolean(session.overlay?.trajectory.length));
+  const entry = (wanted: string) => entries[ENTRIES.findIndex(([name]) => name === wanted)];
+  ui.visible(entry("draw"), () => Boolean(session.flicker.under));
+  ui.visible(entry("ghost"), () => session.ghost.held || session.reading.picked !== null);
   let painted = "";
   ui.each(() => {
     const layer = session.shown?.layer === "width" ? "width" : session.view.layer;

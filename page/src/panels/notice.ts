@@ -1,7 +1,7 @@
 // What is said on and under the map: the chip, the banner, the status line and the read-out of a cell.
 
 import { centreOf, entropyBits } from "../geometry/cells";
-import { LIMITS, type MapDocument, type Point } from "../protocol";
+import { LIMITS, type Field, type MapDocument, type Point } from "../protocol";
 import type { Session } from "../state/session";
 import { h, mark, put } from "./dom";
 import type { Ui } from "./ui";
@@ -26,14 +26,25 @@ export function chip(ui: Ui) {
     const field = session.shown;
     if (!field || !session.document) return put(element, "hidden", true);
     const numbered = session.draws.count ? `draw ${session.draw + 1} of ${session.draws.count}` : "draw";
-    const kind = field.layer === "draw" ? numbered : field.layer === "width" ? "width of the 90 % interval" : session.view.layer === "entropy" ? "entropy" : "mean";
+    const kind = field.layer === "draw" ? numbered + (session.flicker.under ? " over the mean" : "") : field.layer === "width" ? "width of the 90 % interval" : session.view.layer === "entropy" ? "entropy" : "mean";
+    if (field.method === "counts") {
+      put(element, "hidden", false);
+      put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : "poses as far as they are known"}`);
+      return put(what, "className", "chip approximate");
+    }
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
-    const by = field.approximate ? "approximate, belief propagation" : (other ?? `${field.sweeps} sweeps`);
+    const by = field.approximate ? `approximate, ${quick(field)}` : (other ?? `${field.sweeps} sweeps`);
     put(element, "hidden", false);
     put(what, "textContent", `${kind} \u00b7 ${by}`);
     put(what, "className", field.approximate ? "chip approximate" : "chip");
   });
   return element;
+}
+
+/** What a quick answer is made of. */
+function quick({ method, sweeps, total }: Field) {
+  if (method === "hits") return "counts of hits";
+  return method === "pilot" ? `fitting the sensor, sweep ${sweeps} of ${total}` : "belief propagation";
 }
 
 /** What to do where the result on show is bad; null where it is not, or nothing can be done here. */

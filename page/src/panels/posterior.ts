@@ -5,6 +5,8 @@ import { sentence } from "../state/status";
 import { figure, h, put } from "./dom";
 import type { Ui } from "./ui";
 
+/** Rounds of a stage of the trajectory's inference are fewer, scans are more. */
+const ROUNDS = 20;
 const UNITS: { [method: string]: string } = { importance: "particles", propagate: "rounds" };
 
 export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
@@ -13,13 +15,15 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
   const doing = h("div", { className: "doing" });
   ui.each(() => {
     const field = session.shown;
-    const share = field && field.total > 0 && !field.approximate ? field.sweeps / field.total : 0;
+    const { stage } = session;
+    const share = stage ? stage.done / stage.of : field && field.total > 0 && !field.approximate ? field.sweeps / field.total : 0;
     put(progress, "value", share);
     const left = session.remaining_s();
     const unit = UNITS[field?.method ?? ""] ?? "sweeps";
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
-    put(doing, "textContent", sentence([done, state].filter(Boolean).join(", ")) || "No chain yet");
+    if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.of} ${stage.of > ROUNDS ? "scans" : "rounds"}`);
+    else put(doing, "textContent", sentence([done, state].filter(Boolean).join(", ")) || "No chain yet");
   });
   return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts);
 }

@@ -2,6 +2,7 @@
 
 import { LIMITS } from "../protocol";
 import { h, put } from "./dom";
+import { cellSize } from "./log";
 import type { Ui } from "./ui";
 
 const METHODS: Record<string, string> = {
@@ -81,7 +82,7 @@ export function modelPanel(ui: Ui) {
   ui.visible(prior, isWalls);
   const cells = ui.select("Cells", CELLS, () => session.document?.cells ?? "binary", (kind) => ui.set({ cells: kind }));
   ui.visible(cells, () => session.document?.source.kind === "log");
-  return ui.section("Model", cells, prior, ...simulated);
+  return ui.section("Model", cells, cellSize(ui), prior, ...simulated);
 }
 
 export function inferencePanel(ui: Ui) {

@@ -11,8 +11,8 @@ import { icon, type IconName } from "./icons";
 let count = 0; // several pages may stand in one notebook
 
 type ButtonOptions = { className?: string; text?: string; when?: () => boolean; title?: string };
-type Range = { low: number; high: number; step: number; log?: boolean; unit?: string };
-type SliderKey = "prior" | "noise" | "angles" | "sweeps";
+type Range = { low: number; high: number; step: number; log?: boolean; unit?: string; scale?: number };
+type SliderKey = "prior" | "noise" | "angles" | "sweeps" | "pose_sigma" | "heading_sigma";
 
 export class Ui {
   /** Makes ids of elements unique. */
@@ -43,6 +43,11 @@ export class Ui {
   /** Changes settings; all changes of one slide are one step of undo. */
   set(patch: Partial<MapDocument>) {
     this.session.act({ type: "set", patch, drag: this.drag });
+  }
+
+  /** Makes the map of some of a log's scans: coarsely while the hand drags. */
+  scrub(scans_used: number | null, coarse: boolean) {
+    this.session.act({ type: "set", patch: { scans_used }, drag: this.drag, ...(coarse ? { coarse } : {}) });
   }
 
   endDrag() {
@@ -84,7 +89,7 @@ export class Ui {
   }
 
   section(title: string, ...children: (Node | null)[]) {
-    const id = `${this.prefix}-${title}`;
+    const id = `${this.prefix}-${title.replace(/\W/g, "")}`;
     return h("section", { "aria-labelledby": id }, h("h2", { id, textContent: title }), ...children);
   }
 
@@ -95,7 +100,7 @@ export class Ui {
   }
 
   /** A slider with a number beside it. */
-  slider(key: SliderKey, label: () => string, { low, high, step, log = false, unit = "" }: Range) {
+  slider(key: SliderKey, label: () => string, { low, high, step, log = false, unit = "", scale = 1 }: Range) {
     const id = `${this.prefix}-${key}`;
     const toPosition = (v: number) => (log ? (1000 * Math.log(v / low)) / Math.log(high / low) : v);
     const toValue = (t: number) => {
@@ -104,19 +109,21 @@ export class Ui {
       const round = value < 100 ? 1 : 10 ** (Math.floor(Math.log10(value)) - 1);
       return clamp(Math.round(value / round) * round, low, high);
     };
+    // the document holds radians where people read degrees: the number on show is `scale` times that
+    const shown = () => (scale === 1 ? (this.session.document?.[key] ?? low) : Number(((this.session.document?.[key] ?? low / scale) * scale).toFixed(3)));
     const text = h("label", { for: id });
     const range = h("input", { type: "range", id, ...(log ? { min: 0, max: 1000, step: 1 } : { min: low, max: high, step }) });
     const exact = h("input", { type: "number", min: String(low), max: String(high), step: String(step) });
-    range.addEventListener("input", () => this.set({ [key]: toValue(Number(range.value)) }));
+    range.addEventListener("input", () => this.set({ [key]: toValue(Number(range.value)) / scale }));
     range.addEventListener("change", () => this.endDrag());
     exact.addEventListener("change", () => {
       const value = Number(exact.value);
-      if (exact.value === "" || !Number.isFinite(value)) exact.value = String(this.session.document?.[key]);
-      else this.set({ [key]: log ? Math.round(clamp(value, low, high)) : clamp(value, low, high) });
+      if (exact.value === "" || !Number.isFinite(value)) exact.value = String(shown());
+      else this.set({ [key]: log ? Math.round(clamp(value, low, high)) : clamp(value, low, high) / scale });
       this.endDrag();
     });
     this.each(() => {
-      const value = this.session.document?.[key] ?? low;
+      const value = shown();
       put(text, "textContent", label());
       mark(exact, "aria-label", `${label()}, number`);
       if (toValue(Number(range.value)) !== value) range.value = String(toPosition(value));

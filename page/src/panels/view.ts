@@ -19,6 +19,8 @@ const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30
 export class Player {
   playing = false;
   drawsPerSecond = 10;
+  /** Whether a draw is to follow the mean that was asked for. */
+  private afterMean = false;
 
   constructor(private readonly session: Session) {}
 
@@ -32,11 +34,23 @@ export class Player {
     this.session.act({ type: "view", layer: "draw", chain, draw });
   }
 
+  /** Draws one after another; the next one alone for who wants nothing to move by itself. */
   play(on: boolean) {
-    this.playing = on;
-    if (on) {
-      const { draw, draws } = this.session;
-      this.showDraw(draw >= draws.count - 1 ? 0 : draw);
+    const { draw, draws, flicker, shown } = this.session;
+    this.playing = on && !flicker.still;
+    if (on && flicker.wantsMean) this.session.act({ type: "view", layer: "mean", chain: this.session.view.chain });
+    else if (on) this.showDraw(flicker.still && shown?.layer === "draw" ? (draw + 1) % draws.count : draw >= draws.count - 1 ? 0 : draw);
+    this.session.changed();
+  }
+
+  /** Draws over the mean, or in its place. */
+  over(on: boolean) {
+    const { flicker, view } = this.session;
+    flicker.on = on;
+    if (on && !flicker.wantsMean && view.layer !== "draw") this.showLayer("draw");
+    else if (on && flicker.wantsMean) {
+      this.afterMean = true;
+      this.session.act({ type: "view", layer: "mean", chain: view.chain });
     }
     this.session.changed();
   }
@@ -50,11 +64,17 @@ export class Player {
 
   /** Called after a picture is painted. */
   step() {
-    if (!this.playing || this.session.shown?.layer !== "draw") return;
+    const { shown, flicker } = this.session;
+    if (flicker.on && (this.afterMean || this.playing) && shown?.layer === "mean" && !flicker.wantsMean) {
+      this.afterMean = false;
+      return this.showDraw(this.session.draw);
+    }
+    if (!this.playing || shown?.layer !== "draw") return;
     setTimeout(() => {
       if (!this.playing) return;
       const { draw, draws } = this.session;
-      if (draw + 1 >= draws.count) this.play(false);
+      if (draw + 1 >= draws.count && flicker.on) this.showDraw(0); // hypotheses have no end
+      else if (draw + 1 >= draws.count) this.play(false);
       else this.showDraw(draw + 1);
     }, 1000 / this.drawsPerSecond);
   }
@@ -111,7 +131,7 @@ function playerControls(ui: Ui, player: Player) {
     put(chain, "value", String(session.view.chain));
     put(chain, "disabled", chains < 2);
     if (n < 2 && player.playing) player.play(false);
-    const label = player.playing ? "Pause the draws" : "Play the draws";
+    const label = session.flicker.still ? "Next draw" : player.playing ? "Pause the draws" : "Play the draws";
     if (play.getAttribute("aria-label") === label) return;
     play.setAttribute("aria-label", label);
     play.replaceChildren(icon(player.playing ? "pause" : "play"));
@@ -121,8 +141,11 @@ function playerControls(ui: Ui, player: Player) {
   speed.value = String(player.drawsPerSecond);
   speed.addEventListener("change", () => (player.drawsPerSecond = Number(speed.value)));
   const first = ui.button(null, "From the first sweep", () => player.playFromStart(), { text: "From the first", when: () => session.draws.count > 1 });
-  ui.each(() => put(speed, "disabled", session.draws.count < 2));
-  return h("div", { className: "player" }, play, slider, count, h("div", { className: "buttons wide" }, chain, speed, first));
+  ui.each(() => put(speed, "disabled", session.draws.count < 2 || session.flicker.still));
+  const over = ui.checkbox("Draws over the mean", () => session.flicker.on, (on) => player.over(on), "Each draw in its own colour over the mean, as one of the maps that the scans leave possible");
+  ui.visible(over, () => session.draws.count > 1);
+  const more = h("div", { className: "wide" }, over);
+  return h("div", { className: "player" }, play, slider, count, h("div", { className: "buttons wide" }, chain, speed, first), more);
 }
 
 export function scanPanel(ui: Ui) {

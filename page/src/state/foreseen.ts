@@ -13,7 +13,10 @@ export function foresee(shown: Foreseen, edit: Message) {
   const { document, walls } = shown;
   const ny = document.grid.shape[1];
   if (edit.type === "walls") for (const [x, y] of edit.cells) walls[x * ny + y] = edit.wall ? 1 : 0;
-  else if (edit.type === "set") Object.assign(document, edit.patch);
+  else if (edit.type === "set") {
+    const { resolution, ...settings } = edit.patch; // another grid is the session's to make
+    Object.assign(document, settings);
+  }
   else if (edit.type === "live") shown.state = { ...shown.state, live: edit.on };
   else if (edit.type === "view") shown.view = { layer: edit.layer, chain: edit.chain ?? shown.view.chain, draw: edit.draw ?? null };
   else if (edit.type === "sensor" && edit.op === "move") {

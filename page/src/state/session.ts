@@ -1,15 +1,19 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, CellFacts, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, State, Transport, View } from "../protocol";
+import type { Buffers, CellFacts, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
+import { Flicker } from "./flicker";
+import { Ghost } from "./ghost";
 import { Latency } from "./latency";
 import { Progress } from "./progress";
+import { Reading } from "./reading";
 import { Status, type Level } from "./status";
+import { Where } from "./where";
 
-const QUESTIONS = new Set(["inspect", "path", "views"]);
+const QUESTIONS = new Set(["inspect", "path", "views", "where", "ghost", "beam"]);
 
 /** It changes by `receive` and `act`, and calls `changed` after. */
 export class Session {
@@ -27,6 +31,8 @@ export class Session {
   /** The field on the canvas. */
   shown: Field | null = null;
   cell: CellFacts | null = null;
+  /** Of the trajectory that was inferred last. */
+  private lastStage: Stage | null = null;
   worker = "starting";
   /** Whether the page plays a recording. */
   recorded = false;
@@ -35,6 +41,10 @@ export class Session {
   /** Number of the last message that changes something. */
   acted = 0;
   readonly decisions = new Decisions(this);
+  readonly where = new Where(this);
+  readonly ghost = new Ghost(this);
+  readonly reading = new Reading(this);
+  readonly flicker = new Flicker(this);
   readonly status = new Status();
   readonly progress = new Progress();
   readonly latency = new Latency();
@@ -69,6 +79,10 @@ export class Session {
   }
   get running() {
     return Boolean(this.state?.running);
+  }
+  /** How far the trajectory is that is being inferred. */
+  get stage() {
+    return this.running && this.shown?.method === "counts" ? this.lastStage : null;
   }
   get draws() {
     return this.state?.draws ?? { chains: 0, count: 0 };
@@ -132,6 +146,7 @@ export class Session {
     if (!this.next || !this.document) return false; // a field of a running chain may come before the first state
     this.shown = this.next;
     this.next = null;
+    this.flicker.take(this.shown);
     return true;
   }
 
@@ -140,6 +155,7 @@ export class Session {
     this.counts.paints++;
     if (this.shown) this.latency.painted(this.shown.generation);
     this.decisions.ask();
+    this.ghost.ask();
   }
 
   /** What the numbers of the map are. */
@@ -186,6 +202,7 @@ export class Session {
       case "scan":
         if (message.generation >= this.generation) {
           const { pose, angles, ranges, exact, hit } = buffers;
+          if (this.scan?.index !== message.index) this.reading.forget();
           this.scan = { ids: message.ids ?? [], index: message.index ?? null, pose, angles, ranges, exact, hit };
         }
         break;
@@ -195,13 +212,21 @@ export class Session {
       case "field":
         this.receiveField(message, buffers);
         break;
+      case "stage":
+        this.lastStage = message as unknown as Stage;
+        break;
+      case "where":
+        this.where.receive(message, buffers);
+        break;
       case "cell":
         this.cell = message as unknown as CellFacts;
         break;
       case "path":
       case "views":
+      case "ghost":
+      case "beam":
       case "undecided":
-        this.decisions.receive(message, buffers);
+        this.receiveAnswer(message, buffers);
         break;
       case "status":
         this.status.say(message.text, message.level ?? "info", this.acted);
@@ -219,6 +244,13 @@ export class Session {
         break;
     }
     this.changed();
+  }
+
+  private receiveAnswer(message: Message, buffers: Buffers) {
+    const of = message.type === "undecided" ? message.of : message.type;
+    if (of === "ghost") this.ghost.receive(message, buffers);
+    else if (of === "beam") this.reading.receive(message);
+    else this.decisions.receive(message, buffers);
   }
 
   private receiveError(message: Message) {

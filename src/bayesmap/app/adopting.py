@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bayesmap.app.document import Document, Refused, settings_of
+from bayesmap.app.document import SCANS_USED, Document, Refused, settings_of
+from bayesmap.app.log_settings import with_resolution, with_scans_used
 
 
 def adopted(present: Document, brought: Document) -> Document:
@@ -15,8 +16,16 @@ def adopted(present: Document, brought: Document) -> Document:
     """
     if brought.simulated and present.simulated:
         return brought
-    if brought.source == present.source and brought.grid == present.grid:
-        return replace(present, **{name: getattr(brought, name) for name in settings_of(present.source.kind)})
+    if brought.source == present.source:
+        # Where the trajectory is inferred, the map is as large as that turns out to be.
+        any_size = "odometry" in (brought.poses, present.poses)
+        shown, resolution_m = present, brought.grid.resolution
+        if brought.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
+            shown = with_resolution(present, resolution_m)
+        if any_size or brought.grid == shown.grid:
+            settings = {name: getattr(brought, name) for name in settings_of(present.source.kind)}
+            used = settings.pop(SCANS_USED, None)
+            return replace(shown if used is None else with_scans_used(shown, used), **settings)
     raise Refused(f"the link shows {_named(brought)}, and this server {_named(present)}", _remedy(brought))
 
 

@@ -6,7 +6,7 @@ import base64
 import binascii
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -25,6 +25,9 @@ CHAIN_METHODS = ("gibbs", "block")
 ORDERS = ("raster", "radial", "random")
 STARTS = ("auto", "prior", "empty")
 READINGS = ("noisy", "exact")
+POSES = ("logged", "odometry")
+"""What the poses of a log are: where the robot was, or raw odometry, from which the trajectory is inferred."""
+
 RARE_WALLS = 0.2
 """Where walls are at most this probable a priori, or free cells, single-site moves seldom leave a wrong map: a wall has
 to go before its neighbour can come. Method "auto" then is 2 x 2 blocks."""
@@ -38,6 +41,8 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
     "angles": (10, 1000),
     "max_range": (0.1, 10_000.0),
     "fov": (math.pi / 36, 2 * math.pi),
+    "pose_sigma": (0.0, 2.0),
+    "heading_sigma": (0.0, 0.6),
     "sweeps": (1, 100_000),
     "seed": (0, 2**31 - 1),
 }
@@ -45,20 +50,30 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
 
 WHOLE = ("angles", "sweeps", "seed")
 CHOICES: Mapping[str, tuple[str, ...]] = {
-    "cells": CELLS, "method": METHODS, "order": ORDERS, "start": STARTS, "readings": READINGS,
+    "cells": CELLS, "method": METHODS, "order": ORDERS, "start": STARTS, "readings": READINGS, "poses": POSES,
 }  # fmt: skip
 """What a setting that is no number may be."""
 
-WORDS: Mapping[str, str] = {"max_range": "longest range (m)", "noise": "noise (m)", "fov": "field of view (rad)"}
+WORDS: Mapping[str, str] = {
+    "max_range": "longest range (m)", "noise": "noise (m)", "fov": "field of view (rad)",
+    "pose_sigma": "uncertainty of the position (m)", "heading_sigma": "uncertainty of the heading (rad)",
+}  # fmt: skip
 """How settings are called where their name is no word."""
 
 KINDS = ("simulation", "run", "log")
 FIXED_BY_FILE: Mapping[str, tuple[str, ...]] = {
-    "simulation": (),
-    "log": ("noise", "angles", "max_range", "fov", "readings"),
+    "simulation": ("poses",),
+    "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
     "run": (*BOUNDS, *CHOICES),
 }
 """Settings that are facts where the readings come from a file."""
+
+RESOLUTION, SCANS_USED = "resolution", "scans_used"
+"""Settings of a log alone: the edge of a cell in metres, and of how many of its scans, from the first on, the map is
+made."""
+
+RESOLUTIONS_M = (0.02, 2.0)
+LARGEST_SIDE_OF_LOG = 1000
 
 SIDE = (2, 500)
 SENSORS = (1, 32)
@@ -70,6 +85,8 @@ LIMITS: dict[str, Any] = {
     **{name: list(bounds) for name, bounds in BOUNDS.items()},
     "side": list(SIDE),
     "sensors": list(SENSORS),
+    "resolution": list(RESOLUTIONS_M),
+    "side_of_log": LARGEST_SIDE_OF_LOG,
     "cells": list(CELLS),
     "methods": list(METHODS),
     "orders": list(ORDERS),
@@ -78,7 +95,8 @@ LIMITS: dict[str, Any] = {
 
 def settings_of(kind: str) -> tuple[str, ...]:
     """Names of the settings that a page can change, for a source of a kind."""
-    return tuple(name for name in (*BOUNDS, *CHOICES) if name not in FIXED_BY_FILE[kind])
+    common = tuple(name for name in (*BOUNDS, *CHOICES) if name not in FIXED_BY_FILE[kind])
+    return (*common, SCANS_USED) if kind == "log" else common
 
 
 class Refused(BadInput):
@@ -166,15 +184,20 @@ class Source:
         kind: "simulation", "run" or "log".
         name: of the file.
         scans: how many there are in it.
+        bounds: of a log, the corners of what its scans saw, metres: grids of any resolution cover them.
     """
 
     kind: str = "simulation"
     name: str = ""
     scans: int = 0
+    bounds: tuple[tuple[float, float], tuple[float, float]] | None = field(default=None, compare=False)
 
     def to_json(self) -> dict[str, Any]:
         """A simulation has neither name nor scans."""
-        return {"kind": self.kind} if self.kind == "simulation" else asdict(self)
+        if self.kind == "simulation":
+            return {"kind": self.kind}
+        found: dict[str, Any] = {"kind": self.kind, "name": self.name, "scans": self.scans}
+        return found if self.bounds is None else {**found, "bounds": [list(corner) for corner in self.bounds]}
 
 
 @dataclass(frozen=True)
@@ -190,18 +213,27 @@ class Document:
     max_range: float = 42.0
     fov: float = 2 * math.pi
     readings: str = "noisy"
+    pose_sigma: float = 0.0
+    heading_sigma: float = 0.0
+    poses: str = "logged"
     cells: str = "binary"
     method: str = "gibbs"
     order: str = "radial"
     start: str = "auto"
     sweeps: int = 1000
     seed: int = 0
+    scans_used: int | None = None
     source: Source = field(default_factory=Source)
 
     @property
     def simulated(self) -> bool:
         """Whether the readings follow from walls and sensors."""
         return self.source.kind == "simulation"
+
+    @property
+    def from_odometry(self) -> bool:
+        """Whether the trajectory is to be inferred before the map."""
+        return self.source.kind == "log" and self.poses == "odometry"
 
     @property
     def sampler(self) -> str:
@@ -219,6 +251,10 @@ class Document:
                 cells[cell] = sensor.id
         return cells
 
+    def on_grid(self, grid: Grid) -> Document:
+        """The document of a file, whose map is as large as what was found of it."""
+        return self if self.grid == grid else replace(self, grid=grid, walls=WallMap.none(grid.shape))
+
     def to_json(self) -> dict[str, Any]:
         """The document as JSON values."""
         grid = self.grid
@@ -233,12 +269,16 @@ class Document:
             "max_range": self.max_range,
             "fov": self.fov,
             "readings": self.readings,
+            "pose_sigma": self.pose_sigma,
+            "heading_sigma": self.heading_sigma,
+            "poses": self.poses,
             "cells": self.cells,
             "method": self.method,
             "order": self.order,
             "start": self.start,
             "sweeps": self.sweeps,
             "seed": self.seed,
+            **({"scans_used": self.scans_used} if self.source.kind == "log" else {}),
             "source": self.source.to_json(),
         }
 

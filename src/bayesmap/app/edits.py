@@ -8,7 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.app.document import FIXED_BY_FILE, SENSORS, Document, Refused, Sensor, WallMap, check_stand, wrap
+from bayesmap.app.document import (
+    FIXED_BY_FILE,
+    RESOLUTION,
+    SCANS_USED,
+    SENSORS,
+    Document,
+    Refused,
+    Sensor,
+    WallMap,
+    check_stand,
+    wrap,
+)
+from bayesmap.app.log_settings import with_resolution, with_scans_used
 from bayesmap.app.worlds import new_document
 
 Message = Mapping[str, Any]
@@ -27,8 +39,14 @@ def edit(document: Document, message: Message) -> tuple[Document, str]:
 def _set(document: Document, message: Message) -> tuple[Document, str]:
     patch = dict(message["patch"])
     fixed = sorted(set(patch) & set(FIXED_BY_FILE[document.source.kind]))
+    if fixed and document.simulated:
+        raise Refused(f"{fixed[0]} cannot be changed: there is no log")
     if fixed:
         raise Refused(f"{fixed[0]} cannot be changed: it is that of {document.source.name}")
+    if RESOLUTION in patch:
+        document = with_resolution(document, patch.pop(RESOLUTION))
+    if SCANS_USED in patch:
+        document = with_scans_used(document, patch.pop(SCANS_USED))
     return replace(document, **patch), ""
 
 

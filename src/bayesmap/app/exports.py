@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from bayesmap.app.recording import to_html
-from bayesmap.app.result import Result
+from bayesmap.app.result import COUNTS, HITS, Result
 from bayesmap.app.stream import CHAINS
 from bayesmap.errors import BadInput
 from bayesmap.posterior.from_chains import posterior_of_chains, posterior_of_draws
@@ -23,6 +23,9 @@ from bayesmap.samplers.without_chains import Asked, found_by_beliefs, found_by_i
 from bayesmap.sensors.describe import describe
 
 SAVED_DRAWS = 500
+NO_RUN = ("none", HITS, COUNTS, "pilot")
+"""Methods that make no draws, and of whose maps none can be taken."""
+
 """Maps of each chain that are drawn for a run of a method without chains."""
 
 
@@ -52,17 +55,18 @@ def as_run(result: Result) -> Run:
     if result.run is not None:
         return result.run
     document, stream, scene = result.document, result.stream, result.scene
-    if result.method == "none" or (stream is not None and not stream.draws.count):
+    if result.method in NO_RUN or (stream is not None and not stream.draws.count):
         raise BadInput("there are no draws to save; run inference first")
     count = SAVED_DRAWS if stream is None else stream.total // stream.thin
     model = scene.model(scene.problem.prior) if stream is None else stream.model
+    n_chains = CHAINS if stream is None else stream.n_chains
     settings: dict[str, Any] = {
-        "method": result.method, "order": document.order, "chains": CHAINS, "warmup": 0, "draws": count,
+        "method": result.method, "order": document.order, "chains": n_chains, "warmup": 0, "draws": count,
         "thin": 1 if stream is None else stream.thin, "seed": document.seed,
         "start": "prior" if document.simulated else "propagate", "particles": document.sweeps,
         "rounds": 0 if result.preview is None else result.preview.rounds, "hit_depth": model.hit_depth,
         "prior": model.cells.describe(), "sensor": describe(model.sensor), "streams": RANDOM_STREAMS,
-        "fingerprint": "made by the page",
+        "poses": model.poses.describe(), "fingerprint": "made by the page",
     }  # fmt: skip
     began = time.perf_counter()
     asked = Asked(CHAINS, count, document.seed, document.sweeps, settings["rounds"])

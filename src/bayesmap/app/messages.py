@@ -135,6 +135,7 @@ def _set(value: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "patch": {name: parse_setting(name, v) for name, v in patch.items()},
         **_optional(value, "drag", lambda v: _whole("drag", v)),
+        **_optional(value, "coarse", lambda v: _flag("coarse", v)),
     }
 
 
@@ -203,6 +204,12 @@ FIELDS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "inspect": lambda value: {name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("x", "y")},
     "path": _path,
     "views": lambda value: {},
+    "ghost": lambda value: {
+        **{name: _metres(name, value.get(name)) for name in ("x", "y")},
+        "yaw": number("yaw", value.get("yaw"), -1e3, 1e3),
+    },
+    "beam": lambda value: {name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("scan", "beam")},
+    "where": lambda value: _optional(value, "sensor", lambda v: _whole("sensor", v, 1)),
     "export": lambda value: {"what": _one_of("what", value.get("what"), ("run", "map", "html", "document"))},
 }
 """What a message of each type holds, checked."""

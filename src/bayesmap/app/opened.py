@@ -10,7 +10,16 @@ from typing import Protocol
 
 import numpy as np
 
-from bayesmap.app.document import LARGEST_SIDE_OF_FILE, METHODS, Document, Refused, Source, WallMap
+from bayesmap.app.document import (
+    LARGEST_SIDE_OF_FILE,
+    LARGEST_SIDE_OF_LOG,
+    METHODS,
+    Document,
+    Refused,
+    Source,
+    WallMap,
+)
+from bayesmap.app.opened_log import OpenedLog
 from bayesmap.app.parsing import parse_simulation
 from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene
@@ -19,12 +28,11 @@ from bayesmap.errors import BadInput
 from bayesmap.result import Run, load
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.noise import Gaussian
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import Grid, bounds_m
 from bayesmap.space.scans import Scans
 
 LOG_RESOLUTION_M = 0.1
 LOG_SWEEPS = 200
-LARGEST_SIDE_OF_LOG = 1000
 
 
 class Opened(Protocol):
@@ -39,34 +47,6 @@ class Opened(Protocol):
 
     def result(self) -> Result:
         """What is shown without inference."""
-
-
-@dataclass(frozen=True, eq=False)
-class OpenedLog:
-    """Scans of a log, with the defaults for logs."""
-
-    document: Document
-    scans: Scans
-
-    def scene(self, document: Document) -> Scene:
-        """The log's readings under the document's prior; the beam table is traced once."""
-        return self._scene if document.prior == self.document.prior else self._scene.with_prior(document.prior)
-
-    @cached_property
-    def _scene(self) -> Scene:
-        from bayesmap.cells.defaults import default_sensor
-        from bayesmap.kernels.trace import trace
-
-        grid = self.document.grid
-        sensor = default_sensor(grid.resolution)
-        table = trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth)
-        problem = WallProblem(table, Independent(self.document.prior), self.scans.poses)
-        ids = tuple(range(1, len(self.scans) + 1))
-        return Scene(self.scans, np.zeros((0, len(self.scans.angles_rad))), ids, sensor, problem, Independent.hit_depth)
-
-    def result(self) -> Result:
-        """A log has none."""
-        raise AssertionError("a log is inferred from")
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,16 +129,21 @@ def opened_run(run: Run, name: str) -> OpenedRun:
 def opened_log(scans: Scans, name: str) -> OpenedLog:
     """Infer from a log, on cells of 10 cm, or larger where the map would have more than a thousand a side.
 
+    Poses that look like raw odometry are taken for it at first.
+
     Raises:
         BadInput: a log without scans.
     """
     from bayesmap.cells.defaults import P_WALL
+    from bayesmap.poses.agreement import look_like_odometry
 
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > LARGEST_SIDE_OF_LOG:
         grid = Grid.covering(scans, LOG_RESOLUTION_M * -(-max(grid.shape) // LARGEST_SIDE_OF_LOG))
     document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
-    return OpenedLog(replace(document, sweeps=LOG_SWEEPS), scans)
+    poses = "odometry" if look_like_odometry(scans) else "logged"
+    source = replace(document.source, bounds=bounds_m(scans))
+    return OpenedLog(replace(document, sweeps=LOG_SWEEPS, poses=poses, source=source), scans)
 
 
 def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:

@@ -10,6 +10,9 @@ from bayesmap.app.document import (
     KINDS,
     LARGEST_COORDINATE_M,
     LARGEST_SIDE_OF_FILE,
+    RESOLUTION,
+    RESOLUTIONS_M,
+    SCANS_USED,
     SENSORS,
     SIDE,
     VERSION,
@@ -27,6 +30,7 @@ from bayesmap.app.document import (
 from bayesmap.space.grid import Grid
 
 LONGEST_NAME = 300
+MOST_SCANS = 10**9
 
 
 def parse_document(value: object) -> Document:
@@ -87,7 +91,7 @@ def _parse_source(value: object) -> Source:
     name = value.get("name")
     if not isinstance(name, str) or not 0 < len(name) <= LONGEST_NAME:
         raise Refused("source: a file without a name")
-    return Source(value["kind"], name, int(number("source: scans", value.get("scans"), 0, 10**9, whole=True)))
+    return Source(value["kind"], name, int(number("source: scans", value.get("scans"), 0, MOST_SCANS, whole=True)))
 
 
 def parse_grid(value: object, side: tuple[int, int] = SIDE) -> Grid:
@@ -129,6 +133,10 @@ def parse_setting(name: str, value: object) -> Any:
         if value not in CHOICES[name]:
             raise Refused(f"{name}: {_short(value)} is not known", f"there are: {', '.join(CHOICES[name])}")
         return value
+    if name == SCANS_USED:
+        return None if value is None else int(number("scans used", value, 1, MOST_SCANS, whole=True))
+    if name == RESOLUTION:
+        return number("cell size (m)", value, *RESOLUTIONS_M)
     if name not in BOUNDS:
         raise Refused(f"set: no setting {_short(name)}", f"there are: {', '.join((*BOUNDS, *CHOICES))}")
     found = number(WORDS.get(name, name), value, *BOUNDS[name], whole=name in WHOLE)

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
+from bayesmap.app.hit_counts import Counted
 from bayesmap.app.judging import Verdict, difference, judge_chains, judge_particles
+from bayesmap.app.pilot import Pilot
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import Stream
@@ -23,7 +25,14 @@ from bayesmap.posterior.diagnostics import rhat as split_rhat
 from bayesmap.result import Run
 from bayesmap.samplers.importance import Particles
 
+Floats = NDArray[np.float64]
 LEVELS = 255
+HITS, COUNTS = "hits", "counts"
+"""Methods of maps of hits and passes: along the poses that the map is to have, and along poses still in doubt."""
+
+APPROXIMATE = (HITS, COUNTS, "propagate", "pilot")
+"""Methods whose answers are quick and not the posterior's."""
+
 TRACED = 300
 FIRST_SWEEPS = 100
 """Points of a trace that are sent with every picture: so many over all of it, and each of the first sweeps."""
@@ -41,13 +50,15 @@ MOST_NATS = 60.0
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """One of: beliefs, chains, weighted particles, a saved run, or nothing (the prior).
+    """One of: beliefs, a pilot, chains, weighted particles, a saved run, hits and passes, or nothing (the prior).
 
     Attributes:
         scene: the readings.
         document: what was asked.
         method: what found it: a method's name, or "none".
         total: of particles, those that are still to be weighed included.
+        counted: a map of hits and passes.
+        pilot: where the chain stands that fits the sensor.
     """
 
     scene: Scene
@@ -58,6 +69,8 @@ class Result:
     particles: Particles | None = None
     total: int = 0
     run: Run | None = None
+    counted: Counted | None = None
+    pilot: Pilot | None = None
 
     def mean(self) -> NDArray[np.float64]:
         """Posterior wall probability, (nx, ny)."""
@@ -69,6 +82,10 @@ class Result:
             return self.particles.occupancy()
         if self.run is not None:
             return np.nan_to_num(self.run.occupancy, nan=0.5)
+        if self.pilot is not None:
+            return self.pilot.mean
+        if self.counted is not None:
+            return self.counted.p_wall
         return self.scene.problem.p_wall.reshape(self.document.grid.shape)
 
     def observed(self) -> NDArray[np.bool_]:
@@ -79,6 +96,10 @@ class Result:
             return self.preview.observed()
         if self.run is not None:
             return self.run.observed
+        if self.pilot is not None:
+            return self.scene.problem.touched()
+        if self.counted is not None:
+            return self.counted.observed
         if self.particles is not None:
             from bayesmap.kernels.reach import reach_frequency
 
@@ -96,6 +117,10 @@ class Result:
         """Of the cells on show: it has the words for them."""
         if self.stream is not None:
             return self.stream.model.cells
+        if self.pilot is not None:
+            return self.pilot.prior
+        if self.counted is not None and self.counted.prior is not None:
+            return self.counted.prior
         return self.scene.problem.prior if self.run is None else self.run.posterior.prior
 
     @cached_property
@@ -121,16 +146,35 @@ class Result:
         if self.document.simulated:
             return None
         strokes = np.zeros((0, 5), dtype=np.float32)
-        if self.run is not None and self.run.n_draws and self.prior.has_surfaces:
-            mean, covariance, reflectivity = self.run.surfaces()
+        if self.run is not None and self.surfaces is not None:
+            _, mean, covariance, reflectivity = self.surfaces
             values, vectors = np.linalg.eigh(covariance)
             half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
             strokes = np.column_stack([mean - half, mean + half, reflectivity])
             strokes = strokes[reflectivity >= LEAST_REFLECTIVITY].astype(np.float32)
-        poses = self.scene.scans.poses
-        if self.run is not None and self.run.n_draws and "poses" in self.run.posterior.draws.arrays:
-            poses = self.run.poses.mean(axis=(0, 1))
-        return {"strokes": strokes, "trajectory": np.ascontiguousarray(poses[:, :2], dtype=np.float32)}
+        return {"strokes": strokes, "trajectory": self.scan_poses[:, :2].astype(np.float32)}
+
+    @cached_property
+    def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
+        """Mean surfaces: their cells, means in the world frame (U, 2), covariances (U, 2, 2), reflectivities (U,).
+
+        None without draws, or where cells have none.
+        """
+        draws = self.kept
+        if draws is None and self.stream is not None and self.stream.recent.count:
+            draws = self.stream.recent
+        if draws is None or not self.prior.has_surfaces:
+            return None
+        return draws.index["surface_cell"], *self.prior.surfaces(draws)
+
+    @cached_property
+    def scan_poses(self) -> NDArray[np.float64]:
+        """Where the scans were taken, (S, 3): the mean over draws where poses were inferred."""
+        if self.run is None or not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
+            return self.scene.scans.poses
+        x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.scene.scans))
+        heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
+        return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
 
     def draws(self) -> dict[str, int]:
         """How many maps are kept: {"chains", "count"}."""
@@ -175,6 +219,8 @@ class Result:
             verdict = judge_chains(rhat, ess, sweeps, apart)
         elif self.preview is not None:
             sweeps = self.preview.rounds
+        elif self.pilot is not None:
+            sweeps, total = self.pilot.sweep, self.pilot.total
         elif self.particles is not None:
             sweeps, total = len(self.particles.log_weights), self.total
             ess = self.particles.effective_sample_size
@@ -219,7 +265,7 @@ class Result:
         header: dict[str, Any] = {
             "layer": view.layer,
             "method": self.method,
-            "approximate": self.method == "propagate",
+            "approximate": self.method in APPROXIMATE,
             **self.statistics(),
             "draws": self.draws(),
             "quantity": self.quantity(),

@@ -36,6 +36,7 @@ class Scene:
         sensor: the law of the readings.
         problem: beam table and prior.
         hit_depth: where in a cell a beam is expected to stop.
+        used: from the first on, how many scans the map is made of; None is all. The problem is theirs.
     """
 
     scans: Scans
@@ -44,10 +45,16 @@ class Scene:
     sensor: SensorModel
     problem: WallProblem
     hit_depth: float = 0.0
+    used: int | None = None
+
+    @property
+    def used_scans(self) -> Scans:
+        """The scans that the map is made of."""
+        return self.scans if self.used is None else self.scans.select(slice(self.used))
 
     def model(self, cells: CellPrior) -> Model:
         """The same readings, to be explained by cells of a kind."""
-        return Model(self.scans, self.problem.grid, cells, self.sensor, hit_depth=self.hit_depth)
+        return Model(self.used_scans, self.problem.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
     def with_prior(self, p_wall: float) -> Scene:
         """The same readings under another prior; the beam table is shared, and its index if it is there."""
@@ -93,6 +100,8 @@ def same_readings(before: Document, after: Document) -> bool:
     return before == replace(
         after,
         prior=before.prior,
+        pose_sigma=before.pose_sigma,
+        heading_sigma=before.heading_sigma,
         cells=before.cells,
         method=before.method,
         order=before.order,

@@ -13,26 +13,13 @@ from typing import Any
 from numpy.typing import NDArray
 
 from bayesmap.app.adopting import adopted
-from bayesmap.app.document import LIMITS, VERSION, Document, Refused
+from bayesmap.app.document import LIMITS, SCANS_USED, VERSION, Document, Refused
 from bayesmap.app.edits import EDITS, edit, gesture_of, merged
 from bayesmap.app.history import History
-from bayesmap.app.tasks import (
-    OWN_LAYERS,
-    Cancel,
-    Export,
-    FindPath,
-    FindViews,
-    Infer,
-    Inspect,
-    Mode,
-    Report,
-    ShowScan,
-    Task,
-    View,
-)
+from bayesmap.app.questions import QUESTIONS, question
+from bayesmap.app.tasks import OWN_LAYERS, Cancel, Export, Infer, Mode, Remember, Report, ShowScan, Task, View
 
 Message = Mapping[str, Any]
-QUESTIONS = ("inspect", "path", "views")
 REPLAYED = ("scan", "field", "overlay")
 """What a page that connects late is sent again."""
 
@@ -82,6 +69,7 @@ class Session:
         self._waiting: tuple[int, Message] | None = None
         self._seqs: dict[int, int] = {}
         self._last: dict[str, ToPage] = {}
+        self._trajectory: Remember | None = None  # of a log, inferred; the next worker shall know it
 
     @property
     def document(self) -> Document:
@@ -150,7 +138,13 @@ class Session:
         after, remark = edit(before, message)
         self.history = self.history.push(after, gesture_of(message, client), client)
         effects: Effects = [self._status(remark, "warning", client)] if remark else []
-        return effects + ([self._state()] if self.document is before else self._restart())
+        if SCANS_USED in message.get("patch", ()):
+            self.scan = (self.document.scans_used or self.document.source.scans) - 1
+        coarse = bool(message.get("coarse")) and self.document.source.kind == "log"
+        let_go = self._mode == "coarse" and not coarse
+        if self.document is before and not let_go:
+            return [*effects, self._state()]
+        return effects + self._restart("coarse" if coarse else None)
 
     def _on_hello(self, client: int, message: Message) -> Effects:
         effects: Effects = []
@@ -227,15 +221,10 @@ class Session:
 
     def _asked(self, client: int, message: Message) -> Effects:
         """A question: it changes nothing, and no state confirms it."""
-        if message["type"] == "path":
-            start, goal = (tuple(message[name]) for name in ("start", "goal"))
-            return [ToWorker(FindPath(client, start, goal, message["radius"], message["risk"]))]
-        if message["type"] == "views":
-            return [ToWorker(FindViews(client))]
-        nx, ny = self.document.grid.shape
-        if message["x"] >= nx or message["y"] >= ny:
-            return [self._status("inspect: a cell outside the map", "warning", client)]
-        return [ToWorker(Inspect(client, message["x"], message["y"]))]
+        try:
+            return [ToWorker(question(self.document, client, message))]
+        except Refused as refusal:
+            return [self._status(refusal.text, "warning", client)]
 
     # From the worker
 
@@ -254,6 +243,12 @@ class Session:
         if kind == "failed":
             self.running = False
             return [self._status(header["text"], "error"), self._state(), *self._picture_is_out()]
+        if kind == "grid":
+            self.history = replace(self.history, present=self.document.on_grid(header["grid"]))
+            return [self._state()]
+        if kind == "trajectory":
+            self._trajectory = header["found"]
+            return []
         message = ToPage(header, report.buffers, report.client)
         if kind in REPLAYED and report.client is None:
             self._last[kind] = message
@@ -277,7 +272,9 @@ class Session:
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
-        ready: Effects = [ToPage({"type": "worker", "state": "ready"}), *map(ToWorker, self._views.values())]
+        known = () if self._trajectory is None else (self._trajectory,)
+        tasks = map(ToWorker, (*known, *self._views.values()))
+        ready: Effects = [ToPage({"type": "worker", "state": "ready"}), *tasks]
         again: Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
         return [*ready, *self._restart(again)]
 

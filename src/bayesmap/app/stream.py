@@ -19,6 +19,9 @@ from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.sampler import Problem, Sampler
 
 CHAINS = 2
+POSE_CHAINS = 16
+"""Where poses are uncertain: a map holds its sensors in place, so that each chain stays near where it started."""
+
 STEP_SECONDS = 0.015
 """Of work between two looks at the pipe."""
 
@@ -52,6 +55,7 @@ class Stream:
         problem: what the sampler has prepared of it.
         total: sweeps to do.
         thin: sweeps from one counted map to the next; 1 unless so many are kept that they would not fit.
+        n_chains: how many chains.
         counted: maps that each chain's mean is made of.
     """
 
@@ -59,9 +63,10 @@ class Stream:
         self, model: Model, sampler: Sampler[Any, Any], problem: Problem, total: int, seed: int, *, keep: bool
     ) -> None:
         self.model, self.problem, self._sampler, self.keep = model, problem, sampler, keep
-        self.state = sampler.init(problem, range(CHAINS), seed)
-        empty = no_draws(model, self.state, CHAINS)
-        one = sum(spec.empty(CHAINS, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+        self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
+        self.state = sampler.init(problem, range(self.n_chains), seed)
+        empty = no_draws(model, self.state, self.n_chains)
+        one = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
         self.thin = math.ceil(total * one / DRAW_BYTES) if keep else 1
         self.total = math.ceil(total / self.thin) * self.thin
         schedule = Schedule(0, self.total // self.thin, self.thin)
@@ -75,12 +80,12 @@ class Stream:
         )  # fmt: skip
         self.seconds, self.counted = 0.0, 0
         self._latest = self._recent = empty
-        self._sums = np.zeros((CHAINS, *model.grid.shape))
+        self._sums = np.zeros((self.n_chains, *model.grid.shape))
         self._rhat = self._ess = math.nan
         self._diagnose_at, self._diagnosed = 0.0, 0
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
-        self._log_likelihood = np.zeros((CHAINS, self.total))
-        self._log_prior = np.zeros((CHAINS, self.total))
+        self._log_likelihood = np.zeros((self.n_chains, self.total))
+        self._log_prior = np.zeros((self.n_chains, self.total))
 
     @property
     def sweep(self) -> int:
@@ -100,7 +105,7 @@ class Stream:
         if latest.count:
             self._latest = latest
             self._recent = _joined(self._recent, latest)
-            for chain in range(CHAINS):
+            for chain in range(self.n_chains):
                 one = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
                 self._sums[chain] += self.model.cells.mean_map(one) * latest.count
             self.counted += latest.count
@@ -128,9 +133,9 @@ class Stream:
         Where draws are not kept, cells that no beam touches have the prior's mean exactly: what their draws average to.
         """
         mean = self._sums.mean(axis=0) / max(1, self.counted)
-        return (
-            mean if self.keep else np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
-        )
+        if self.keep or self.model.poses.unknown:  # from other poses beams touch other cells
+            return np.asarray(mean)
+        return np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
 
     def means(self) -> NDArray[np.float64]:
         """The same of each chain, (chains, nx, ny)."""
@@ -142,7 +147,7 @@ class Stream:
 
     def draw(self, chain: int | None, draw: int | None) -> tuple[NDArray[Any], int, int]:
         """One map, (nx, ny), and which it is: the last where there is none such, the latest where none are kept."""
-        kept, which = self.draws, min(chain or 0, CHAINS - 1)
+        kept, which = self.draws, min(chain or 0, self.n_chains - 1)
         if kept.count == 0:
             return self.model.cells.map_of(self._latest, which, -1), which, 0
         number = kept.count - 1 if draw is None else min(draw, kept.count - 1)

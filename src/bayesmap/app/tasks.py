@@ -15,7 +15,7 @@ ALIVE_SECONDS = 1.0
 OWN_LAYERS = ("draw", "width")
 """Layers of which a page that wants them is sent fields of its own; the others are made of the mean."""
 
-Mode = Literal["preview", "live", "run", "clear"]
+Mode = Literal["coarse", "preview", "live", "run", "clear"]
 
 
 @dataclass(frozen=True)
@@ -25,8 +25,8 @@ class Infer:
     Attributes:
         generation: what every answer carries.
         document: what to infer from.
-        mode: "preview": belief propagation alone; "live": then Gibbs; "run": the document's method from the prior,
-            draws kept; "clear": back to the prior.
+        mode: "coarse": counts of hits alone, of a log; "preview": belief propagation alone; "live": then Gibbs; "run":
+            the document's method from the prior, draws kept; "clear": back to the prior.
         scan: whose rays are shown, for a file.
     """
 
@@ -101,6 +101,57 @@ class FindViews:
 
 
 @dataclass(frozen=True)
+class WhereAmI:
+    """The posterior of the pose from which a scan was taken.
+
+    Attributes:
+        client: the page.
+        sensor: whose scan, in a simulation; of a run it is the scan on show.
+    """
+
+    client: int
+    sensor: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Remember:
+    """The trajectory that an earlier worker has inferred of the log.
+
+    Attributes:
+        poses: of all scans, in the order of the log, (S, 3).
+        angles_rad: between beams, as they were found, (A,).
+    """
+
+    poses: NDArray[Any]
+    angles_rad: NDArray[Any]
+
+
+@dataclass(frozen=True)
+class MoveGhost:
+    """What a robot's laser would read at a pose: metres and radians, world frame."""
+
+    client: int
+    x: float
+    y: float
+    yaw: float
+
+
+@dataclass(frozen=True)
+class CompareBeam:
+    """How one reading compares with what the posterior predicts of it.
+
+    Attributes:
+        client: the page.
+        scan: index of the scan, or of the sensor in a simulation.
+        beam: index of the beam in it.
+    """
+
+    client: int
+    scan: int
+    beam: int
+
+
+@dataclass(frozen=True)
 class Export:
     """A file of the present result."""
 
@@ -108,7 +159,10 @@ class Export:
     what: str
 
 
-Task = Infer | Cancel | View | ShowScan | Inspect | FindPath | FindViews | Export
+Question = Inspect | FindPath | FindViews | WhereAmI | MoveGhost | CompareBeam
+"""What changes nothing and is answered to one page."""
+
+Task = Infer | Cancel | View | ShowScan | Question | Remember | Export
 
 
 @dataclass(frozen=True)
@@ -116,8 +170,9 @@ class Report:
     """An answer of the worker's: a message for the page, or for the session alone.
 
     Attributes:
-        header: the message; of type scan, field, cell, path, views, download or status, which the page knows, or ready,
-            finished or failed, which are the session's, or alive, which is the supervisor's.
+        header: the message; of type scan, field, overlay, stage, cell, path, views, undecided, where, ghost, beam,
+            download or status, which the page knows, or ready, grid, trajectory, finished or failed, which are the
+            session's, or alive, which is the supervisor's.
         buffers: arrays by name.
         client: who asked, where it is for one page alone.
     """

@@ -52,6 +52,8 @@ def new_document(world: str, shape: tuple[int, int], before: Document) -> Docume
         max_range=2.0 * max(shape) * grid.resolution,
         fov=before.fov,
         readings=before.readings,
+        pose_sigma=before.pose_sigma,
+        heading_sigma=before.heading_sigma,
         method=before.method,
         order=before.order,
         start=before.start,

@@ -1,0 +1,104 @@
+// A robot that is not there: where the hand has put it, and what its laser would read.
+
+import { cellOf, inside } from "../geometry/cells";
+import type { Buffers, Message } from "../protocol";
+import type { Session } from "./session";
+
+/** Metres and radians, world frame. */
+export type Pose = { x: number; y: number; yaw: number };
+/** The scan that was taken nearest: how far away in metres, and turned by how much. */
+export type Near = { index: number; away: number; turn: number; pose: Float64Array; ranges: Float32Array; hit: Uint8Array };
+/** Predictive median and central 80 % interval of each beam, metres; no return is infinite. */
+export type Fan = Pose & {
+  generation: number;
+  draws: number;
+  milliseconds: number;
+  angles: Float32Array;
+  low: Float32Array;
+  median: Float32Array;
+  high: Float32Array;
+  near: Near | null;
+};
+
+/** An answer that takes longer will not come: the worker was started again. */
+const PATIENCE_MS = 2000;
+/** While chains run the fan is asked for again after this. */
+const AGAIN_MS = 3000;
+
+/** One question is under way at a time, and the next one asks for where the ghost is then: a fast hand waits for nothing. */
+export class Ghost {
+  /** Whether the hand holds it. */
+  held = false;
+  pose: Pose | null = null;
+  fan: Fan | null = null;
+  /** Why there is no fan. */
+  trouble = "";
+  /** Counts what there is to paint anew. */
+  version = 0;
+  /** How many fans came. */
+  answers = 0;
+  private askedAt = -Infinity;
+  private waiting = false;
+  private asked = "";
+
+  constructor(private readonly session: Session) {}
+
+  /** Takes it up. */
+  hold(on: boolean) {
+    if (this.held === on) return;
+    this.held = on;
+    this.version++;
+    this.ask();
+    this.session.changed();
+  }
+
+  move(change: Partial<Pose>) {
+    const { pose } = this;
+    this.pose = { x: 0, y: 0, yaw: 0, ...pose, ...change };
+    this.version++;
+    this.ask();
+    this.session.changed();
+  }
+
+  /** The map has another size: where the ghost stood may be no part of it. */
+  refit() {
+    const { pose, session } = this;
+    const at = pose && session.document && cellOf(pose, session.document.grid);
+    if (!at || !inside(at, session.shape)) this.pose = null;
+    this.fan = null;
+    this.asked = this.trouble = "";
+    this.version++;
+  }
+
+  /** Asks where place or picture is another than at the last time. */
+  ask() {
+    const { session } = this;
+    const { shown, scan } = session;
+    if (!this.held || session.recorded || !shown || shown.generation !== session.generation) return;
+    // at first it stands where the scan on show was taken
+    if (!this.pose && scan?.pose.length) this.pose = { x: scan.pose[0], y: scan.pose[1], yaw: scan.pose[2] };
+    const { pose } = this;
+    if (!pose) return;
+    const now = performance.now();
+    if (this.waiting && now - this.askedAt < PATIENCE_MS) return;
+    const question = JSON.stringify([pose, shown.generation, session.sampling, shown.approximate]);
+    const old = session.sampling && now - this.askedAt > AGAIN_MS;
+    if (question === this.asked && !old) return;
+    [this.asked, this.askedAt, this.waiting] = [question, now, true];
+    session.act({ type: "ghost", ...pose });
+  }
+
+  receive(message: Message, buffers: Buffers) {
+    this.waiting = false;
+    this.trouble = message.type === "undecided" ? message.text : "";
+    if (message.type === "ghost") {
+      const { angles, low, median, high, near_pose, near_ranges, near_hit } = buffers as any;
+      const near = message.near && { ...message.near, pose: near_pose, ranges: near_ranges, hit: near_hit };
+      const { x, y, yaw, generation, draws, milliseconds } = message as any;
+      this.fan = { x, y, yaw, generation, draws, milliseconds, angles, low, median, high, near };
+      this.answers++;
+    } else this.fan = null;
+    this.version++;
+    this.ask();
+  }
+}

@@ -1,0 +1,85 @@
+// The reading under the pointer, and how it compares with its prediction.
+
+import type { Message, Point, Scan } from "../protocol";
+import type { Session } from "./session";
+
+/** Metres and radians; null where infinite or unknown. */
+export type Comparison = {
+  scan: number;
+  beam: number;
+  draws: number;
+  reading: "hit" | "none" | "close" | "bad";
+  range: number | null;
+  low: number | null;
+  median: number | null;
+  high: number | null;
+  residual: number | null;
+  nats: number | null;
+  no_return: number | null;
+  wall: { across_m: number; along_m: number; thickness_m: number; length_m: number; incidence_rad: number } | null;
+};
+
+const REST_MS = 120;
+
+/** A beam of a file's scan: its number, where it starts and where its reading ends, metres. */
+export type Picked = { scan: number; beam: number; from: Point; angle: number };
+
+export class Reading {
+  picked: Picked | null = null;
+  found: Comparison | null = null;
+  trouble = "";
+  /** Counts what there is to paint anew. */
+  version = 0;
+  private timer = 0;
+
+  constructor(private readonly session: Session) {}
+
+  /** Follows the pointer, null where it has gone; `near_m` is how close to a reading it has to be. */
+  point(place: Point | null, near_m: number) {
+    const { session } = this;
+    const isFile = session.document && session.document.source.kind !== "simulation" && !session.recorded;
+    const picked = place && isFile && session.scan ? pick(session.scan, place, near_m, session.document?.max_range ?? Infinity) : null;
+    if (picked?.beam === this.picked?.beam && picked?.scan === this.picked?.scan) return;
+    this.picked = picked;
+    this.found = null;
+    this.trouble = "";
+    this.version++;
+    clearTimeout(this.timer);
+    if (picked) this.timer = window.setTimeout(() => session.act({ type: "beam", scan: picked.scan, beam: picked.beam }), REST_MS);
+    session.changed();
+  }
+
+  /** Another scan is on show. */
+  forget() {
+    if (!this.picked) return;
+    clearTimeout(this.timer);
+    this.picked = this.found = null;
+    this.version++;
+  }
+
+  receive(message: Message) {
+    const found = message as unknown as Comparison;
+    if (message.type === "undecided") this.trouble = message.text;
+    else if (found.beam === this.picked?.beam && found.scan === this.picked.scan) this.found = found;
+    this.version++;
+  }
+}
+
+/** The beam whose reading, or for want of one whose line, passes nearest to a place. */
+function pick({ index, pose, angles, ranges, hit }: Scan, place: Point, near_m: number, longest_m: number): Picked | null {
+  if (index === null) return null;
+  const from = { x: pose[0], y: pose[1] };
+  let [best, least] = [-1, Infinity];
+  for (let b = 0; b < angles.length; b++) {
+    const [ux, uy] = [Math.cos(pose[2] + angles[b]), Math.sin(pose[2] + angles[b])];
+    const [dx, dy] = [place.x - from.x, place.y - from.y];
+    const along = dx * ux + dy * uy;
+    const range = hit[b] ? ranges[b] : longest_m;
+    const atEnd = hit[b] ? Math.hypot(dx - range * ux, dy - range * uy) : Infinity;
+    const beside = along > 0 && along < range ? Math.abs(dx * uy - dy * ux) : Infinity;
+    // a reading is meant rather than a line, which passes by everywhere
+    const away = Math.min(atEnd, near_m / 2 + 2 * beside);
+    if (away < least) [best, least] = [b, away];
+  }
+  return least < near_m ? { scan: index, beam: best, from, angle: pose[2] + angles[best] } : null;
+}

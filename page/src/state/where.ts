@@ -1,0 +1,77 @@
+// "Where am I?": the posterior of the pose of one scan, asked for again whenever the picture is another.
+
+import type { Buffers, Message } from "../protocol";
+import type { Session } from "./session";
+
+/** One place where the robot may be: mean and covariance of x, y (metres) and yaw (radians), and how probable it is. */
+export type Place = { mean: number[]; covariance: number[][]; probability: number; sigma_m: number; sigma_rad: number };
+/** Where a scan may have been taken; `pose` is where it was, as the document or the file says. */
+export type Whereabouts = {
+  of: number;
+  sensor?: number;
+  index?: number;
+  modes: Place[];
+  p_lost: number;
+  nats_per_beam: number;
+  pose: number[];
+  /** (n, 3) and (n), the lightest first. */
+  cloud: Float32Array;
+  weight: Float32Array;
+};
+
+/** Less probable places are not worth words. */
+const LEAST = 0.005;
+/** An answer that has not come by then is asked for anew: the worker may have been another. */
+const PATIENCE_MS = 5000;
+
+export class Where {
+  found: Whereabouts | null = null;
+  /** Why there is no answer. */
+  trouble = "";
+  /** Counts what there is to paint anew. */
+  version = 0;
+  private wanted = false;
+  private sensor: number | null = null;
+  private asked = "";
+  private waitingSince = 0;
+
+  constructor(private readonly session: Session) {}
+
+  /** Whether an answer is wanted, and of a drawn world for which sensor. */
+  follow(wanted: boolean, sensor: number | null) {
+    this.sensor = sensor;
+    if (wanted !== this.wanted) {
+      this.wanted = wanted;
+      this.found = null;
+      [this.trouble, this.asked, this.waitingSince] = ["", "", 0];
+      this.version++;
+      this.session.changed();
+    }
+    if (wanted) this.ask();
+  }
+
+  receive(message: Message, buffers: Buffers) {
+    this.waitingSince = 0;
+    if (!this.wanted) return;
+    this.trouble = message.trouble ?? "";
+    const { pose: cloud, weight } = buffers as { [name: string]: Float32Array };
+    const { modes = [] } = message as unknown as Whereabouts;
+    const likely = modes.filter(({ probability }, i) => i === 0 || probability >= LEAST);
+    this.found = this.trouble ? null : { ...(message as unknown as Whereabouts), modes: likely, cloud, weight };
+    this.version++;
+  }
+
+  /** One question at a time: a hand that moves on is followed as fast as answers come. */
+  private ask() {
+    const { session } = this;
+    const { shown, scan } = session;
+    if (!shown || session.recorded || session.worker !== "ready") return;
+    if (session.editable && shown.generation !== session.generation) return; // its picture comes first
+    const draws = session.editable ? "" : `${session.draws.count} ${session.sampling}`;
+    const question = `${session.generation} ${session.editable ? this.sensor : scan?.index} ${draws}`;
+    const now = performance.now();
+    if (question === this.asked || (this.waitingSince && now - this.waitingSince < PATIENCE_MS)) return;
+    [this.asked, this.waitingSince] = [question, now];
+    session.act(session.editable && this.sensor !== null ? { type: "where", sensor: this.sensor } : { type: "where" });
+  }
+}

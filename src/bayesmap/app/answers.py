@@ -1,0 +1,120 @@
+"""Answers to questions of a page about the result on show, each a report for the page that asked."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.evidence import evidence
+from bayesmap.app.ghost import Ghost
+from bayesmap.app.residual import beam_message
+from bayesmap.app.result import Result
+from bayesmap.app.scanning import Scene
+from bayesmap.app.tasks import (
+    CompareBeam,
+    Export,
+    FindPath,
+    FindViews,
+    Inspect,
+    MoveGhost,
+    Question,
+    Report,
+    WhereAmI,
+)
+from bayesmap.app.whereabouts import Whereabouts
+from bayesmap.errors import BadInput
+
+OfPosterior = FindPath | FindViews | MoveGhost | CompareBeam
+TYPES: dict[type, str] = {FindPath: "path", FindViews: "views", MoveGhost: "ghost", CompareBeam: "beam"}
+"""Questions of the posterior, and the types of the messages that answer them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Now:
+    """What there is when a question comes.
+
+    Attributes:
+        scene: the readings.
+        result: what is shown.
+        scan: which one, of a file.
+        generation: of the present job.
+    """
+
+    scene: Scene | None
+    result: Result | None
+    scan: int
+    generation: int
+
+
+class Answers:
+    """Answers questions; what serves several of them is kept."""
+
+    def __init__(self) -> None:
+        self._ghost = Ghost()
+        self._whereabouts = Whereabouts()
+
+    def answer(self, task: Question, now: Now) -> Report:
+        """The answer to any question but for a file."""
+        if isinstance(task, Inspect):
+            return Report(cell_message(now.scene, now.result, task), {}, task.client)
+        if isinstance(task, WhereAmI):
+            return self._whereabouts.answer(task, now.result, now.scan, now.generation)
+        return self._of_posterior(task, now)
+
+    def _of_posterior(self, task: OfPosterior, now: Now) -> Report:
+        """The answer, or the message `undecided` where there is none."""
+        kind = TYPES[type(task)]
+        buffers: dict[str, NDArray[Any]] = {}
+        try:
+            header, buffers = self._found(task, now.result)
+        except BadInput as error:
+            kind, header = "undecided", {"text": str(error), "of": kind}
+        return Report({"type": kind, "generation": now.generation, **header}, dict(buffers), task.client)
+
+    def _found(self, task: OfPosterior, result: Result | None) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        """Fields and buffers of the answer.
+
+        Raises:
+            BadInput: there is none, and why.
+        """
+        from bayesmap.app.deciding import path_message, views_message
+
+        if result is None:
+            raise BadInput("there is nothing to decide by yet")
+        if isinstance(task, FindPath):
+            return path_message(result, task), {}
+        if isinstance(task, FindViews):
+            return views_message(result, task)
+        if isinstance(task, MoveGhost):
+            return self._ghost.answer(result, task)
+        return beam_message(result, task), {}
+
+
+def cell_message(scene: Scene | None, result: Result | None, task: Inspect) -> dict[str, Any]:
+    """The message `cell`: how many beams touch it, and what they say of a wall there."""
+    found: dict[str, Any] = {"beams": 0}
+    if scene is not None:
+        table = scene.problem.table
+        nx, ny = table.grid.shape
+        if task.x < nx and task.y < ny:
+            cell = task.x * ny + task.y
+            found = {"beams": int(np.count_nonzero(table.cells == cell))}
+            if result is not None and result.prior.words.kind == "binary":
+                found = asdict(evidence(table, result.mean().ravel(), cell))
+    return {"type": "cell", "x": task.x, "y": task.y, **found}
+
+
+def exported(task: Export, result: Result | None) -> Report:
+    """A file, or why there is none."""
+    from bayesmap.app.exports import export
+
+    try:
+        if result is None:
+            raise BadInput("there is nothing to export yet")
+        name, mime, data = export(result, task.what)
+    except (BadInput, OSError) as error:
+        return Report({"type": "status", "text": str(error), "level": "warning"}, {}, task.client)
+    return Report({"type": "download", "name": name, "mime": mime}, {"data": data}, task.client)

@@ -1,0 +1,137 @@
+"""A robot that is not there: what its laser would read, by the posterior on show, and what one really read nearby."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.deciding import maps_of
+from bayesmap.app.result import Result
+from bayesmap.app.scanning import Scene, fan, hits
+from bayesmap.app.tasks import MoveGhost
+from bayesmap.errors import BadInput
+from bayesmap.posterior.predicted_scan import ScanPredictor
+from bayesmap.posterior.predictor import Maps, Predictor, fixed_maps
+from bayesmap.sensors.model import RangeLimits
+
+MOST_DRAWS = 32
+HELD_BYTES = 192 << 20
+"""Draws that predictions are averaged over: so many, or as many as fit."""
+
+STALE_SECONDS = 3.0
+"""Of chains that went on the draws are taken anew after this."""
+
+NEARBY_M = 0.5
+"""A scan taken no further from the ghost than this is shown beside it."""
+
+LEAST_SHARED = 0.25
+"""If it shares at least this part of its field of view."""
+
+
+class Ghost:
+    """Predicts scans by the result on show; its draws are put where kernels read them once for many questions."""
+
+    def __init__(self) -> None:
+        self._of: object = None
+        self._sweep, self._until = 0, 0.0
+        self._predictor: ScanPredictor | None = None
+        self._draws = 0
+
+    def answer(self, result: Result, task: MoveGhost) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        """Header and buffers of the message `ghost`.
+
+        Raises:
+            BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
+        """
+        began = time.perf_counter()
+        predictor = self._ready(result)
+        document = result.document
+        angles = (
+            fan(document.angles, document.fov) if document.simulated else result.scene.scans.angles_rad
+        )  # of a file those of its laser
+        pose = (task.x, task.y, task.yaw)
+        low, median, high = predictor.quantiles(pose, angles).T.astype(np.float32)
+        buffers: dict[str, NDArray[Any]] = {
+            "angles": angles.astype(np.float32), "low": low, "median": median, "high": high,
+        }  # fmt: skip
+        header: dict[str, Any] = {"x": task.x, "y": task.y, "yaw": task.yaw, "draws": self._draws, "near": None}
+        near = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)
+        if near is not None:
+            header["near"] = near
+            buffers |= _taken(result.scene, result.scan_poses[near["index"]], near["index"])
+        header["milliseconds"] = round(1e3 * (time.perf_counter() - began), 1)
+        return header, buffers
+
+    def _ready(self, result: Result) -> ScanPredictor:
+        """The predictor of a result; that of chains which go on is made anew now and then."""
+        stream = result.stream
+        of: object = result.run if result.run is not None else stream if stream is not None else result
+        sweep = 0 if stream is None else stream.sweep
+        last = stream is not None and stream.done  # of what is done nothing is outdated
+        stale = sweep != self._sweep and (last or time.perf_counter() > self._until)
+        if self._predictor is None or of is not self._of or stale:
+            predictor, self._draws = predictor_of_result(result)
+            limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
+            self._predictor, self._of = ScanPredictor.of(predictor, limits), of
+            self._sweep, self._until = sweep, time.perf_counter() + STALE_SECONDS
+        return self._predictor
+
+
+def predictor_of_result(result: Result) -> tuple[Predictor, int]:
+    """What predicts, and how many draws are in it: 0 where cells are taken for independent for want of draws.
+
+    Raises:
+        BadInput: there is nothing to predict from, or a sensor model that only the run's maker had.
+    """
+    scene, grid = result.scene, result.document.grid
+    try:
+        maps = maps_of(result)
+    except BadInput:
+        if result.method == "none":
+            raise BadInput("there is nothing to predict from yet; run inference first") from None
+        chances = result.mean().reshape(1, -1)
+        return Predictor(grid, fixed_maps(chances), scene.sensor, scene.hit_depth), 0
+    sensor, depth = scene.sensor, scene.hit_depth
+    if result.run is not None and result.run.posterior.sensor is None:
+        raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
+    if result.stream is not None:
+        sensor, depth = result.stream.model.sensor, result.stream.model.hit_depth
+    one = grid.n_cells * (32 if maps.prior.has_surfaces else 4)
+    some = maps.draws.thinned(int(np.clip(HELD_BYTES // one, maps.draws.chains, MOST_DRAWS)))
+
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
+        return maps.prior.predictive_stops(some, cells)
+
+    return Predictor(grid, batches, sensor, depth, some.size), some.size
+
+
+def nearest_scan(
+    poses: NDArray[np.float64], pose: tuple[float, float, float], angles_rad: NDArray[np.float64]
+) -> dict[str, Any] | None:
+    """The scan that was taken most nearly there: its index, how far away (metres) and turned by how much (radians).
+
+    None where none was taken within `NEARBY_M` whose field of view shares `LEAST_SHARED` with the ghost's.
+    """
+    field = float(np.ptp(angles_rad)) if len(angles_rad) > 1 else 0.0
+    away = np.hypot(poses[:, 0] - pose[0], poses[:, 1] - pose[1])
+    turn = np.remainder(poses[:, 2] - pose[2] + np.pi, 2 * np.pi) - np.pi
+    # fans that go all round share everything, whatever their headings
+    shared = np.ones(len(poses)) if field > 1.9 * np.pi else 1.0 - np.abs(turn) / max(field, 1e-9)
+    cost = np.where((away <= NEARBY_M) & (shared >= LEAST_SHARED), away / NEARBY_M + 1.0 - shared, np.inf)
+    if not len(cost) or not np.isfinite(cost.min()):
+        return None
+    best = int(cost.argmin())
+    return {"index": best, "away": round(float(away[best]), 3), "turn": round(float(turn[best]), 4)}
+
+
+def _taken(scene: Scene, pose: NDArray[np.float64], index: int) -> dict[str, NDArray[Any]]:
+    """A scan as the message has it."""
+    return {
+        "near_pose": pose,
+        "near_ranges": scene.scans.ranges_m[index].astype(np.float32),
+        "near_hit": hits(scene)[index].astype(np.uint8),
+    }

@@ -1,0 +1,76 @@
+"""The short chain that fits sensor and prior of reflectivities and surfaces, watched while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.document import Document
+from bayesmap.app.scanning import Scene
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kinds import BUILT_IN
+from bayesmap.model import Model
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
+from bayesmap.samplers.methods import sampler_of
+from bayesmap.samplers.propagate import ROUNDS
+from bayesmap.samplers.sampler import Keep
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Pilot:
+    """Where the chain stands that fits sensor and prior, before the chains that draw begin.
+
+    Attributes:
+        prior: as fitted so far.
+        mean: probability that a cell stops a beam, by its last sweep, (nx, ny).
+        sweep, total: sweeps that it has made, and will make.
+    """
+
+    prior: CellPrior
+    mean: Floats
+    sweep: int
+    total: int
+
+
+Fitted = tuple[Model, Any, Any]
+"""A model under what was fitted, its sampler, and what the sampler has prepared."""
+
+
+def depends_on(document: Document) -> Document:
+    """The document without what no pilot depends on: two that are alike in this have the same one."""
+    return replace(
+        document, prior=0.5, pose_sigma=0.0, heading_sigma=0.0, method="gibbs", order="radial", start="auto", sweeps=1
+    )  # fmt: skip
+
+
+def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
+    """Fit sensor and prior to the readings in short pieces.
+
+    Args:
+        scene: the readings.
+        document: what kind of cells explains them, and the seed.
+        show: told where the pilot stands, after every sweep.
+
+    Returns:
+        The model under what was found, its sampler, and what the sampler has prepared.
+    """
+    prior = BUILT_IN[document.cells]()
+    first = first_sensor(prior, document.grid.resolution)
+    model = replace(scene.model(prior), sensor=first, hit_depth=prior.hit_depth)
+    sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, "radial", None, ROUNDS)
+    problem = sampler.prepare(model, "cpu")
+    yield
+    pilot = piloting(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
+    for sweep, (now, info) in enumerate(pilot, 1):
+        problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)
+        drawn = Draws(model.grid, now.prior.arrays, info.draws, problem.coordinates)
+        show(Pilot(now.prior, now.prior.mean_map(drawn), sweep, PILOT_SWEEPS))
+        yield
+    return model, sampler, problem

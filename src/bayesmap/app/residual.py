@@ -1,0 +1,91 @@
+"""One reading against what the posterior predicts of it: along its beam, and across and along the wall it met."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.ghost import predictor_of_result
+from bayesmap.app.result import Result
+from bayesmap.app.tasks import CompareBeam
+from bayesmap.beams.rays import Rays
+from bayesmap.posterior.predicted_scan import CENTRAL_80
+from bayesmap.posterior.predictor import Predictor
+from bayesmap.posterior.surface_offset import surface_offset
+from bayesmap.space.scans import Scans
+
+NEAR_CELLS = 2.0
+"""A reading further than this from the mean of every surface on its beam, in cells, ended at none of them."""
+
+
+def beam_message(result: Result, task: CompareBeam) -> dict[str, Any]:
+    """Fields of the message `beam`.
+
+    Raises:
+        BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
+    """
+    from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.rays import trace_rays
+    from bayesmap.kernels.stop_mixture import mix_stops, range_quantiles
+
+    predictor, draws = predictor_of_result(result)
+    scans = result.scene.scans
+    one = Scans(
+        result.scan_poses[[task.scan]], scans.angles_rad[[task.beam]], scans.ranges_m[[task.scan], [task.beam]],
+        max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
+    )  # fmt: skip
+    rays = trace_rays(one, predictor.grid)
+    stops = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth)
+    low, median, high = range_quantiles(stops, np.array(CENTRAL_80), predictor.sensor)[0]
+    found = forecast(rays, predictor.batches(rays.touched), predictor.sensor, predictor.hit_depth)
+    reading = float(one.ranges_m[0, 0])
+    header = {
+        "scan": task.scan, "beam": task.beam, "draws": draws, "range": reading, "median": median, "low": low,
+        "high": high, "residual": reading - median, "nats": -found.log_density[0],
+        "no_return": found.p_no_return[0],
+    }  # fmt: skip
+    message: dict[str, Any] = {name: _finite(value) for name, value in header.items()}
+    message["draws"], message["scan"], message["beam"] = draws, task.scan, task.beam
+    message["reading"] = (
+        "hit" if math.isfinite(reading) else "none" if reading > 0 else "close" if reading < 0 else "bad"
+    )
+    wall = None
+    if math.isfinite(reading):
+        weight, distance_m = stops.weight.astype(np.float64), stops.distance_m.astype(np.float64)
+        wall = _wall(result, predictor, rays, weight, distance_m, reading)
+    return {**message, "wall": wall}
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _wall(
+    result: Result,
+    predictor: Predictor,
+    rays: Rays,
+    weight: NDArray[np.float64],
+    distance_m: NDArray[np.float64],
+    reading_m: float,
+) -> dict[str, float] | None:
+    """The reading in the frame of the surface at which its beam most probably stopped; None where that is unknown."""
+    surfaces = result.surfaces
+    if surfaces is None or not rays.n_incidences:
+        return None
+    cells, mean, covariance, _ = surfaces
+    held = np.isin(rays.cells, cells) & (weight > 0)
+    if not held.any():
+        return None
+    readings = np.full(rays.n_incidences, reading_m)
+    with np.errstate(divide="ignore"):
+        log_p = np.log(weight) + predictor.sensor.log_likelihood(readings, distance_m, rays.limits)
+    number = int(np.searchsorted(cells, rays.cells[int(np.argmax(np.where(held, log_p, -np.inf)))]))
+    start = rays.start_m[0] + predictor.grid.origin
+    point = start + reading_m * rays.direction[0]
+    if np.hypot(*(point - mean[number])) > NEAR_CELLS * predictor.grid.resolution:
+        return None
+    return asdict(surface_offset(mean[number], covariance[number], point, start))

@@ -1,0 +1,127 @@
+"""Uncertain poses of a drawn world: the chains are the library's, their maps the posterior over map and poses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from acted_engine import Heard
+
+import bayesmap as bm
+from bayesmap.app.chains import SMALLEST_HEADING_RAD, SMALLEST_POSE_M, chains_of_walls, pose_prior, pose_starts
+from bayesmap.app.document import Document, Sensor, WallMap
+from bayesmap.app.exports import export
+from bayesmap.app.scanning import simulate_document, simulated_scene
+from bayesmap.app.starting import starts
+from bayesmap.app.stream import POSE_CHAINS
+from bayesmap.app.worlds import tutorial_document
+from bayesmap.kernels.trace import trace
+from bayesmap.samplers.exact import enumerate_maps
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.space.grid import Grid
+
+TINY = Document(
+    Grid((3, 3), 1.0, (-0.5, -0.5)),
+    WallMap(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
+    (Sensor(1, 0.1, 1.2, 0.3),),
+    prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=2500, seed=1,
+)  # fmt: skip
+
+
+def test_known_poses_give_the_bits_that_they_always_gave():
+    known = Heard().infer(replace(TINY, sweeps=50))
+    other = Heard().infer(replace(TINY, sweeps=50, pose_sigma=0.0, heading_sigma=0.0))
+    assert np.array_equal(known[1]["p"], other[1]["p"])
+    assert np.array_equal(known[1]["trace"], other[1]["trace"])
+    scene = simulated_scene(TINY)
+    assert not chains_of_walls(scene, TINY, starts(scene.problem, TINY, None), keep=False).model.poses.unknown
+
+
+@pytest.mark.parametrize(
+    "changes", [{"pose_sigma": 0.5}, {"heading_sigma": 0.1}, {"pose_sigma": 0.5, "method": "block"}]
+)
+def test_a_run_is_that_of_the_library(changes):
+    document = replace(tutorial_document(), sweeps=20, **changes)
+    heard = Heard()
+    heard.infer(document, "run")
+    scans, _ = simulate_document(document)
+    sigma_m = max(document.pose_sigma, SMALLEST_POSE_M)
+    run = bm.infer(
+        scans, document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method=document.sampler,
+        chains=POSE_CHAINS, warmup=0, draws=20, start=starts(simulated_scene(document).problem, document, None),
+        poses=bm.Uncertain(sigma_m, max(document.heading_sigma, SMALLEST_HEADING_RAD)),
+        start_poses=pose_starts(document, POSE_CHAINS), seed=0,
+    )  # fmt: skip
+    stream = heard.engine._result.stream
+    assert np.array_equal(stream.draws.arrays["walls"], run.posterior.draws.arrays["walls"])
+    assert np.array_equal(stream.draws.arrays["poses"], run.poses)
+    assert np.array_equal(stream.log_joint(), run.log_joint)
+
+
+def test_maps_are_averaged_over_the_posterior_of_the_pose():
+    """Against enumeration of all maps at 2000 poses of the prior, each weighed by its evidence.
+
+    They are worth some 700, so that the reference's standard error is 0.02 at most; that of the chains, at 400
+    effective draws, 0.025. Two of both together are 0.07; known poses, the twin, are more than four times that off.
+    """
+    document = replace(TINY, noise=2.0, angles=10, pose_sigma=0.3, heading_sigma=0.3)
+    scene = simulated_scene(document)
+    rng = np.random.default_rng(5)
+    evidence, maps = [], []
+    for there in scene.scans.poses[0] + 0.3 * rng.standard_normal((2000, 3)):
+        table = trace(scene.scans.moved_to(there[None]), document.grid, scene.sensor)
+        found = enumerate_maps(WallProblem(table, scene.problem.prior, there[None]))
+        evidence.append(found.log_evidence)
+        maps.append(found.marginals())
+    weights = np.exp(np.array(evidence) - max(evidence))
+    weights /= weights.sum()
+    assert 1 / (weights**2).sum() > 500
+    exact = np.einsum("k,kxy->xy", weights, np.array(maps))
+    header, buffers = Heard().infer(document)
+    assert header["ess"] > 400
+    assert np.abs(buffers["p"] / 255 - exact).max() < 0.07
+    assert np.abs(enumerate_maps(scene.problem).marginals() - exact).max() > 0.28
+
+
+def test_walls_blur_as_positions_become_uncertain_by_whole_cells():
+    drawn = tutorial_document().walls.cells
+    sure = []
+    for sigma_m in (0.0, 0.5, 1.0):
+        heard = Heard()
+        _, buffers = heard.infer(replace(tutorial_document(), sweeps=60, pose_sigma=sigma_m))
+        seen = np.unpackbits(buffers["observed"], count=drawn.size).reshape(drawn.shape) > 0
+        sure.append((buffers["p"][drawn & seen] / 255).mean())
+        if sigma_m > 0:  # no picture of known poses in between
+            assert {header["method"] for header in heard.all("field")} == {"gibbs"}
+    assert sure[0] > sure[1] + 0.1 > sure[2] + 0.2
+
+
+def test_chains_are_dealt_out_over_shifts_by_whole_cells_as_the_prior_says():
+    sensors = (Sensor(1, 6.0, 15.0, 0.4), Sensor(2, 9.0, 14.0, 0.0))
+    document = replace(tutorial_document(), pose_sigma=1.0, sensors=sensors)
+    found = pose_starts(document, 4000)
+    shift = found[..., :2] - pose_starts(document, 1)[..., :2]
+    assert np.array_equal(shift[:, 0], shift[:, 1])
+    assert np.array_equal(shift, np.round(shift))
+    assert (found[..., 2] == [0.4, 0.0]).all()
+    cells = np.arange(-3, 4)
+    share = np.exp(-(cells**2.0))  # two sensors: exp(-2 s^2 / 2)
+    for axis in range(2):
+        counted = [(shift[:, 0, axis] == cell).mean() for cell in cells]
+        assert np.abs(counted - share / share.sum()).max() < 0.01
+
+
+@pytest.mark.parametrize("method", ["propagate", "importance"])
+def test_methods_that_take_poses_as_known_do_so(method):
+    document = replace(tutorial_document(), method=method, pose_sigma=0.5, sweeps=100)
+    assert pose_prior(document) is None
+    _, buffers = Heard().infer(document, "run")
+    assert np.array_equal(buffers["p"], Heard().infer(replace(document, pose_sigma=0.0), "run")[1]["p"])
+
+
+def test_a_run_with_uncertain_poses_is_saved_with_them(tmp_path):
+    heard = Heard()
+    heard.infer(replace(tutorial_document(), sweeps=10, pose_sigma=0.3), "run")
+    _, _, data = export(heard.engine._result, "run")
+    (tmp_path / "run.nc").write_bytes(data)
+    run = bm.load(tmp_path / "run.nc")
+    assert run.poses.shape == (POSE_CHAINS, 10, 1, 3)

@@ -1,0 +1,263 @@
+"""A log with raw odometry: its trajectory is inferred while the page shows how far it is, and then its cells."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from acted_engine import Heard
+from acted_session import Acted
+from poses.simulated import off, recording
+
+from bayesmap.app.adopting import adopted
+from bayesmap.app.along import MOST_SCANS, counted_map, grown, thinned
+from bayesmap.app.document import Refused
+from bayesmap.app.locating import ASK_TO_RUN
+from bayesmap.app.log_settings import with_resolution
+from bayesmap.app.opened import opened_log
+from bayesmap.app.parsing import parse_document
+from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Remember, ShowScan
+from bayesmap.app.trajectory_job import STAGES, TrajectoryJob, along, in_time
+from bayesmap.app.worlds import tutorial_document
+from bayesmap.space.grid import Grid
+
+SCANS, TRUTH = recording(turn_bias=0.03, noise=2.0)
+LOG = opened_log(SCANS, "raw.log")
+FEW = replace(LOG.document, sweeps=3)
+
+
+@pytest.fixture(scope="module")
+def found():
+    """An engine that has inferred the trajectory and some maps."""
+    heard = Heard(LOG)
+    heard.infer(FEW, "run", scan=20)
+    return heard
+
+
+def test_poses_are_taken_for_what_they_look_like():
+    assert LOG.document.poses == "odometry"
+    assert opened_log(SCANS.moved_to(TRUTH), "true.log").document.poses == "logged"
+
+
+def test_before_run_the_log_is_shown_as_it_is():
+    heard = Heard(LOG)
+    header, buffers = heard.infer(LOG.document)
+    assert header["method"] == "counts"
+    assert heard.last("status")[0]["text"] == ASK_TO_RUN
+    assert heard.all("stage") == []
+    counted = counted_map(SCANS, LOG.document.grid)
+    assert np.abs(buffers["p"] / 255 - counted.p_wall).max() <= 0.5 / 255 + 1e-9
+    assert np.array_equal(np.unpackbits(buffers["observed"], count=counted.observed.size), counted.observed.ravel())
+    assert np.allclose(heard.last("overlay")[1]["trajectory"], SCANS.poses[:, :2], atol=1e-5)
+    assert heard.all("finished")[-1]["draws"]["count"] == 0
+
+
+def test_a_map_of_hits_can_be_asked_and_saved_but_is_no_run():
+    heard = Heard(LOG)
+    heard.infer(LOG.document)
+    (cell,) = heard.ask(Inspect(1, 5, 5))
+    assert cell.header["beams"] == 0
+    (refused,) = heard.ask(Export(1, "run"))
+    assert "run inference first" in refused.header["text"]
+    for what in ("html", "map"):
+        (saved,) = heard.ask(Export(1, what))
+        assert saved.header["type"] == "download"
+
+
+def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(found):
+    kinds = [report.header["type"] for report in found.reports]
+    names = [header["name"] for header in found.all("stage")]
+    stages = [name for name, _ in itertools.groupby(names)]
+    assert stages[:5] == ["reading", "front end", "loops", "aligned", "aligned-again"]
+    assert stages[-1] == "placing"
+    assert names.count("loops") >= 2  # one for each round
+    said = [header["text"] for header in found.all("status")]
+    assert said[: len(stages)] == [STAGES[name] for name in stages]
+    assert said[-1].startswith("Trajectory inferred: odometry was off by up to")
+    ways = [r.buffers["trajectory"] for r in found.reports if r.header["type"] == "overlay"]
+    truth = TRUTH[:, :2] - TRUTH[0, :2]
+    turn = SCANS.poses[0, 2] - TRUTH[0, 2]
+    turned = truth @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]) + SCANS.poses[0, :2]
+    errors = [np.hypot(*(way - turned).T).max() for way in ways]
+    assert errors[0] > 0.5
+    assert errors[-1] < 0.05
+    assert errors[names.index("aligned")] < 0.5 * errors[0]
+    # Every picture of a stage comes with the rays of the scan on show, at its present pose.
+    scans = [r for r in found.reports if r.header["type"] == "scan"]
+    assert {r.header["index"] for r in scans} == {20}
+    assert np.allclose(scans[-1].buffers["pose"][0, :2], turned[20], atol=0.05)
+    fields = [header["method"] for header in found.all("field")]
+    assert [method for method, _ in itertools.groupby(fields)] == ["counts", "propagate", "gibbs"]
+    assert kinds.count("trajectory") == 1
+    assert found.all("finished")[-1]["draws"] == {"chains": 2, "count": 3}
+
+
+def test_the_map_sharpens(found):
+    """Of the cells with a hit, the share whose log-odds say wall: beams pass through walls at wrong poses."""
+    fields = [r for r in found.reports if r.header["type"] == "field" and r.header["method"] == "counts"]
+    grids = [header["grid"] for header in found.all("grid")]
+    placed = found.engine._locating.placed.scans
+    doubt = []
+    for scans in (SCANS, placed):
+        grid = Grid.covering(scans, 0.1)
+        p = counted_map(scans, grid).p_wall
+        doubt.append(int((p > 0.5).sum()))
+    assert doubt[1] < 0.8 * doubt[0]
+    assert len(fields) > 5
+    assert grids[-1] == Grid.covering(placed, 0.1) == found.engine._result.document.grid
+
+
+def test_the_same_log_gives_the_same_bits_again(found):
+    again = Heard(opened_log(SCANS, "raw.log"))
+    field = again.infer(FEW, "run")
+    assert np.array_equal(again.engine._locating.placed.scans.poses, found.engine._locating.placed.scans.poses)
+    assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
+
+
+def test_what_was_inferred_is_kept_and_told_to_the_next_worker(found):
+    known = found.all("trajectory")[0]["found"]
+    heard = Heard(LOG)
+    heard.engine.take(Remember(known.poses, known.angles_rad))
+    field = heard.infer(FEW, "run")
+    assert heard.all("stage") == []
+    assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
+    live = heard.infer(replace(FEW, prior=0.3))
+    assert live[0]["method"] == "gibbs"
+    logged = heard.infer(replace(FEW, poses="logged"))
+    assert heard.engine._result.document.grid == LOG.document.grid
+    assert logged[1]["p"].shape == LOG.document.grid.shape
+    heard.infer(FEW, "clear")
+    assert heard.all("trajectory")[-1]["found"] is None
+    assert heard.last("field")[0]["method"] == "counts"
+
+
+def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of_its_scans(found):
+    heard = Heard(LOG)
+    coarse = replace(with_resolution(LOG.document, 0.2), scans_used=40, sweeps=3)
+    header, buffers = heard.infer(coarse, "coarse")
+    assert header["method"] == "counts"  # nobody knows yet where the robot was
+    raw = Grid.covering(SCANS, 0.2)
+    assert coarse.grid == raw
+    assert np.abs(buffers["p"] / 255 - counted_map(SCANS.select(slice(40)), raw).p_wall).max() <= 0.5 / 255 + 1e-9
+    known = found.all("trajectory")[0]["found"]
+    heard.engine.take(Remember(known.poses, known.angles_rad))
+    placed = heard.engine._locating.placed.scans
+    grid = Grid.covering(placed, 0.2)
+    assert grid != raw
+    for mode, method in (("coarse", "hits"), ("live", "gibbs")):
+        header, buffers = heard.infer(coarse, mode)
+        result = heard.engine._result
+        assert header["method"] == result.method == method
+        assert heard.last("grid")[0]["grid"] == grid == result.document.grid
+        assert buffers["p"].shape == grid.shape
+        assert len(result.scene.used_scans) == 40
+        assert np.array_equal(result.scene.scans.poses, placed.poses)
+    beams = 40 * len(placed.angles_rad)
+    assert result.scene.problem.table.n_beams == beams < placed.ranges_m.size
+
+
+@pytest.mark.parametrize("stage", ["front end", "loops", "aligned"])
+def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
+    heard = Heard(LOG)
+    heard.engine.take(Infer(1, FEW, "run"))
+    while not any(header["name"] == stage for header in heard.all("stage")):
+        heard.engine.advance()
+    heard.engine.take(ShowScan(5))
+    assert heard.last("scan")[0]["index"] == 5
+    heard.engine.take(Cancel())
+    assert not heard.engine.busy
+    assert heard.reports[-1].header["type"] == "finished"
+    assert heard.last("field")[0]["method"] == "counts"
+    TrajectoryJob._last.join(20)
+    assert not TrajectoryJob._last.is_alive()
+    assert heard.engine._locating.placed is None
+
+
+def test_another_job_takes_the_place_of_the_inference():
+    heard = Heard(LOG)
+    heard.engine.take(Infer(1, FEW, "run"))
+    heard.engine.advance()
+    field = heard.infer(replace(FEW, poses="logged"))
+    assert field[0]["method"] == "gibbs"
+
+
+def test_trouble_of_the_inference_is_reported():
+    blind = replace(SCANS, ranges_m=np.full_like(SCANS.ranges_m, np.inf))
+    log = opened_log(blind, "blind.log")
+    heard = Heard(log)
+    heard.engine.take(Infer(1, replace(log.document, poses="odometry"), "run"))
+    while heard.engine.busy:
+        heard.engine.advance()
+    assert "no scan has a single hit" in heard.last("failed")[0]["text"]
+
+
+def test_scans_stay_in_the_order_of_the_log():
+    shuffled = np.random.default_rng(3).permutation(len(SCANS))
+    scans = SCANS.select(shuffled)
+    job = TrajectoryJob(scans, LOG.document.grid)
+    looks = [look for look in job.looks() if look is not None]
+    last = along(scans, job.found)
+    assert np.array_equal(in_time(scans), np.argsort(scans.stamps_s))
+    assert np.array_equal(last.stamps_s, scans.stamps_s)
+    error = off(last.poses[np.argsort(shuffled)], TRUTH)
+    assert np.hypot(error[:, 0], error[:, 1]).max() < 0.05
+    assert np.array_equal(looks[-1].scans.poses, last.poses)
+
+
+def test_the_map_only_grows_and_on_the_same_lattice():
+    grid = LOG.document.grid
+    assert grown(grid, SCANS) == grid
+    away = SCANS.moved_to(SCANS.poses + np.array([-3.33, 0.0, 0.0]))
+    larger = grown(grid, away)
+    x0, x1, y0, y1 = larger.extent_m
+    assert x0 < grid.extent_m[0]
+    assert x1 == pytest.approx(grid.extent_m[1])
+    assert (y0, y1) == pytest.approx(grid.extent_m[2:])
+    assert (grid.origin[0] - x0) / 0.1 == pytest.approx(round((grid.origin[0] - x0) / 0.1))
+    assert counted_map(away, larger).observed.sum() > 1000
+    many = SCANS.select(np.arange(2000) % len(SCANS))
+    assert len(thinned(many)) == MOST_SCANS
+
+
+def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_worker():
+    acted = Acted(LOG.document)
+    acted.act("hello")
+    acted.act("run")
+    grid = Grid((30, 40), 0.1, (-1.0, 2.0))
+    acted.hear("grid", acted.session.generation, grid=grid)
+    assert acted.state["document"]["grid"]["shape"] == [30, 40]
+    assert not acted.state["can_undo"]
+    known = Remember(np.zeros((2, 3)), np.zeros(4))
+    acted.hear("trajectory", acted.session.generation, found=known)
+    acted.session.worker_lost()
+    before = len(acted.tasks)
+    acted.hear("ready", None)
+    kinds = [type(task) for task in acted.tasks[before:]]
+    assert kinds == [Remember, Infer]
+    assert acted.inferred[-1].mode == "run"  # it was under way
+    acted.act("set", patch={"poses": "logged"})
+    assert acted.inferred[-1].document.poses == "logged"
+    acted.act("undo")
+    assert acted.inferred[-1].document.poses == "odometry"
+
+
+def test_poses_are_a_setting_of_logs_alone():
+    acted = Acted()
+    acted.act("hello")
+    acted.act("set", patch={"poses": "odometry"})
+    assert "there is no log" in acted.text
+    acted = Acted(LOG.document)
+    acted.act("hello")
+    acted.act("set", patch={"pose_sigma": 0.5})
+    assert "pose_sigma cannot be changed" in acted.text
+    assert parse_document(tutorial_document().to_json()).poses == "logged"
+
+
+def test_a_link_to_a_log_that_was_inferred_fits_the_log_as_it_is_opened():
+    inferred = replace(LOG.document.on_grid(Grid((30, 40), 0.1)), sweeps=77)
+    brought = parse_document({**inferred.to_json(), "walls": ""})
+    assert adopted(LOG.document, brought).sweeps == 77
+    assert adopted(LOG.document, brought).grid == LOG.document.grid
+    as_logged = [replace(document, poses="logged") for document in (LOG.document, brought)]
+    with pytest.raises(Refused):
+        adopted(*as_logged)

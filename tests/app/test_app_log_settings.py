@@ -1,0 +1,231 @@
+"""A log on cells of any size, from the first of its scans: the session, the worker, and the coarse map of a drag."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from acted_engine import Heard
+from acted_session import Acted
+from building_log import ANGLES, room_scans
+
+import bayesmap as bm
+from bayesmap.app.document import Refused, Source
+from bayesmap.app.hit_counts import HitCounts, coarse_map
+from bayesmap.app.messages import check
+from bayesmap.app.opened import opened_log
+from bayesmap.app.opened_log import OpenedLog, first_beams
+from bayesmap.app.parsing import parse_document
+from bayesmap.app.scanning import hits
+from bayesmap.app.tasks import ShowScan, View
+from bayesmap.space.grid import Grid
+
+
+@pytest.fixture(scope="module")
+def log():
+    return opened_log(room_scans(), "room.log")
+
+
+@pytest.fixture
+def acted(log):
+    found = Acted(log.document)
+    found.picture()
+    return found
+
+
+# The session
+
+
+def test_another_size_of_cells_covers_the_same_place_and_can_be_undone(acted, log):
+    acted.act("set", patch={"resolution": 0.2})
+    assert acted.session.document.grid == Grid.covering(log.scans, 0.2)
+    assert acted.inferred[-1].document.grid.resolution == 0.2
+    acted.picture()
+    acted.act("set", patch={"resolution": 0.1})
+    assert acted.session.document == log.document  # it does not depend on the way there
+    acted.picture()
+    acted.act("undo")
+    assert acted.session.document.grid.resolution == 0.2
+
+
+def test_cells_that_are_too_small_are_refused_with_the_least_size(acted, log):
+    acted.act("set", patch={"resolution": 0.02})
+    if max(Grid.covering(log.scans, 0.02).shape) <= 1000:
+        huge = replace(log.document.source, bounds=((0.0, 0.0), (200.0, 10.0)))
+        acted = Acted(replace(log.document, source=huge))
+        acted.act("set", patch={"resolution": 0.1})
+    assert "more than 1000 a side" in acted.text
+    assert "give at least 0.200 m" in acted.text
+    assert acted.session.document.grid.resolution == 0.1
+
+
+@pytest.mark.parametrize("kind", ["simulation", "run"])
+def test_only_a_log_has_these_settings(kind, log):
+    acted = Acted(None if kind == "simulation" else replace(log.document, source=Source("run", "run.nc", 12)))
+    for patch in ({"resolution": 0.2}, {"scans_used": 3}):
+        before = acted.session.document
+        acted.act("set", patch=patch)
+        assert "only" in acted.text
+        assert acted.session.document is before
+
+
+def test_a_drag_along_the_log_is_coarse_and_one_step_and_letting_go_samples(acted, log):
+    for n in (9, 6, 4):
+        acted.act("set", patch={"scans_used": n}, drag=5, coarse=True)
+        acted.picture()
+    assert [task.mode for task in acted.inferred[-3:]] == ["coarse"] * 3
+    assert acted.inferred[-1].scan == 3  # the last of those used is shown
+    acted.act("set", patch={"scans_used": 4}, drag=5)
+    assert acted.inferred[-1].mode == "live"  # though the document is the same
+    assert acted.inferred[-1].document.scans_used == 4
+    acted.picture()
+    asked = len(acted.inferred)
+    acted.act("set", patch={"scans_used": 4}, drag=5)
+    assert len(acted.inferred) == asked  # once
+    acted.act("undo")
+    assert acted.session.document == log.document
+    acted.picture()
+    acted.act("redo")
+    assert acted.session.document.scans_used == 4
+
+
+def test_all_scans_is_no_setting(acted, log):
+    acted.act("set", patch={"scans_used": 12})
+    assert acted.session.document == log.document
+    acted.act("set", patch={"scans_used": None})
+    assert acted.session.document == log.document
+
+
+def test_moves_that_wait_are_merged_and_the_last_one_decides(acted):
+    acted.act("set", patch={"scans_used": 9}, drag=5, coarse=True)
+    acted.act("set", patch={"scans_used": 7}, drag=5, coarse=True)  # waits for the first picture
+    acted.act("set", patch={"scans_used": 5}, drag=5)
+    acted.picture()
+    assert [(t.mode, t.document.scans_used) for t in acted.inferred[-2:]] == [("coarse", 9), ("live", 5)]
+
+
+def test_a_link_to_the_same_log_takes_both_along(acted, log):
+    linked = replace(log.document, scans_used=5, grid=Grid.covering(log.scans, 0.2)).to_json()
+    assert parse_document(linked).scans_used == 5
+    acted.act("hello", document={**linked, "walls": ""})
+    assert acted.session.document.scans_used == 5
+    assert acted.session.document.grid == Grid.covering(log.scans, 0.2)
+    strange = {**linked, "grid": {**linked["grid"], "origin": [0.0, 0.0]}}
+    acted.act("hello", document={**strange, "walls": ""})
+    assert "the link shows" in acted.text
+
+
+@pytest.mark.parametrize("patch", [{"scans_used": 0}, {"scans_used": 1.5}, {"resolution": 0}, {"resolution": "fine"}])
+def test_what_is_no_number_of_scans_and_no_size_is_refused(patch):
+    with pytest.raises(Refused):
+        check({"type": "set", "seq": 1, "patch": patch})
+
+
+# The worker
+
+
+def test_the_posterior_of_the_first_scans_is_that_of_a_log_of_them(log):
+    document = replace(log.document, scans_used=5, sweeps=15, grid=Grid.covering(log.scans, 0.2))
+    heard = Heard(log)
+    field = heard.infer(document)
+    alone = OpenedLog(log.document, log.scans.select(slice(5)))  # on the cells of the whole log
+    expected = Heard(alone).infer(replace(document, scans_used=None))
+    np.testing.assert_array_equal(field[1]["p"], expected[1]["p"])
+    every = heard.infer(replace(document, scans_used=None))
+    assert (every[1]["p"] != field[1]["p"]).any()
+    surfaces = replace(document, cells="surface", sweeps=3)
+    found, lone = heard.infer(surfaces), Heard(alone).infer(replace(surfaces, scans_used=None))
+    np.testing.assert_array_equal(found[1]["p"], lone[1]["p"])
+    heard.ask(ShowScan(11))  # a scan that is not used can still be looked at
+    assert heard.last("scan")[0]["index"] == 11
+
+
+def test_first_beams_are_those_of_the_first_scans(log):
+    whole, some = log.scene(log.document), log.scene(replace(log.document, scans_used=3))
+    table = some.problem.table
+    assert table.n_beams == 3 * len(ANGLES)
+    walls = np.random.default_rng(0).random(table.grid.shape) < 0.1
+    np.testing.assert_array_equal(
+        table.beam_log_likelihoods(walls), whole.problem.table.beam_log_likelihoods(walls)[: table.n_beams]
+    )
+    assert first_beams(whole.problem.table, 0).n_incidences == 0
+
+
+def plain_counts(scans, grid):
+    """Hits and passes of each cell by walking along every beam in steps of a millimetre."""
+    found = np.zeros((2, grid.n_cells), dtype=int)
+    for pose, ranges in zip(scans.poses, scans.ranges_m, strict=True):
+        for angle, reading in zip(scans.angles_rad + pose[2], ranges, strict=True):
+            if not np.isfinite(reading):
+                continue  # what came back from nothing is not counted
+            t = np.append(np.arange(0, reading, 1e-3), reading)
+            xy = pose[:2] + t[:, None] * [np.cos(angle), np.sin(angle)]
+            at = np.floor(grid.to_cells(xy)).astype(int)
+            inside = ((at >= 0) & (at < grid.shape)).all(axis=1)
+            cells = at[inside, 0] * grid.shape[1] + at[inside, 1]
+            assert inside[-1]
+            found[0, cells[-1]] += 1
+            found[1, np.setdiff1d(cells, cells[-1:])] += 1
+    return found
+
+
+def test_counts_are_those_of_a_plain_walk_whatever_the_way_to_them(log):
+    grid = Grid.covering(log.scans, 0.2)
+    scene = log.scene(replace(log.document, grid=grid))
+    counts = HitCounts(scene.scans, scene.problem.table)
+    for n in (3, 12, 1, 7):  # on and back
+        found, expected = counts.first(n), plain_counts(log.scans.select(slice(n)), grid)
+        np.testing.assert_array_equal(found[0], expected[0])
+        # a beam through a corner, or by less than a step through a cell, is all that may differ
+        off = np.abs(found[1] - expected[1])
+        assert off.sum() <= 0.05 * expected[1].sum()
+    np.testing.assert_array_equal(counts.first(None), counts.first(12))
+    assert counts.first(1)[0].sum() == hits(scene)[0].sum()
+
+
+@pytest.mark.parametrize("cells", ["binary", "reflectivity", "surface"])
+def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
+    document = replace(log.document, cells=cells, scans_used=6)
+    heard = Heard(log)
+    header, buffers = heard.infer(document, "coarse")
+    assert (header["method"], header["approximate"], header["sweeps"]) == ("hits", True, 0)
+    assert len(heard.all("field")) == 1
+    assert header["quantity"]["kind"] == cells
+    scene = log.scene(replace(document, scans_used=None))
+    counts = HitCounts(scene.scans, scene.problem.table).first(6)
+    prior = {"binary": bm.Independent(0.2), "reflectivity": bm.Beta(), "surface": bm.Surface()}[cells]
+    np.testing.assert_array_equal(buffers["p"].ravel(), np.rint(255 * coarse_map(counts, prior, 0.2)))
+    observed = np.unpackbits(buffers["observed"], count=document.grid.n_cells).astype(bool)
+    np.testing.assert_array_equal(observed, counts.any(axis=0))
+    p = buffers["p"].ravel() / 255
+    often = counts[0] > 4
+    assert p[often].mean() > p[observed & ~often].mean() + 0.3
+    heard.ask(View("draw", client=1))
+    assert heard.last("field")[0]["layer"] == "mean"  # there are no draws
+
+
+def test_surfaces_of_a_log_are_counted_first_then_watched_while_the_sensor_is_fitted(log):
+    heard = Heard(log)
+    heard.engine._showing.due = lambda: True
+    heard.infer(replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2)), "run")
+    methods = [f["method"] for f in heard.all("field")]
+    assert methods == ["hits"] + ["pilot"] * 40 + ["gibbs"] * (len(methods) - 41)
+    pilots = [f for f in heard.all("field") if f["method"] == "pilot"]
+    assert [f["sweeps"] for f in pilots] == list(range(1, 41))
+    assert all(f["approximate"] and f["total"] == 40 for f in pilots)
+
+
+def test_the_same_readings_are_fitted_once(log):
+    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
+    heard = Heard(log)
+    heard.engine._showing.due = lambda: True
+    _, first = heard.infer(document)
+    heard.reports.clear()
+    _, again = heard.infer(replace(document, sweeps=5), "run")
+    assert [f["method"] for f in heard.all("field") if f["method"] != "gibbs"] == ["hits"]
+    heard.reports.clear()
+    _, last = heard.infer(document)
+    np.testing.assert_array_equal(last["p"], first["p"])
+    heard.reports.clear()
+    heard.infer(replace(document, seed=1))
+    assert "pilot" in [f["method"] for f in heard.all("field")]
+    assert again["p"].shape == first["p"].shape

@@ -1,0 +1,125 @@
+"""Draws over the mean: one after the other, without end, and only one by one for who wants nothing to move."""
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from building_log import room_run
+from page_driver import act, served, settled, snapshot, until
+
+import bayesmap as bm
+
+OVER = "s.over && s.painted.layer === 'draw'"
+
+
+@pytest.fixture(scope="module")
+def surfaces(tmp_path_factory, browser):
+    run = room_run(bm.Surface(), draws=6)
+    path = tmp_path_factory.mktemp("flicker") / "run.nc"
+    run.save(path)
+    with served(path) as (address, _):
+        yield run, address
+
+
+def over(page):
+    page.get_by_role("checkbox", name="Draws over the mean").check()
+    until(page, OVER)
+
+
+def opacity(page):
+    """Of the layer of hypotheses, where it is not clear: (cells x, cells y) by the pixel at each centre."""
+    return np.array(
+        page.evaluate(
+            """() => {
+              const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas.hypothesis");
+              const context = canvas.getContext("2d");
+              const box = canvas.getBoundingClientRect();
+              const [nx, ny] = bayesmap.snapshot().document.grid.shape;
+              const rows = [];
+              for (let x = 0; x < nx; x++) {
+                rows.push([]);
+                for (let y = 0; y < ny; y++) {
+                  const at = bayesmap.cellToClient(x, y);
+                  rows[x].push(context.getImageData(at.x - box.x, at.y - box.y, 1, 1).data[3]);
+                }
+              }
+              return rows;
+            }"""
+        )
+    )
+
+
+def test_a_draw_lies_over_the_mean(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address, device_scale_factor=1)
+    over(page)
+    page.wait_for_timeout(100)
+    shown = snapshot(page)
+    draw = run.map_of(0, shown["painted"]["draw"])
+    expected = np.where(shown["observed"] > 0, np.rint(255 * draw), 0)
+    assert np.abs(opacity(page) - expected).max() <= 2
+    playwright.expect(page.locator(".chips")).to_contain_text("over the mean")
+    playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("this draw")
+    before = shown["layers"]["hypothesis"]
+    page.get_by_role("checkbox", name="Draws over the mean").uncheck()
+    until(page, "!s.over && s.layers.hypothesis > argument", before)
+    assert opacity(page).max() == 0
+
+
+def test_they_are_played_without_end(open_page, surfaces):
+    page = open_page(surfaces[1])
+    over(page)
+    page.get_by_role("combobox", name="Speed").select_option("30")
+    page.evaluate(
+        """() => {
+          window.seen = [];
+          const look = () => {
+            const { draw } = bayesmap.snapshot().painted;
+            if (window.seen.at(-1) !== draw) window.seen.push(draw);
+            requestAnimationFrame(look);
+          };
+          look();
+        }"""
+    )
+    page.get_by_role("button", name="Play the draws").click()
+    until(page, "window.seen.length > 14")  # six draws, more than twice over
+    assert set(page.evaluate("window.seen")) == set(range(6))
+    assert snapshot(page)["over"]
+    page.get_by_role("button", name="Pause the draws").click()
+    page.wait_for_timeout(200)
+    still = snapshot(page)["painted"]["draw"]
+    page.wait_for_timeout(300)
+    assert snapshot(page)["painted"]["draw"] == still
+
+
+def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, surfaces):
+    page = open_page(surfaces[1], reduced_motion="reduce")
+    over(page)
+    playwright.expect(page.get_by_role("button", name="Play the draws")).to_have_count(0)
+    playwright.expect(page.get_by_role("combobox", name="Speed")).to_be_disabled()
+    first = snapshot(page)["painted"]["draw"]
+    for step in (1, 2):
+        page.get_by_role("button", name="Next draw").click()
+        until(page, "s.painted.draw === argument", (first + step) % 6)
+    page.wait_for_timeout(400)
+    assert snapshot(page)["painted"]["draw"] == (first + 2) % 6
+
+
+def test_a_page_that_begins_at_a_draw_fetches_the_mean(open_page, surfaces):
+    page = open_page(surfaces[1])
+    page.get_by_role("radio", name="One draw").check(force=True)
+    until(page, "s.painted.layer === 'draw'")
+    over(page)
+    assert snapshot(page)["view"]["layer"] == "draw"
+
+
+def test_it_works_on_a_live_posterior_with_kept_draws(page):
+    settled(page)
+    playwright.expect(page.get_by_role("checkbox", name="Draws over the mean")).to_be_hidden()
+    act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
+    until(page, "!s.running && s.draws.count > 1")
+    over(page)
+    page.get_by_role("button", name="Play the draws").click()
+    first = snapshot(page)["painted"]["draw"]
+    until(page, "s.over && s.painted.draw !== argument", first)
+    page.get_by_role("radio", name="Mean").check(force=True)
+    until(page, "!s.over && s.painted.layer === 'mean'")

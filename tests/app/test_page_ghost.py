@@ -1,0 +1,142 @@
+"""The ghost on the page: dragged, turned, moved by keys; its fan is the library's, and a real scan lies beside it."""
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from building_log import ANGLES, room_run
+from page_driver import centre, document, press_and_drag, served, settled, snapshot, until
+
+import bayesmap as bm
+from bayesmap.posterior.predicted_scan import ScanPredictor
+from bayesmap.posterior.predictor import predictor_of
+from bayesmap.sensors.model import RangeLimits
+
+READ = """() => {
+  const f = bayesmap.snapshot().ghost.fan;
+  const texts = (a) => [...a].map(String);
+  return {...f, low: texts(f.low), median: texts(f.median), high: texts(f.high), angles: [...f.angles],
+          near: f.near && f.near.index};
+}"""
+HERE = "s.ghost.fan && ['x', 'y', 'yaw'].every((k) => s.ghost.fan[k] === s.ghost.pose[k])"
+
+
+@pytest.fixture(scope="module")
+def surfaces(tmp_path_factory, browser):
+    run = room_run(bm.Surface(), draws=10)
+    path = tmp_path_factory.mktemp("ghost") / "run.nc"
+    run.save(path)
+    with served(path) as (address, _):
+        yield run, address
+
+
+def fan(page):
+    until(page, HERE)
+    found = page.evaluate(READ)
+    return {
+        **found,
+        **{
+            name: np.array([float(v.replace("Infinity", "inf")) for v in found[name]])
+            for name in ("low", "median", "high")
+        },
+    }
+
+
+def take(page):
+    page.get_by_role("radio", name="Ghost").check(force=True)
+
+
+def test_the_ghost_begins_where_the_scan_on_show_was_taken(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    take(page)
+    found = fan(page)
+    assert [found["x"], found["y"], found["yaw"]] == pytest.approx(run.posterior.scans.poses[0].tolist())
+    assert found["near"] == 0
+    playwright.expect(page.locator(".ghosted")).to_contain_text("hits of scan 1, taken 0 cm from here")
+    playwright.expect(page.locator(".ghosted")).to_contain_text("by 20 draws")
+
+
+def test_a_dragged_ghost_shows_the_library_s_prediction(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    take(page)
+    press_and_drag(page, [(5, 10), (9, 12), (12, 14)], steps=6)
+    found = fan(page)
+    pose = [found["x"], found["y"], found["yaw"]]
+    # taken hold of where it stood, it moved as far as the hand: 7 and 4 cells
+    assert pose[:2] == pytest.approx(run.posterior.scans.poses[0, :2] + [1.4, 0.8], abs=0.02)
+    scans = run.posterior.scans
+    law = ScanPredictor.of(predictor_of(run.posterior), RangeLimits(scans.min_range_m, scans.max_range_m))
+    expected = law.quantiles(pose, ANGLES)
+    for i, name in enumerate(("low", "median", "high")):
+        np.testing.assert_allclose(found[name], expected[:, i], atol=2e-3)
+    assert snapshot(page)["seq"]["sent"] == snapshot(page)["seq"]["confirmed"]  # it changes nothing
+    assert not snapshot(page)["sensors"]
+
+
+def test_its_handle_turns_it_and_keys_move_it(open_page, surfaces):
+    page = open_page(surfaces[1])
+    take(page)
+    page.mouse.click(*centre(page, 12, 12))
+    until(page, f"{HERE} && Math.abs(s.ghost.pose.x - 2.5) < 0.02")
+    before = snapshot(page)["ghost"]["pose"]
+    x, y = centre(page, 12, 12)
+    reach = 2.6 * min(13, max(7, 0.42 * snapshot(page)["transform"]["scale"]))
+    page.mouse.move(x + reach * np.cos(before["yaw"]), y - reach * np.sin(before["yaw"]))
+    page.mouse.down()
+    page.mouse.move(x, y - 60, steps=4)
+    page.mouse.up()
+    until(page, "Math.abs(s.ghost.pose.yaw - Math.PI / 2) < 0.05")
+    after = snapshot(page)["ghost"]["pose"]
+    assert (after["x"], after["y"]) == (before["x"], before["y"])
+    page.keyboard.press("ArrowRight")
+    until(page, "Math.abs(s.ghost.pose.x - argument) < 1e-9", after["x"] + 0.2)
+    page.keyboard.press("]")
+    until(page, "s.ghost.pose.yaw < argument", after["yaw"])
+    page.get_by_role("spinbutton", name="Ghost yaw").fill("90")
+    page.get_by_role("spinbutton", name="Ghost yaw").press("Tab")
+    until(page, f"{HERE} && Math.abs(s.ghost.pose.yaw - Math.PI / 2) < 1e-6")
+
+
+def test_a_place_where_no_scan_was_taken_has_a_fan_alone(open_page, surfaces):
+    page = open_page(surfaces[1])
+    take(page)
+    page.mouse.click(*centre(page, 30, 24))
+    found = fan(page)
+    assert found["near"] is None
+    playwright.expect(page.locator(".ghosted")).not_to_contain_text("hits of scan")
+
+
+def test_another_tool_puts_the_ghost_away(open_page, surfaces):
+    page = open_page(surfaces[1])
+    take(page)
+    fan(page)
+    with_it = page.locator("canvas.ghost").screenshot()
+    page.get_by_role("radio", name="Pan").check(force=True)
+    until(page, "!s.ghost.held")
+    page.wait_for_timeout(50)
+    assert page.locator("canvas.ghost").screenshot() != with_it
+    playwright.expect(page.locator(".ghosted")).to_be_hidden()
+
+
+def test_it_follows_a_live_posterior(page):
+    settled(page)
+    take(page)
+    first = fan(page)
+    assert first["draws"] == 32
+    generation = snapshot(page)["generation"]
+    page.get_by_role("spinbutton", name="Seed").fill("7")
+    page.get_by_role("spinbutton", name="Seed").press("Tab")
+    until(page, "s.ghost.fan.generation > argument && s.ghost.fan.draws > 0", generation)
+    assert fan(page)["draws"] > 0
+
+
+def test_without_a_posterior_the_page_says_so(open_page, server):
+    page = open_page(server, document())
+    settled(page)
+    page.get_by_role("button", name="Clear inference").click()
+    settled_by = "s.painted.method === 'none' && s.painted.generation === s.generation"
+    until(page, settled_by)
+    take(page)
+    until(page, "s.ghost.trouble")
+    playwright.expect(page.locator(".ghosted")).to_contain_text("run inference first")

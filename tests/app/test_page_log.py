@@ -1,0 +1,137 @@
+"""A log on the page: a scrubber along it, and cells of another size."""
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from building_log import room_scans, write_room_log
+from page_driver import act, fragment, served, snapshot, until
+
+import bayesmap as bm
+
+SAMPLED = (
+    "s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation && !s.painted.approximate "
+    "&& s.painted.sweeps >= s.document.sweeps"
+)
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory, browser):
+    with served(write_room_log(tmp_path_factory.mktemp("log") / "room.log")) as (address, _):
+        yield address
+
+
+@pytest.fixture
+def page(open_page, log):
+    opened = open_page(log)
+    if snapshot(opened)["document"]["sweeps"] != 20:
+        act(opened, lambda: opened.get_by_role("spinbutton", name="Sweeps").fill("20") or opened.keyboard.press("Tab"))
+    until(opened, SAMPLED)
+    scrubber(opened).scroll_into_view_if_needed()
+    yield opened
+    while snapshot(opened)["document"].get("scans_used") or snapshot(opened)["document"]["grid"]["resolution"] != 0.1:
+        act(opened, lambda: opened.get_by_role("button", name="Undo").click())
+
+
+def scrubber(page):
+    return page.get_by_role("slider", name="Scans used")
+
+
+def test_dragging_is_coarse_and_letting_go_samples(page):
+    whole = snapshot(page)["observed"].sum()
+    box = scrubber(page).bounding_box()
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] - 9, y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] / 2, y, steps=5)
+    until(page, "s.painted.method === 'hits' && s.painted.generation === s.generation && s.document.scans_used < 9")
+    coarse = snapshot(page)
+    assert coarse["painted"]["approximate"]
+    playwright.expect(page.locator(".chips")).to_contain_text("approximate, counts of hits")
+    page.mouse.up()
+    until(page, SAMPLED)
+    after = snapshot(page)
+    used = after["document"]["scans_used"]
+    assert 4 <= used <= 8
+    assert after["painted"]["method"] == "gibbs"
+    assert after["scan"]["index"] == used - 1
+    assert 0 < after["observed"].sum() < whole
+    act(page, lambda: page.get_by_role("button", name="Undo").click())  # the whole drag is one step
+    assert snapshot(page)["document"]["scans_used"] is None
+    playwright.expect(page.get_by_text("all 12 scans")).to_be_visible()
+
+
+def test_fewer_scans_see_less(page):
+    whole = snapshot(page)["observed"].sum()
+    scrubber(page).focus()
+    page.keyboard.press("Home")
+    until(page, f"s.document.scans_used === 1 && {SAMPLED}")
+    assert snapshot(page)["observed"].sum() < whole
+    expected = room_scans().select(slice(1))
+    assert snapshot(page)["scan"]["pose"][:2] == pytest.approx(expected.poses[0, :2], abs=1e-3)
+
+
+def test_scans_after_are_dimmed(page):
+    page.get_by_role("slider", name="Scan number").fill("9")
+    until(page, "s.scan.index === 9")
+    page.wait_for_timeout(100)
+    bright = darkness(page, "canvas.rays")
+    act(page, lambda: scrubber(page).fill("5"))
+    page.get_by_role("slider", name="Scan number").fill("9")
+    until(page, f"s.scan.index === 9 && {SAMPLED}")
+    page.wait_for_timeout(100)
+    assert darkness(page, "canvas.rays") < 0.6 * bright
+
+
+def darkness(page, canvas):
+    """Sum of the opacities of a layer's pixels."""
+    return page.evaluate(
+        """(name) => {
+          const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector(name);
+          const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+          let sum = 0;
+          for (let i = 3; i < data.length; i += 4) sum += data[i];
+          return sum;
+        }""",
+        canvas,
+    )
+
+
+def test_another_size_of_cells_is_another_grid_of_the_same_place(page):
+    sizes = page.get_by_role("combobox", name="Cell size")
+    playwright.expect(sizes).to_have_value("0.1")
+    act(page, lambda: sizes.select_option("0.2"))
+    until(page, SAMPLED)
+    grid = snapshot(page)["document"]["grid"]
+    expected = bm.Grid.covering(room_scans(), 0.2)
+    assert grid["shape"] == list(expected.shape)
+    assert grid["origin"] == pytest.approx(expected.origin)
+    act(page, lambda: page.get_by_role("button", name="Undo").click())
+    playwright.expect(sizes).to_have_value("0.1")
+
+
+def test_a_share_link_holds_both(open_page, page, log):
+    act(page, lambda: page.get_by_role("combobox", name="Cell size").select_option("0.4"))
+    act(page, lambda: scrubber(page).fill("6"))
+    until(page, SAMPLED)
+    linked = snapshot(page)["document"]
+    for _ in range(2):
+        act(page, lambda: page.get_by_role("button", name="Undo").click())
+    other = open_page(log + fragment({**linked, "walls": ""}))
+    until(other, f"s.document.scans_used === 6 && s.document.grid.resolution === 0.4 && {SAMPLED}")
+    assert np.array_equal(snapshot(other)["document"]["grid"]["shape"], linked["grid"]["shape"])
+    act(other, lambda: other.get_by_role("button", name="Undo").click())
+
+
+def test_surfaces_of_a_log_are_painted_while_their_sensor_is_fitted(page):
+    page.evaluate(
+        """() => {
+          window.methods = new Set();
+          const look = () => { window.methods.add(bayesmap.snapshot().painted.method); requestAnimationFrame(look); };
+          look();
+        }"""
+    )
+    act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("surface"))
+    until(page, f"s.painted.quantity.kind === 'surface' && {SAMPLED}")
+    assert {"hits", "pilot", "gibbs"} <= set(page.evaluate("[...window.methods]"))
+    act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("binary"))
+    until(page, SAMPLED)

@@ -1,0 +1,180 @@
+"""A log with raw odometry in the page: Run bends the trajectory and sharpens the map, stage by stage."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from page_driver import act, fragment, pid_of_worker, served, snapshot, until
+
+from bayesmap.space.planar import between
+
+WATCH = """
+() => {
+  window.seen = [];
+  const look = () => {
+    const s = bayesmap.snapshot();
+    const last = window.seen.at(-1);
+    const now = {stage: s.stage?.name ?? "", method: s.painted?.method, status: s.status.text,
+                 trajectory: s.overlay?.trajectory, overlays: s.layers.overlay};
+    if (!last || last.stage !== now.stage || last.status !== now.status) window.seen.push(now);
+    if (!window.enough) requestAnimationFrame(look);
+  };
+  look();
+}
+"""
+WORDS = {
+    "front end": "Matching scan to scan",
+    "loops": "Closing loops",
+    "aligned": "Aligning the key scans",
+    "placing": "Placing the other scans",
+}
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    """A hundred scans of a small building, with raw odometry that drifts."""
+    path = tmp_path_factory.mktemp("page") / "raw.log"
+    size = ["--size", "14x10", "--scans", "110", "--angles", "120", "--max-range", "10"]
+    raw = ["--odometry", "typical,drift_rad_per_m=0.04"]
+    command = [sys.executable, "-m", "bayesmap", "simulate", "--world", "building", *size, *raw, "-o", path]
+    subprocess.run(command, check=True, capture_output=True)
+    return path
+
+
+@pytest.fixture
+def raw(open_page, log):
+    """The page of such a log, and the server's process."""
+    with served(log) as (address, process):
+        yield open_page(address), process, address
+
+
+def run(page):
+    page.get_by_role("button", name="Run", exact=True).click()
+
+
+def done(page):
+    until(page, "s.painted.method === 'gibbs' && !s.running && s.painted.sweeps >= s.document.sweeps")
+    return snapshot(page)
+
+
+def few_sweeps(page):
+    act(page, lambda: page.get_by_label("Sweeps, number").fill("5") or page.keyboard.press("Tab"))
+
+
+def off_m(page, log):
+    """How far the pose of the last scan is from the truth, as seen from the first scan's."""
+    poses = []
+    for number in ("0", "109"):
+        page.get_by_role("slider", name="Scan number").fill(number)
+        until(page, "s.scan.index === argument", int(number))
+        poses.append(snapshot(page)["scan"]["pose"][:3])
+    rows = np.loadtxt(log.with_name("raw-truth.tum"))[[0, -1]]
+    truth = np.column_stack([rows[:, 1:3], 2 * np.arctan2(rows[:, 6], rows[:, 7])])
+    (seen,), (true,) = between(*map(np.atleast_2d, poses)), between(truth[:1], truth[1:])
+    return np.hypot(seen[0] - true[0], seen[1] - true[1])
+
+
+def test_run_shows_every_stage_and_ends_where_the_robot_was(raw, log):
+    page, _, _ = raw
+    poses = page.get_by_label("Poses", exact=True)
+    assert poses.input_value() == "odometry"
+    playwright.expect(page.get_by_text("Run infers where the robot was.")).to_be_visible()
+    few_sweeps(page)
+    before = snapshot(page)
+    assert off_m(page, log) > 0.5
+    assert before["painted"]["method"] == "counts"
+    assert before["overlay"]["trajectory"] == 110
+    page.evaluate(WATCH)
+    run(page)
+    after = done(page)
+    seen = page.evaluate("() => { window.enough = true; return window.seen; }")
+    stages = [one["stage"] for one in seen]
+    for name, words in WORDS.items():
+        assert name in stages, stages
+        assert any(one["stage"] == name and one["status"] == words for one in seen)
+    assert stages.index("front end") < stages.index("loops") < stages.index("aligned") < stages.index("placing")
+    assert seen[-1]["overlays"] > seen[0]["overlays"] + 5
+    assert after["status"]["text"].startswith("Trajectory inferred: odometry was off by up to")
+    assert off_m(page, log) < 0.1
+    assert after["draws"]["count"] == 5
+    # Once more: what was inferred is known.
+    page.evaluate("() => { window.enough = false; }")
+    page.evaluate(WATCH)
+    run(page)
+    again = done(page)
+    assert {one["stage"] for one in page.evaluate("() => window.seen")} <= {"", "placing"}
+    assert np.array_equal(again["probability"], after["probability"])
+
+
+def test_cancel_is_prompt_and_what_there_is_stays(raw):
+    page, _, _ = raw
+    few_sweeps(page)
+    run(page)
+    until(page, "s.stage?.name === 'front end' && s.stage.done > 5")
+    page.get_by_role("button", name="Cancel").click()
+    until(page, "!s.running && s.seq.confirmed === s.seq.sent")
+    shown = snapshot(page)
+    assert shown["painted"]["method"] == "counts"
+    page.wait_for_timeout(500)
+    assert snapshot(page)["layers"]["overlay"] == shown["layers"]["overlay"]  # and nothing moves on
+    run(page)
+    assert done(page)["status"]["text"].startswith("Trajectory inferred")
+
+
+def test_a_worker_that_is_killed_on_the_way_begins_anew(raw):
+    page, process, _ = raw
+    few_sweeps(page)
+    run(page)
+    until(page, "s.stage?.name === 'front end'")
+    os.kill(pid_of_worker(process), signal.SIGKILL)
+    page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
+    first = done(page)
+    # Killed afterwards, the next one knows the trajectory.
+    page.evaluate(WATCH)
+    os.kill(pid_of_worker(process), signal.SIGKILL)
+    page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
+    until(page, "s.worker === 'ready' && s.generation > argument", first["generation"])
+    until(page, "s.painted.method === 'gibbs' && s.painted.generation === s.generation")
+    assert "front end" not in {one["stage"] for one in page.evaluate("() => window.seen")}
+    assert snapshot(page)["document"]["grid"] == first["document"]["grid"]
+
+
+CONFIRMED = "s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation"
+
+
+def test_the_choice_is_undone_and_travels_in_links(raw):
+    page, _, _ = raw
+    few_sweeps(page)
+    run(page)
+    inferred = done(page)
+    poses = page.get_by_label("Poses", exact=True)
+    poses.select_option("logged")
+    until(page, f"s.document.poses === 'logged' && {CONFIRMED}")
+    logged = snapshot(page)
+    assert logged["document"]["grid"] != inferred["document"]["grid"]
+    assert logged["probability"].shape == tuple(logged["document"]["grid"]["shape"])
+    page.get_by_role("button", name="Undo").click()
+    until(page, f"s.document.poses === 'odometry' && {CONFIRMED}")
+    assert snapshot(page)["document"]["grid"] == inferred["document"]["grid"]
+    poses.select_option("logged")
+    until(page, f"s.document.poses === 'logged' && {CONFIRMED}")
+    link = fragment({**inferred["document"], "walls": "", "sweeps": 9})
+    page.evaluate("(hash) => { location.hash = hash; }", link)
+    until(page, f"s.document.sweeps === 9 && s.document.poses === 'odometry' && {CONFIRMED}")
+    assert snapshot(page)["document"]["grid"] == inferred["document"]["grid"]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_can_be_read_in_light_and_dark(open_page, log, scheme):
+    from axe_playwright_python.sync_playwright import Axe
+
+    with served(log) as (address, _):
+        page = open_page(address, color_scheme=scheme, bypass_csp=True)
+        run(page)
+        until(page, "s.stage?.name === 'front end'")
+        found = Axe().run(page).response["violations"]
+        assert [rule["id"] for rule in found if rule["impact"] in ("serious", "critical")] == []

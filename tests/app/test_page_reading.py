@@ -1,0 +1,91 @@
+"""The reading under the pointer, in words: along its beam, and across and along the wall."""
+
+import re
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+from building_log import ANGLES, room_run, write_room_log
+from page_driver import served, snapshot, until
+
+import bayesmap as bm
+
+END = """(beam) => {
+  const { scan, document } = bayesmap.snapshot();
+  const { resolution, origin } = document.grid;
+  const angle = scan.pose[2] + scan.angles[beam];
+  const half = (v, axis) => (v - origin[axis]) / resolution - 0.5;
+  const end = [Math.cos, Math.sin].map((f, axis) => half(scan.pose[axis] + scan.ranges[beam] * f(angle), axis));
+  return bayesmap.cellToClient(...end);
+}"""
+
+
+@pytest.fixture(scope="module")
+def surfaces(tmp_path_factory, browser):
+    run = room_run(bm.Surface(), draws=10)
+    path = tmp_path_factory.mktemp("reading") / "run.nc"
+    run.save(path)
+    with served(path) as (address, _):
+        yield run, address
+
+
+def point_at(page, beam):
+    place = page.evaluate(END, beam)
+    page.mouse.move(place["x"], place["y"])
+    until(page, "s.reading.found && s.reading.picked.beam === argument", beam)
+    return snapshot(page)["reading"]["found"]
+
+
+def test_a_reading_is_told_along_its_beam_and_across_and_along_the_wall(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    said = page.locator(".words.reading")
+    playwright.expect(said).to_contain_text("Point at a reading")
+    beam = int(np.argmin(np.abs(run.posterior.scans.poses[0, 2] + ANGLES + np.pi / 2)))
+    found = point_at(page, beam)
+    assert found["range"] == pytest.approx(run.posterior.scans.ranges_m[0, beam])
+    words = said.inner_text()
+    assert f"Beam {beam + 1} of scan 1 read {found['range']:.2f} m" in words
+    side = "shorter" if found["residual"] < 0 else "longer"
+    assert f"{100 * abs(found['residual']):.1f} cm {side} than the predicted median" in words
+    wall = found["wall"]
+    where = "behind" if wall["across_m"] < 0 else "in front of"
+    assert f"{100 * abs(wall['across_m']):.1f} cm {where} the wall" in words
+    assert re.search(rf"{100 * abs(wall['along_m']):.1f} cm to the (left|right) along it", words)
+    assert f"{np.degrees(wall['incidence_rad']):.0f}\u00b0 from its normal" in words
+
+
+def test_it_is_marked_on_the_map_and_forgotten_with_the_scan(open_page, surfaces):
+    page = open_page(surfaces[1])
+    point_at(page, 30)
+    page.wait_for_timeout(100)
+    marked = page.locator("canvas.reading").screenshot()
+    page.get_by_role("slider", name="Scan number").fill("4")
+    until(page, "s.scan.index === 4 && !s.reading.picked")
+    page.wait_for_timeout(100)
+    assert page.locator("canvas.reading").screenshot() != marked
+    playwright.expect(page.locator(".words.reading")).to_contain_text("Point at a reading")
+
+
+def test_far_from_every_beam_nothing_is_picked(open_page, surfaces):
+    page = open_page(surfaces[1])
+    point_at(page, 30)
+    pose = surfaces[0].posterior.scans.poses[0]
+    behind = pose[:2] - 0.7 * np.array([np.cos(pose[2]), np.sin(pose[2])])
+    at = page.evaluate("(p) => bayesmap.cellToClient(p[0] / 0.2 - 0.5, p[1] / 0.2 - 0.5)", behind.tolist())
+    page.mouse.move(at["x"], at["y"])
+    until(page, "!s.reading.picked")
+
+
+def test_a_log_s_readings_are_compared_too_and_walls_have_no_surface(open_page, tmp_path):
+    with served(write_room_log(tmp_path / "room.log")) as (address, _):
+        page = open_page(address)
+        found = point_at(page, 30)
+        assert found["wall"] is None
+        words = page.locator(".words.reading").inner_text()
+        assert "than the predicted median" in words
+        assert "wall" not in words
+
+
+def test_a_drawn_map_has_no_such_panel(page):
+    playwright.expect(page.locator(".words.reading")).to_be_hidden()
