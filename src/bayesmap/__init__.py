@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
     from bayesmap.cells.binary import Independent as Independent
+    from bayesmap.cells.ising import Ising as Ising
+    from bayesmap.cells.pseudo_likelihood import fit_coupling as fit_coupling
     from bayesmap.cells.reflectivity import Beta as Beta
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
@@ -60,6 +62,7 @@ _HOME = {
     "Grid": "bayesmap.space.grid",
     "Independent": "bayesmap.cells.binary",
     "Information": "bayesmap.posterior.information",
+    "Ising": "bayesmap.cells.ising",
     "KnownMap": "bayesmap.localization.known_map",
     "MapWidget": "bayesmap.app.widget",
     "Near": "bayesmap.localization.localize",
@@ -72,6 +75,7 @@ _HOME = {
     "SensorModel": "bayesmap.sensors.model",
     "StudentT": "bayesmap.sensors.noise",
     "Surface": "bayesmap.cells.surface",
+    "fit_coupling": "bayesmap.cells.pseudo_likelihood",
     "infer": "bayesmap.api",
     "load": "bayesmap.result",
     "localize": "bayesmap.localization.localize",

@@ -10,6 +10,7 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.ising import Ising
 from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput, check_count
 from bayesmap.model import Model
@@ -23,8 +24,9 @@ from bayesmap.run.interrupt import stop_on_interrupt
 from bayesmap.run.resuming import RANDOM_STREAMS, check_same, fingerprint
 from bayesmap.run.runner import Job
 from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_sensor
-from bayesmap.samplers.methods import WITHOUT_CHAINS, sampler_of
+from bayesmap.samplers.methods import WITHOUT_CHAINS, sampler_of, sampler_on_walls
 from bayesmap.samplers.problem import trace_walls
 from bayesmap.samplers.progress import Event as Event
 from bayesmap.samplers.progress import Watch
@@ -77,8 +79,9 @@ def infer(
     Args:
         scans: what the sensor reported, and from where.
         grid: the map to infer.
-        prior: decides what a cell's state is: `Independent` (binary walls), `Beta` (reflectivities), `Surface`
-            (reflectivities and surfaces), or a kind of your own (`bayesmap.cells.kind.CellPrior`).
+        prior: decides what a cell's state is: `Independent` (binary walls) or `Ising` (binary walls whose neighbours
+            know of each other), `Beta` (reflectivities), `Surface` (reflectivities and surfaces), or a kind of your own
+            (`bayesmap.cells.kind.CellPrior`).
         sensor: the law of the readings; "fit" fits a `BeamMixture`, and with it the numbers of a `Beta` or `Surface`,
             to the scans themselves.
         method: by default the first that the kind of cells has. Of binary walls: "gibbs" (single cells), "block"
@@ -218,7 +221,14 @@ class Inference:
             sensor = fit_sensor(model, self.device, seed=self.asked.seed, threads=self.threads, watch=watch)
             model = replace(model, sensor=sensor)
             settings["fitted"] = {"sensor": describe(sensor)}
-        fit_seconds = time.perf_counter() - began if self.fitted else 0.0
+        if isinstance(model.cells, Ising) and model.cells.is_fitted:
+            pilot = sampler_on_walls(name)
+            prior = fit_coupling_to_scans(
+                model, pilot, self.device, seed=self.asked.seed, threads=self.threads, watch=watch
+            )
+            model = replace(model, cells=prior)
+            settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
+        fit_seconds = time.perf_counter() - began if "fitted" in settings else 0.0
         settings["threads_used"] = self._threads_used()
         if sampler is None:
             walls = trace_walls(model, self.device, self.threads)

@@ -74,6 +74,8 @@ def test_a_bare_key_holds_for_all_commands_that_have_it(tmp_path):
         ("[infer]\nchains = 2.5\n", "chains must be a whole number, got 2.5"),
         ("[infer]\nstrict = 1\n", "strict must be true or false, got 1"),
         ("[infer]\nprior = true\n", "prior must be a number, got True"),
+        ("[infer]\ncoupling = true\n", "coupling must be a number, or 'fit', got True"),
+        ('[infer]\ncoupling = "some"\n', "coupling: 'some' is neither a number nor 'fit'"),
         ("[infer]\nmethod = 'magic'\n", "method: 'magic' is not one of"),
         ("seed = -1\n", "--seed must be a whole number of 0 or more, got -1"),
         ("[infer\n", "not valid TOML"),

@@ -202,6 +202,26 @@ def test_without_a_terminal_every_method_says_what_it_has_done(office, tmp_path,
     assert told.split(" of ")[0] in call("info", tmp_path / "run" / "run.nc").stdout
 
 
+@pytest.mark.parametrize("coupling", ["0.7", "fit"])
+def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
+    options = ("--cells", "binary", "--coupling", coupling, "--prior", "0.3", "--json")
+    result = call("infer", office, "-o", tmp_path / "run", *short, *options)
+    assert result.exit_code == 0, result.stderr
+    prior = bm.load(tmp_path / "run" / "run.nc").posterior.prior
+    assert isinstance(prior, bm.Ising)
+    assert prior.p_wall == 0.3
+    document = json.loads(result.stdout)
+    about = call("info", tmp_path / "run" / "run.nc").stdout
+    if coupling == "fit":
+        assert document["fitted"]["prior"] == prior.describe()
+        assert f"fitted coupling: {prior.coupling:.3g}" in about
+    else:
+        assert document["prior"] == bm.Ising(0.3, 0.7).describe() == prior.describe()
+        assert "fitted" not in about
+    written = (tmp_path / "run" / "config.toml").read_text()
+    assert f"coupling = {coupling if coupling == '0.7' else repr(coupling).replace(chr(39), chr(34))}" in written
+
+
 def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
     result = call("infer", office, "-o", tmp_path / "run", *short, "--max-range", "0.001")
     assert result.exit_code == 0, result.stderr

@@ -158,6 +158,7 @@ def test_choices_are_those_of_the_library():
 
     from bayesmap.cells.binary import Independent
     from bayesmap.cells.defaults import P_WALL
+    from bayesmap.cells.ising import Ising
     from bayesmap.cells.kinds import BUILT_IN
     from bayesmap.cells.reflectivity import FEWEST_DRAWS, MOST_DRAWS, Beta
     from bayesmap.cells.surface import Surface
@@ -175,6 +176,8 @@ def test_choices_are_those_of_the_library():
     assert defaults["rounds"] == ROUNDS
     binary = cells.settled({**defaults, "cells": "binary"})
     assert cells.prior_of(binary).describe() == Independent(P_WALL).describe()
+    coupled = cells.prior_of({**binary, "coupling": 0.5, "prior": 0.1})
+    assert coupled.describe() == Ising(0.1, 0.5).describe()
     assert binary["hit_depth"] == Independent.hit_depth
     kinds = {name: type(cells.prior_of(cells.settled({**defaults, "cells": name}))) for name in CELLS}
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}

@@ -29,7 +29,8 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
     if out["draws"] is not None and out["draws"] < 1:  # the library allows none, where marginals are all that is wanted
         raise BadInput(f"draws: give 1 or more, got {out['draws']}; the picture and the map are made from them")
     if cells != "binary":
-        for name, plain in (("prior", None), ("start", None), ("method", "gibbs"), ("order", "radial")):
+        plain_values = {"prior": None, "coupling": None, "start": None, "method": "gibbs", "order": "radial"}
+        for name, plain in plain_values.items():
             if values[name] != plain:
                 raise BadInput(f"{name}: {values[name]!r} is for binary walls; add --cells binary")
     return out
@@ -50,10 +51,12 @@ def prior_of(values: dict[str, Any]) -> CellPrior:
     """The prior of these cells."""
     from bayesmap.cells.binary import Independent
     from bayesmap.cells.defaults import P_WALL
+    from bayesmap.cells.ising import Ising
     from bayesmap.cells.kinds import BUILT_IN
 
     if values["cells"] == "binary":
-        return Independent(P_WALL if values["prior"] is None else values["prior"])
+        p_wall, coupling = P_WALL if values["prior"] is None else values["prior"], values["coupling"]
+        return Independent(p_wall) if coupling is None else Ising(p_wall, coupling)
     return BUILT_IN[values["cells"]]()
 
 

@@ -116,8 +116,11 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
         if run["sweeps"]
         else f"method: {run['method']}, {work_done(run)}, {state}",
     ]
-    if run["fitted"]:
-        lines.append(f"fitted sensor: {_sensor_words(run['fitted']['sensor'])}")
+    fitted = run["fitted"] or {}
+    if "sensor" in fitted:
+        lines.append(f"fitted sensor: {_sensor_words(fitted['sensor'])}")
+    if "coupling" in fitted.get("prior", {}):
+        lines.append(f"fitted coupling: {fitted['prior']['coupling']:.3g}")
     return lines
 
 

@@ -12,6 +12,8 @@ from typing import Any
 
 import click
 
+from bayesmap.cli.typed_numbers import NumberOr
+
 Value = bool | int | float | str | None
 
 CELLS = ("surface", "reflectivity", "binary")
@@ -93,6 +95,7 @@ INFER = (
     Key("rounds", int, 20, "Of belief propagation, at most."),
     SEED,
     Key("prior", float, None, "Wall probability of a binary cell before any reading.", "0.2"),
+    Key("coupling", NumberOr("fit"), None, "Of neighbouring binary cells: a number, or fit.", "0: independent", "NATS"),
     Key("sensor", str, "default", "Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL"),
     Key("hit_depth", float, None, "Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25"),
     Key("start", click.Choice(STARTS), None, "Where chains start.", "propagate over 10 000 cells, else prior"),

@@ -50,6 +50,7 @@ RULES = {
     "rounds": ONE_OR_MORE,
     "seed": NONE_OR_MORE,
     "prior": SHARE,
+    "coupling": Rule(lambda x: x == "fit" or 0 <= x <= 50, "a number from 0 to 50, or fit"),
     "beam_weight": Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most"),
     "hit_depth": SHARE,
     "holdout": EVERY,

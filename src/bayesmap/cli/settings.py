@@ -14,6 +14,7 @@ import click
 
 from bayesmap.cli.keys import SECTIONS, Key, Value
 from bayesmap.cli.rules import checked
+from bayesmap.cli.typed_numbers import NumberOr
 from bayesmap.errors import BadInput
 
 Settings = dict[str, dict[str, Value]]
@@ -145,6 +146,8 @@ def _checked(key: Key, value: Any) -> Value:
         wanted, fits = "a number", numeric
     elif key.kind is int:
         wanted, fits = "a whole number", numeric and float(value).is_integer()
+    elif isinstance(key.kind, NumberOr):
+        wanted, fits = f"a number, or {key.kind.word!r}", numeric or isinstance(value, str)
     else:
         wanted, fits = "a text", isinstance(value, str)
     if not fits:

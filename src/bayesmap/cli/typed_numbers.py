@@ -1,10 +1,33 @@
-"""Numbers typed one after the other, such as a point: X,Y."""
+"""Numbers typed one after the other, such as a point: X,Y; and those in whose place a word may stand."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import click
+
+
+class NumberOr(click.ParamType[float | str]):
+    """A number, or a word.
+
+    Attributes:
+        word: that may stand in its place.
+    """
+
+    name = "number"
+
+    def __init__(self, word: str) -> None:
+        self.word = word
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
+        """The number or the word of a text; a number as it is."""
+        if value == self.word:
+            return self.word
+        try:
+            return float(value)
+        except ValueError:
+            self.fail(f"{value!r} is neither a number nor {self.word!r}", param, ctx)
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
