@@ -80,8 +80,8 @@ def infer(
         scans: what the sensor reported, and from where.
         grid: the map to infer.
         prior: decides what a cell's state is: `Independent` (binary walls) or `Ising` (binary walls whose neighbours
-            know of each other), `Beta` (reflectivities), `Surface` (reflectivities and surfaces), or a kind of your own
-            (`bayesmap.cells.kind.CellPrior`).
+            know of each other), `Beta` (reflectivities), `Surface` (reflectivities and surfaces; with a coupling
+            neighbours of both know of each other, too), or a kind of your own (`bayesmap.cells.kind.CellPrior`).
         sensor: the law of the readings; "fit" fits a `BeamMixture`, and with it the numbers of a `Beta` or `Surface`,
             to the scans themselves.
         method: by default the first that the kind of cells has. Of binary walls: "gibbs" (single cells), "block"

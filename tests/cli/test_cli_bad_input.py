@@ -55,7 +55,7 @@ def test_logs(tmp_path, text, place, remedy):
         (["--sensor", "magic"], "unknown kind 'magic'; known: default"),
         (["--resolution", "1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
         (["--prior", "0.3"], "prior: 0.3 is for binary walls; add --cells binary"),
-        (["--coupling", "0.5"], "coupling: 0.5 is for binary walls; add --cells binary"),
+        (["--coupling", "fit"], "coupling: 'fit' is for binary walls; add --cells binary, or give a number"),
         (["--method", "block"], "method: 'block' is for binary walls; add --cells binary"),
         (["--order", "raster", "--cells", "reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
         (["--start", "zeros"], "start: 'zeros' is for binary walls; add --cells binary"),

@@ -1,4 +1,5 @@
-"""The posterior of reflectivities on tiny maps, exactly: a mixture of Betas, one for each way in which beams may stop.
+"""The posterior of reflectivities on tiny maps, exactly: a mixture of Betas, one for each way in which beams may stop,
+and where cells have labels, for each way of labelling them.
 
 Given where every beam stops, the likelihood is a product of m and 1 - m, so that the m are Beta; the weight of each way
 is worked out beam by beam, ways with the same counts of hits and passes being the same.
@@ -7,6 +8,7 @@ is worked out beam by beam, ways with the same counts of hits and passes being t
 from dataclasses import dataclass
 
 import numpy as np
+from oracle.enumeration import all_maps, log_prior_of_all
 from oracle.field_law import reading_law
 from scipy import special, stats
 
@@ -37,8 +39,8 @@ class BetaMixture:
         return out
 
 
-def exact_reflectivities(paths, cells, prior, sensor, beta=1.0):
-    """Enumerate; ``cells`` is how many there are, ``beta`` the inverse temperature."""
+def ways_to_stop(paths, cells, sensor, beta=1.0):
+    """Hits and passes of all cells in every way in which beams may stop, (J, 2, cells), and log p(readings | way)."""
     zero = (0,) * cells
     ways = {(zero, zero): 1.0}
     for b in range(len(paths.range_m)):
@@ -64,8 +66,28 @@ def exact_reflectivities(paths, cells, prior, sensor, beta=1.0):
                 if k < len(crossed):
                     p[crossed[k]] += 1
         ways = after
-    counts = np.array(list(ways))  # (J, 2, T)
+    return np.array(list(ways)), np.log(list(ways.values()))
+
+
+def exact_reflectivities(paths, cells, prior, sensor, beta=1.0):
+    """Enumerate; ``cells`` is how many there are, ``beta`` the inverse temperature."""
+    counts, log_readings = ways_to_stop(paths, cells, sensor, beta)
     a, b = prior.a + counts[:, 0], prior.b + counts[:, 1]
-    log_weight = np.log(list(ways.values())) + (special.betaln(a, b) - special.betaln(prior.a, prior.b)).sum(axis=1)
+    log_weight = log_readings + (special.betaln(a, b) - special.betaln(prior.a, prior.b)).sum(axis=1)
     weight = np.exp(log_weight - log_weight.max())
     return BetaMixture(weight / weight.sum(), a, b)
+
+
+def exact_labels(paths, shape, prior, sensor, beta=1.0):
+    """The same where cells have labels; and p(labels) of all 2^n ways of labelling the grid's n cells."""
+    cells = shape[0] * shape[1]
+    counts, log_readings = ways_to_stop(paths, cells, sensor, beta)
+    solid = all_maps(cells)[:, None]  # (2^n, 1, n) beside the ways, (1, J, n)
+    a_0, b_0 = np.where(solid, prior.a_solid, prior.a), np.where(solid, prior.b_solid, prior.b)
+    a, b = a_0 + counts[None, :, 0], b_0 + counts[None, :, 1]
+    log_weight = log_readings + (special.betaln(a, b) - special.betaln(a_0, b_0)).sum(axis=-1)
+    log_weight += log_prior_of_all(shape, 0.5, prior.coupling)[:, None]
+    weight = np.exp(log_weight - log_weight.max())
+    weight /= weight.sum()
+    mixture = BetaMixture(weight.ravel(), a.reshape(-1, cells), b.reshape(-1, cells))
+    return mixture, weight.sum(axis=1)

@@ -10,6 +10,7 @@ from bayesmap.cells.surface import PARTS
 TRUTH = bm.BeamMixture(bm.Gaussian(0.03, 0.004), p_random=0.04, p_no_return=0.06, p_short=0.08, rate_short_per_m=0.7)
 GRID = bm.Grid((30, 24), resolution=0.2)
 PRIORS = {"reflectivities": bm.Beta(), "surfaces": bm.Surface()}
+LABELLED = {"labelled surfaces": bm.Surface(coupling=1.0), "labelled reflectivities": bm.Beta(coupling=0.8)}
 
 
 def room():
@@ -37,7 +38,14 @@ def scans(poses=30, beams=40, sensor=TRUTH, seed=1, max_range_m=6.0):
 
 def infer(kind, data=None, **options):
     """A short run; everything but the room can be changed."""
-    chosen = {"prior": PRIORS[kind], "sensor": "fit", "chains": 2, "warmup": 12, "draws": 6, "hit_depth": 0.5} | options
+    chosen = {
+        "prior": (PRIORS | LABELLED)[kind],
+        "sensor": "fit",
+        "chains": 2,
+        "warmup": 12,
+        "draws": 6,
+        "hit_depth": 0.5,
+    } | options
     return bm.infer(scans() if data is None else data, chosen.pop("grid", GRID), **chosen)
 
 

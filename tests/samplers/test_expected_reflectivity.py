@@ -124,11 +124,11 @@ def test_the_mean_density_is_the_exact_one_and_single_draws_say_more_of_it(case)
     assert share.mean() < LEFT[case]
 
 
-def without_b(hits, met, prior, drawn):
+def without_b(hits, met, prior, drawn, solid=None):
     return (prior.a + hits) / (prior.a + hits + met + 1e-30)
 
 
-def met_counted_twice(hits, met, prior, drawn):
+def met_counted_twice(hits, met, prior, drawn, solid=None):
     return (prior.a + hits) / (prior.a + prior.b + hits + 2 * met)
 
 

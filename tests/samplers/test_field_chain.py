@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from field_rooms import GRID, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
+from field_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -22,7 +22,7 @@ def _short_steps(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
 
 
-KINDS = pytest.mark.parametrize("kind", PRIORS)
+KINDS = pytest.mark.parametrize("kind", PRIORS | LABELLED)
 
 
 @KINDS
@@ -56,7 +56,7 @@ def test_a_chain_does_not_know_of_the_others_the_fit_included(kind, sensor):
 def test_chain_two_is_the_same_wherever_it_runs(kind):
     """Three jobs of one chain each, joined, are the run of three chains: other processes would do no otherwise."""
     whole = infer(kind, chains=3, warmup=6, draws=4)
-    prior = PRIORS[kind]
+    prior = (PRIORS | LABELLED)[kind]
     model = Model(scans(), GRID, prior, first_sensor(prior, GRID.resolution), hit_depth=0.5)
     parts = []
     for chain in (0, 1, 2):

@@ -2,6 +2,10 @@
 
 A wall that is there or not is too stiff for glass, chair legs, people and cells that a wall fills in part. Here a cell
 has a reflectivity m in [0, 1], the chance that it stops a beam; a stopped beam stops at the cell's hit depth.
+
+Cells may be independent, m ~ Beta(a, b) in each. Or, at a coupling above 0, each has a label, free or solid, that its
+four neighbours know of (`bayesmap.cells.labels`): m ~ Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid
+ones.
 """
 
 from __future__ import annotations
@@ -9,11 +13,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import special
 
+from bayesmap.cells import labels
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
@@ -34,7 +40,26 @@ MOST_DRAW_BYTES = 1 << 30
 """Of all chains' draws, if beams were to touch every cell of the grid."""
 BYTES_A_CELL = 4
 
-KernelNumbers = tuple[float, float, float, float, float, float, float]
+LARGEST_COUPLING = 50.0
+"""As of `bayesmap.cells.ising`: more means nothing else."""
+
+
+class KernelNumbers(NamedTuple):
+    """A prior as the kernels of `bayesmap.kernels.cell_draws` take it, lengths in metres: of reflectivities, labels,
+    and a surface's prior as `bayesmap.cells.surface` has it.
+    """
+
+    a: float
+    b: float
+    tau_m: float
+    psi_m2: float
+    nu: float
+    kappa_m: float
+    half_m: float
+    coupling: float
+    a_solid: float
+    b_solid: float
+
 
 REFLECTIVITY = ArraySpec("reflectivity", ("cell",), "float32", "half", "chance that the cell stops a beam")
 EXPECTED = ArraySpec(
@@ -47,14 +72,21 @@ class Reflective(CellPrior):
     """What cells with a reflectivity have in common, with surfaces or without.
 
     Attributes:
-        a, b: pseudo-counts of beams that were stopped, and of beams that were not.
+        a, b: pseudo-counts of beams that were stopped, and of beams that were not; in free cells, where cells have
+            labels.
+        coupling: what each pair of neighbours (cells that share an edge) with the same label, free or solid, adds to
+            the log density; at 0 there are no labels, and cells are independent.
+        a_solid, b_solid: pseudo-counts in solid cells, where cells have labels.
 
     Raises:
-        BadInput: a count that is not positive.
+        BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
     """
 
     a: float = 0.02
     b: float = 0.2
+    coupling: float = 0.0
+    a_solid: float = 1.0
+    b_solid: float = 1.0
 
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True
@@ -63,14 +95,36 @@ class Reflective(CellPrior):
     thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # three beams in ten stopped is no place for a robot
 
     def __post_init__(self) -> None:
-        for which, value in (("a", self.a), ("b", self.b)):
+        name = type(self).__name__
+        for which in ("a", "b", "a_solid", "b_solid"):
+            value = getattr(self, which)
             if not (math.isfinite(value) and value > 0):
-                raise BadInput(f"{type(self).__name__}: {which} must be a positive number, got {value!r}")
+                raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")
+        coupling: Any = self.coupling  # perhaps "fit", which binary walls have
+        if isinstance(coupling, str) or not (0 <= coupling <= LARGEST_COUPLING):
+            raise BadInput(f"{name}: coupling must be a number in [0, {LARGEST_COUPLING:g}], got {self.coupling!r}")
+        if self.has_labels:  # of this prior, not of its class: others keep no labels in their draws
+            object.__setattr__(self, "arrays", (*type(self).arrays, labels.SOLID))
+
+    @property
+    def has_labels(self) -> bool:
+        """Whether cells are labelled free or solid."""
+        return self.coupling > 0
 
     @property
     def mean(self) -> float:
-        """Prior mean of the reflectivity."""
-        return self.a / (self.a + self.b)
+        """Prior mean of the reflectivity; both labels are as likely."""
+        free = self.a / (self.a + self.b)
+        return 0.5 * (free + self.a_solid / (self.a_solid + self.b_solid)) if self.has_labels else free
+
+    def mean_given(self, solid: NDArray[np.bool_] | Floats) -> Floats:
+        """Prior mean of the reflectivity given labels, or given how likely each is solid."""
+        free = self.a / (self.a + self.b)
+        return np.asarray(free + (self.a_solid / (self.a_solid + self.b_solid) - free) * solid)
+
+    def beta_given(self, solid: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+        """Pseudo-counts of stopped and of passing beams in cells with these labels."""
+        return np.where(solid, self.a_solid, self.a), np.where(solid, self.b_solid, self.b)
 
     @property
     def first_spread(self) -> float:
@@ -78,14 +132,39 @@ class Reflective(CellPrior):
         return 0.3
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
-        """Log density of the log odds of all reflectivities, up to a constant, as the sampler reports it."""
+        """Log density of labels and log odds of all reflectivities, up to a constant, as the sampler reports it."""
         m = np.clip(np.asarray(cells["reflectivity"], dtype=np.float64), LEAST_M, MOST_M)
-        return float((self.a * np.log(m) + self.b * np.log1p(-m)).sum())
+        if not self.has_labels:
+            return float((self.a * np.log(m) + self.b * np.log1p(-m)).sum())
+        solid = np.asarray(cells["solid"]) != 0
+        a, b = self.beta_given(solid)
+        return float((a * np.log(m) + b * np.log1p(-m) - special.betaln(a, b)).sum()) + labels.log_prior(
+            solid, self.coupling
+        )
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
-        """Draw a map."""
-        m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
-        return {"reflectivity": m, "expected": m}
+        """Draw a map.
+
+        Raises:
+            BadInput: labels so strongly coupled, on so large a grid, that exact draws of them take too long.
+        """
+        if not self.has_labels:
+            m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
+            return {"reflectivity": m, "expected": m}
+        solid = labels.sample(rng, self.coupling, grid)
+        m = rng.beta(*self.beta_given(solid)).astype(np.float32)
+        return {"reflectivity": m, "expected": m, "solid": solid}
+
+    def propose(
+        self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
+    ) -> tuple[dict[str, Any], float]:
+        """A state as if the cell had no neighbours, and what these say of its label."""
+        fresh, log_ratio = super().propose(cells, site, rng, grid)
+        if self.has_labels:
+            solid = np.asarray(cells["solid"]) != 0
+            change = int(fresh["solid"]) - int(solid[site])
+            log_ratio += self.coupling * change * labels.less_unlike(solid, site)
+        return fresh, log_ratio
 
     def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
         """Place-holders, (count, 5): these cells have no surfaces."""
@@ -110,10 +189,10 @@ class Reflective(CellPrior):
         return max(FEWEST_DRAWS, min(affordable, fitting, MOST_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """The prior as the kernels of `bayesmap.kernels.cell_draws` take it, lengths in metres: a, b, and a surface's
-        prior, which is not looked at.
-        """
-        return self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m
+        """The prior as kernels take it; that of surfaces is not looked at."""
+        return KernelNumbers(
+            self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m, self.coupling, self.a_solid, self.b_solid
+        )
 
     def _shown(self, draws: Draws) -> tuple[NDArray[np.float16], NDArray[np.float16]]:
         """What maps show, drawn and expected, (chains, draws, T); reflectivities of runs that were saved without it."""
@@ -121,16 +200,23 @@ class Reflective(CellPrior):
         return draws.arrays[drawn], draws.arrays[expected]
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
-        """Chances that cells stop a beam, (nx, ny); the prior's mean where no beam comes."""
-        return draws.to_grid(self._shown(draws)[0][chain, draw], "cell", self.mean)
+        """Chances that cells stop a beam, (nx, ny); the prior's mean where no beam comes, given the label if cells have
+        labels.
+        """
+        elsewhere: Floats | float = self.mean
+        if self.has_labels:
+            elsewhere = self.mean_given(labels.of_draw(draws, chain, draw))
+        return draws.to_grid(self._shown(draws)[0][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
         """Posterior mean of the same, (nx, ny), of what each draw expects: it has the same limit as the mean of what is
-        drawn, and less noise. The prior's mean where no beam comes; NaN without draws.
+        drawn, and less noise. Where no beam comes the prior's mean, given the drawn labels if cells have labels; NaN
+        without draws.
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
-        return draws.to_grid(self._shown(draws)[1].mean(axis=(0, 1), dtype=np.float64), "cell", self.mean)
+        elsewhere = self.mean_given(labels.share_solid(draws)) if self.has_labels else self.mean
+        return draws.to_grid(self._shown(draws)[1].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
         """Central credible interval of the same: lower and upper end, (nx, ny) each."""
@@ -142,8 +228,12 @@ class Reflective(CellPrior):
         for i in range(0, drawn.shape[-1], CELLS_AT_ONCE):
             part = drawn[:, :, i : i + CELLS_AT_ONCE]
             ends[:, i : i + CELLS_AT_ONCE] = quantiles_of_halves(part.reshape(-1, part.shape[-1]), tails)
-        before = stats.beta(self.a, self.b).ppf(tails)
-        lower, upper = (draws.to_grid(ends[i], "cell", float(before[i])) for i in (0, 1))
+        if self.has_labels:
+            betas = (self.a, self.b), (self.a_solid, self.b_solid)
+            before = labels.mixture_quantiles(labels.share_solid(draws), *betas, tails)
+        else:
+            before = stats.beta(self.a, self.b).ppf(tails)
+        lower, upper = (draws.to_grid(ends[i], "cell", before[i]) for i in (0, 1))
         return lower, upper
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
@@ -155,15 +245,19 @@ class Reflective(CellPrior):
         """Expected reflectivities of each draw, (draws, n), some draws at a time.
 
         The density of a reading is linear in each cell's reflectivity, so its mean over draws is that of drawn ones,
-        with less noise. Cells that no beam of the run touched have the prior's mean.
+        with less noise. Cells that no beam of the run touched have the prior's mean, given their label if cells have
+        labels.
         """
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
         place, known = places_among(draws.index["cell"], cells)
         expected = draws.arrays["expected"].reshape(draws.size, -1)
-        at_once = max(1, BATCH_BYTES // (4 * max(len(cells), 1)))
+        at_once, numbers = max(1, BATCH_BYTES // (4 * max(len(cells), 1))), list(draws.numbers())
         for i in range(0, draws.size, at_once):
             some = expected[i : i + at_once]
             stops = np.full((len(some), len(cells)), self.mean, dtype=np.float32)
+            if self.has_labels:
+                for row, number in zip(stops, numbers[i : i + at_once], strict=True):
+                    row[:] = self.mean_given(labels.of_draw(draws, *number)[cells])
             stops[:, known] = some[:, place[known]]
             yield stops
 
@@ -175,24 +269,44 @@ class Reflective(CellPrior):
         rng = np.random.default_rng(1)
         # As surfaces from the prior are: drawn once, and taken up from another place by each draw of the map.
         fresh = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
+        solid_ones = rng.beta(self.a_solid, self.b_solid, FRESH_CELLS).astype(np.float32) if self.has_labels else fresh
+        numbers = list(draws.numbers())
         number = 0
         for batch in self.predictive_stops(draws, wanted):
             for stops in batch if batch.ndim == 2 else batch[..., 0]:
-                stops[:] = fresh[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
+                taken = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
+                stops[:] = fresh[taken]
+                if self.has_labels:
+                    solid = labels.of_draw(draws, *numbers[number])[cells]
+                    stops[solid] = solid_ones[taken[solid]]
                 stops[known] = drawn[number, place[known]]
                 number += 1
             yield batch
 
+    def _described(self) -> dict[str, Any]:
+        """What is said of reflectivities; nothing of labels where there are none, as before there were any."""
+        own = {"a": self.a, "b": self.b}
+        if self.has_labels:
+            own |= {"coupling": float(self.coupling), "a_solid": self.a_solid, "b_solid": self.b_solid}
+        return own
+
 
 @dataclass(frozen=True)
 class Beta(Reflective):
-    """A reflectivity in each cell, Beta(a, b), independently; a stopped beam stops at the cell's hit depth.
+    """A reflectivity in each cell; a stopped beam stops at the cell's hit depth.
+
+    It is Beta(a, b) in each cell by itself; or, at a coupling above 0, by the cell's label Beta(a, b) where it is free
+    and Beta(a_solid, b_solid) where it is solid.
 
     Attributes:
-        a, b: pseudo-counts of beams that were stopped, and of beams that were not.
+        a, b: pseudo-counts of beams that were stopped, and of beams that were not; in free cells, where cells have
+            labels.
+        coupling: what each pair of neighbours (cells that share an edge) with the same label adds to the log density;
+            at 0 there are no labels, and cells are independent.
+        a_solid, b_solid: pseudo-counts in solid cells, where cells have labels.
 
     Raises:
-        BadInput: a count that is not positive.
+        BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
     """
 
     words: ClassVar[Words] = Words("reflectivity", "reflectivities", "mean reflectivity", "reflectivity")
@@ -200,7 +314,7 @@ class Beta(Reflective):
 
     def describe(self) -> dict[str, Any]:
         """The prior as plain JSON values."""
-        return {"kind": "beta", "a": self.a, "b": self.b}
+        return {"kind": "beta", **self._described()}
 
 
 def places_among(held: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:

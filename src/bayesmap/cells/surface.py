@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from bayesmap.cells import labels
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
@@ -68,7 +69,10 @@ class Surface(Reflective):
     Lengths are in edges of a cell, so that one prior serves all resolutions.
 
     Attributes:
-        a, b: of the reflectivity of what a beam meets.
+        a, b: of the reflectivity of what a beam meets; in free cells, where cells have labels.
+        coupling: what each pair of neighbours (cells that share an edge) with the same label, free or solid, adds to
+            the log density; at 0 there are no labels, and cells are independent.
+        a_solid, b_solid: of the reflectivity in solid cells, where cells have labels.
         mean_scale: tau, how far a surface's mean lies from its cell's centre; once called ``wander``. It never lies
             outside the cell: what stands there is another cell's.
         spread: sqrt(psi), the size of surfaces.
@@ -101,11 +105,15 @@ class Surface(Reflective):
         dof: float = 3.0,
         size_scale: float = 0.35,
         *,
+        coupling: float = 0.0,
+        a_solid: float = 1.0,
+        b_solid: float = 1.0,
         wander: float | None = None,
         extent: float | None = None,
     ) -> None:
         values = {
-            "a": a, "b": b, "mean_scale": mean_scale if wander is None else wander, "spread": spread, "dof": dof,
+            "a": a, "b": b, "coupling": coupling, "a_solid": a_solid, "b_solid": b_solid,
+            "mean_scale": mean_scale if wander is None else wander, "spread": spread, "dof": dof,
             "size_scale": size_scale if extent is None else extent,
         }  # fmt: skip
         for name, value in values.items():
@@ -197,15 +205,11 @@ class Surface(Reflective):
         return out
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """a, b, tau, psi, nu, kappa, half an edge, lengths in metres."""
-        sizes = (
-            self.mean_scale * edge_m,
-            (self.spread * edge_m) ** 2,
-            self.dof,
-            self.size_scale * edge_m,
-            0.5 * edge_m,
-        )
-        return self.a, self.b, *sizes
+        """The prior as kernels take it."""
+        return KernelNumbers(
+            self.a, self.b, self.mean_scale * edge_m, (self.spread * edge_m) ** 2, self.dof, self.size_scale * edge_m,
+            0.5 * edge_m, self.coupling, self.a_solid, self.b_solid,
+        )  # fmt: skip
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
         """Posterior mean surfaces of the cells in which a reading ends.
@@ -254,6 +258,8 @@ class Surface(Reflective):
             batch = np.empty((len(numbers[i : i + at_once]), len(cells), 6), dtype=np.float32)
             for states, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
                 states[:] = fresh[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
+                if self.has_labels:
+                    states[:, 0] = self.mean_given(labels.of_draw(draws, chain, draw)[cells])
                 states[known, 0] = draws.arrays["expected"][chain, draw, place]
                 for part, name in enumerate(PARTS, 1):
                     states[with_surface, part] = draws.arrays[f"surface_{name}"][chain, draw, surface_place]
@@ -264,6 +270,6 @@ class Surface(Reflective):
     def describe(self) -> dict[str, Any]:
         """The prior as plain JSON values."""
         return {
-            "kind": "surface", "a": self.a, "b": self.b, "mean_scale": self.mean_scale, "spread": self.spread,
+            "kind": "surface", **self._described(), "mean_scale": self.mean_scale, "spread": self.spread,
             "dof": self.dof, "size_scale": self.size_scale,
         }  # fmt: skip

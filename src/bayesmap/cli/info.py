@@ -119,7 +119,7 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
     fitted = run["fitted"] or {}
     if "sensor" in fitted:
         lines.append(f"fitted sensor: {_sensor_words(fitted['sensor'])}")
-    if "coupling" in fitted.get("prior", {}):
+    if fitted.get("prior", {}).get("kind") == "ising":
         lines.append(f"fitted coupling: {fitted['prior']['coupling']:.3g}")
     return lines
 

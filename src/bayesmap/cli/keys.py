@@ -95,7 +95,9 @@ INFER = (
     Key("rounds", int, 20, "Of belief propagation, at most."),
     SEED,
     Key("prior", float, None, "Wall probability of a binary cell before any reading.", "0.2"),
-    Key("coupling", NumberOr("fit"), None, "Of neighbouring binary cells: a number, or fit.", "0: independent", "NATS"),
+    Key(
+        "coupling", NumberOr("fit"), None, "Of neighbouring cells: a number, or (binary) fit.", "0: independent", "NATS"
+    ),
     Key("sensor", str, "default", "Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL"),
     Key("hit_depth", float, None, "Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25"),
     Key("start", click.Choice(STARTS), None, "Where chains start.", "propagate over 10 000 cells, else prior"),

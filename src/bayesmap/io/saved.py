@@ -36,7 +36,7 @@ from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = 5  # 4 has no stop chances of surfaces; older ones are read by `bayesmap.io.saved_before`
+FORMAT_VERSION = 6  # 5 has no labels, 4 no stop chances of surfaces; older ones: `bayesmap.io.saved_before`
 LAYOUT_SINCE = 4
 
 

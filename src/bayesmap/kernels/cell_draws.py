@@ -1,7 +1,8 @@
 r"""The other half of a sweep: the cells, given where the beams stopped.
 
 Cells in which readings end have a kernel of their own (`bayesmap.kernels.endpoint_cells`). Of the others, one that
-tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met). One that tries a candidate for its
+tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met), a and b being those of its label where cells
+have labels (`bayesmap.kernels.labels`, which draws these before). One that tries a candidate for its
 surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of
 the ratio (`bayesmap.kernels.stops`).
 
@@ -15,8 +16,12 @@ coordinates the density is, inside the square, proportional to
 the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
 """
 
-import warp as wp
+from typing import Any
 
+import warp as wp
+from scipy import special
+
+from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.stops import CLEAREST, GAIN_UNITS, IN_A_ROW, LEARNS, StopState, groups_of
 from bayesmap.kernels.surface_crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, TRYING, Cell
@@ -59,7 +64,11 @@ class ActiveCells:
 
 @wp.struct
 class CellPrior:
-    """Beta(a, b) of the reflectivity, and the surface's prior as above."""
+    """Beta(a, b) of the reflectivity, and the surface's prior as above.
+
+    At a coupling above 0 that is the Beta of free cells, and solid ones have their own; ``log_beta`` and
+    ``log_beta_solid`` are the logarithms of what the two densities are divided by, and 0 where there are no labels.
+    """
 
     a: wp.float64
     b: wp.float64
@@ -68,6 +77,31 @@ class CellPrior:
     nu: wp.float64
     kappa_m: wp.float64
     half_m: wp.float64  # half of a cell's edge
+    coupling: wp.float64
+    a_solid: wp.float64
+    b_solid: wp.float64
+    log_beta: wp.float64
+    log_beta_solid: wp.float64
+
+
+def put_prior(numbers: KernelNumbers) -> Any:
+    """A prior as kernels read it."""
+    there = CellPrior()
+    for name, value in numbers._asdict().items():
+        setattr(there, name, value)
+    there.log_beta = there.log_beta_solid = 0.0
+    if numbers.coupling > 0:
+        there.log_beta = float(special.betaln(numbers.a, numbers.b))
+        there.log_beta_solid = float(special.betaln(numbers.a_solid, numbers.b_solid))
+    return there
+
+
+@wp.func
+def pseudo_counts(prior: CellPrior, solid: wp.uint8) -> wp.vec2d:
+    """a and b of the reflectivity of a cell with this label; all cells are free where there are no labels."""
+    if solid != wp.uint8(0):
+        return wp.vec2d(prior.a_solid, prior.b_solid)
+    return wp.vec2d(prior.a, prior.b)
 
 
 @wp.func
@@ -167,10 +201,14 @@ def centre_of(c: int, ny: int, edge_m: wp.float64) -> wp.vec2:
 
 
 @wp.func
-def log_reflectivity_prior(prior: CellPrior, m: wp.float32) -> wp.float32:
-    """Log density of logit m under Beta(a, b), up to a constant; m is kept above what single precision can hold."""
+def log_reflectivity_prior(prior: CellPrior, solid: wp.uint8, m: wp.float32) -> wp.float32:
+    """Log density of logit m given the label, without labels up to a constant; m is kept above what single precision
+    can hold.
+    """
     at = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
-    return wp.float32(prior.a) * wp.log(at) + wp.float32(prior.b) * wp.log(wp.float32(1.0) - at)
+    counts = pseudo_counts(prior, solid)
+    density = wp.float32(counts[0]) * wp.log(at) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - at)
+    return density - wp.float32(wp.where(solid != wp.uint8(0), prior.log_beta_solid, prior.log_beta))
 
 
 @wp.kernel
@@ -205,7 +243,7 @@ def begin_sweep(
     centre = centre_of(c, active.ny, active.edge_m)
     renewed = without_surfaces == 0 and is_silent(sweep - 1, turns, c, cell)
     if prior_moved != 0 or turns == 0 or renewed or state.fixed_m[here] == LEARNS:
-        density = log_reflectivity_prior(prior, cell[REFLECTIVITY])
+        density = log_reflectivity_prior(prior, state.solid[here], cell[REFLECTIVITY])
         if without_surfaces == 0:
             density += wp.float32(log_surface_prior(prior, centre, cell))
         log_prior[i] = density
@@ -266,8 +304,9 @@ def update_free_cells(
             n_met += state.met[row, c]
             gain += state.gain[row, c]
         if cell[TRYING] == HIDDEN:
-            a = prior.a + wp.float64(n_hits)
-            b = prior.b + wp.float64(n_met)
+            counts = pseudo_counts(prior, state.solid[here])
+            a = counts[0] + wp.float64(n_hits)
+            b = counts[1] + wp.float64(n_met)
             cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
             hits[here] = n_hits
             met[here] = n_met

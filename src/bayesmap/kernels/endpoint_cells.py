@@ -1,8 +1,8 @@
 """Cells in which readings end: all of a sweep's work on such a cell in one place.
 
-Such a cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on, and
-draws its reflectivity; then reflectivity and surface move together by a few Metropolis steps that no longer know who
-met what. With g the chance of meeting,
+Such a cell knows its incidences. Given where the beams stopped, it counts those that met its surface and went on; then
+labels are drawn, if cells have any, and the cell draws its reflectivity; then reflectivity and surface move together by
+a few Metropolis steps that no longer know who met what. With g the chance of meeting,
 
     log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
                                         + sum over stopped beams log(m g p(reading | stop)^beta).
@@ -27,6 +27,7 @@ from bayesmap.kernels.cell_draws import (
     is_own,
     log_reflectivity_prior,
     log_surface_prior,
+    pseudo_counts,
 )
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
@@ -139,10 +140,67 @@ def log_stops(
 
 
 @wp.func
-def log_cell_prior(prior: CellPrior, cell: Cell) -> wp.float64:
+def log_cell_prior(prior: CellPrior, solid: wp.uint8, cell: Cell) -> wp.float64:
     """Log prior of logit m and of the surface in its frame, up to a constant: the same in all frames."""
     surface = log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
-    return surface + wp.float64(log_reflectivity_prior(prior, cell[REFLECTIVITY]))
+    return surface + wp.float64(log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
+
+
+@wp.kernel
+def count_endpoint_cells(
+    first: int,
+    sweep: int,
+    endpoints: EndpointCells,
+    active: ActiveCells,
+    state: StopState,
+    lists: wp.array2d(dtype=wp.int32),
+    passes: wp.array2d(dtype=wp.int32),
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a chain's cell in which readings end: list its incidences, and count its beams.
+
+    ``lists`` is room for a chain's incidences, a row each: of each cell those of passing beams, from its first on, and
+    at its end those of stopped ones. ``passes`` counts the former, ``hits`` the latter, ``met`` the passing beams that
+    met the surface.
+    """
+    i_cell = first + wp.tid()
+    chain = i_cell // endpoints.cell.shape[0]
+    u = i_cell - chain * endpoints.cell.shape[0]
+    c = endpoints.cell[u]
+    here = chain * state.n_cells + c
+    beam_0 = chain * state.n_beams
+    listed = lists[chain]
+    one = wp.float32(1.0)
+    key = sweep_key(keys[chain], sweep, 1)
+    cell = state.cells[here]
+    centre = centre_of(c, active.ny, active.edge_m)
+    m = cell[REFLECTIVITY]
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
+    begin = endpoints.offsets[u]
+    end = endpoints.offsets[u + 1]
+    passed = begin
+    stopped = end
+    for e in range(begin, end):
+        k = endpoints.entry[e]
+        stop = state.stop[beam_0 + endpoints.beam[e]]
+        if k < stop:
+            listed[passed] = e
+            passed = passed + 1
+        elif k == stop:
+            stopped = stopped - 1
+            listed[stopped] = e
+    n_met = int(0)
+    for i in range(begin, passed):
+        e = listed[i]
+        g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
+        x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
+        n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
+    passes[chain, u] = passed - begin
+    hits[here] = end - stopped
+    met[here] = n_met
 
 
 @wp.kernel
@@ -156,62 +214,42 @@ def update_endpoint_cells(
     active: ActiveCells,
     state: StopState,
     lists: wp.array2d(dtype=wp.int32),
+    passes: wp.array2d(dtype=wp.int32),
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
 ):
-    """One thread a chain's cell in which readings end: its reflectivity, then its surface.
-
-    ``lists`` is room for a chain's incidences, a row each.
-    """
+    """One thread a chain's cell in which readings end: its reflectivity, then its surface, given lists and counts."""
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]
     u = i_cell - chain * endpoints.cell.shape[0]
     c = endpoints.cell[u]
     here = chain * state.n_cells + c
-    beam_0 = chain * state.n_beams
     listed = lists[chain]
-    one = wp.float32(1.0)
     key = sweep_key(keys[chain], sweep, 1)
     at = wp.uint64(c) * PER_CELL
     cell = state.cells[here]
+    solid = state.solid[here]
     centre = centre_of(c, active.ny, active.edge_m)
-    m = cell[REFLECTIVITY]
-    dx = cell[MEAN_X] - centre[0]
-    dy = cell[MEAN_Y] - centre[1]
-    span = wp.vec4i(endpoints.offsets[u], endpoints.offsets[u], endpoints.offsets[u + 1], endpoints.offsets[u + 1])
-    for e in range(span[0], span[3]):
-        k = endpoints.entry[e]
-        stop = state.stop[beam_0 + endpoints.beam[e]]
-        if k < stop:
-            listed[span[1]] = e
-            span[1] = span[1] + 1
-        elif k == stop:
-            span[2] = span[2] - 1
-            listed[span[2]] = e
-    n_hits = span[3] - span[2]
-    n_met = int(0)
-    for i in range(span[0], span[1]):
-        e = listed[i]
-        g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
-        x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
-        n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
-    hits[here] = n_hits
-    met[here] = n_met
-    a = prior.a + wp.float64(n_hits)
-    b = prior.b + wp.float64(n_met)
+    begin = endpoints.offsets[u]
+    end = endpoints.offsets[u + 1]
+    span = wp.vec4i(begin, begin + passes[chain, u], end - hits[here], end)
+    counts = pseudo_counts(prior, solid)
+    a = counts[0] + wp.float64(hits[here])
+    b = counts[1] + wp.float64(met[here])
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
 
     step = endpoints.step[u]
     framed = into_frame(cell, step, centre)
-    present = log_stops(law, state.beta, rays, endpoints, listed, span, centre, cell) + log_cell_prior(prior, framed)
+    present = log_stops(law, state.beta, rays, endpoints, listed, span, centre, cell)
+    present += log_cell_prior(prior, solid, framed)
     for i in range(STEPS):
         here_at = at + wp.uint64(256 + 32 * i)
         candidate = stepped(framed, step, key, here_at + wp.uint64(1), i)
         moved = out_of_frame(candidate, step, centre)
         if is_own(prior, centre, moved):
             value = log_stops(law, state.beta, rays, endpoints, listed, span, centre, moved)
-            value += log_cell_prior(prior, candidate)
+            value += log_cell_prior(prior, solid, candidate)
             if wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT))) < value - present:
                 framed = candidate
                 present = value

@@ -11,7 +11,9 @@ and otherwise (a passing object, chance, no return) t ~ N(t*, s^2). Squares that
 passes; of those behind it the beam says nothing. With S beams stopped in a square and P beams that pass it, the
 chance q that a beam which comes to the square is stopped inside it is drawn from
 
-    q | stops ~ Beta(a + S, b + P).
+    q | stops ~ Beta(a + S, b + P)
+
+with a and b of the label of the square's own cell, where cells have labels.
 """
 
 from typing import NamedTuple
@@ -22,7 +24,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import PER_CELL, CellPrior
+from bayesmap.kernels.cell_draws import PER_CELL, CellPrior, pseudo_counts
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
 from bayesmap.kernels.sensor_law import SensorLaw32, returned_density, stop_density, variance_at
@@ -108,7 +110,7 @@ def draw_stop_chances(
     drawn: wp.array(dtype=wp.float32),
     expected: wp.array(dtype=wp.float32),
     kept: int,
-    n_cells: int,
+    state: StopState,
     observed_counts: wp.array(dtype=wp.vec2i),
 ):
     """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P).
@@ -117,13 +119,14 @@ def draw_stop_chances(
     """
     i = wp.tid()
     c = touched[i]
-    a = prior.a + wp.float64(stopped[c])
-    b = prior.b + wp.float64(crossings[c] - stopped[c] - behind[c])
+    here = chain * state.n_cells + c
+    counts = pseudo_counts(prior, state.solid[here])
+    a = counts[0] + wp.float64(stopped[c])
+    b = counts[1] + wp.float64(crossings[c] - stopped[c] - behind[c])
     key = sweep_key(keys[chain], sweep, 1)
     drawn[i] = wp.float32(beta_variate(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
     expected[i] = wp.float32(a / (a + b))
     if kept != 0:
-        here = chain * n_cells + c
         observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)
 
 
@@ -183,7 +186,7 @@ class Squares:
         wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
         inputs = [
             chain, sweep, prior, self._touched, keys, self._crossings_there, stopped, behind, drawn, expected,
-            int(kept), self._rays.grid.n_cells, observed_counts,
+            int(kept), state, observed_counts,
         ]  # fmt: skip
         wp.launch(draw_stop_chances, dim=len(self._rays.touched), inputs=inputs, device=self._device)
         touched = self._rays.touched

@@ -1,4 +1,5 @@
-"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, update cells.
+"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, label and update
+cells.
 
 All chains stand in the same arrays. On a GPU each kernel is launched once for all of them, with a thread for each
 chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last;
@@ -17,9 +18,11 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
+from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import ActiveCells, CellPrior, begin_sweep, count_observed, update_free_cells
-from bayesmap.kernels.endpoint_cells import endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.cell_draws import ActiveCells, begin_sweep, count_observed, put_prior, update_free_cells
+from bayesmap.kernels.endpoint_cells import count_endpoint_cells, endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.labels import draw_labels, draw_untouched, put_known, sum_label_prior
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
@@ -30,7 +33,8 @@ from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
 KERNELS = (
-    begin_sweep, draw_stops, update_free_cells, update_endpoint_cells, count_in_squares, draw_stop_chances,
+    begin_sweep, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
+    update_endpoint_cells, count_in_squares, draw_stop_chances,
 )  # fmt: skip
 
 
@@ -110,11 +114,12 @@ class StopChains:
         threads: int | None,
         counts: NDArray[np.int32] | None = None,
         observed_counts: NDArray[np.int32] | None = None,
+        solid: NDArray[np.bool_] | None = None,
     ) -> None:
         """Put chains on the device, one for each key.
 
-        ``states`` gives the cells at which a chain stands, (N, 6); ``counts`` (C, 2, N) and
-        ``observed_counts`` (C, N, 2) are those of chains that go on.
+        ``states`` gives the cells at which a chain stands, (N, 6), and ``solid`` their labels, (C, N), if they have
+        any; ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2) are those of chains that go on.
         """
         self.plan, device = plan, plan.device
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
@@ -127,6 +132,7 @@ class StopChains:
         active.round = devices.to_device(plan.rounds, wp.uint8, device)
         active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
         self._active = active
+        self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)
         self._keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
@@ -140,6 +146,8 @@ class StopChains:
         for chain in range(chains):
             here = slice(chain * cells, (chain + 1) * cells)
             wp.copy(state.cells[here], as_cells(states(chain), device))
+        labels = np.zeros(chains * cells) if solid is None else solid.ravel()
+        state.solid = wp.array(labels.astype(np.uint8), dtype=wp.uint8, device=device)
         state.fixed_m = wp.full(chains * cells, LEARNS, dtype=wp.float32, device=device)
         state.candidates = empty(chains * -(-cells // IN_A_ROW), dtype=Cell)
         state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
@@ -156,15 +164,17 @@ class StopChains:
         there = np.zeros((chains * cells, 2), np.int32) if observed_counts is None else observed_counts.reshape(-1, 2)
         self._observed_counts = wp.array(there, dtype=wp.vec2i, device=device)
         self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
+        self._passes = empty((chains, len(plan.endpoints)), dtype=wp.int32)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
-        self._slices = [empty((chains, -(-max(size, 1) // SLICE)), dtype=wp.float64) for size in (beams, touched)]
+        slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # of labels zero where there are none
+        self._slices = [empty((chains, count), dtype=wp.float64) for count in slices]
 
     def sweeps(
         self,
         first: int,
         count: int,
         sensor: SensorModel,
-        prior: tuple[float, float, float, float, float, float, float],
+        prior: KernelNumbers,
         beta: float = 1.0,
         *,
         observing_after: int | None = None,
@@ -177,7 +187,7 @@ class StopChains:
             first: number of the first sweep.
             count: how many.
             sensor: the law of the readings.
-            prior: of the cells: a, b, tau_m, psi_m2, nu, kappa_m, half_m (see `bayesmap.kernels.cell_draws`).
+            prior: of the cells.
             beta: inverse temperature.
             observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
                 surfaces `in_squares` counts it.
@@ -187,8 +197,7 @@ class StopChains:
         Returns:
             log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
         """
-        packed = CellPrior()
-        packed.a, packed.b, packed.tau_m, packed.psi_m2, packed.nu, packed.kappa_m, packed.half_m = prior
+        packed = put_prior(prior)
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         moved = self._law != (sensor, prior, beta)
         self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
@@ -200,6 +209,8 @@ class StopChains:
         beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
         state, keys, counts = self._state, self._keys, [self._hits, self._met]
+        shape, cells = self.plan.rays.grid.shape, state.n_cells
+        beam_sums, cell_sums, label_sums = self._slices
 
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
             """Kernels of a sweep in their order, with the elements of a chain."""
@@ -208,16 +219,23 @@ class StopChains:
             out = [
                 (begin_sweep, touched, [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]),
                 (draw_stops, beams, [number, law, self._rays, state, keys]),
+                (count_endpoint_cells, endpoints, [number, self._endpoints, self._active, state, self._lists,
+                                                   self._passes, keys, *counts]),
+            ]  # fmt: skip
+            if prior.coupling > 0:
+                out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
+                labelled = [number, *shape, packed, self._known, state, keys, *counts]
+                out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
+            out += [
                 (update_free_cells, touched, [number, self.without_surfaces, *shared, *counts]),
                 (update_endpoint_cells, endpoints, [number, law, packed, self._rays, self._endpoints, self._active,
-                                                    state, self._lists, keys, *counts]),
+                                                    state, self._lists, self._passes, keys, *counts]),
             ]  # fmt: skip
             if self.without_surfaces and observing_after is not None and number >= observing_after:
                 out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
-            beam_sums, cell_sums = self._slices
             out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
             out.append((sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
-            out.append((sum_of_slices, 1, [i, beam_sums, cell_sums, likelihood, log_prior]))
+            out.append((sum_of_slices, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
             return out
 
         def note(call: Callable[[int, int], None] | None, chains: range, i: int) -> None:
@@ -268,7 +286,7 @@ class StopChains:
             for task in tasks:
                 work(task)
             return
-        for kernel in (*KERNELS, count_observed, sum_slices, sum_of_slices):
+        for kernel in (*KERNELS, count_observed, sum_label_prior, sum_slices, sum_of_slices):
             devices.load_kernels(kernel, self.device)
         list(thread_pool(self.threads).map(work, tasks))
 
@@ -280,6 +298,19 @@ class StopChains:
     def cells(self, chain: int) -> NDArray[np.float32]:
         """All cells of a chain, (N, 6): on the CPU not a copy, and good until the next sweep."""
         return self._of(self._state.cells, chain)[:, :STATE_SIZE]
+
+    def solid(self, chain: int) -> NDArray[np.bool_]:
+        """Labels of all cells of a chain, (N,), likewise; none is solid if cells have no labels."""
+        return self._of(self._state.solid, chain).view(np.bool_)
+
+    def draw_untouched(self, sweep: int) -> None:
+        """Draw the reflectivities of cells that no beam touches given their labels, after the sweep with this number.
+
+        No sweep does: until beams may come to such cells they say nothing.
+        """
+        assert self._packed is not None, "no sweep has been made"
+        size = self.n_chains * self._state.n_cells
+        self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state, self._keys])
 
     def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """How many beams stopped in each cell of a chain, and how many met its surface and passed, (N,) each, likewise.

@@ -71,6 +71,7 @@ class StopState:
     parts: int  # of the beams, each counted by itself
     beta: wp.float32  # inverse temperature
     cells: wp.array(dtype=Cell)
+    solid: wp.array(dtype=wp.uint8)  # labels; all zero where cells have none
     fixed_m: wp.array(dtype=wp.float32)  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
     candidates: wp.array(dtype=Cell)  # one for `IN_A_ROW` cells of a chain
     met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed

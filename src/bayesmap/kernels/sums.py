@@ -28,10 +28,13 @@ def sum_of_slices(
     column: int,
     one: wp.array2d(dtype=wp.float64),
     other: wp.array2d(dtype=wp.float64),
+    beside_other: wp.array2d(dtype=wp.float64),
     one_total: wp.array2d(dtype=wp.float64),
     other_total: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a chain: the sums of two quantities' slices, into a column of the totals."""
+    """One thread a chain: the sums of two quantities' slices, into a column of the totals. ``beside_other`` are more
+    slices of the second, perhaps none.
+    """
     chain = first + wp.tid()
     total = wp.float64(0.0)
     for k in range(one.shape[1]):
@@ -40,4 +43,6 @@ def sum_of_slices(
     total = wp.float64(0.0)
     for k in range(other.shape[1]):
         total += other[chain, k]
+    for k in range(beside_other.shape[1]):
+        total += beside_other[chain, k]
     other_total[chain, column] = total

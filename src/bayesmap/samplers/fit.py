@@ -135,7 +135,8 @@ def piloting(
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
                 hits, met = (count[touched] for count in state.chains.counted(0))
-                prior = refit_prior(prior, hits, met, step)
+                solid = state.chains.solid(0)[touched] if prior.has_labels else None
+                prior = refit_prior(prior, hits, met, step, solid)
             now = Parameters(sensor, prior)
             state = replace(state, problem=problem.under(sensor, prior))
         watch.report("fit", sweep + 1, sweeps, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
@@ -268,17 +269,37 @@ def _refit_noise(
     return Gaussian(float(sigma_m), float(sigma_per_m))
 
 
-def refit_prior(prior: Reflective, hits: NDArray[np.int32], met: NDArray[np.int32], step: float) -> Reflective:
+def refit_prior(
+    prior: Reflective,
+    hits: NDArray[np.int32],
+    met: NDArray[np.int32],
+    step: float,
+    solid: NDArray[np.bool_] | None = None,
+) -> Reflective:
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
 
-    Cells whose ``met`` is negative have not counted yet and are left out.
+    Cells whose ``met`` is negative have not counted yet and are left out. With labels each Beta is that of the cells
+    that have its label; the coupling stays.
     """
     counted = met >= 0
-    if not counted.any():
-        return prior
+    if solid is None:
+        a, b = _likeliest_beta(prior.a, prior.b, hits[counted], met[counted], step)
+        return replace(prior, a=a, b=b)
+    free, full = counted & ~solid, counted & solid
+    a, b = _likeliest_beta(prior.a, prior.b, hits[free], met[free], step)
+    a_solid, b_solid = _likeliest_beta(prior.a_solid, prior.b_solid, hits[full], met[full], step)
+    return replace(prior, a=a, b=b, a_solid=a_solid, b_solid=b_solid)
+
+
+def _likeliest_beta(
+    a: float, b: float, hits: NDArray[np.int32], met: NDArray[np.int32], step: float
+) -> tuple[float, float]:
+    """A Beta's counts, moved towards those that make hits and passes likeliest; unmoved where nothing is counted."""
+    if not len(hits):
+        return a, b
     # Both counts as one number: a hundred times as fast as looking for equal pairs.
     base = int(met.max()) + 1
-    pairs, times = np.unique(hits[counted].astype(np.int64) * base + met[counted], return_counts=True)
+    pairs, times = np.unique(hits.astype(np.int64) * base + met, return_counts=True)
     h, p = (part.astype(np.float64) for part in np.divmod(pairs, base))
 
     def cost(logs: NDArray[np.float64]) -> float:
@@ -286,8 +307,8 @@ def refit_prior(prior: Reflective, hits: NDArray[np.int32], met: NDArray[np.int3
         terms = special.betaln(a + h, b + p) - special.betaln(a, b)
         return float(-(times * terms).sum() / times.sum())
 
-    first = np.log([prior.a, prior.b])
+    first = np.log([a, b])
     bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]
     found = optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
     a, b = np.exp((1 - step) * first + step * found.x)
-    return replace(prior, a=float(a), b=float(b))
+    return float(a), float(b)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
+from scipy import ndimage, special
 
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.reflectivity import Reflective
@@ -110,18 +110,47 @@ def end_cells(rays: Rays) -> NDArray[np.int32]:
     return np.where(inside & rays.touched_map().ravel()[flat], flat, -1).astype(np.int32)
 
 
-def start(estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator) -> NDArray[np.float32]:
-    """A chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the posterior.
-
-    Cells in which no reading ends have surfaces from the prior, and those that no beam touches all of their state.
-    """
-    grid, cells = rays.grid, rays.grid.n_cells
-    state = np.zeros((cells, 6), dtype=np.float32)
+def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Beams that each cell of the grid seems to have stopped, and that it seems to have met and let pass, (N,) each."""
     stopped, passed = np.zeros(cells, np.float32), np.zeros(cells, np.float32)
     stopped[estimate.touched] = estimate.hits
     # Half of the passes: those of a cell that a wall fills in part mostly go by beside the wall.
     passed[estimate.touched] = 0.5 * estimate.passes
-    state[:, 0] = rng.beta(stopped + prior.a, passed + prior.b)
+    return stopped, passed
+
+
+def first_labels(
+    estimate: InitialEstimate, prior: Reflective, cells: int, rng: np.random.Generator
+) -> NDArray[np.bool_]:
+    """A chain's first labels of all cells of the grid, (N,): drawn as if cells had no neighbours."""
+    stopped, passed = (counts.astype(np.float64) for counts in counts_at_first(estimate, cells))
+    log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed) - special.betaln(
+        prior.a_solid, prior.b_solid
+    )
+    log_odds -= special.betaln(prior.a + stopped, prior.b + passed) - special.betaln(prior.a, prior.b)
+    return np.asarray(rng.random(cells) < special.expit(log_odds))
+
+
+def start(
+    estimate: InitialEstimate,
+    prior: Reflective,
+    rays: Rays,
+    rng: np.random.Generator,
+    solid: NDArray[np.bool_] | None = None,
+) -> NDArray[np.float32]:
+    """A chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the posterior.
+
+    ``solid`` are their labels, (N,), if they have any. Cells in which no reading ends have surfaces from the prior, and
+    those that no beam touches all of their state.
+    """
+    grid, cells = rays.grid, rays.grid.n_cells
+    state = np.zeros((cells, 6), dtype=np.float32)
+    stopped, passed = counts_at_first(estimate, cells)
+    if solid is None:
+        state[:, 0] = rng.beta(stopped + prior.a, passed + prior.b)
+    else:
+        a, b = prior.beta_given(solid)
+        state[:, 0] = rng.beta(stopped + a, passed + b)
     if not prior.has_surfaces:
         return state
     endpoints = estimate.endpoint_cells

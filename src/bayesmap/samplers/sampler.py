@@ -24,6 +24,7 @@ Floats = NDArray[np.float64]
 STREAM_SWEEPS = 1
 STREAM_START = 2
 STREAM_PARTICLES = 3
+STREAM_LABELS = 7
 """Streams of random numbers: with the seed and the chain, each makes a key of its own."""
 
 PILOT = 1 << 32

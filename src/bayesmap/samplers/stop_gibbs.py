@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.labels import SOLID
 from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import rounds, start, steps
+from bayesmap.samplers.initial_estimate import first_labels, rounds, start, steps
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.samplers.sampler import NOTHING, STREAM_LABELS, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 
 if TYPE_CHECKING:
@@ -44,8 +45,8 @@ class StopState:
 
 @dataclass(frozen=True)
 class StopGibbs:
-    """Sweeps of stops, reflectivities and surfaces. A kept draw is the map that the sweep began with: its density, and
-    the counts behind its expected reflectivities, are the sweep's own.
+    """Sweeps of stops, labels, reflectivities and surfaces. A kept draw is the map that the sweep began with: its
+    density, and the counts behind its expected reflectivities, are the sweep's own.
     """
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
@@ -79,10 +80,12 @@ class StopGibbs:
 
         estimate, kept = problem.estimate, problem.coordinates["cell"]
         resumed = {} if resume is None else resume.arrays
+        solid = self._labels(problem, chain_ids, seed, resumed)
 
         def states(chain: int) -> NDArray[np.float32]:
             rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
-            state = start(estimate, problem.prior, problem.rays, rng)
+            own = None if solid is None else solid[chain]
+            state = start(estimate, problem.prior, problem.rays, rng, own)
             if "state" in resumed:
                 state[kept] = resumed["state"][chain]
             return state
@@ -98,12 +101,24 @@ class StopGibbs:
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         observed_counts = on_grid("observed_counts")
         chains = StopChains(
-            _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"),
+            _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"), solid=solid,
             observed_counts=(
                 None if observed_counts is None else np.ascontiguousarray(observed_counts.transpose(0, 2, 1))
             ),
         )  # fmt: skip
         return StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
+
+    def _labels(
+        self, problem: StopProblem, chain_ids: Sequence[int], seed: int, resumed: Mapping[str, NDArray[Any]]
+    ) -> NDArray[np.bool_] | None:
+        """Labels of all cells at which chains start, or where they stood, (C, N), if cells have any."""
+        if not problem.prior.has_labels:
+            return None
+        cells = problem.grid.n_cells
+        if SOLID.name in resumed:
+            return np.unpackbits(resumed[SOLID.name], axis=-1, count=cells).view(np.bool_)
+        rngs = [np.random.default_rng([seed, chain, STREAM_LABELS]) for chain in chain_ids]
+        return np.stack([first_labels(problem.estimate, problem.prior, cells, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
         """The same problem for a model whose scans were taken elsewhere; draws keep the same cells."""
@@ -122,11 +137,17 @@ class StopGibbs:
             _plan(problem), old.cells, state.keys, threads=problem.threads,
             counts=np.stack([np.stack(old.counted(chain)) for chain in chains]),
             observed_counts=np.stack([old.observed_counts(chain) for chain in chains]),
+            solid=np.stack([old.solid(chain) for chain in chains]),
         )  # fmt: skip
         return replace(state, problem=problem, chains=new)
 
     def stops(self, state: StopState) -> NDArray[np.float32]:
-        """Where the chains stand: reflectivities (C, N), or surfaces (C, N, 6)."""
+        """Where the chains stand: reflectivities (C, N), or surfaces (C, N, 6).
+
+        Where cells have labels, those that no beam touches get a reflectivity now, and no sweep sees it.
+        """
+        if state.problem.prior.has_labels and state.chains.swept:
+            state.chains.draw_untouched(state.sweep)
         cells = np.stack([state.chains.cells(chain) for chain in range(state.chains.n_chains)])
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
@@ -142,12 +163,17 @@ class StopGibbs:
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
     def snapshot(self, state: StopState) -> Snapshot:
-        """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started."""
+        """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started, but for labels:
+        those of all cells, packed.
+        """
         kept, chains = state.problem.coordinates["cell"], range(state.chains.n_chains)
         counts = [np.stack(state.chains.counted(chain))[:, kept] for chain in chains]
+        labelled = state.problem.prior.has_labels
+        labels = {SOLID.name: np.packbits([state.chains.solid(chain) for chain in chains], axis=-1)} if labelled else {}
         return Snapshot(
             state.sweep,
-            {
+            labels
+            | {
                 "state": np.stack([state.chains.cells(chain)[kept] for chain in chains]),
                 "counts": np.stack(counts),
                 "observed_counts": np.stack([state.chains.observed_counts(chain)[kept].T for chain in chains]),
@@ -196,7 +222,8 @@ class _Draws:
     def __init__(self, problem: StopProblem, chains: StopChains, keep: Keep, kept: range) -> None:
         self._problem, self._chains = problem, chains
         self._number = {sweep - 1: number for number, sweep in enumerate(kept)}
-        sizes = {name: len(cells) for name, cells in problem.coordinates.items()}
+        shape = dict(zip(("x", "y"), problem.grid.shape, strict=True))
+        sizes = shape | {name: len(cells) for name, cells in problem.coordinates.items()}
         self.arrays = {
             spec.name: spec.empty(chains.n_chains, len(kept), tuple(sizes[dim] for dim in spec.dims))
             for spec in problem.prior.arrays
@@ -205,6 +232,7 @@ class _Draws:
         self._cells = problem.coordinates
         surfaces = self._cells.get("surface_cell")
         self._centres = None if surfaces is None else problem.grid.cell_centres_m(surfaces)
+        self._solid: dict[int, NDArray[np.bool_]] = {}
 
     def begin(self, chain: int, sweep: int) -> None:
         """Take the cells as they stand before a sweep."""
@@ -213,6 +241,9 @@ class _Draws:
             return
         cells, edge = self._chains.cells(chain), self._problem.grid.resolution
         self._put("reflectivity", chain, number, cells[self._cells["cell"], 0])
+        if self._problem.prior.has_labels:
+            self._solid[chain] = self._chains.solid(chain).copy()
+            self._put(SOLID.name, chain, number, np.packbits(self._solid[chain]))
         if self._centres is not None:
             surfaces = cells[self._cells["surface_cell"], 1:].astype(np.float64)
             surfaces[:, :2] -= self._centres
@@ -229,7 +260,9 @@ class _Draws:
         if "expected" not in self.arrays:
             return
         hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))
-        expected = expected_reflectivity(hits, met, self._problem.prior, self.arrays["reflectivity"][chain, number])
+        prior, drawn = self._problem.prior, self.arrays["reflectivity"][chain, number]
+        solid = self._solid[chain][self._cells["cell"]] if prior.has_labels else None
+        expected = expected_reflectivity(hits, met, prior, drawn, solid)
         self._put("expected", chain, number, expected)
 
     def _put_chances(self, chain: int, number: int, found: InSquares) -> None:
@@ -238,6 +271,8 @@ class _Draws:
         place, known = places_among(self._problem.rays.touched, kept)
         for name, values in (("stop_chance", found.drawn), ("expected_stop_chance", found.expected)):
             chances = np.full(len(kept), prior.mean, dtype=np.float32)
+            if prior.has_labels:
+                chances[:] = prior.mean_given(self._solid[chain][kept])
             chances[known] = np.minimum(values[place[known]], np.float32(HIGHEST))
             self._put(name, chain, number, chances)
 
@@ -247,7 +282,11 @@ class _Draws:
 
 
 def expected_reflectivity(
-    hits: NDArray[np.int32], met: NDArray[np.int32], prior: Reflective, drawn: NDArray[np.float16]
+    hits: NDArray[np.int32],
+    met: NDArray[np.int32],
+    prior: Reflective,
+    drawn: NDArray[np.float16],
+    solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:
     """Mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
@@ -266,9 +305,11 @@ def expected_reflectivity(
         met: (T,), negative for cells that have not counted yet.
         prior: that the sweep was made with.
         drawn: reflectivities for the cells that have not, (T,).
+        solid: labels of the draw, whose pseudo-counts a and b then are, (T,).
     """
     counted = hits.astype(np.float32)
     total = counted + np.maximum(met, 0)
-    counted += np.float32(prior.a)
-    total += np.float32(prior.a + prior.b)
+    a, b = (prior.a, prior.b) if solid is None else prior.beta_given(solid)
+    counted += np.asarray(a, dtype=np.float32)
+    total += np.asarray(np.add(a, b), dtype=np.float32)
     return np.minimum(np.where(met >= 0, counted / total, drawn), np.float32(HIGHEST))

@@ -1,0 +1,233 @@
+"""Cells that are labelled free or solid: labels and reflectivities follow the exact posterior of tiny maps.
+
+That of reflectivities is enumerated, over all ways in which beams may stop and all ways of labelling the cells; that of
+surfaces is a set of weighted draws from the prior. Thousands of chains are swept together, and are independent. False
+alarms: `ALPHA` = 1e-4 over this module.
+"""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from oracle.enumeration import all_maps, log_prior_of_all
+from oracle.field_exact import exact_labels
+from oracle.field_law import draw_states, log_likelihoods, paths_of
+from oracle.field_worlds import build_worlds
+from oracle.verdict import ALPHA, least_p_value
+from oracle.weighted import p_values as weighted_p_values
+from oracle.weighted import surface_coordinates, weighted
+from scipy import stats
+from test_reflectivity_exact import scans_for, sensor
+from test_surface_exact import BLUNT, NOTHING, TWO
+
+import bayesmap as bm
+from bayesmap.kernels import labels as label_kernels
+from bayesmap.kernels import stop_chains
+from bayesmap.model import Model
+from bayesmap.samplers.metropolis import Metropolis
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.stop_problem import trace_stops
+
+CHAINS, EDGE = 3000, 0.5
+TESTS = 500  # p-values in this module, at most
+
+# Shape, noise, prior: weak and strong couplings; labels that say much of a reflectivity, and little.
+CASES = {
+    "a cell alone": ((1, 1), 0.05, bm.Beta(0.5, 2.0, 1.0, 2.0, 1.0)),
+    "two cells": ((2, 1), 0.05, bm.Beta(0.5, 2.0, 0.8, 2.0, 1.0)),
+    "a row": ((4, 1), 0.1, bm.Beta(0.3, 3.0, 1.2, 1.5, 0.5)),
+    "a square": ((2, 2), 0.1, bm.Beta(0.5, 1.5, 0.6, 1.5, 0.5)),
+    "a square, hardly coupled": ((2, 2), 0.3, bm.Beta(0.2, 2.0, 0.05, 3.0, 0.7)),
+    "some that no beam touches": ((2, 3), 0.1, bm.Beta(0.4, 2.0, 1.0, 2.0, 0.5)),
+    "strongly coupled": ((3, 2), 0.2, bm.Beta(0.6, 1.5, 2.5, 1.2, 0.6)),
+}
+SEEN = {"some that no beam touches": 2}
+
+
+def scans_of(name):
+    """Beams from all sides; of one case along the lower row of cells alone."""
+    shape = CASES[name][0]
+    if name in SEEN:
+        return bm.Scans(
+            [[-0.4, 0.25, 0.0], [1.4, 0.25, np.pi]], [-0.05, 0.1], [[0.6, 1.1], [np.inf, 0.7]],
+            max_range_m=2.0, min_range_m=0.15,
+        )  # fmt: skip
+    return scans_for(shape, [sum(shape), 1])
+
+
+@pytest.fixture(autouse=True)
+def together(monkeypatch):
+    """All chains in each launch, as on a GPU: a thousand times as fast as one after the other."""
+    monkeypatch.setattr(stop_chains.StopChains, "_each", lambda self, work, tasks: work(range(self.n_chains)))
+
+
+@cache
+def exact(name, **changes):
+    shape, sigma_m, prior = CASES[name]
+    prior, law = replace(prior, **dict(changes)), sensor(sigma_m)
+    rays = build_worlds(scans_of(name), bm.Grid(shape, EDGE), prior, law, 1).problem.rays
+    return exact_labels(paths_of(rays), shape, prior, law)
+
+
+def swept(scans, grid, prior, law, sweeps, seed, beta=1.0, chains=CHAINS):
+    """A state of many chains."""
+    problem = trace_stops(scans, grid, prior, law, hit_depth=0.5, threads=1)
+    sampler = StopGibbs()
+    state, _ = sampler.step(sampler.init(problem, range(chains), seed), sweeps, beta)
+    return sampler, state
+
+
+def drawn(name, sweeps=300, seed=11):
+    """Reflectivities and labels of all chains, (CHAINS, cells) each."""
+    shape, sigma_m, prior = CASES[name]
+    sampler, state = swept(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(sigma_m), sweeps, seed)
+    m = sampler.stops(state)  # those that no beam touches are drawn here
+    return m.astype(float), np.stack([state.chains.solid(chain) for chain in range(CHAINS)])
+
+
+def least(name, found, law):
+    """The least p-value of labels, reflectivities and products, corrected for how many there are."""
+    (m, solid), (mixture, p) = found, law
+    out = [least_p_value(solid, p)]
+    out += [stats.kstest(m[:, i], mixture.cdf(i)).pvalue for i in range(m.shape[1])]
+    products = np.einsum("ni,nj->nij", m, m)
+    z = (products.mean(axis=0) - mixture.pairs()) / (products.std(axis=0) / np.sqrt(len(m)))
+    out += list(2 * stats.norm.sf(abs(z[np.triu_indices(m.shape[1])])))
+    return min(out)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_labels_and_reflectivities_follow_the_exact_posterior(name):
+    assert least(name, drawn(name), exact(name)) > ALPHA / TESTS
+    if name in SEEN:
+        shape, _, prior = CASES[name]
+        rays = trace_stops(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(0.1)).rays
+        assert len(rays.touched) == SEEN[name] < 6
+
+
+@pytest.mark.parametrize("name", ["a row", "a square", "some that no beam touches", "strongly coupled"])
+def test_a_coupling_that_is_a_little_wrong_is_rejected(name):
+    found, coupling = drawn(name), CASES[name][2].coupling
+    for wrong in (1e-9, 0.6 * coupling, 1.5 * coupling):
+        assert least(name, found, exact(name, coupling=wrong)) < ALPHA / TESTS
+
+
+def test_wrong_betas_are_rejected():
+    found, prior = drawn("a square"), CASES["a square"][2]
+    for wrong in ({"a_solid": 1.5 * prior.a_solid}, {"b": 1.4 * prior.b}, {"a": prior.a_solid, "b": prior.b_solid}):
+        assert least("a square", found, exact("a square", **wrong)) < ALPHA / TESTS
+
+
+def test_a_conditional_that_does_not_look_at_the_cell_s_own_beams_is_rejected(monkeypatch):
+    monkeypatch.setattr(label_kernels, "TOUCHED", label_kernels.UNTOUCHED)
+    assert least("a square", drawn("a square"), exact("a square")) < ALPHA / TESTS
+
+
+def test_a_conditional_that_looks_at_half_of_the_cells_alone_is_rejected(monkeypatch):
+    """The other colour keeps the labels that it had at first."""
+    phases = stop_chains.StopChains._part
+
+    def one_colour(self, phase, chains, part):
+        if phase[0] is not stop_chains.draw_labels or phase[2][0] == 0:
+            phases(self, phase, chains, part)
+
+    monkeypatch.setattr(stop_chains.StopChains, "_part", one_colour)
+    assert least("a row", drawn("a row"), exact("a row")) < ALPHA / TESTS
+
+
+@pytest.mark.parametrize("beta", [0.0, 0.4])
+def test_at_an_inverse_temperature_the_coupling_is_not_tempered(beta):
+    shape, sigma_m, prior = CASES["a square"]
+    law, grid = sensor(sigma_m), bm.Grid(CASES["a square"][0], EDGE)
+    rays = build_worlds(scans_of("a square"), grid, prior, law, 1).problem.rays
+    sampler, state = swept(scans_of("a square"), grid, prior, law, 200, 5, beta)
+    found = sampler.stops(state).astype(float), np.stack([state.chains.solid(chain) for chain in range(CHAINS)])
+    assert least("a square", found, exact_labels(paths_of(rays), shape, prior, law, beta)) > ALPHA / TESTS
+    assert least("a square", found, exact_labels(paths_of(rays), shape, prior, law, beta + 0.5)) < ALPHA / TESTS
+
+
+SURFACES = {
+    "where readings end": (TWO, bm.Surface(0.6, 2.0, wander=0.3, spread=0.3, dof=5.0, coupling=1.0, a_solid=2.0)),
+    "where none does": (NOTHING, bm.Surface(0.5, 1.5, wander=0.4, spread=0.4, dof=4.0, coupling=1.5, a_solid=2.0)),
+}
+
+
+def coordinates(states, solid):
+    """Surfaces in edges, and labels, (..., 2 * 7)."""
+    centres = np.array([[0.5, 0.5], [1.5, 0.5]]) * EDGE
+    return np.concatenate([surface_coordinates(states, centres, EDGE), solid], axis=-1)
+
+
+@cache
+def surfaces_by_importance(name):
+    """Draws of the prior of two cells, and the logarithms of their likelihoods."""
+    scans, prior = SURFACES[name]
+    rng, count, grid = np.random.default_rng(31), 200_000, bm.Grid((2, 1), EDGE)
+    of_labels = np.exp(log_prior_of_all((2, 1), 0.5, prior.coupling))
+    solid = all_maps(2)[rng.choice(4, size=count, p=of_labels)]
+    states = draw_states(rng, prior, (grid.cell_centres_m(np.arange(2)), EDGE), (count,))
+    states[..., 0] = rng.beta(*prior.beta_given(solid))
+    paths = paths_of(build_worlds(scans, grid, prior, BLUNT, 1).problem.rays)
+    parts = [states[i : i + 50_000] for i in range(0, count, 50_000)]
+    return (
+        solid,
+        coordinates(states, solid),
+        np.concatenate([log_likelihoods(paths, part, BLUNT, False).sum(axis=-1) for part in parts]),
+    )
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_surfaces_and_labels_follow_weighted_draws_from_the_prior(name):
+    scans, prior = SURFACES[name]
+    _, state = swept(scans, bm.Grid((2, 1), EDGE), prior, BLUNT, 400, 3, chains=2500)
+    chains = range(state.chains.n_chains)
+    solid = np.stack([state.chains.solid(chain) for chain in chains])
+    mine = coordinates(np.stack([state.chains.cells(chain) for chain in chains]).astype(float), solid)
+    labels, values, log_weight = surfaces_by_importance(name)
+    law = weighted(values, log_weight)
+    assert law.size > 8 * 2500
+    assert weighted_p_values(mine, law).min() > ALPHA / TESTS
+    weaker = log_weight - 0.7 * prior.coupling * (labels[:, 0] == labels[:, 1])  # the twin
+    assert weighted_p_values(mine, weighted(values, weaker)).min() < ALPHA / TESTS
+
+
+def test_the_sampler_s_log_prior_is_that_of_the_formula():
+    """Up to single precision; and of labels alone where no beam comes."""
+    scans, prior = SURFACES["where readings end"]
+    grid = bm.Grid((2, 1), EDGE)
+    sampler, state = swept(scans, grid, prior, BLUNT, 3, 1, chains=40)
+    expected = []
+    for chain in range(40):
+        cells = state.chains.cells(chain).astype(float)
+        cells[:, 1:3] -= grid.cell_centres_m(np.arange(2))
+        parts = dict(zip(("mean_x", "mean_y", "l11", "l21", "l22"), cells[:, 1:].T / EDGE, strict=True))
+        named = {f"surface_{part}": values.reshape(2, 1) for part, values in parts.items()}
+        solid = state.chains.solid(chain).reshape(2, 1)
+        expected.append(prior.log_prob({"reflectivity": cells[:, :1], "solid": solid, **named}, grid))
+    _, info = sampler.step(state, 1)
+    np.testing.assert_allclose(info.log_prior[:, 0], expected, rtol=1e-4, atol=1e-3)
+
+    name = "some that no beam touches"
+    shape, sigma_m, prior = CASES[name]
+    sampler, state = swept(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(sigma_m), 3, 1, chains=40)
+    touched, expected = state.problem.rays.touched, []
+    for chain in range(40):
+        solid, m = state.chains.solid(chain), state.chains.cells(chain)[touched, 0].astype(float)
+        a, b = prior.beta_given(solid[touched])
+        density = np.log(m * (1 - m)) + stats.beta.logpdf(m, a, b)
+        pairs = [(0, 1), (1, 2), (3, 4), (4, 5), (0, 3), (1, 4), (2, 5)]
+        expected.append(density.sum() + prior.coupling * sum(solid[i] == solid[j] for i, j in pairs))
+    _, info = sampler.step(state, 1)
+    np.testing.assert_allclose(info.log_prior[:, 0], expected, rtol=1e-4, atol=1e-3)
+
+
+def test_metropolis_steps_from_the_prior_follow_the_posterior_too():
+    """The generic sampler asks the prior for proposals: 300 chains of 30 sweeps on four cells."""
+    shape, sigma_m, prior = CASES["a square"]
+    model = Model(scans_of("a square"), bm.Grid(shape, EDGE), prior, sensor(sigma_m), hit_depth=0.5)
+    sampler = Metropolis()
+    state, _ = sampler.step(sampler.init(sampler.prepare(model, "cpu"), range(300), 3), 30)
+    arrays = sampler.snapshot(state).arrays
+    found = arrays["reflectivity"].reshape(300, 4).astype(float), arrays["solid"].reshape(300, 4) != 0
+    assert least("a square", found, exact("a square")) > ALPHA / TESTS
