@@ -41,7 +41,7 @@ def test_the_density_is_that_of_its_formula_up_to_a_constant():
 
 def test_draws_are_exact():
     shape, rng = (2, 2), np.random.default_rng(3)
-    drawn = [PRIOR.sample_cells(rng, bm.Grid(shape)) for _ in range(1500)]
+    drawn = [PRIOR.sample_cells(rng, bm.Grid(shape)) for _ in range(800)]
     solid = np.stack([one["solid"].ravel() for one in drawn])
     m = np.stack([one["reflectivity"].ravel() for one in drawn])
     law = np.exp(log_prior_of_all(shape, 0.5, PRIOR.coupling))

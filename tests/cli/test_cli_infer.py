@@ -222,6 +222,21 @@ def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
     assert f"coupling = {coupling if coupling == '0.7' else repr(coupling).replace(chr(39), chr(34))}" in written
 
 
+@pytest.mark.parametrize("cells", ["surface", "reflectivity"])
+def test_labels_of_neighbours_are_coupled(office, tmp_path, short, cells):
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--coupling", "0.7", "--json")
+    assert result.exit_code == 0, result.stderr
+    prior = bm.load(tmp_path / "run" / "run.nc").posterior.prior
+    assert prior.words.kind == cells
+    assert prior.coupling == 0.7
+    document = json.loads(result.stdout)
+    assert document["prior"]["coupling"] == 0.7
+    assert document["fitted"]["prior"] == prior.describe()
+    assert document["fitted"]["prior"]["a_solid"] != document["prior"]["a_solid"]
+    assert "fitted coupling" not in call("info", tmp_path / "run" / "run.nc").stdout
+    assert "coupling = 0.7" in (tmp_path / "run" / "config.toml").read_text()
+
+
 def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
     result = call("infer", office, "-o", tmp_path / "run", *short, "--max-range", "0.001")
     assert result.exit_code == 0, result.stderr

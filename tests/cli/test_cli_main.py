@@ -181,6 +181,8 @@ def test_choices_are_those_of_the_library():
     assert binary["hit_depth"] == Independent.hit_depth
     kinds = {name: type(cells.prior_of(cells.settled({**defaults, "cells": name}))) for name in CELLS}
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
+    labelled = cells.prior_of(cells.settled({**defaults, "cells": "surface", "coupling": 0.5}))
+    assert labelled.describe() == Surface(coupling=0.5).describe()
     # The help says what settings are where the user sets none.
     unset = {key.name: key.unset for key in INFER}
     assert unset["draws"] == f"{FEWEST_DRAWS}, to {MOST_DRAWS} for few beams; binary {cells.BINARY_DRAWS}"

@@ -18,9 +18,6 @@ P_WALL = 0.2
 HIT_DEPTH = Independent.hit_depth
 """Where in a cell a beam is expected to stop, as a fraction of its chord."""
 
-LABEL_COUPLING = 1.0
-"""Of the labels of neighbouring cells, free or solid, under reflectivities and surfaces."""
-
 LASER_SIGMA_M = 0.02
 LASER_SIGMA_PER_M = 0.005
 CELL_SHARE = 0.35

@@ -20,7 +20,6 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
     Raises:
         BadInput: settings that this kind of cells does not have, or no draws.
     """
-    from bayesmap.cells.defaults import LABEL_COUPLING
     from bayesmap.cells.kinds import BUILT_IN
 
     cells = values["cells"]
@@ -32,8 +31,6 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
     if cells != "binary":
         if values["coupling"] == "fit":
             raise BadInput("coupling: 'fit' is for binary walls; add --cells binary, or give a number")
-        if values["coupling"] is None:
-            out["coupling"] = LABEL_COUPLING
         plain_values = {"prior": None, "start": None, "method": "gibbs", "order": "radial"}
         for name, plain in plain_values.items():
             if values[name] != plain:
@@ -62,7 +59,7 @@ def prior_of(values: dict[str, Any]) -> CellPrior:
     if values["cells"] == "binary":
         p_wall, coupling = P_WALL if values["prior"] is None else values["prior"], values["coupling"]
         return Independent(p_wall) if coupling is None else Ising(p_wall, coupling)
-    return BUILT_IN[values["cells"]](coupling=values["coupling"])  # type: ignore[call-arg]
+    return BUILT_IN[values["cells"]](coupling=values["coupling"] or 0.0)  # type: ignore[call-arg]
 
 
 def sensor_for(values: dict[str, Any], chosen: SensorModel | str | None, resolution_m: float) -> SensorModel | str:
