@@ -12,13 +12,16 @@ from numpy.typing import NDArray
 from scipy import ndimage, special
 
 from bayesmap.beams.rays import Rays
+from bayesmap.cells.perfect_draws import rough_draw
 from bayesmap.cells.reflectivity import Reflective
+from bayesmap.space.grid import Grid
 
 Floats = NDArray[np.float64]
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
 FREE_ROUND, FAR_ROUND = 16, 32
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
+LABEL_SWEEPS = 30
 LOGIT_STEP = 1.0
 INSIDE = 0.98  # of a cell, in which means start
 ALONG = 0.25
@@ -120,15 +123,17 @@ def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.f
 
 
 def first_labels(
-    estimate: InitialEstimate, prior: Reflective, cells: int, rng: np.random.Generator
+    estimate: InitialEstimate, prior: Reflective, grid: Grid, rng: np.random.Generator
 ) -> NDArray[np.bool_]:
-    """A chain's first labels of all cells of the grid, (N,): drawn as if cells had no neighbours."""
-    stopped, passed = (counts.astype(np.float64) for counts in counts_at_first(estimate, cells))
-    log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed) - special.betaln(
-        prior.a_solid, prior.b_solid
-    )
+    """A chain's first labels of all cells of the grid, (N,): of its cells' counts as they seem, after some sweeps.
+
+    Regions that no beam sees come to agree slowly, and sweeps of labels alone cost next to nothing.
+    """
+    stopped, passed = (counts.astype(np.float64) for counts in counts_at_first(estimate, grid.n_cells))
+    log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed)
+    log_odds -= special.betaln(prior.a_solid, prior.b_solid)
     log_odds -= special.betaln(prior.a + stopped, prior.b + passed) - special.betaln(prior.a, prior.b)
-    return np.asarray(rng.random(cells) < special.expit(log_odds))
+    return rough_draw(rng, log_odds.reshape(grid.shape), prior.coupling, LABEL_SWEEPS).ravel()
 
 
 def start(

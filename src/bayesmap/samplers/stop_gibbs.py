@@ -118,7 +118,7 @@ class StopGibbs:
         if SOLID.name in resumed:
             return np.unpackbits(resumed[SOLID.name], axis=-1, count=cells).view(np.bool_)
         rngs = [np.random.default_rng([seed, chain, STREAM_LABELS]) for chain in chain_ids]
-        return np.stack([first_labels(problem.estimate, problem.prior, cells, rng) for rng in rngs])
+        return np.stack([first_labels(problem.estimate, problem.prior, problem.grid, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
         """The same problem for a model whose scans were taken elsewhere; draws keep the same cells."""
