@@ -215,3 +215,24 @@ def test_a_model_s_log_joint_has_the_labels():
     pairs = (stats.beta.logpdf(m, *PRIOR.beta_given(s)).sum() for s in (turned["solid"], cells["solid"]))
     assert change == pytest.approx(next(pairs) - next(pairs), abs=1e-4)  # all pairs are alike as before
     assert number_of(cells["solid"].ravel()) + number_of(turned["solid"].ravel()) == 63
+
+
+def test_proposals_of_the_prior_keep_it():
+    """The log ratio that comes with a proposal is that of two maps' densities less that of proposing the one or the
+    other.
+    """
+    shape, rng = (3, 2), np.random.default_rng(6)
+    cells, one = PRIOR.sample_cells(rng, bm.Grid(shape)), bm.Grid((1, 1))
+    changed = 0
+    for site in np.ndindex(shape):
+        for _ in range(6):
+            proposal, log_ratio = PRIOR.propose(cells, site, rng, bm.Grid(shape))
+            before = {name: values[site].reshape(1, 1) for name, values in cells.items()}
+            after = {name: values.copy() for name, values in cells.items()}
+            for name, value in proposal.items():
+                after[name][site] = value
+            alone = PRIOR.log_prob({n: np.reshape(v, (1, 1)) for n, v in proposal.items()}, one)
+            expected = PRIOR.log_prob(after, bm.Grid(shape)) - PRIOR.log_prob(cells, bm.Grid(shape))
+            assert log_ratio == pytest.approx(expected - alone + PRIOR.log_prob(before, one), abs=1e-9)
+            changed += abs(log_ratio) > 0
+    assert changed > 5
