@@ -13,6 +13,7 @@ apart, by the spread within a chain, says whether they forget where they started
 
 import sys
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,11 +30,13 @@ from bayesmap.space.planar import between, wrapped
 Floats = NDArray[np.float64]
 
 GRID = bm.Grid((3, 3), 0.5, (0.0, 0.0))
-P_WALL, SENSOR, MAX_RANGE_M = 0.3, bm.Gaussian(0.1), 3.0
+P_WALL, MAX_RANGE_M = 0.3, 3.0
+NOISES_M = (0.25, 0.1)
+"""Standard deviations of the readings: wide, and narrow beside cells of half a metre."""
 PRIOR = Uncertain(0.15, 0.2)
 ANGLES = np.linspace(0, 2 * np.pi, 9, endpoint=False)
 SCANS, POINTS = 3, 2048
-WORLDS = range(4)
+WORLDS = range(2)
 MAPS = np.array([[k >> i & 1 for i in range(9)] for k in range(512)], dtype=np.float32)
 
 
@@ -52,7 +55,7 @@ class Posterior:
     sigma: Floats
 
 
-def world(seed: int) -> bm.Scans:
+def world(seed: int, sensor: bm.SensorModel) -> bm.Scans:
     """Scans of a random map, from poses that the log states wrongly; where the sensor truly stands there is no wall."""
     rng = np.random.default_rng(seed)
     walls = rng.random(GRID.shape) < P_WALL
@@ -60,14 +63,14 @@ def world(seed: int) -> bm.Scans:
     truth = PRIOR.law(said).sample(rng)
     stands = np.floor(GRID.to_cells(truth[:, :2])).astype(int).clip(0, 2)
     walls[stands[:, 0], stands[:, 1]] = False
-    made = bm.simulate(walls, GRID, truth, ANGLES, sensor=SENSOR, max_range_m=MAX_RANGE_M, seed=seed)
+    made = bm.simulate(walls, GRID, truth, ANGLES, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
     return made.moved_to(said)
 
 
-def enumerated(scans: bm.Scans) -> Posterior:
+def enumerated(scans: bm.Scans, sensor: bm.SensorModel) -> Posterior:
     """By all maps and many poses."""
     off = norm.ppf(qmc.Sobol(3, seed=1).random(POINTS)) * [PRIOR.sigma_m, PRIOR.sigma_m, PRIOR.sigma_rad]
-    likelihood = ScanLikelihood(scans, GRID, SENSOR, 0.0)
+    likelihood = ScanLikelihood(scans, GRID, sensor, 0.0)
     of_maps = MAPS.sum(axis=1) * np.log(P_WALL / (1 - P_WALL))
     means, squares = np.empty((SCANS, len(MAPS), 3)), np.empty((SCANS, len(MAPS), 3))
     for scan in range(SCANS):
@@ -85,10 +88,10 @@ def enumerated(scans: bm.Scans) -> Posterior:
     return Posterior(p @ MAPS, mean, np.sqrt(np.einsum("k,ski->si", p, squares) - mean**2))
 
 
-def sampled(scans: bm.Scans, seed: int) -> tuple[Posterior, float]:
+def sampled(scans: bm.Scans, sensor: bm.SensorModel, seed: int) -> tuple[Posterior, float]:
     """By four chains, and the largest R-hat of a pose."""
     run = bm.infer(
-        scans, GRID, prior=bm.Independent(P_WALL), sensor=SENSOR, poses=PRIOR, chains=4, warmup=500, draws=2000, thin=2,
+        scans, GRID, prior=bm.Independent(P_WALL), sensor=sensor, poses=PRIOR, chains=4, warmup=500, draws=2000, thin=2,
         seed=seed, hit_depth=0.0,
     )  # fmt: skip
     off = run.poses - scans.poses
@@ -99,32 +102,35 @@ def sampled(scans: bm.Scans, seed: int) -> tuple[Posterior, float]:
 
 def small_worlds() -> None:
     """A row a world."""
-    print("| world | walls: largest difference | poses: means, by their deviation | their deviations | R-hat |")
+    print("| noise | walls: largest difference | poses: means, by their deviation | their deviations | R-hat |")
     print("|---|---|---|---|---|")
-    for seed in WORLDS:
-        scans = world(seed)
-        exact, (found, worst) = enumerated(scans), sampled(scans, seed)
+    for sigma_m, seed in product(NOISES_M, WORLDS):
+        sensor = bm.Gaussian(sigma_m)
+        scans = world(seed, sensor)
+        exact, (found, worst) = enumerated(scans, sensor), sampled(scans, sensor, seed)
         walls = np.abs(exact.walls - found.walls).max()
         means = np.abs((exact.mean - found.mean) / exact.sigma).max()
         ratio = found.sigma / exact.sigma
         print(
-            f"| {seed} | {walls:.3f} | {means:.3f} | {ratio.min():.2f} to {ratio.max():.2f} | {worst:.2f} |", flush=True
+            f"| {sigma_m:g} m | {walls:.3f} | {means:.3f} | {ratio.min():.2f} to {ratio.max():.2f} | {worst:.2f} |",
+            flush=True,
         )
 
 
 def loop() -> None:
     """How far chains agree on relative poses, by how far apart the scans are."""
-    made = building(3, (14.0, 10.0))
-    truth = patrol(made, 150, 3)
+    made = building(3, (12.0, 8.0))
+    truth = patrol(made, 110, 3)
     angles = np.radians(np.linspace(-90, 90, 91))
     seen = bm.simulate(made.walls, made.grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.01)), max_range_m=12.0,
                        seed=1, typed=True)  # fmt: skip
     log = seen.moved_to(bm.simulate_odometry(truth, bm.OdometryNoise(), seed=1))
-    run = bm.slam(log, resolution=0.1, chains=4, warmup=100, draws=100, seed=1)
+    run = bm.slam(log, resolution=0.1, chains=4, warmup=30, draws=50, seed=1)
     found = run.trajectory
     assert found is not None
     poses, keys = run.poses, found.keys
     way_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(found.poses[keys, :2], axis=0).T))])
+    print(f"{len(keys)} key scans, {way_m[-1]:.0f} m, {(found.closures.weights > 0.5).sum()} loop closures\n")
     print(
         "| scans along the way | pairs | deviation in a chain | between chains' means | approximation | R-hat, median |"
     )
