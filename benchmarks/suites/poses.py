@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 import bayesmap as bm
 from bayesmap.errors import BadInput
 from bayesmap.localization.known_map import KnownMap
-from bayesmap.localization.localize import follow, localize
+from bayesmap.localization.localize import Near, follow, localize
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.relations import read_relations, relation_errors
 from bayesmap.poses.slam import infer_trajectory
@@ -25,6 +26,8 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure
+from benchmarks.halves import difference_scales, every_other_beam
+from benchmarks.peers import mrpt_localization as mrpt
 from benchmarks.pose_cases import FAR_OFF_M, off, office, record
 
 Floats = NDArray[np.float64]
@@ -43,7 +46,7 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
 
     Args:
         device: "cpu": others are left out.
-        with_peers: not used: MRPT's programs are no package of the index.
+        with_peers: beside MRPT's particle filter, where it is installed.
         slow: full-rate logs, coverage, held-out beams and localization, too.
     """
     if device != "cpu":
@@ -56,7 +59,7 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
     if slow:
         yield from coverage_of_halves()
         yield from heldout()
-        yield from localization()
+        yield from localization(with_peers)
 
 
 def log_of(name: str) -> Scans | None:
@@ -96,7 +99,7 @@ def simulated_office(scans: int) -> Iterator[Figure]:
     first, second = pairs_of(len(found))
     truth = between(case.truth[first], case.truth[second])
     square = squares(between(found.poses[first], found.poses[second]), truth, found.relative_covariances(first, second))
-    yield from coverage(name, square, np.hypot(*truth[:, :2].T))
+    yield from coverage(name, square, np.hypot(*truth[:, :2].T), found.gaussian.dof)
 
 
 def pairs_of(count: int, many: int = 3000) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -115,11 +118,11 @@ def squares(found: Floats, truth: Floats, scale: Floats) -> Floats:
     return np.asarray(np.einsum("ni,nij,nj->n", error, np.linalg.inv(scale), error))
 
 
-def coverage(name: str, square: Floats, distance_m: Floats) -> Iterator[Figure]:
-    """Shares of relative poses within the regions of 50, 80 and 95 % of Student's t with 4 degrees of freedom."""
+def coverage(name: str, square: Floats, distance_m: Floats, dof: float) -> Iterator[Figure]:
+    """Shares of relative poses within the regions of 50, 80 and 95 % of Student's t."""
     from scipy.stats import f
 
-    inside = square[:, None] / 3.0 <= f.ppf(LEVELS, 3, 4)
+    inside = square[:, None] / 3.0 <= f.ppf(LEVELS, 3, dof)
     for label, chosen in (("near", distance_m < NEAR_M), ("any", distance_m >= 0.0)):
         shares = 100.0 * inside[chosen].mean(axis=0)
         for level, share in zip(LEVELS, shares, strict=True):
@@ -127,22 +130,17 @@ def coverage(name: str, square: Floats, distance_m: Floats) -> Iterator[Figure]:
                          against=f"of {round(100 * level)} %, {chosen.sum():,} pairs")  # fmt: skip
 
 
-def every_other_beam(scans: Scans, first: int) -> Scans:
-    """The scans with every second beam."""
-    return Scans(scans.poses, scans.angles_rad[first::2], scans.ranges_m[:, first::2], max_range_m=scans.max_range_m,
-                 min_range_m=scans.min_range_m, stamps_s=scans.stamps_s)  # fmt: skip
-
-
 def coverage_of_halves() -> Iterator[Figure]:
-    """Odd against even beams of the Intel log: two trajectories that share odometry and no beam."""
-    scans = log_of("intel-odometry.log.gz")
-    if scans is None:
-        return
-    odd, even = (infer_trajectory(every_other_beam(scans, first), calibrate_angles=False) for first in (1, 0))
-    first, second = pairs_of(len(scans))
-    a, b = (between(t.poses[first], t.poses[second]) for t in (odd, even))
-    scale = odd.relative_covariances(first, second) + even.relative_covariances(first, second)
-    yield from coverage("poses/intel_halves", squares(a, b, scale), np.hypot(*a[:, :2].T))
+    """Odd against even beams of public logs: two trajectories that share odometry and no beam."""
+    for log, name in (("intel-odometry.log.gz", "poses/intel_halves"), ("aces.sort.bag", "poses/aces_halves")):
+        scans = log_of(log)
+        if scans is None:
+            continue
+        odd, even = (infer_trajectory(every_other_beam(scans, first), calibrate_angles=False) for first in (1, 0))
+        first, second = pairs_of(len(scans))
+        a, b = (between(t.poses[first], t.poses[second]) for t in (odd, even))
+        square = squares(a, b, difference_scales(odd, even, first, second))
+        yield from coverage(name, square, np.hypot(*a[:, :2].T), 0.5 * (odd.gaussian.dof + even.gaussian.dof))
 
 
 def heldout() -> Iterator[Figure]:
@@ -194,41 +192,79 @@ def at_poses(scans: Scans, found: Trajectory, poses: Floats) -> Scans:
                  min_range_m=scans.min_range_m, stamps_s=scans.stamps_s)  # fmt: skip
 
 
-def localization(places: tuple[int, ...] = PLACES) -> Iterator[Figure]:
-    """One scan, and ten with odometry, in maps made without the 30 scans before and after; times on all cores."""
+def localization(with_peers: bool = True, places: tuple[int, ...] = PLACES) -> Iterator[Figure]:
+    """One scan, and ten with odometry, in maps made without the 30 scans before and after; times on one core.
+
+    The map is inferred from the corrected poses of the scans that are left; odometry is the raw log's. Where MRPT is
+    installed its particle filter locates the same ten scans in the same map.
+    """
     try:
         scans = bm.read_log(DATA / "intel-corrected.log.gz").limited(MAX_RANGE_M)
         raw = bm.read_log(DATA / "intel-odometry.log.gz")
     except (BadInput, OSError):
         print(f"skipped: poses/localization: the Intel logs are not in {DATA} (set BAYESMAP_DATA)", flush=True)
         return
-    single, said, ten, took, rate = [], [], [], [], []
+    absent = mrpt.missing() if with_peers else None
+    if absent is not None:
+        print(absent.reason, flush=True)
+    found: dict[str, list[float]] = {}
+
+    def note(**values: float) -> None:
+        for name, value in values.items():
+            found.setdefault(name, []).append(float(value))
+
     for place in places:
-        away = np.abs(np.arange(len(scans)) - (place + 5)) > 35
-        train = scans.select(away)
+        train = scans.select(np.abs(np.arange(len(scans)) - (place + 5)) > 35)
         made = bm.infer(train, Grid.covering(scans, RESOLUTION_M), prior=bm.Surface(), sensor="fit", warmup=40, draws=8,
                         chains=2, seed=1)  # fmt: skip
         known = KnownMap.of_run(made)
         for scan in range(place, place + 10, 2):
-            begin = time.perf_counter()
+            begin = time.process_time()
             where = localize(known, scans.select([scan]))
-            took.append(time.perf_counter() - begin)
-            single.append(is_right(where.mean, scans.poses[scan]))
-            said.append(where.modes[0].probability)
+            note(one_time=time.process_time() - begin, one=is_right(where.mean, scans.poses[scan]),
+                 says=where.modes[0].probability)  # fmt: skip
         some = np.arange(place, place + 10)
         moved = scans.select(some).moved_to(raw.poses[some])
-        ten.append(is_right(localize(known, moved).mean, scans.poses[some[-1]]))
-        beliefs = follow(known, moved)
-        next(beliefs)
-        begin = time.perf_counter()
-        rate.append(len(list(beliefs)) / (time.perf_counter() - begin))
+        begin = time.process_time()
+        beliefs = list(follow(known, moved))
+        note(ten_time=time.process_time() - begin, ten=is_right(beliefs[-1].mean, scans.poses[some[-1]]),
+             ten_off=off_m(beliefs[-1].mean, scans.poses[some[-1]]))  # fmt: skip
+        tracked = follow(known, moved, Near(scans.poses[place], 0.1, 0.05))
+        next(tracked)
+        begin = time.process_time()
+        note(rate=len(list(tracked)) / (time.process_time() - begin))
+        if with_peers and absent is None:
+            with TemporaryDirectory() as folder:
+                peer = mrpt.locate(made.occupancy, made.observed, made.grid, moved, Path(folder))
+            note(mrpt_time=peer.seconds.sum(), mrpt=is_right(peer.poses[-1], scans.poses[some[-1]]),
+                 mrpt_off=off_m(peer.poses[-1], scans.poses[some[-1]]))  # fmt: skip
     at = f"{len(places)} places, maps without the 35 scans about each"
-    yield Figure("localize/one_scan", 100.0 * float(np.mean(single)), "%", "higher", against=at)
-    yield Figure("localize/one_scan_says", 100.0 * float(np.mean(said)), "%", "higher", gated=False,
+    yield Figure("localize/one_scan", 100.0 * float(np.mean(found["one"])), "%", "higher", against=at)
+    yield Figure("localize/one_scan_says", 100.0 * float(np.mean(found["says"])), "%", "higher", gated=False,
                  against="mean probability that it gives the likeliest place")  # fmt: skip
-    yield Figure("localize/ten_scans", 100.0 * float(np.mean(ten)), "%", "higher", against="the tenth, with odometry")
-    yield Figure("localize/global_time", float(np.median(took)), "s", gated=False, against="one scan, wall clock")
-    yield Figure("localize/tracking", float(np.median(rate)), "Hz", "higher", gated=False, against="180 beams")
+    yield Figure(
+        "localize/ten_scans", 100.0 * float(np.mean(found["ten"])), "%", "higher", against="the tenth, with odometry"
+    )
+    yield Figure("localize/ten_scans_off", float(np.median(found["ten_off"])), "m", against="median")
+    yield Figure(
+        "localize/global_time", float(np.median(found["one_time"])), "s processor", gated=False, against="one scan"
+    )
+    yield Figure("localize/ten_scans_time", float(np.median(found["ten_time"])), "s wall", gated=False)
+    yield Figure("localize/tracking", float(np.median(found["rate"])), "Hz", "higher", gated=False,
+                 against="180 beams, of processor time")  # fmt: skip
+    if "mrpt" in found:
+        yield Figure("localize/mrpt_ten_scans", 100.0 * float(np.mean(found["mrpt"])), "%", "higher", gated=False,
+                     against="MRPT's pf-localization, 40 000 particles at first")  # fmt: skip
+        yield Figure(
+            "localize/mrpt_ten_scans_off", float(np.median(found["mrpt_off"])), "m", gated=False, against="median"
+        )
+        yield Figure("localize/mrpt_ten_scans_time", float(np.median(found["mrpt_time"])), "s", gated=False,
+                     against="of the filter's steps alone")  # fmt: skip
+
+
+def off_m(pose: Floats, truth: Floats) -> float:
+    """How far a position is from the truth."""
+    return float(np.hypot(*(pose - truth)[:2]))
 
 
 def is_right(pose: Floats, truth: Floats) -> bool:

@@ -283,7 +283,7 @@ assert strict_scores[-1] < at_truth_score - 300
 #
 # ## Where to go from here
 #
-# - The robot took eight scans. For logs of thousands bayesmap has compiled kernels; the [README](../../README.md) says
-#   what they do.
+# - The robot took eight scans. For logs of thousands bayesmap has compiled kernels: the [next page](odometry.md)
+#   takes a robot through a building.
 # - [mapping-model.md](../mapping-model.md): the model of this page, its addresses and its edits. Its prior of poses
 #   can be any program, such as the moves of the [page before](localization.md).

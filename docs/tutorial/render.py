@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 HERE = Path(__file__).parent
-PAGES = ("mapping", "gibbs", "kernels", "localization", "both")
+PAGES = ("mapping", "gibbs", "kernels", "localization", "both", "odometry")
 """In the order in which they are read: each `NAME.py` makes `NAME.md`."""
 FOLDED = 'tags=["hide-input"]'
 """On the line that begins a cell: its code is folded away, as Jupyter Book does it; what it prints is shown."""

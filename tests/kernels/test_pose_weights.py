@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.pose_weights import pack_map, scan_log_likelihood
+from bayesmap.kernels.pose_weights import LEAST_CHANCE, pack_map, scan_log_likelihood
 from bayesmap.kernels.scan_likelihood import ScanLikelihood
 from bayesmap.sensors.model import RangeLimits
 
@@ -14,7 +14,7 @@ ANGLES = np.radians(np.arange(60) * 6.0)
 
 
 def states(kind, rng):
-    stop = np.where(rng.random((3, GRID.n_cells)) < 0.05, rng.uniform(0.2, 1.0, (3, GRID.n_cells)), 1e-3)
+    stop = np.where(rng.random((3, GRID.n_cells)) < 0.05, rng.uniform(0.2, 1.0, (3, GRID.n_cells)), 4e-3)
     if kind == "plain":
         return stop.astype(np.float32)
     x, y = np.meshgrid(np.arange(60) * 0.1 + 0.05, np.arange(50) * 0.1 + 0.05, indexing="ij")
@@ -46,6 +46,22 @@ def test_the_fast_law_is_the_plain_one(kind):
         np.testing.assert_allclose(fast[:, draw], expected, rtol=2e-5, atol=2e-3)
 
 
+def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
+    """A beam that reads 4 m has passed some forty of them: what they take off differs little from pose to pose."""
+    rng = np.random.default_rng(3)
+    maps = states("plain", rng)
+    maps[maps < 0.1] = 0.9 * LEAST_CHANCE
+    poses = np.column_stack([rng.uniform(1, 3, 40), rng.uniform(4, 5, 40), rng.uniform(-4, 4, 40)])
+    ranges = rng.uniform(0.0, 6.0, (1, 60))
+    fast = scan_log_likelihood(pack_map(maps, GRID, 0.5), poses, ANGLES, ranges, LASER, RangeLimits(0.1, 6.0))
+    plain = ScanLikelihood(bm.Scans(np.zeros((1, 3)), ANGLES, ranges, 6.0, 0.1), GRID, LASER, 0.5)
+    for draw in range(3):
+        less = fast[:, draw] - plain(maps, poses, np.zeros(40, int), np.full(40, draw))
+        assert less.min() > 0.0
+        assert less.max() < 0.06 * len(ANGLES)
+        assert less.std() < 0.01 * len(ANGLES)
+
+
 def test_fewer_draws_are_the_first():
     rng = np.random.default_rng(2)
     packed = pack_map(states("plain", rng), GRID, 0.5)
@@ -53,3 +69,13 @@ def test_fewer_draws_are_the_first():
     every = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0))
     some = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0), draws=2)
     np.testing.assert_array_equal(some, every[:, :2])
+
+
+def test_poses_weighed_in_turn_are_weighed_under_one_draw_each():
+    rng = np.random.default_rng(4)
+    packed = pack_map(states("surfaces", rng), GRID, 0.5)
+    poses = np.column_stack([rng.uniform(0, 4, 7), rng.uniform(3, 6, 7), rng.uniform(-4, 4, 7)])
+    ranges = rng.uniform(0, 6, 60)
+    every = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0))
+    turns = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0), in_turn=True)
+    np.testing.assert_array_equal(turns[:, 0], every[np.arange(7), np.arange(7) % 3])

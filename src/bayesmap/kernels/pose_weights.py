@@ -2,7 +2,9 @@
 
 The law is that of `bayesmap.kernels.scan_likelihood`, in single precision, for mixtures with Gaussian noise. The map
 stays where kernels read it from call to call, one thread does a whole scan, and a beam's walk ends where its reading is
-behind it: from there on all that stops have in common remains, the density of a beam that meets nothing.
+behind it: from there on all that stops have in common remains, the density of a beam that meets nothing. On the way to
+the reading it matters whether the beam is stopped, not where; cells that hardly ever stop one, most of a floor, are
+passed by.
 """
 
 from dataclasses import dataclass
@@ -23,7 +25,7 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
     variance_at,
 )
-from bayesmap.kernels.surface_crossing import cross_surface, ray_from
+from bayesmap.kernels.surface_crossing import cross_surface, crossing_probability, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 
@@ -31,10 +33,16 @@ wp.set_module_options({"enable_backward": False})
 
 Floats = NDArray[np.float64]
 
-PAST_SCALES = wp.constant(wp.float32(9.0))
-PAST_CELLS = wp.constant(wp.float32(5.0))
-"""How far past its reading a beam is followed: scales of the noise, and cells (a surface is smaller than its cell)."""
+PAST_SCALES = wp.constant(wp.float32(6.0))
+PAST_CELLS = wp.constant(wp.float32(4.0))
+"""How far before and past its reading it matters where a beam is stopped: scales of the noise, and cells (a surface is
+smaller than its cell)."""
 
+LEAST_CHANCE = 2e-3
+"""A cell that stops fewer beams than this counts as empty, but where the reading ended near it: there it may be what
+the beam met. Elsewhere it takes that share of the beams, from all poses alike."""
+
+UNLIKELY = wp.constant(wp.float32(1.0e-6))
 HUGE = wp.constant(wp.float32(1.0e30))
 GONE_FAST = wp.constant(wp.float32(1.0e-12))
 ONE = wp.constant(wp.float32(1.0))
@@ -57,6 +65,7 @@ def reading_log_density(
     law: SensorLaw32,
     frame: Frame,
     cells: Cells,
+    empty: wp.array2d(dtype=wp.uint8),
     draw: int,
     x: wp.float32,
     y: wp.float32,
@@ -85,8 +94,11 @@ def reading_log_density(
     ray = ray_from(wp.vec2(x, y), wp.vec2(ux, uy))
     decay = object_decay(law, z)
     past = law.max_m
+    end = wp.clamp(z, ZERO, law.max_m)
+    margin = PAST_SCALES * wp.sqrt(variance_at(law, end, ZERO)) + PAST_CELLS * resolution
+    near = (end - margin) / resolution  # from here on it matters where the beam is stopped
     if wp.isfinite(z):
-        past = wp.min(past, z + PAST_SCALES * wp.sqrt(variance_at(law, z, ZERO)) + PAST_CELLS * resolution)
+        past = wp.min(past, z + margin)
     past = past / resolution
     entered = wp.min(next_x, next_y)
     total = ZERO
@@ -95,19 +107,34 @@ def reading_log_density(
         left = wp.min(next_x, next_y)
         if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
             cell = cx * frame.ny + cy
-            chance = ZERO
-            distance = (entered + depth * (left - entered)) * resolution
-            variance = ZERO
-            if cells.surfaces != 0:
-                state = cells.surface[draw, cell]
-                met = cross_surface(state, ray)
-                chance = state[0] * met.chance
-                distance = met.distance_m
-                variance = met.variance
-            else:
-                chance = cells.stop[draw, cell]
-            if chance > ZERO:
-                total += survive * chance * stop_density(law, z, decay, distance, variance)
+            if entered >= near:
+                chance = ZERO
+                distance = (entered + depth * (left - entered)) * resolution
+                variance = ZERO
+                if cells.surfaces != 0:
+                    state = cells.surface[draw, cell]
+                    chance = state[0] * crossing_probability(state, ray)
+                    if chance > UNLIKELY:
+                        met = cross_surface(state, ray)
+                        distance = met.distance_m
+                        variance = met.variance
+                else:
+                    chance = cells.stop[draw, cell]
+                if chance > UNLIKELY:
+                    total += survive * chance * stop_density(law, z, decay, distance, variance)
+                    survive = survive * (ONE - chance)
+            elif empty[draw, cell] == wp.uint8(0):
+                chance = ZERO
+                if cells.surfaces != 0:
+                    state = cells.surface[draw, cell]
+                    chance = state[0] * crossing_probability(state, ray)
+                else:
+                    chance = cells.stop[draw, cell]
+                density = law.uniform
+                if not wp.isfinite(z):
+                    distance = (entered + depth * (left - entered)) * resolution
+                    density = stop_density(law, z, decay, distance, ZERO)
+                total += survive * chance * density
                 survive = survive * (ONE - chance)
         entered = left
         if next_x < next_y:
@@ -129,17 +156,30 @@ def scan_log_likelihoods(
     law: SensorLaw32,
     frame: Frame,
     cells: Cells,
+    empty: wp.array2d(dtype=wp.uint8),
     draws: int,
+    in_turn: int,
     poses: wp.array2d(dtype=wp.float64),
     scan: wp.array(dtype=wp.int32),
     angle_rad: wp.array(dtype=wp.float64),
     range_m: wp.array2d(dtype=wp.float64),
     out: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a pose and draw: the sum over beams of log p(reading | map, pose)."""
+    """One thread a pose and draw: the sum over beams of log p(reading | map, pose).
+
+    ``in_turn``: pose p is weighed under draw p modulo so many alone; 0: under all.
+    """
     t = first + wp.tid()
     p = t / draws
-    d = t - p * draws
+    column = t - p * draws
+    d = column
+    if in_turn > 0:  # all poses of a draw one after the other: their beams meet the same cells
+        each = (poses.shape[0] + in_turn - 1) / in_turn
+        d = t / each
+        p = (t - d * each) * in_turn + d
+        column = 0
+        if p >= poses.shape[0]:
+            return
     x = wp.float32(poses[p, 0] - frame.origin_x)
     y = wp.float32(poses[p, 1] - frame.origin_y)
     total = wp.float64(0.0)
@@ -147,8 +187,8 @@ def scan_log_likelihoods(
         z = range_m[scan[p], b]
         if not wp.isnan(z):
             angle = wp.float32(poses[p, 2] + angle_rad[b])
-            total += wp.float64(reading_log_density(law, frame, cells, d, x, y, angle, wp.float32(z)))
-    out[p, d] = total
+            total += wp.float64(reading_log_density(law, frame, cells, empty, d, x, y, angle, wp.float32(z)))
+    out[p, column] = total
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,12 +197,14 @@ class PackedMap:
 
     Attributes:
         cells: the draws.
+        empty: 1 where a cell stops fewer beams than `LEAST_CHANCE`, a row a draw.
         draws: how many.
         frame: the grid.
         device: where they are.
     """
 
     cells: Any
+    empty: Any
     draws: int
     frame: Any
     device: str
@@ -182,7 +224,9 @@ def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: 
     frame.nx, frame.ny = grid.shape
     frame.origin_x, frame.origin_y = grid.origin
     frame.resolution, frame.depth = grid.resolution, hit_depth
-    return PackedMap(put_cells(np.ascontiguousarray(states), device), len(states), frame, device)
+    chances = states[..., 0] if states.ndim == 3 else states
+    empty = devices.to_device((chances < LEAST_CHANCE).astype(np.uint8), wp.uint8, device)
+    return PackedMap(put_cells(np.ascontiguousarray(states), device), empty, len(states), frame, device)
 
 
 def scan_log_likelihood(
@@ -194,6 +238,7 @@ def scan_log_likelihood(
     limits: RangeLimits,
     scan: NDArray[np.intp] | None = None,
     draws: int | None = None,
+    in_turn: bool = False,
     threads: int | None = None,
 ) -> Floats:
     """Log-likelihood of a scan at each pose under each draw of the map, (P, D), in nats; invalid readings count 0.
@@ -207,6 +252,7 @@ def scan_log_likelihood(
         limits: of the sensor.
         scan: which scan is weighed at each pose, (P,); the first if None.
         draws: only the first so many draws; all if None.
+        in_turn: weigh each pose under one of them, one after the other: (P, 1).
         threads: at once; all cores if None.
 
     Raises:
@@ -214,6 +260,8 @@ def scan_log_likelihood(
     """
     device, count = packed.device, len(poses)
     draws = packed.draws if draws is None else min(draws, packed.draws)
+    cycle = draws if in_turn else 0
+    draws = 1 if in_turn else draws
     out = wp.empty((count, draws), dtype=wp.float64, device=device)
     which = np.zeros(count, np.int32) if scan is None else np.asarray(scan, np.int32)
     readings = np.ascontiguousarray(np.atleast_2d(ranges_m), dtype=np.float64)
@@ -221,12 +269,15 @@ def scan_log_likelihood(
         sensor_law(sensor, limits, device, SensorLaw32),
         packed.frame,
         packed.cells,
+        packed.empty,
         draws,
+        cycle,
         devices.to_device(poses, wp.float64, device),
         devices.to_device(which, wp.int32, device),
         devices.to_device(angles_rad, wp.float64, device),
         devices.to_device(readings, wp.float64, device),
         out,
     ]
-    launch(scan_log_likelihoods, count * draws, inputs, device, threads)
+    size = -(-count // cycle) * cycle if in_turn else count * draws
+    launch(scan_log_likelihoods, size, inputs, device, threads)
     return np.asarray(out.numpy())

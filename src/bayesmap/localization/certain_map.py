@@ -52,7 +52,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     first = min(last, INDEPENDENT_BEAMS / valid)
 
     def target(weight: float, thin: int = 1) -> Target:
-        return Target(known, prior, scan, thin, None, weight)
+        return Target(known, prior, scan, thin, weight)
 
     thin = max(1, len(scan.angles_rad) // 60)
 

@@ -52,15 +52,9 @@ class Field:
             points: in the sensor's frame, (N, 2).
             poses: in the world frame, (P, 3).
         """
-        cos, sin = np.cos(poses[:, 2:3]), np.sin(poses[:, 2:3])
-        scale, (x0, y0) = 1.0 / self.grid.resolution, self.grid.origin
-        x = (cos * points[:, 0] - sin * points[:, 1] + (poses[:, 0:1] - x0)) * scale
-        y = (sin * points[:, 0] + cos * points[:, 1] + (poses[:, 1:2] - y0)) * scale
-        i, j = np.floor(x).astype(np.int32), np.floor(y).astype(np.int32)
-        nx, ny = self.grid.shape
-        inside = (i >= 0) & (j >= 0) & (i < nx) & (j < ny)
-        values = self.fine.ravel()[np.where(inside, i * ny + j, 0)]
-        return np.asarray((values * inside).mean(axis=1) / TOP)
+        from bayesmap.kernels.field_scores import field_sums
+
+        return np.asarray(field_sums(self.fine, self.grid, points, poses) / (TOP * max(1, len(points))))
 
 
 def likelihood_field(occupancy: Floats, grid: Grid, robot_may_be: NDArray[np.bool_]) -> Field:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import expit, logsumexp
+from scipy.special import expit
 
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
@@ -23,6 +23,7 @@ from bayesmap.localization.particles import (
     adapted,
     draw_population,
     groups_of,
+    log_sum,
     proposal_log_density,
 )
 from bayesmap.localization.search import search
@@ -37,6 +38,12 @@ KEPT = 5
 
 ROUNDS, NEARLY = 5, 0.6
 """Places are adapted so often at most, or until weights hardly have to be tempered."""
+
+THINNED = 40
+"""Beams of a scan that are looked at, about, until the last round."""
+
+FIT_ROUNDS = 2
+"""The same where only the evidence of one place is asked for."""
 
 FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
 """How far a searched pose may be from the best one near it."""
@@ -108,26 +115,27 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         look_everywhere: whether to search the whole map; needed where the prior has no components.
     """
 
-    def target(thin: int, draws: int | None) -> Target:
-        return Target(known, prior, scan, thin, draws, known.weight_of(scan.ranges_m))
+    def target(thin: int, draws: int | None = None) -> Target:
+        return Target(known, prior, scan, thin, known.weight_of(scan.ranges_m), draws)
 
-    thin = max(1, len(scan.angles_rad) // 60)
+    thin = max(1, len(scan.angles_rad) // THINNED)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
     group = None
     if starts is None:
-        population = everywhere(known, target(thin, 1), rng)
+        population = everywhere(known, target(thin), rng)
     else:
         if len(starts.means) > 1:
+            # Which places count at all, one draw of the map tells.
             starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
             starts = starts.best(2 * KEPT)
             starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 24, rng))
             starts = starts.best(KEPT)
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin, None), 24, rng))
+            starts, power = adapted(starts, draw_population(starts, target(thin), 24, rng))
             starts = starts.best(KEPT)
             if power > NEARLY:
                 break
-        population = draw_population(starts, target(1, None), 64 if len(starts.means) == 1 else 40, rng)
+        population = draw_population(starts, target(1), 64 if len(starts.means) == 1 else 40, rng)
         group = groups_of(starts, population.poses)
     return belief_of(known, prior, scan, population, group, rng)
 
@@ -152,14 +160,17 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """Log prior and likelihood of poses, with some beams and draws."""
+    """Log prior and likelihood of poses, with every so many-th beam.
+
+    Each pose is weighed under one draw of the map, in turn: of the first ``draws``, or of all.
+    """
 
     known: KnownMap
     prior: Prior
     scan: Scan
     thin: int
-    draws: int | None
     weight: float
+    draws: int | None = None
 
     def __call__(self, poses: Floats) -> Floats:
         """Log density of poses (P, 3), not normalised, (P,)."""
@@ -168,8 +179,9 @@ class Target:
         if possible.any():
             scan = self.scan
             density[possible] += self.known.log_likelihood(
-                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws, self.weight
-            )
+                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws, self.weight,
+                in_turn=True,
+            )  # fmt: skip
         return density
 
 
@@ -220,13 +232,13 @@ def _fit(
     With beams that count `FIT_TIMES` as much: whether a scan fits at all is clearer than where exactly it does.
     """
     weight = _fit_weight(known, scan)
-    thin = max(1, len(scan.angles_rad) // 60)
-    target = Target(known, prior, scan, thin, 1, weight)
+    thin = max(1, len(scan.angles_rad) // THINNED)
+    target = Target(known, prior, scan, thin, weight)
     mode = belief.modes[0]
     shrunk = mode.covariance * known.weight_of(scan.ranges_m) / weight + 1e-8 * np.eye(3)
     components = PoseMixture(mode.mean[None], shrunk[None], np.zeros(1))
     population = draw_population(components, target, 32, rng)
-    for _ in range(ROUNDS):
+    for _ in range(FIT_ROUNDS):
         components, power = adapted(components, population)
         population = draw_population(components, target, 32, rng)
         if power > NEARLY:
@@ -245,6 +257,6 @@ def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
     off[..., 2] = wrapped(off[..., 2])
     inverse = np.linalg.inv(components.covariances)
     squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
-    mass = components.log_mass - logsumexp(components.log_mass)
+    mass = components.log_mass - log_sum(components.log_mass)
     logs = mass + 0.5 * np.linalg.slogdet(inverse)[1] - 1.5 * np.log(2 * np.pi) - 0.5 * squared
-    return np.asarray(logsumexp(logs, axis=1))
+    return np.asarray(log_sum(logs))

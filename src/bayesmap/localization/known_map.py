@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
 
 from bayesmap.errors import BadInput
 from bayesmap.localization.field import Field, likelihood_field
+from bayesmap.localization.particles import log_sum
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.noise import Gaussian
@@ -162,6 +162,8 @@ class KnownMap:
         thin: int = 1,
         draws: int | None = None,
         weight: float | None = None,
+        *,
+        in_turn: bool = False,
     ) -> Floats:
         """Log-likelihood of a scan at each pose, averaged over draws of the map, each beam by its weight, (P,).
 
@@ -175,15 +177,25 @@ class KnownMap:
             thin: look at every so many-th beam.
             draws: and at so many draws only.
             weight: of a beam; the map's own if None.
+            in_turn: look at one draw for each pose, one after the other, rather than at all. Of poses that are drawn
+                and weighed it serves as well: a weight is right on average over the draws of the map.
         """
         from bayesmap.kernels.pose_weights import scan_log_likelihood
 
         found = scan_log_likelihood(
-            self.packed, poses, angles_rad[::thin], ranges_m[::thin], self.sensor, limits, draws=draws, threads=1
+            self.packed,
+            poses,
+            angles_rad[::thin],
+            ranges_m[::thin],
+            self.sensor,
+            limits,
+            draws=draws,
+            in_turn=in_turn,
+            threads=1,
         )
         used = max(1, int((~np.isnan(ranges_m[::thin])).sum()))
         scale = (self.weight_of(ranges_m) if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
-        return np.asarray(logsumexp(scale * found, axis=1) - np.log(found.shape[1]))
+        return np.asarray(log_sum(scale * found) - np.log(found.shape[1]))
 
     def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
         """The same for a scan that was taken somewhere else: each reading by how common it is."""

@@ -96,48 +96,54 @@ def refine(field: Field, points: Floats, poses: Floats, most: int) -> Candidates
 def _coarse_poses(field: Field, points: Floats) -> Floats:
     """The best position of each of the best squares and headings, (at most SQUARES, 3)."""
     resolution, (mx, my) = field.coarse_grid.resolution, field.coarse_grid.shape
-    pad = int(np.ceil(np.hypot(*points.T).max() / resolution)) + 2
-    width = my + 2 * pad
-    flat = np.pad(field.coarse, pad).ravel()
+    reach = int(np.ceil(np.hypot(*points.T).max() / resolution)) + 2
+    # Rows lie one after the other with a gap between them: what a point overshoots one row's end by ends there.
+    width = my + reach
+    flat = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
     span = (mx - 1) * width + my
     bx, by = -(-mx // BLOCK), -(-my // BLOCK)
-    closed = np.zeros((bx * BLOCK, by * BLOCK), dtype=bool)
-    closed[:mx, :my] = field.open
+    is_open = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint16)
+    is_open[:mx, :my] = field.open
     headings = np.arange(HEADINGS) * (2 * np.pi / HEADINGS)
+    # Positions are the middles of coarse cells.
+    cos, sin = np.cos(headings)[:, None], np.sin(headings)[:, None]
+    i = np.floor((cos * points[:, 0] - sin * points[:, 1]) / resolution + 0.5).astype(int)
+    j = np.floor((sin * points[:, 0] + cos * points[:, 1]) / resolution + 0.5).astype(int)
+    shifts = (reach + i) * width + j
     best = np.empty((HEADINGS, bx, by), dtype=np.uint16)
-    at = np.empty((HEADINGS, bx, by), dtype=np.uint8)
     total = np.zeros(mx * width, dtype=np.uint16)
     framed = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint16)
-    for h, heading in enumerate(headings):
-        cos, sin = np.cos(heading), np.sin(heading)
-        # Positions are the middles of coarse cells.
-        i = np.floor((cos * points[:, 0] - sin * points[:, 1]) / resolution + 0.5).astype(int)
-        j = np.floor((sin * points[:, 0] + cos * points[:, 1]) / resolution + 0.5).astype(int)
+    for h in range(HEADINGS):
         total[:] = 0
-        for shift in ((pad + i) * width + pad + j).tolist():
+        for shift in shifts[h].tolist():
             np.add(total[:span], flat[shift : shift + span], out=total[:span])
-        framed[:mx, :my] = total.reshape(mx, width)[:, :my]
-        squares = np.where(closed, framed, 0).reshape(bx, BLOCK, by, BLOCK).swapaxes(1, 2).reshape(bx, by, -1)
-        at[h] = squares.argmax(axis=2)
-        best[h] = np.take_along_axis(squares, at[h][..., None].astype(np.intp), axis=2)[..., 0]
+        np.multiply(total.reshape(mx, width)[:, :my], is_open[:mx, :my], out=framed[:mx, :my])
+        rows = np.maximum.reduce([framed[k::BLOCK] for k in range(BLOCK)])
+        best[h] = np.maximum.reduce([rows[:, k::BLOCK] for k in range(BLOCK)])
     chosen = np.argpartition(best.ravel(), -min(SQUARES, best.size))[-min(SQUARES, best.size) :]
+    chosen = chosen[best.ravel()[chosen] > 0]
     turn, x, y = np.unravel_index(chosen, best.shape)
-    within = at[turn, x, y].astype(int)
-    cell = np.stack([x * BLOCK + within // BLOCK, y * BLOCK + within % BLOCK], axis=-1)
-    poses = np.column_stack([np.array(field.grid.origin) + (cell + 0.5) * resolution, headings[turn]])
-    return np.asarray(poses[best[turn, x, y] > 0])
+    # Where in its square the best position is, is looked at for those alone.
+    k = np.arange(BLOCK * BLOCK)
+    cell_x, cell_y = x[:, None] * BLOCK + k // BLOCK, y[:, None] * BLOCK + k % BLOCK
+    at = (cell_x * width + cell_y)[:, :, None] + shifts[turn][:, None, :]
+    sums = flat[np.minimum(at, len(flat) - 1)].sum(axis=2, dtype=np.int64) * is_open[cell_x, cell_y]
+    within = sums.argmax(axis=1)
+    cell = np.stack([cell_x, cell_y], axis=-1)[np.arange(len(chosen)), within]
+    return np.column_stack([np.array(field.grid.origin) + (cell + 0.5) * resolution, headings[turn]])
 
 
 def _apart(poses: Floats, order: NDArray[np.intp], most: int, apart_m: float, apart_rad: float) -> NDArray[np.intp]:
     """The first of an order that are all apart from each other."""
+    some = poses[order]
+    off = np.abs(some[:, None] - some)
+    near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrapped(off[..., 2])) < apart_rad)
+    free = np.ones(len(order), dtype=np.bool_)
     kept: list[int] = []
-    for i in order.tolist():
-        if len(kept) == most:
-            break
-        if kept:
-            off = poses[kept] - poses[i]
-            near = (np.abs(off[:, :2]).max(axis=1) < apart_m) & (np.abs(wrapped(off[:, 2])) < apart_rad)
-            if near.any():
-                continue
-        kept.append(i)
-    return np.array(kept, dtype=np.intp)
+    for k in range(len(order)):
+        if free[k]:
+            kept.append(k)
+            if len(kept) == most:
+                break
+            free &= ~near[k]
+    return order[np.array(kept, dtype=np.intp)]

@@ -61,7 +61,7 @@ class Calibration:
 class Trajectory:
     """Poses of all scans with their uncertainty.
 
-    The uncertainty is that of a Gaussian (Student's t with 4 degrees of freedom) over the poses of key scans; scans
+    The uncertainty is that of Student's t with ``gaussian.dof`` degrees of freedom over the poses of key scans; scans
     between them move with the key scan nearest in time, plus an uncertainty of their own.
 
     Attributes:
@@ -101,7 +101,7 @@ class Trajectory:
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
         """Scale matrices of the relative poses of pairs of scans, in the first's frame, (N, 3, 3).
 
-        Those of a Student's t with 4 degrees of freedom: the covariance is twice as large.
+        Those of a Student's t with ``gaussian.dof`` degrees of freedom: covariances are dof / (dof - 2) times as large.
         """
         first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)
         a, b = self.nearest_key[first], self.nearest_key[second]
@@ -125,12 +125,13 @@ class Trajectory:
         return np.asarray(result)
 
     def covariances(self) -> Floats:
-        """Covariance of each pose given the first, in the world's axes, (S, 3, 3): twice the scale of Student's t."""
+        """Covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
         scans = np.arange(len(self))
         relative = self.relative_covariances(np.zeros(len(self), np.intp), scans)
         cosine, sine = np.cos(self.poses[0, 2]), np.sin(self.poses[0, 2])
         turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-        return np.asarray(2.0 * turn @ relative @ turn.T)
+        dof = self.gaussian.dof
+        return np.asarray(dof / (dof - 2.0) * turn @ relative @ turn.T)
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw trajectories of all scans, (count, S, 3); draw n depends on (seed, n) alone."""
