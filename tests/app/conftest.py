@@ -1,7 +1,10 @@
 """A browser, a server, and a page that begins with the tutorial's map; skipped where there is no Chromium."""
 
 import pytest
-from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragment, served, until
+from building_log import room_run
+from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragment, listen, served, until
+
+import bayesmap as bm
 
 
 @pytest.fixture(scope="session")
@@ -28,10 +31,12 @@ def open_page(browser):
     """Opens addresses in contexts of their own; a page must cause no errors and leave the machine for nothing."""
     contexts, troubles = [], []
 
-    def opened(address, json_document=None, *, quiet=True, **options):
+    def opened(address, json_document=None, *, quiet=True, heard=None, **options):
         context = browser.new_context(**{**DESKTOP, **options})
         contexts.append(context)
         page = context.new_page()
+        if heard is not None:
+            listen(page, heard)
         if quiet:
             page.on("console", lambda message: troubles.append(message.text) if trouble(message) else None)
             page.on("pageerror", lambda error: troubles.append(str(error)))
@@ -49,6 +54,16 @@ def open_page(browser):
     for context in contexts:
         context.close()
     assert troubles == []
+
+
+@pytest.fixture(scope="session")
+def room(tmp_path_factory, browser):
+    """A run of surfaces of a small room, two chains of ten draws, and the address of a server that shows it."""
+    run = room_run(bm.Surface(), draws=10)
+    path = tmp_path_factory.mktemp("room") / "run.nc"
+    run.save(path)
+    with served(path) as (address, _):
+        yield run, address
 
 
 def trouble(message):
