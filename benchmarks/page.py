@@ -119,8 +119,8 @@ def drag(page: Any, seconds: float, name: str) -> None:
 def new_building(page: Any, width: int, height: int) -> None:
     page.get_by_role("button", name="New map").click()
     page.get_by_label("World").select_option("building")
-    page.get_by_label("Width").fill(str(width))
-    page.get_by_label("Height").fill(str(height))
+    page.get_by_role("spinbutton", name="Width").fill(str(width))
+    page.get_by_role("spinbutton", name="Height").fill(str(height))
     page.get_by_role("button", name="Create").click()
     until(page, f"s.document.grid.shape[0] === {width} && s.painted?.generation === s.generation")
     page.wait_for_timeout(1500)

@@ -48,6 +48,8 @@ def open_page(browser):
             page.evaluate("(hash) => { location.hash = hash; }", fragment(json_document))
             until(page, "s.document.angles === argument", json_document["angles"])
         until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
+        if not address.startswith("file:"):  # of a run's draws the server tells after its picture
+            until(page, "s.document.source.kind !== 'run' || s.draws.count > 0")
         return page
 
     yield opened

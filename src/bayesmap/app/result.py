@@ -238,7 +238,7 @@ class Result:
                 joint = float(self.run.log_joint[:, -1].mean())
                 if np.ptp(self.run.log_joint) > 0:
                     ess, rhat = bulk_ess(self.run.log_joint), split_rhat(self.run.log_joint)
-                verdict = judge_chains(rhat, ess, sweeps, None)
+                verdict = judge_chains(rhat, ess, sweeps, None, over=True)
         numbers = {"ess": ess, "rhat": rhat, "log_joint": joint}
         finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
         return {"sweeps": sweeps, "total": total, **finite, "verdict": None if verdict is None else asdict(verdict)}

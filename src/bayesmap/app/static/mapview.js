@@ -182,17 +182,17 @@ h=a.grid.shape[1],d=i.angles.length,m=i.pose.length/3,w=Math.ceil(d*m/wu),[y,S,k
 R]===1,q=(C?W:a.max_range)*u*c,O=i.angles[R]+Z,V={x:H.x+q*Math.cos(O),y:H.y-q*Math.sin(O)},G=C?y:S;(E*d+R)%w===0&&(G.moveTo(H.x,H.y),G.lineTo(V.x,V.y)),C&&(d*m>
 bu?k.rect(V.x-.9*T,V.y-.9*T,1.8*T,1.8*T):(k.moveTo(V.x+T,V.y),k.arc(V.x,V.y,T,0,2*Math.PI)))}}r.rays&&(e.lineWidth=1,e.globalAlpha=A*se(28/Math.sqrt(d*m/w)/5,.07,
 .45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.noReturn,e.stroke(S),e.globalAlpha=1),r.readings&&(e.globalAlpha=A,e.fillStyle=r.theme.ray,e.fill(
-k),e.globalAlpha=1)}};var vu=2.5,jn=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}paint(e,n){
-let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(je(e,n),s.trajectory&&this.trajectory(e,n,r.trajectory),s.strokes&&n.view.transform.scale>=vu&&this.strokes(
+k),e.globalAlpha=1)}};var xu=2.5,jn=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}paint(e,n){
+let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(je(e,n),s.trajectory&&this.trajectory(e,n,r.trajectory),s.strokes&&n.view.transform.scale>=xu&&this.strokes(
 e,n,r.strokes))}trajectory(e,{session:n,view:o,look:s},r){let i=n.document?.grid;if(!i)return;let a=r.length/2,c=Math.min(a,n.document?.scans_used??a);e.strokeStyle=
 s.theme.sensor,e.lineWidth=1,e.lineJoin="round";for(let[u,h,d]of[[0,c,.6],[Math.max(0,c-1),a,.6*rr]]){e.beginPath();for(let m=u;m<h;m++){let w=o.fromGrid(De({x:r[2*
 m],y:r[2*m+1]},i),i.shape[1]);e.lineTo(w.x,w.y)}e.globalAlpha=d,e.stroke()}e.globalAlpha=1}strokes(e,{session:n,view:o,look:s},r){let i=n.document?.grid;if(i){e.
 beginPath();for(let a=0;a<r.length;a+=5){let[c,u,h,d]=r.subarray(a,a+4),[m,w]=[o.fromGrid(De({x:c,y:u},i),i.shape[1]),o.fromGrid(De({x:h,y:d},i),i.shape[1])];e.
-moveTo(m.x,m.y),e.lineTo(w.x,w.y)}e.strokeStyle=s.theme.ray,e.lineCap="round",e.lineWidth=se(o.transform.scale/5,.8,2.5),e.stroke()}}};var xu=2.2,Yo=7,[ku,Su]=[.03,.75],Mu=2.4477,Yi=9,Kn=class{name="where";depends({session:e}){return[e.where.version,e.document?.grid.resolution,e.document?.grid.
+moveTo(m.x,m.y),e.lineTo(w.x,w.y)}e.strokeStyle=s.theme.ray,e.lineCap="round",e.lineWidth=se(o.transform.scale/5,.8,2.5),e.stroke()}}};var vu=2.2,Yo=7,[ku,Su]=[.03,.75],Mu=2.4477,Yi=9,Kn=class{name="where";depends({session:e}){return[e.where.version,e.document?.grid.resolution,e.document?.grid.
 origin.join()]}paint(e,n){let{session:o}=n,{found:s}=o.where,r=o.document?.grid;if(!(!s||!r)){je(e,n),this.cloud(e,n,r);for(let i of s.modes)this.place(e,n,r,i,
 s.modes.length>1)}}cloud(e,{session:n,view:o,look:s},r){let{cloud:i,weight:a}=n.where.found,c=a[a.length-1]||1;e.strokeStyle=e.fillStyle=s.theme.belief,e.lineWidth=
 1.2;for(let u=0;u<a.length;u++){if(a[u]<ku**2*c)continue;let[h,d,m]=i.subarray(3*u,3*u+3),w=o.fromGrid(De({x:h,y:d},r),r.shape[1]);e.globalAlpha=Su*Math.sqrt(a[u]/
-c),e.beginPath(),e.arc(w.x,w.y,xu,0,2*Math.PI),e.fill(),e.beginPath(),e.moveTo(w.x,w.y),e.lineTo(w.x+Yo*Math.cos(m),w.y-Yo*Math.sin(m)),e.stroke()}e.globalAlpha=
+c),e.beginPath(),e.arc(w.x,w.y,vu,0,2*Math.PI),e.fill(),e.beginPath(),e.moveTo(w.x,w.y),e.lineTo(w.x+Yo*Math.cos(m),w.y-Yo*Math.sin(m)),e.stroke()}e.globalAlpha=
 1}place(e,{view:n,look:o},s,r,i){let[a,c,u]=r.mean,h=n.fromGrid(De({x:a,y:c},s),s.shape[1]),d=Mu*n.transform.scale/s.resolution,[[m,w],[,y]]=r.covariance,[S,k]=[
 (m+y)/2,Math.hypot((m-y)/2,w)],[T,M]=[S+k,S-k].map(E=>Math.max(Yi,d*Math.sqrt(Math.max(E,0))));e.beginPath(),e.ellipse(h.x,h.y,T,M,-Math.atan2(2*w,m-y)/2,0,2*Math.
 PI);let A=Yi+1;e.moveTo(h.x+A*Math.cos(u),h.y-A*Math.sin(u)),e.lineTo(h.x+(A+Yo)*Math.cos(u),h.y-(A+Yo)*Math.sin(u)),e.strokeStyle=o.theme.halo,e.lineWidth=4,e.
@@ -206,19 +206,19 @@ sin(i.angle)};return s.fromGrid(De(T,h),h.shape[1])},w=(k,T,M,A)=>{e.beginPath()
 hit[i.beam]===1,S=m(y?c.ranges[i.beam]:d);if(w(m(0),S,3,r.theme.halo),w(m(0),S,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let k=(T,M)=>se(T??M,0,d);
 if(w(m(k(a.low,0)),m(k(a.high,d)),6,r.theme.ghost),a.median!==null){let T=m(a.median),M={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};w({x:T.x-M.x,y:T.y-M.y},{x:T.
 x+M.x,y:T.y+M.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),e.arc(S.x,S.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,
-e.stroke())}};function x(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
+e.stroke())}};function v(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
 "role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function D(t,e,n){t[e]!==n&&(t[e]=n)}function pt(t,e,n){t.getAttribute(
 e)!==n&&t.setAttribute(e,n)}var hn=t=>t.getRootNode().activeElement===t,Ce=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function ar(t,e){let n=URL.
-createObjectURL(e);x("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Qi=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
+createObjectURL(e);v("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Qi=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
 here","Where am I?","where"],["ghost","Ghost","ghost"]];function Xi(t){let{hand:e,session:n}=t,o=t.segmented("Tool",Qi,()=>n.editable||!n.document||$t.has(e.tool)?
 e.tool:"pan",s=>e.choose(s),s=>n.editable||$t.has(s)&&!n.recorded||s==="pan");return t.visible(o,()=>!n.recorded),Qi.forEach(([s],r)=>{$t.has(s)||t.visible(o.children[r],
-()=>!n.document||n.editable)}),x("div",{className:"bar"},o,x("span",{className:"space"}),t.button("minus","Zoom out",()=>t.command("out"),{title:"Zoom out (−)"}),
+()=>!n.document||n.editable)}),v("div",{className:"bar"},o,v("span",{className:"space"}),t.button("minus","Zoom out",()=>t.command("out"),{title:"Zoom out (−)"}),
 t.button("plus","Zoom in",()=>t.command("in"),{title:"Zoom in (+)"}),t.button("fit","Whole map",()=>t.command("fit"),{title:"Whole map (0)"}))}var Tu="uplot",Pu="u-hz",Eu="u-vt",_u="u-title",Au="u-wrap",Cu="u-under",Lu="u-over",Du="u-axis",gn="u-off",Ru="u-select",Nu="u-cursor-x",Fu="u-cursor-y",$u="u-\
-cursor-pt",Iu="u-legend",Ou="u-live",Uu="u-inline",Gu="u-series",Wu="u-marker",ea="u-label",zu="u-value",vo="width",xo="height";var ta="bottom",qn="left",lr="right",Tr="#000",na=Tr+"0",cr="mousemove",oa="mousedown",ur="mouseup",sa="mouseenter",ra="mouseleave",ia="dblclick",Hu="resize",Vu="\
+cursor-pt",Iu="u-legend",Ou="u-live",Uu="u-inline",Gu="u-series",Wu="u-marker",ea="u-label",zu="u-value",xo="width",vo="height";var ta="bottom",qn="left",lr="right",Tr="#000",na=Tr+"0",cr="mousemove",oa="mousedown",ur="mouseup",sa="mouseenter",ra="mouseleave",ia="dblclick",Hu="resize",Vu="\
 scroll",aa="change",ts="dppxchange",Pr="--",to=typeof window<"u",mr=to?document:null,Jn=to?window:null,Bu=to?navigator:null,de,Zo;function gr(){let t=devicePixelRatio;
 de!=t&&(de=t,Zo&&br(aa,Zo,gr),Zo=matchMedia(`(min-resolution: ${de-.001}dppx) and (max-resolution: ${de+.001}dppx)`),yn(aa,Zo,gr),Jn.dispatchEvent(new CustomEvent(
 ts)))}function dt(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function yr(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function Me(t,e,n){
-t.style[e]=n+"px"}function Et(t,e,n,o){let s=mr.createElement(t);return e!=null&&dt(s,e),n?.insertBefore(s,o),s}function xt(t,e){return Et("div",t,e)}var la=new WeakMap;
+t.style[e]=n+"px"}function Et(t,e,n,o){let s=mr.createElement(t);return e!=null&&dt(s,e),n?.insertBefore(s,o),s}function vt(t,e){return Et("div",t,e)}var la=new WeakMap;
 function It(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=la.get(t);r!=i&&(t.style.transform=r,la.set(t,r),e<0||n<0||e>o||n>s?dt(t,gn):yr(t,gn))}var ca=new WeakMap;
 function ua(t,e,n){let o=e+n,s=ca.get(t);o!=s&&(ca.set(t,o),t.style.background=e,t.style.borderColor=n)}var pa=new WeakMap;function da(t,e,n,o){let s=e+""+n,r=pa.
 get(t);s!=r&&(pa.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Er={passive:!0},ju={...Er,
@@ -262,13 +262,13 @@ return t.slice(0,3)}var fp=Qa.map(Xa),mp=Za.map(Xa),gp={MMMM:Za,MMM:mp,WWWW:Qa,W
 h:t=>{let e=t.getHours();return e==0?12:e>12?e-12:e},AA:t=>t.getHours()>=12?"PM":"AM",aa:t=>t.getHours()>=12?"pm":"am",a:t=>t.getHours()>=12?"p":"a",mm:t=>wo(t.
 getMinutes()),m:t=>t.getMinutes(),ss:t=>wo(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>yp(t.getMilliseconds())};function Dr(t,e){e=e||gp;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
 s;for(;s=o.exec(t);)n.push(s[0][0]=="{"?bp[s[1]]:s[0]);return r=>{let i="";for(let a=0;a<n.length;a++)i+=typeof n[a]=="string"?n[a]:n[a](r,e);return i}}var wp=new Intl.
-DateTimeFormat().resolvedOptions().timeZone;function vp(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==wp?n=t:(n=new Date(
-t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var el=t=>t%1==0,os=[1,2,2.5,5],xp=To(10,-32,0,os),tl=To(10,0,32,os),kp=tl.filter(
-el),mn=xp.concat(tl),Rr=`
-`,nl="{YYYY}",va=Rr+nl,ol="{M}/{D}",ko=Rr+ol,Qo=ko+"/{YY}",sl="{aa}",Sp="{h}:{mm}",Yn=Sp+sl,xa=Rr+Yn,ka=":{ss}",he=null;function rl(t){let e=t*1e3,n=e*60,o=n*60,
+DateTimeFormat().resolvedOptions().timeZone;function xp(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==wp?n=t:(n=new Date(
+t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var el=t=>t%1==0,os=[1,2,2.5,5],vp=To(10,-32,0,os),tl=To(10,0,32,os),kp=tl.filter(
+el),mn=vp.concat(tl),Rr=`
+`,nl="{YYYY}",xa=Rr+nl,ol="{M}/{D}",ko=Rr+ol,Qo=ko+"/{YY}",sl="{aa}",Sp="{h}:{mm}",Yn=Sp+sl,va=Rr+Yn,ka=":{ss}",he=null;function rl(t){let e=t*1e3,n=e*60,o=n*60,
 s=o*24,r=s*30,i=s*365,c=(t==1?To(10,0,3,os).filter(el):To(10,-3,0,os)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
-4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),u=[[i,nl,he,he,he,he,he,he,1],[s*28,"{MMM}",va,he,he,he,he,he,1],[s,ol,va,he,
-he,he,he,he,1],[o,"{h}"+sl,Qo,he,ko,he,he,he,1],[n,Yn,Qo,he,ko,he,he,he,1],[e,ka,Qo+" "+Yn,he,ko+" "+Yn,he,xa,he,1],[t,ka+".{fff}",Qo+" "+Yn,he,ko+" "+Yn,he,xa,
+4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),u=[[i,nl,he,he,he,he,he,he,1],[s*28,"{MMM}",xa,he,he,he,he,he,1],[s,ol,xa,he,
+he,he,he,he,1],[o,"{h}"+sl,Qo,he,ko,he,he,he,1],[n,Yn,Qo,he,ko,he,he,he,1],[e,ka,Qo+" "+Yn,he,ko+" "+Yn,he,va,he,1],[t,ka+".{fff}",Qo+" "+Yn,he,ko+" "+Yn,he,va,
 he,1]];function h(d){return(m,w,y,S,k,T)=>{let M=[],A=k>=i,E=k>=r&&k<i,K=d(y),N=be(K*t,3),Z=dr(K.getFullYear(),A?0:K.getMonth(),E||A?1:K.getDate()),H=be(Z*t,3);
 if(E||A){let R=E?k/r:0,W=A?k/i:0,C=N==H?N:be(dr(Z.getFullYear()+W,Z.getMonth()+R,1)*t,3),q=new Date($e(C/t)),O=q.getFullYear(),V=q.getMonth();for(let G=0;C<=S;G++){
 let ne=dr(O+W*G,V+R*G,1),B=ne-d(be(ne*t,3));C=be((+ne+B)*t,3),C<=S&&M.push(C)}}else{let R=k>=s?s:k,W=ht(y)-ht(N),C=H+W+is(N-H,R);M.push(C);let q=d(C),O=q.getHours()+
@@ -280,7 +280,7 @@ c&&a[2]||T!=u&&a[3]||M!=h&&a[4]||A!=d&&a[5]||E!=m&&a[6]||K!=w&&a[7]||a[1];return
 map(c=>n(t(c)))}function dr(t,e,n){return new Date(t,e,n)}function Ta(t,e){return e(t)}var Lp="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function Pa(t,e){return(n,o,s,r)=>r==
 null?Pr:e(t(o))}function Dp(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Rp(t,e){return t.series[e].fill(
 t,e)}var Np={show:!0,live:!0,isolate:!1,mount:Xu,markers:{show:!0,width:2,stroke:Dp,fill:Rp,dash:"solid"},idx:null,idxs:null,values:[]};function Fp(t,e){let n=t.
-cursor.points,o=xt(),s=n.size(t,e);Me(o,vo,s),Me(o,xo,s);let r=s/-2;Me(o,"marginLeft",r),Me(o,"marginTop",r);let i=n.width(t,e,s);return i&&Me(o,"borderWidth",i),
+cursor.points,o=vt(),s=n.size(t,e);Me(o,xo,s),Me(o,vo,s);let r=s/-2;Me(o,"marginLeft",r),Me(o,"marginTop",r);let i=n.width(t,e,s);return i&&Me(o,"borderWidth",i),
 o}function $p(t,e){let n=t.series[e].points;return n._fill||n._stroke}function Ip(t,e){let n=t.series[e].points;return n._stroke||n._fill}function Op(t,e){return t.
 series[e].points.size}var hr=[0,0];function Up(t,e,n){return hr[0]=e,hr[1]=n,hr}function Xo(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function fr(t,e,n,o=!0){
 return s=>{(!o||s.target==e)&&n(s)}}var Gp={show:!0,x:!0,y:!0,lock:!1,move:Up,points:{one:!1,show:Fp,size:Op,width:0,stroke:Ip,fill:$p},bind:{mousedown:Xo,mouseup:Xo,
@@ -290,13 +290,13 @@ show:!0,stroke:"rgba(0,0,0,0.07)",width:2},Nr=Re({},il,{filter:ja}),al=Re({},Nr,
  Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',cl="bold "+Fr,ul=1.5,Ea={
 show:!0,scale:"x",stroke:Tr,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:cl,side:2,grid:Nr,ticks:al,border:ll,font:Fr,lineGap:ul,rotate:0},
 Wp="Value",zp="Time",_a={show:!0,scale:"x",auto:!1,sorted:1,min:ye,max:-ye,idxs:[]};function Hp(t,e,n,o,s){return e.map(r=>r==null?"":Cr(r))}function Vp(t,e,n,o,s,r,i){
-let a=[],c=Xt.get(s)||0;n=i?n:be(is(n,s),c);for(let u=n;u<=o;u=be(u+s,c))a.push(Object.is(u,-0)?0:u);return a}function vr(t,e,n,o,s,r,i){let a=[],c=t.scales[t.axes[e].
+let a=[],c=Xt.get(s)||0;n=i?n:be(is(n,s),c);for(let u=n;u<=o;u=be(u+s,c))a.push(Object.is(u,-0)?0:u);return a}function xr(t,e,n,o,s,r,i){let a=[],c=t.scales[t.axes[e].
 scale].log,u=c==10?zt:Ha,h=ht(u(n));s=Zn(c,h),c==10&&(s=mn[_t(s,mn)]);let d=n,m=s*c;c==10&&(m=mn[_t(m,mn)]);do a.push(d),d=d+s,c==10&&!Xt.has(d)&&(d=be(d,Xt.get(
-s))),d>=m&&(s=d,m=s*c,c==10&&(m=mn[_t(m,mn)]));while(d<=o);return a}function Bp(t,e,n,o,s,r,i){let c=t.scales[t.axes[e].scale].asinh,u=o>c?vr(t,e,nt(c,n),o,s):[
-c],h=o>=0&&n<=0?[0]:[];return(n<-c?vr(t,e,nt(c,-o),-n,s):[c]).reverse().map(m=>-m).concat(h,u)}var pl=/./,jp=/[12357]/,Kp=/[125]/,Aa=/1/,xr=(t,e,n,o)=>t.map((s,r)=>e==
+s))),d>=m&&(s=d,m=s*c,c==10&&(m=mn[_t(m,mn)]));while(d<=o);return a}function Bp(t,e,n,o,s,r,i){let c=t.scales[t.axes[e].scale].asinh,u=o>c?xr(t,e,nt(c,n),o,s):[
+c],h=o>=0&&n<=0?[0]:[];return(n<-c?xr(t,e,nt(c,-o),-n,s):[c]).reverse().map(m=>-m).concat(h,u)}var pl=/./,jp=/[12357]/,Kp=/[125]/,Aa=/1/,vr=(t,e,n,o)=>t.map((s,r)=>e==
 4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function qp(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],c=t.valToPos,u=r._space,h=c(10,i),d=c(
-9,i)-h>=u?pl:c(7,i)-h>=u?jp:c(5,i)-h>=u?Kp:Aa;if(d==Aa){let m=Ie(c(1,i)-h);if(m<u)return xr(e.slice().reverse(),a.distr,d,kt(u/m)).reverse()}return xr(e,a.distr,
-d,1)}function Yp(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,c=t.valToPos,u=Ie(c(1,i)-c(2,i));return u<a?xr(e.slice().reverse(),3,pl,kt(a/u)).reverse():e}function Jp(t,e,n,o){
+9,i)-h>=u?pl:c(7,i)-h>=u?jp:c(5,i)-h>=u?Kp:Aa;if(d==Aa){let m=Ie(c(1,i)-h);if(m<u)return vr(e.slice().reverse(),a.distr,d,kt(u/m)).reverse()}return vr(e,a.distr,
+d,1)}function Yp(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,c=t.valToPos,u=Ie(c(1,i)-c(2,i));return u<a?vr(e.slice().reverse(),3,pl,kt(a/u)).reverse():e}function Jp(t,e,n,o){
 return o==null?Pr:e==null?"":Cr(e)}var Ca={show:!0,scale:"y",stroke:Tr,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:cl,side:3,grid:Nr,ticks:al,
 border:ll,font:Fr,lineGap:ul,rotate:0};function Zp(t,e){let n=3+(t||1)*2;return be(n*e,3)}function Qp(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
 s[o[0]],n,!0),i=t.valToPos(s[o[1]],n,!0),a=Ie(i-r),c=t.series[e],u=a/(c.points.space*de);return o[1]-o[0]<=u}var La={scale:null,auto:!0,sorted:0,min:ye,max:-ye},
@@ -318,11 +318,11 @@ return a}function Fa(t){return t==0?Ba:t==1?$e:e=>fn(e,t)}function ml(t){let e=t
 c,a,u)},o=t==0?(s,r,i,a,c)=>{s.rect(r,i,a,c)}:(s,r,i,a,c)=>{s.rect(i,r,c,a)};return(s,r,i,a,c,u=0,h=0)=>{u==0&&h==0?o(s,r,i,a,c):(u=At(u,a/2,c/2),h=At(h,a/2,c/2),
 e(s,r+u,i),n(s,r+a,i,r+a,i+c,u),n(s,r+a,i+c,r,i+c,h),n(s,r,i+c,r,i,h),n(s,r,i,r+a,i,u),s.closePath())}}var cs=(t,e,n)=>{t.moveTo(e,n)},us=(t,e,n)=>{t.moveTo(n,e)},
 no=(t,e,n)=>{t.lineTo(e,n)},oo=(t,e,n)=>{t.lineTo(n,e)},ps=ml(0),Or=ml(1),gl=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},yl=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},bl=(t,e,n,o,s,r,i)=>{
-t.bezierCurveTo(e,n,o,s,r,i)},wl=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function vl(t){return(e,n,o,s,r)=>wn(e,n,(i,a,c,u,h,d,m,w,y,S,k)=>{let{pxRound:T,
+t.bezierCurveTo(e,n,o,s,r,i)},wl=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function xl(t){return(e,n,o,s,r)=>wn(e,n,(i,a,c,u,h,d,m,w,y,S,k)=>{let{pxRound:T,
 points:M}=i,A,E;u.ori==0?(A=cs,E=gl):(A=us,E=yl);let K=be(M.width*de,3),N=(M.size-M.width)/2*de,Z=be(N*2,3),H=new Path2D,R=new Path2D,{left:W,top:C,width:q,height:O}=e.
 bbox;ps(R,W-Z,C-Z,q+Z*2,O+Z*2);let V=G=>{if(c[G]!=null){let ne=T(d(a[G],u,S,w)),B=T(m(c[G],h,k,y));A(H,ne+N,B),E(H,ne,B,N,0,es*2)}};if(r)r.forEach(V);else for(let G=o;G<=
-s;G++)V(G);return{stroke:K>0?H:null,fill:H,clip:R,flags:eo|kr}})}function xl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var od=xl(no),sd=xl(oo);function kl(t){let e=ce(t?.alignGaps,0);return(n,o,s,r)=>wn(n,o,(i,a,c,u,h,d,m,w,y,S,k)=>{[s,r]=ss(c,s,r);let T=i.pxRound,M=O=>T(d(O,u,S,
+s;G++)V(G);return{stroke:K>0?H:null,fill:H,clip:R,flags:eo|kr}})}function vl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
+var od=vl(no),sd=vl(oo);function kl(t){let e=ce(t?.alignGaps,0);return(n,o,s,r)=>wn(n,o,(i,a,c,u,h,d,m,w,y,S,k)=>{[s,r]=ss(c,s,r);let T=i.pxRound,M=O=>T(d(O,u,S,
 w)),A=O=>T(m(O,h,k,y)),E,K;u.ori==0?(E=no,K=od):(E=oo,K=sd);let N=u.dir*(u.ori==0?1:-1),Z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:eo},H=Z.
 stroke,R=!1;if(r-s>=S*4){let O=z=>n.posToVal(z,u.key,!0),V=null,G=null,ne,B,Je,me=M(a[N==1?s:r]),re=M(a[s]),ue=M(a[r]),X=O(N==1?re+1:ue-1);for(let z=N==1?s:r;z>=
 s&&z<=r;z+=N){let Ee=a[z],ge=(N==1?Ee<X:Ee>X)?me:M(Ee),ae=c[z];ge==me?ae!=null?(B=ae,V==null?(E(H,ge,A(B)),ne=V=G=B):B<V?V=B:B>G&&(G=B)):ae===null&&(R=!0):(V!=null&&
@@ -342,15 +342,15 @@ t[a]);h<u&&(u=h,i=Ie(n(t[c],o,s,r)-n(t[a],o,s,r)))}a=c}}return i}function id(t){
 (T,M,A,E,K,N,Z,H,R,W,C)=>{let q=T.pxRound,O=n,V=o*de,G=a*de,ne=c*de,B,Je;E.ori==0?[B,Je]=r(w,y):[Je,B]=r(w,y);let me=E.dir*(E.ori==0?1:-1),re=E.ori==0?ps:Or,ue=E.
 ori==0?h:(I,we,Fe,kn,on,Ct,sn)=>{h(I,we,Fe,on,kn,sn,Ct)},X=ce(w.bands,Lr).find(I=>I.series[0]==y),z=X!=null?X.dir:0,Ee=T.fillTo(w,y,T.min,T.max,z),Ue=q(Z(Ee,K,C,
 R)),ge,ae,mt,ot=W,Te=q(T.width*de),it=!1,Y=null,te=null,Ne=null,Ot=null;d!=null&&(Te==0||m!=null)&&(it=!0,Y=d.values(w,y,S,k),te=new Map,new Set(Y).forEach(I=>{
-I!=null&&te.set(I,new Path2D)}),Te>0&&(Ne=m.values(w,y,S,k),Ot=new Map,new Set(Ne).forEach(I=>{I!=null&&Ot.set(I,new Path2D)})));let{x0:vn,size:ro}=u;if(vn!=null&&
-ro!=null){O=1,M=vn.values(w,y,S,k),vn.unit==2&&(M=M.map(Fe=>w.posToVal(H+Fe*W,E.key,!0)));let I=ro.values(w,y,S,k);ro.unit==2?ae=I[0]*W:ae=N(I[0],E,W,H)-N(0,E,W,
+I!=null&&te.set(I,new Path2D)}),Te>0&&(Ne=m.values(w,y,S,k),Ot=new Map,new Set(Ne).forEach(I=>{I!=null&&Ot.set(I,new Path2D)})));let{x0:xn,size:ro}=u;if(xn!=null&&
+ro!=null){O=1,M=xn.values(w,y,S,k),xn.unit==2&&(M=M.map(Fe=>w.posToVal(H+Fe*W,E.key,!0)));let I=ro.values(w,y,S,k);ro.unit==2?ae=I[0]*W:ae=N(I[0],E,W,H)-N(0,E,W,
 H),ot=$a(M,A,N,E,W,H,ot),mt=ot-ae+V}else ot=$a(M,A,N,E,W,H,ot),mt=ot*i+V,ae=ot-mt;mt<1&&(mt=0),Te>=ae/2&&(Te=0),mt<5&&(q=Ba);let Po=mt>0,tn=ot-mt-(Po?Te:0);ae=q(
-wr(tn,ne,G)),ge=(O==0?ae/2:O==me?0:ae)-O*me*((O==0?V/2:0)+(Po?Te/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},xn=it?null:new Path2D,
+wr(tn,ne,G)),ge=(O==0?ae/2:O==me?0:ae)-O*me*((O==0?V/2:0)+(Po?Te/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},vn=it?null:new Path2D,
 Ut=null;if(X!=null)Ut=w.data[X.series[1]];else{let{y0:I,y1:we}=u;I!=null&&we!=null&&(A=we.values(w,y,S,k),Ut=I.values(w,y,S,k))}let nn=B*ae,ee=Je*ae;for(let I=me==
 1?S:k;I>=S&&I<=k;I+=me){let we=A[I];if(we==null)continue;if(Ut!=null){let st=Ut[I]??0;if(we-st==0)continue;Ue=Z(st,K,C,R)}let Fe=E.distr!=2||u!=null?M[I]:I,kn=N(
 Fe,E,W,H),on=Z(ce(we,Ee),K,C,R),Ct=q(kn-ge),sn=q(nt(on,Ue)),at=q(At(on,Ue)),gt=sn-at;if(we!=null){let st=we<0?ee:nn,St=we<0?nn:ee;it?(Te>0&&Ne[I]!=null&&re(Ot.get(
-Ne[I]),Ct,at+ht(Te/2),ae,nt(0,gt-Te),st,St),Y[I]!=null&&re(te.get(Y[I]),Ct,at+ht(Te/2),ae,nt(0,gt-Te),st,St)):re(xn,Ct,at+ht(Te/2),ae,nt(0,gt-Te),st,St),ue(w,y,
-I,Ct-Te/2,at,ae+Te,gt)}}return Te>0?Qe.stroke=it?Ot:xn:it||(Qe._fill=T.width==0?T._fill:T._stroke??T._fill,Qe.width=0),Qe.fill=it?te:xn,Qe})}function ad(t,e){let n=ce(
+Ne[I]),Ct,at+ht(Te/2),ae,nt(0,gt-Te),st,St),Y[I]!=null&&re(te.get(Y[I]),Ct,at+ht(Te/2),ae,nt(0,gt-Te),st,St)):re(vn,Ct,at+ht(Te/2),ae,nt(0,gt-Te),st,St),ue(w,y,
+I,Ct-Te/2,at,ae+Te,gt)}}return Te>0?Qe.stroke=it?Ot:vn:it||(Qe._fill=T.width==0?T._fill:T._stroke??T._fill,Qe.width=0),Qe.fill=it?te:vn,Qe})}function ad(t,e){let n=ce(
 e?.alignGaps,0);return(o,s,r,i)=>wn(o,s,(a,c,u,h,d,m,w,y,S,k,T)=>{[r,i]=ss(u,r,i);let M=a.pxRound,A=B=>M(m(B,h,k,y)),E=B=>M(w(B,d,T,S)),K,N,Z;h.ori==0?(K=cs,Z=no,
 N=bl):(K=us,Z=oo,N=wl);let H=h.dir*(h.ori==0?1:-1),R=A(c[H==1?r:i]),W=R,C=[],q=[];for(let B=H==1?r:i;B>=r&&B<=i;B+=H)if(u[B]!=null){let me=c[B],re=A(me);C.push(
 W=re),q.push(E(u[B]))}let O={stroke:t(C,q,K,Z,N,M),fill:null,clip:null,band:null,gaps:null,flags:eo},V=O.stroke,[G,ne]=$r(o,s);if(a.fill!=null||G!=0){let B=O.fill=
@@ -360,44 +360,44 @@ let i=t.length;if(i<2)return null;let a=new Path2D;if(n(a,t[0],e[0]),i==2)o(a,t[
 i-1;m++)h[m]=e[m+1]-e[m],d[m]=t[m+1]-t[m],u[m]=h[m]/d[m];c[0]=u[0];for(let m=1;m<i-1;m++)u[m]===0||u[m-1]===0||u[m-1]>0!=u[m]>0?c[m]=0:(c[m]=3*(d[m-1]+d[m])/((2*
 d[m]+d[m-1])/u[m-1]+(d[m]+2*d[m-1])/u[m]),isFinite(c[m])||(c[m]=0));c[i-1]=u[i-2];for(let m=0;m<i-1;m++)s(a,t[m]+d[m]/3,e[m]+c[m]*d[m]/3,t[m+1]-d[m]/3,e[m+1]-c[m+
 1]*d[m]/3,t[m+1],e[m+1])}return a}var Sr=new Set;function Ia(){for(let t of Sr)t.syncRect(!0)}to&&(yn(Hu,Jn,Ia),yn(Vu,Jn,Ia,!0),yn(ts,Jn,()=>{Oe.pxRatio=de}));var ud=kl(),
-pd=vl();function Oa(t,e,n,o){return(o?[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Mr(r,i,e,n))}function dd(t,e){return t.map((n,o)=>o==
+pd=xl();function Oa(t,e,n,o){return(o?[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Mr(r,i,e,n))}function dd(t,e){return t.map((n,o)=>o==
 0?{}:Re({},e,n))}function Mr(t,e,n,o){return Re({},e==0?n:o,t)}function Sl(t,e,n){return e==null?Qn:[e,n]}var hd=Sl;function fd(t,e,n){return e==null?Qn:ns(e,n,
 Ar,!0)}function Ml(t,e,n,o){return e==null?Qn:rs(e,n,t.scales[o].log,!1)}var md=Ml;function Tl(t,e,n,o){return e==null?Qn:_r(e,n,t.scales[o].log,!1)}var gd=Tl;function yd(t,e,n,o,s){
 let r=nt(ga(t),ga(e)),i=e-t,a=_t(s/o*i,n);do{let c=n[a],u=o*c/i;if(u>=s&&r+(c<5?Xt.get(c):0)<=17)return[c,u]}while(++a<n.length);return[0,0]}function Ua(t){let e,
 n;return t=t.replace(/(\d+)px/,(o,s)=>(e=$e((n=+s)*de))+"px"),[t,e,n]}function bd(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=be(e[2]*de,1);e[0]=e[0].replace(
 /[0-9.]+px/,n+"px"),e[1]=n})}function Oe(t,e,n){let o={mode:ce(t.mode,1)},s=o.mode;function r(l,p,f,g){let b=p.valToPct(l);return g+f*(p.dir==-1?1-b:b)}function i(l,p,f,g){
 let b=p.valToPct(l);return g+f*(p.dir==-1?b:1-b)}function a(l,p,f,g){return p.ori==0?r(l,p,f,g):i(l,p,f,g)}o.valToPosH=r,o.valToPosV=i;let c=!1;o.status=0;let u=o.
-root=xt(Tu);if(t.id!=null&&(u.id=t.id),dt(u,t.class),t.title){let l=xt(_u,u);l.textContent=t.title}let h=Et("canvas"),d=o.ctx=h.getContext("2d"),m=xt(Au,u);yn("\
-click",m,l=>{l.target===y&&(ve!=Rn||Pe!=Nn)&&qe.click(o,l)},!0);let w=o.under=xt(Cu,m);m.appendChild(h);let y=o.over=xt(Lu,m);t=Xn(t);let S=+ce(t.pxAlign,1),k=Fa(
+root=vt(Tu);if(t.id!=null&&(u.id=t.id),dt(u,t.class),t.title){let l=vt(_u,u);l.textContent=t.title}let h=Et("canvas"),d=o.ctx=h.getContext("2d"),m=vt(Au,u);yn("\
+click",m,l=>{l.target===y&&(xe!=Rn||Pe!=Nn)&&qe.click(o,l)},!0);let w=o.under=vt(Cu,m);m.appendChild(h);let y=o.over=vt(Lu,m);t=Xn(t);let S=+ce(t.pxAlign,1),k=Fa(
 S);(t.plugins||[]).forEach(l=>{l.opts&&(t=l.opts(o,t)||t)});let T=t.ms||.001,M=o.series=s==1?Oa(t.series||[],_a,Ra,!1):dd(t.series||[null],Da),A=o.axes=Oa(t.axes||
 [],Ea,Ca,!0),E=o.scales={},K=o.bands=t.bands||[];K.forEach(l=>{l.fill=ie(l.fill||null),l.dir=ce(l.dir,-1)});let N=s==2?M[1].facets[0].scale:M[0].scale,Z={axes:$c,
 series:Lc},H=(t.drawOrder||["axes","series"]).map(l=>Z[l]);function R(l){let p=l.distr==3?f=>zt(f>0?f:l.clamp(o,f,l.min,l.max,l.key)):l.distr==4?f=>pr(f,l.asinh):
-l.distr==100?f=>l.fwd(f):f=>f;return f=>{let g=p(f),{_min:b,_max:v}=l,P=v-b;return(g-b)/P}}function W(l){let p=E[l];if(p==null){let f=(t.scales||Mo)[l]||Mo;if(f.
-from!=null){W(f.from);let g=Re({},E[f.from],f,{key:l});g.valToPct=R(g),E[l]=g}else{p=E[l]=Re({},l==N?hl:ed,f),p.key=l;let g=p.time,b=p.range,v=Qt(b);if((l!=N||s==
-2&&!g)&&(v&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?ha:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?ha:{mode:1,hard:b[1],soft:b[1]}},v=!1),!v&&as(b))){let P=b;
-b=(_,L,F)=>L==null?Qn:ns(L,F,P)}p.range=ie(b||(g?hd:l==N?p.distr==3?md:p.distr==4?gd:Sl:p.distr==3?Ml:p.distr==4?Tl:fd)),p.auto=ie(v?!1:p.auto),p.clamp=ie(p.clamp||
+l.distr==100?f=>l.fwd(f):f=>f;return f=>{let g=p(f),{_min:b,_max:x}=l,P=x-b;return(g-b)/P}}function W(l){let p=E[l];if(p==null){let f=(t.scales||Mo)[l]||Mo;if(f.
+from!=null){W(f.from);let g=Re({},E[f.from],f,{key:l});g.valToPct=R(g),E[l]=g}else{p=E[l]=Re({},l==N?hl:ed,f),p.key=l;let g=p.time,b=p.range,x=Qt(b);if((l!=N||s==
+2&&!g)&&(x&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?ha:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?ha:{mode:1,hard:b[1],soft:b[1]}},x=!1),!x&&as(b))){let P=b;
+b=(_,L,F)=>L==null?Qn:ns(L,F,P)}p.range=ie(b||(g?hd:l==N?p.distr==3?md:p.distr==4?gd:Sl:p.distr==3?Ml:p.distr==4?Tl:fd)),p.auto=ie(x?!1:p.auto),p.clamp=ie(p.clamp||
 Xp),p._min=p._max=null,p.valToPct=R(p)}}}W("x"),W("y"),s==1&&M.forEach(l=>{W(l.scale)}),A.forEach(l=>{W(l.scale)});for(let l in t.scales)W(l);let C=E[N],q=C.distr,
 O,V;C.ori==0?(dt(u,Pu),O=r,V=i):(dt(u,Eu),O=i,V=r);let G={};for(let l in E){let p=E[l];(p.min!=null||p.max!=null)&&(G[l]={min:p.min,max:p.max},p.min=p.max=null)}
 let ne=t.tzDate||(l=>new Date($e(l/T))),B=t.fmtDate||Dr,Je=T==1?Pp(ne):Ap(ne),me=Ma(ne,Sa(T==1?Tp:_p,B)),re=Pa(ne,Ta(Lp,B)),ue=[],X=o.legend=Re({},Np,t.legend),
 z=o.cursor=Re({},Gp,{drag:{y:s==2}},t.cursor),Ee=X.show,Ue=z.show,ge=X.markers;X.idxs=ue,ge.width=ie(ge.width),ge.dash=ie(ge.dash),ge.stroke=ie(ge.stroke),ge.fill=
 ie(ge.fill);let ae,mt,ot,Te=[],it=[],Y,te=!1,Ne={};if(X.live){let l=M[1]?M[1].values:null;te=l!=null,Y=te?l(o,1,0):{_:0};for(let p in Y)Ne[p]=Pr}if(Ee)if(ae=Et(
 "table",Iu,u),ot=Et("tbody",null,ae),X.mount(o,ae),te){mt=Et("thead",null,ae,ot);let l=Et("tr",null,mt);Et("th",null,l);for(var Ot in Y)Et("th",ea,l).textContent=
-Ot}else dt(ae,Uu),X.live&&dt(ae,Ou);let vn={show:!0},ro={show:!1};function Po(l,p){if(p==0&&(te||!X.live||s==2))return Qn;let f=[],g=Et("tr",Gu,ot,ot.childNodes[p]);
-dt(g,l.class),l.show||dt(g,gn);let b=Et("th",null,g);if(ge.show){let _=xt(Wu,b);if(p>0){let L=ge.width(o,p);L&&(_.style.border=L+"px "+ge.dash(o,p)+" "+ge.stroke(
-o,p)),_.style.background=ge.fill(o,p)}}let v=xt(ea,b);l.label instanceof HTMLElement?v.appendChild(l.label):v.textContent=l.label,p>0&&(ge.show||(v.style.color=
+Ot}else dt(ae,Uu),X.live&&dt(ae,Ou);let xn={show:!0},ro={show:!1};function Po(l,p){if(p==0&&(te||!X.live||s==2))return Qn;let f=[],g=Et("tr",Gu,ot,ot.childNodes[p]);
+dt(g,l.class),l.show||dt(g,gn);let b=Et("th",null,g);if(ge.show){let _=vt(Wu,b);if(p>0){let L=ge.width(o,p);L&&(_.style.border=L+"px "+ge.dash(o,p)+" "+ge.stroke(
+o,p)),_.style.background=ge.fill(o,p)}}let x=vt(ea,b);l.label instanceof HTMLElement?x.appendChild(l.label):x.textContent=l.label,p>0&&(ge.show||(x.style.color=
 l.width>0?ge.stroke(o,p):ge.fill(o,p)),Qe("click",b,_=>{if(z._lock)return;an(_);let L=M.indexOf(l);if((_.ctrlKey||_.metaKey)!=X.isolate){let F=M.some(($,U)=>U>0&&
-U!=L&&$.show);M.forEach(($,U)=>{U>0&&Dt(U,F?U==L?vn:ro:vn,!0,Le.setSeries)})}else Dt(L,{show:!l.show},!0,Le.setSeries)},!1),Mn&&Qe(sa,b,_=>{z._lock||(an(_),Dt(M.
+U!=L&&$.show);M.forEach(($,U)=>{U>0&&Dt(U,F?U==L?xn:ro:xn,!0,Le.setSeries)})}else Dt(L,{show:!l.show},!0,Le.setSeries)},!1),Mn&&Qe(sa,b,_=>{z._lock||(an(_),Dt(M.
 indexOf(l),$n,!0,Le.setSeries))},!1));for(var P in Y){let _=Et("td",zu,g);_.textContent="--",f.push(_)}return[g,f]}let tn=new Map;function Qe(l,p,f,g=!0){let b=tn.
-get(p)||{},v=z.bind[l](o,p,f,g);v&&(yn(l,p,b[l]=v),tn.set(p,b))}function xn(l,p,f){let g=tn.get(p)||{};for(let b in g)(l==null||b==l)&&(br(b,p,g[b]),delete g[b]);
+get(p)||{},x=z.bind[l](o,p,f,g);x&&(yn(l,p,b[l]=x),tn.set(p,b))}function vn(l,p,f){let g=tn.get(p)||{};for(let b in g)(l==null||b==l)&&(br(b,p,g[b]),delete g[b]);
 l==null&&tn.delete(p)}let Ut=0,nn=0,ee=0,I=0,we=0,Fe=0,kn=we,on=Fe,Ct=ee,sn=I,at=0,gt=0,st=0,St=0;o.bbox={};let Cs=!1,Eo=!1,Sn=!1,rn=!1,_o=!1,yt=!1;function Ls(l,p,f){
 (f||l!=o.width||p!=o.height)&&qr(l,p),An(!1),Sn=!0,Eo=!0,Cn()}function qr(l,p){o.width=Ut=ee=l,o.height=nn=I=p,we=Fe=0,Mc(),Tc();let f=o.bbox;at=f.left=fn(we*de,
-.5),gt=f.top=fn(Fe*de,.5),st=f.width=fn(ee*de,.5),St=f.height=fn(I*de,.5)}let xc=3;function kc(){let l=!1,p=0;for(;!l;){p++;let f=Nc(p),g=Fc(p);l=p==xc||f&&g,l||
-(qr(o.width,o.height),Eo=!0)}}function Sc({width:l,height:p}){Ls(l,p)}o.setSize=Sc;function Mc(){let l=!1,p=!1,f=!1,g=!1;A.forEach((b,v)=>{if(b.show&&b._show){let{
+.5),gt=f.top=fn(Fe*de,.5),st=f.width=fn(ee*de,.5),St=f.height=fn(I*de,.5)}let vc=3;function kc(){let l=!1,p=0;for(;!l;){p++;let f=Nc(p),g=Fc(p);l=p==vc||f&&g,l||
+(qr(o.width,o.height),Eo=!0)}}function Sc({width:l,height:p}){Ls(l,p)}o.setSize=Sc;function Mc(){let l=!1,p=!1,f=!1,g=!1;A.forEach((b,x)=>{if(b.show&&b._show){let{
 side:P,_size:_}=b,L=P%2,F=b.label!=null?b.labelSize:0,$=_+F;$>0&&(L?(ee-=$,P==3?(we+=$,g=!0):f=!0):(I-=$,P==0?(Fe+=$,l=!0):p=!0))}}),ln[0]=l,ln[1]=f,ln[2]=p,ln[3]=
-g,ee-=Vt[1]+Vt[3],we+=Vt[3],I-=Vt[2]+Vt[0],Fe+=Vt[0]}function Tc(){let l=we+ee,p=Fe+I,f=we,g=Fe;function b(v,P){switch(v){case 1:return l+=P,l-P;case 2:return p+=
-P,p-P;case 3:return f-=P,f+P;case 0:return g-=P,g+P}}A.forEach((v,P)=>{if(v.show&&v._show){let _=v.side;v._pos=b(_,v._size),v.label!=null&&(v._lpos=b(_,v.labelSize))}})}
-if(z.dataIdx==null){let l=z.hover,p=l.skip=new Set(l.skip??[]);p.add(void 0);let f=l.prox=ie(l.prox),g=l.bias??=0;z.dataIdx=(b,v,P,_)=>{if(v==0)return P;let L=P,
-F=f(b,v,P,_)??ye,$=F>=0&&F<ye,U=C.ori==0?ee:I,Q=z.left,pe=e[0],le=e[v];if(p.has(le[P])){L=null;let oe=null,J=null,j;if(g==0||g==-1)for(j=P;oe==null&&j-- >0;)p.has(
+g,ee-=Vt[1]+Vt[3],we+=Vt[3],I-=Vt[2]+Vt[0],Fe+=Vt[0]}function Tc(){let l=we+ee,p=Fe+I,f=we,g=Fe;function b(x,P){switch(x){case 1:return l+=P,l-P;case 2:return p+=
+P,p-P;case 3:return f-=P,f+P;case 0:return g-=P,g+P}}A.forEach((x,P)=>{if(x.show&&x._show){let _=x.side;x._pos=b(_,x._size),x.label!=null&&(x._lpos=b(_,x.labelSize))}})}
+if(z.dataIdx==null){let l=z.hover,p=l.skip=new Set(l.skip??[]);p.add(void 0);let f=l.prox=ie(l.prox),g=l.bias??=0;z.dataIdx=(b,x,P,_)=>{if(x==0)return P;let L=P,
+F=f(b,x,P,_)??ye,$=F>=0&&F<ye,U=C.ori==0?ee:I,Q=z.left,pe=e[0],le=e[x];if(p.has(le[P])){L=null;let oe=null,J=null,j;if(g==0||g==-1)for(j=P;oe==null&&j-- >0;)p.has(
 le[j])||(oe=j);if(g==0||g==1)for(j=P;J==null&&j++<le.length;)p.has(le[j])||(J=j);if(oe!=null||J!=null)if($){let ke=oe==null?-1/0:O(pe[oe],C,U,0),_e=J==null?1/0:
 O(pe[J],C,U,0),Be=Q-ke,fe=_e-Q;Be<=fe?Be<=F&&(L=oe):fe<=F&&(L=J)}else L=J==null?oe:oe==null?J:P-oe<=J-P?oe:J}else $&&Ie(Q-O(pe[P],C,U,0))>F&&(L=null);return L}}
 let an=l=>{z.event=l};z.idxs=ue,z._lock=!1;let Ze=z.points;Ze.show=ie(Ze.show),Ze.size=ie(Ze.size),Ze.stroke=ie(Ze.stroke),Ze.width=ie(Ze.width),Ze.fill=ie(Ze.fill);
@@ -409,191 +409,191 @@ points=Re({},{size:f,width:nt(1,f*.2),stroke:l.stroke,space:f*2,paths:pd,_stroke
 fill),g.stroke=ie(g.stroke),g.paths=ie(g.paths),g.pxAlign=l.pxAlign}if(Ee){let f=Po(l,p);Te.splice(p,0,f[0]),it.splice(p,0,f[1]),X.values.push(null)}if(Ue){ue.splice(
 p,0,null);let f=null;Tn?p==0&&(f=Yr(l,p)):p>0&&(f=Yr(l,p)),bt.splice(p,0,f),Pn.splice(p,0,0),En.splice(p,0,0)}Ve("addSeries",p)}function Pc(l,p){p=p??M.length,l=
 s==1?Mr(l,p,_a,Ra):Mr(l,p,{},Da),M.splice(p,0,l),Jr(M[p],p)}o.addSeries=Pc;function Ec(l){if(M.splice(l,1),Ee){X.values.splice(l,1),it.splice(l,1);let p=Te.splice(
-l,1)[0];xn(null,p.firstChild),p.remove()}Ue&&(ue.splice(l,1),bt.splice(l,1)[0].remove(),Pn.splice(l,1),En.splice(l,1)),Ve("delSeries",l)}o.delSeries=Ec;let ln=[
+l,1)[0];vn(null,p.firstChild),p.remove()}Ue&&(ue.splice(l,1),bt.splice(l,1)[0].remove(),Pn.splice(l,1),En.splice(l,1)),Ve("delSeries",l)}o.delSeries=Ec;let ln=[
 !1,!1,!1,!1];function _c(l,p){if(l._show=l.show,l.show){let f=l.side%2,g=E[l.scale];g==null&&(l.scale=f?M[1].scale:N,g=E[l.scale]);let b=g.time;l.size=ie(l.size),
 l.space=ie(l.space),l.rotate=ie(l.rotate),Qt(l.incrs)&&l.incrs.forEach(P=>{!Xt.has(P)&&Xt.set(P,qa(P))}),l.incrs=ie(l.incrs||(g.distr==2?kp:b?T==1?Mp:Ep:mn)),l.
-splits=ie(l.splits||(b&&g.distr==1?Je:g.distr==3?vr:g.distr==4?Bp:Vp)),l.stroke=ie(l.stroke),l.grid.stroke=ie(l.grid.stroke),l.ticks.stroke=ie(l.ticks.stroke),l.
-border.stroke=ie(l.border.stroke);let v=l.values;l.values=Qt(v)&&!Qt(v[0])?ie(v):b?Qt(v)?Ma(ne,Sa(v,B)):wa(v)?Cp(ne,v):v||me:v||Hp,l.filter=ie(l.filter||(g.distr>=
+splits=ie(l.splits||(b&&g.distr==1?Je:g.distr==3?xr:g.distr==4?Bp:Vp)),l.stroke=ie(l.stroke),l.grid.stroke=ie(l.grid.stroke),l.ticks.stroke=ie(l.ticks.stroke),l.
+border.stroke=ie(l.border.stroke);let x=l.values;l.values=Qt(x)&&!Qt(x[0])?ie(x):b?Qt(x)?Ma(ne,Sa(x,B)):wa(x)?Cp(ne,x):x||me:x||Hp,l.filter=ie(l.filter||(g.distr>=
 3&&g.log==10?qp:g.distr==3&&g.log==2?Yp:ja)),l.font=Ua(l.font),l.labelFont=Ua(l.labelFont),l._size=l.size(o,null,p,0),l._space=l._rotate=l._incrs=l._found=l._splits=
-l._values=null,l._size>0&&(ln[p]=!0,l._el=xt(Du,m))}}function io(l,p,f,g){let[b,v,P,_]=f,L=p%2,F=0;return L==0&&(_||v)&&(F=p==0&&!b||p==2&&!P?$e(Ea.size/3):0),L==
-1&&(b||P)&&(F=p==1&&!v||p==3&&!_?$e(Ca.size/2):0),F}let Zr=o.padding=(t.padding||[io,io,io,io]).map(l=>ie(ce(l,io))),Vt=o._padding=Zr.map((l,p)=>l(o,p,ln,0)),Ke,
+l._values=null,l._size>0&&(ln[p]=!0,l._el=vt(Du,m))}}function io(l,p,f,g){let[b,x,P,_]=f,L=p%2,F=0;return L==0&&(_||x)&&(F=p==0&&!b||p==2&&!P?$e(Ea.size/3):0),L==
+1&&(b||P)&&(F=p==1&&!x||p==3&&!_?$e(Ca.size/2):0),F}let Zr=o.padding=(t.padding||[io,io,io,io]).map(l=>ie(ce(l,io))),Vt=o._padding=Zr.map((l,p)=>l(o,p,ln,0)),Ke,
 Ge=null,We=null,Ao=s==1?M[0].idxs:null,Mt=null,ao=!1;function Qr(l,p){if(e=l??[],o.data=o._data=e,s==2){Ke=0;for(let f=1;f<M.length;f++)Ke+=e[f][0].length}else{
 e.length==0&&(o.data=o._data=e=[[]]),Mt=e[0],Ke=Mt.length;let f=e;if(q==2){f=e.slice();let g=f[0]=Array(Ke);for(let b=0;b<Ke;b++)g[b]=b}o._data=e=f}if(An(!0),Ve(
 "setData"),q==2&&(Sn=!0),p!==!1){let f=C;f.auto(o,ao)?Ds():jt(N,f.min,f.max),rn=rn||z.left>=0,yt=!0,Cn()}}o.setData=Qr;function Ds(){ao=!0;let l,p;s==1&&(Ke>0?(Ge=
 Ao[0]=0,We=Ao[1]=Ke-1,l=e[0][Ge],p=e[0][We],q==2?(l=Ge,p=We):l==p&&(q==3?[l,p]=rs(l,l,C.log,!1):q==4?[l,p]=_r(l,l,C.log,!1):C.time?p=l+$e(86400/T):[l,p]=ns(l,p,
-Ar,!0))):(Ge=Ao[0]=l=null,We=Ao[1]=p=null)),jt(N,l,p)}let Co,_n,Rs,Ns,Fs,$s,Is,Os,Us,rt;function Xr(l,p,f,g,b,v){l??=na,f??=Lr,g??="butt",b??=na,v??="round",l!=
-Co&&(d.strokeStyle=Co=l),b!=_n&&(d.fillStyle=_n=b),p!=Rs&&(d.lineWidth=Rs=p),v!=Fs&&(d.lineJoin=Fs=v),g!=$s&&(d.lineCap=$s=g),f!=Ns&&d.setLineDash(Ns=f)}function ei(l,p,f,g){
+Ar,!0))):(Ge=Ao[0]=l=null,We=Ao[1]=p=null)),jt(N,l,p)}let Co,_n,Rs,Ns,Fs,$s,Is,Os,Us,rt;function Xr(l,p,f,g,b,x){l??=na,f??=Lr,g??="butt",b??=na,x??="round",l!=
+Co&&(d.strokeStyle=Co=l),b!=_n&&(d.fillStyle=_n=b),p!=Rs&&(d.lineWidth=Rs=p),x!=Fs&&(d.lineJoin=Fs=x),g!=$s&&(d.lineCap=$s=g),f!=Ns&&d.setLineDash(Ns=f)}function ei(l,p,f,g){
 p!=_n&&(d.fillStyle=_n=p),l!=Is&&(d.font=Is=l),f!=Os&&(d.textAlign=Os=f),g!=Us&&(d.textBaseline=Us=g)}function Gs(l,p,f,g,b=0){if(g.length>0&&l.auto(o,ao)&&(p==
-null||p.min==null)){let v=ce(Ge,0),P=ce(We,g.length-1),_=f.min==null?qu(g,v,P,b,l.distr==3):[f.min,f.max];l.min=At(l.min,f.min=_[0]),l.max=nt(l.max,f.max=_[1])}}
+null||p.min==null)){let x=ce(Ge,0),P=ce(We,g.length-1),_=f.min==null?qu(g,x,P,b,l.distr==3):[f.min,f.max];l.min=At(l.min,f.min=_[0]),l.max=nt(l.max,f.max=_[1])}}
 let ti={min:null,max:null};function Ac(){for(let g in E){let b=E[g];G[g]==null&&(b.min==null||G[N]!=null&&b.auto(o,ao))&&(G[g]=ti)}for(let g in E){let b=E[g];G[g]==
-null&&b.from!=null&&G[b.from]!=null&&(G[g]=ti)}G[N]!=null&&An(!0);let l={};for(let g in G){let b=G[g];if(b!=null){let v=l[g]=Xn(E[g],op);if(b.min!=null)Re(v,b);else if(g!=
-N||s==2)if(Ke==0&&v.from==null){let P=v.range(o,null,null,g);v.min=P[0],v.max=P[1]}else v.min=ye,v.max=-ye}}if(Ke>0){M.forEach((g,b)=>{if(s==1){let v=g.scale,P=G[v];
-if(P==null)return;let _=l[v];if(b==0){let L=_.range(o,_.min,_.max,v);_.min=L[0],_.max=L[1],Ge=_t(_.min,e[0]),We=_t(_.max,e[0]),We-Ge>1&&(e[0][Ge]<_.min&&Ge++,e[0][We]>
-_.max&&We--),g.min=Mt[Ge],g.max=Mt[We]}else g.show&&g.auto&&Gs(_,P,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[v,P]=g.facets,_=v.
-scale,L=P.scale,[F,$]=e[b],U=l[_],Q=l[L];U!=null&&Gs(U,G[_],v,F,v.sorted),Q!=null&&Gs(Q,G[L],P,$,P.sorted),g.min=P.min,g.max=P.max}});for(let g in l){let b=l[g],
-v=G[g];if(b.from==null&&(v==null||v.min==null)){let P=b.range(o,b.min==ye?null:b.min,b.max==-ye?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in l){let b=l[g];
-if(b.from!=null){let v=l[b.from];if(v.min==null)b.min=b.max=null;else{let P=b.range(o,v.min,v.max,g);b.min=P[0],b.max=P[1]}}}let p={},f=!1;for(let g in l){let b=l[g],
-v=E[g];if(v.min!=b.min||v.max!=b.max){v.min=b.min,v.max=b.max;let P=v.distr;v._min=P==3?zt(v.min):P==4?pr(v.min,v.asinh):P==100?v.fwd(v.min):v.min,v._max=P==3?zt(
-v.max):P==4?pr(v.max,v.asinh):P==100?v.fwd(v.max):v.max,p[g]=f=!0}}if(f){M.forEach((g,b)=>{s==2?b>0&&p.y&&(g._paths=null):p[g.scale]&&(g._paths=null)});for(let g in p)
+null&&b.from!=null&&G[b.from]!=null&&(G[g]=ti)}G[N]!=null&&An(!0);let l={};for(let g in G){let b=G[g];if(b!=null){let x=l[g]=Xn(E[g],op);if(b.min!=null)Re(x,b);else if(g!=
+N||s==2)if(Ke==0&&x.from==null){let P=x.range(o,null,null,g);x.min=P[0],x.max=P[1]}else x.min=ye,x.max=-ye}}if(Ke>0){M.forEach((g,b)=>{if(s==1){let x=g.scale,P=G[x];
+if(P==null)return;let _=l[x];if(b==0){let L=_.range(o,_.min,_.max,x);_.min=L[0],_.max=L[1],Ge=_t(_.min,e[0]),We=_t(_.max,e[0]),We-Ge>1&&(e[0][Ge]<_.min&&Ge++,e[0][We]>
+_.max&&We--),g.min=Mt[Ge],g.max=Mt[We]}else g.show&&g.auto&&Gs(_,P,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[x,P]=g.facets,_=x.
+scale,L=P.scale,[F,$]=e[b],U=l[_],Q=l[L];U!=null&&Gs(U,G[_],x,F,x.sorted),Q!=null&&Gs(Q,G[L],P,$,P.sorted),g.min=P.min,g.max=P.max}});for(let g in l){let b=l[g],
+x=G[g];if(b.from==null&&(x==null||x.min==null)){let P=b.range(o,b.min==ye?null:b.min,b.max==-ye?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in l){let b=l[g];
+if(b.from!=null){let x=l[b.from];if(x.min==null)b.min=b.max=null;else{let P=b.range(o,x.min,x.max,g);b.min=P[0],b.max=P[1]}}}let p={},f=!1;for(let g in l){let b=l[g],
+x=E[g];if(x.min!=b.min||x.max!=b.max){x.min=b.min,x.max=b.max;let P=x.distr;x._min=P==3?zt(x.min):P==4?pr(x.min,x.asinh):P==100?x.fwd(x.min):x.min,x._max=P==3?zt(
+x.max):P==4?pr(x.max,x.asinh):P==100?x.fwd(x.max):x.max,p[g]=f=!0}}if(f){M.forEach((g,b)=>{s==2?b>0&&p.y&&(g._paths=null):p[g.scale]&&(g._paths=null)});for(let g in p)
 Sn=!0,Ve("setScale",g);Ue&&z.left>=0&&(rn=yt=!0)}for(let g in G)G[g]=null}function Cc(l){let p=wr(Ge-1,0,Ke-1),f=wr(We+1,0,Ke-1);for(;l[p]==null&&p>0;)p--;for(;l[f]==
 null&&f<Ke-1;)f++;return[p,f]}function Lc(){if(Ke>0){let l=M.some(p=>p._focus)&&rt!=Lt.alpha;l&&(d.globalAlpha=rt=Lt.alpha),M.forEach((p,f)=>{if(f>0&&p.show&&(ni(
 f,!1),ni(f,!0),p._paths==null)){let g=rt;rt!=p.alpha&&(d.globalAlpha=rt=p.alpha);let b=s==2?[0,e[f][0].length-1]:Cc(e[f]);p._paths=p.paths(o,f,b[0],b[1]),rt!=g&&
 (d.globalAlpha=rt=g)}}),M.forEach((p,f)=>{if(f>0&&p.show){let g=rt;rt!=p.alpha&&(d.globalAlpha=rt=p.alpha),p._paths!=null&&oi(f,!1);{let b=p._paths!=null?p._paths.
-gaps:null,v=p.points.show(o,f,Ge,We,b),P=p.points.filter(o,f,v,b);(v||P)&&(p.points._paths=p.points.paths(o,f,Ge,We,P),oi(f,!0))}rt!=g&&(d.globalAlpha=rt=g),Ve(
+gaps:null,x=p.points.show(o,f,Ge,We,b),P=p.points.filter(o,f,x,b);(x||P)&&(p.points._paths=p.points.paths(o,f,Ge,We,P),oi(f,!0))}rt!=g&&(d.globalAlpha=rt=g),Ve(
 "drawSeries",f)}}),l&&(d.globalAlpha=rt=1)}}function ni(l,p){let f=p?M[l].points:M[l];f._stroke=f.stroke(o,l),f._fill=f.fill(o,l)}function oi(l,p){let f=p?M[l].
-points:M[l],{stroke:g,fill:b,clip:v,flags:P,_stroke:_=f._stroke,_fill:L=f._fill,_width:F=f.width}=f._paths;F=be(F*de,3);let $=null,U=F%2/2;p&&L==null&&(L=F>0?"#\
+points:M[l],{stroke:g,fill:b,clip:x,flags:P,_stroke:_=f._stroke,_fill:L=f._fill,_width:F=f.width}=f._paths;F=be(F*de,3);let $=null,U=F%2/2;p&&L==null&&(L=F>0?"#\
 fff":_);let Q=f.pxAlign==1&&U>0;if(Q&&d.translate(U,U),!p){let pe=at-F/2,le=gt-F/2,oe=st+F,J=St+F;$=new Path2D,$.rect(pe,le,oe,J)}p?Ws(_,F,f.dash,f.cap,L,g,b,P,
-v):Dc(l,_,F,f.dash,f.cap,L,g,b,P,$,v),Q&&d.translate(-U,-U)}function Dc(l,p,f,g,b,v,P,_,L,F,$){let U=!1;L!=0&&K.forEach((Q,pe)=>{if(Q.series[0]==l){let le=M[Q.series[1]],
-oe=e[Q.series[1]],J=(le._paths||Mo).band;Qt(J)&&(J=Q.dir==1?J[0]:J[1]);let j,ke=null;le.show&&J&&Ju(oe,Ge,We)?(ke=Q.fill(o,pe)||v,j=le._paths.clip):J=null,Ws(p,
-f,g,b,ke,P,_,L,F,$,j,J),U=!0}}),U||Ws(p,f,g,b,v,P,_,L,F,$)}let si=eo|kr;function Ws(l,p,f,g,b,v,P,_,L,F,$,U){Xr(l,p,f,g,b),(L||F||U)&&(d.save(),L&&d.clip(L),F&&
-d.clip(F)),U?(_&si)==si?(d.clip(U),$&&d.clip($),Do(b,P),Lo(l,v,p)):_&kr?(Do(b,P),d.clip(U),Lo(l,v,p)):_&eo&&(d.save(),d.clip(U),$&&d.clip($),Do(b,P),d.restore(),
-Lo(l,v,p)):(Do(b,P),Lo(l,v,p)),(L||F||U)&&d.restore()}function Lo(l,p,f){f>0&&(p instanceof Map?p.forEach((g,b)=>{d.strokeStyle=Co=b,d.stroke(g)}):p!=null&&l&&d.
-stroke(p))}function Do(l,p){p instanceof Map?p.forEach((f,g)=>{d.fillStyle=_n=g,d.fill(f)}):p!=null&&l&&d.fill(p)}function Rc(l,p,f,g){let b=A[l],v;if(g<=0)v=[0,
-0];else{let P=b._space=b.space(o,l,p,f,g),_=b._incrs=b.incrs(o,l,p,f,g,P);v=yd(p,f,_,g,P)}return b._found=v}function zs(l,p,f,g,b,v,P,_,L,F){let $=P%2/2;S==1&&d.
-translate($,$),Xr(_,P,L,F,_),d.beginPath();let U,Q,pe,le,oe=b+(g==0||g==3?-v:v);f==0?(Q=b,le=oe):(U=b,pe=oe);for(let J=0;J<l.length;J++)p[J]!=null&&(f==0?U=pe=l[J]:
+x):Dc(l,_,F,f.dash,f.cap,L,g,b,P,$,x),Q&&d.translate(-U,-U)}function Dc(l,p,f,g,b,x,P,_,L,F,$){let U=!1;L!=0&&K.forEach((Q,pe)=>{if(Q.series[0]==l){let le=M[Q.series[1]],
+oe=e[Q.series[1]],J=(le._paths||Mo).band;Qt(J)&&(J=Q.dir==1?J[0]:J[1]);let j,ke=null;le.show&&J&&Ju(oe,Ge,We)?(ke=Q.fill(o,pe)||x,j=le._paths.clip):J=null,Ws(p,
+f,g,b,ke,P,_,L,F,$,j,J),U=!0}}),U||Ws(p,f,g,b,x,P,_,L,F,$)}let si=eo|kr;function Ws(l,p,f,g,b,x,P,_,L,F,$,U){Xr(l,p,f,g,b),(L||F||U)&&(d.save(),L&&d.clip(L),F&&
+d.clip(F)),U?(_&si)==si?(d.clip(U),$&&d.clip($),Do(b,P),Lo(l,x,p)):_&kr?(Do(b,P),d.clip(U),Lo(l,x,p)):_&eo&&(d.save(),d.clip(U),$&&d.clip($),Do(b,P),d.restore(),
+Lo(l,x,p)):(Do(b,P),Lo(l,x,p)),(L||F||U)&&d.restore()}function Lo(l,p,f){f>0&&(p instanceof Map?p.forEach((g,b)=>{d.strokeStyle=Co=b,d.stroke(g)}):p!=null&&l&&d.
+stroke(p))}function Do(l,p){p instanceof Map?p.forEach((f,g)=>{d.fillStyle=_n=g,d.fill(f)}):p!=null&&l&&d.fill(p)}function Rc(l,p,f,g){let b=A[l],x;if(g<=0)x=[0,
+0];else{let P=b._space=b.space(o,l,p,f,g),_=b._incrs=b.incrs(o,l,p,f,g,P);x=yd(p,f,_,g,P)}return b._found=x}function zs(l,p,f,g,b,x,P,_,L,F){let $=P%2/2;S==1&&d.
+translate($,$),Xr(_,P,L,F,_),d.beginPath();let U,Q,pe,le,oe=b+(g==0||g==3?-x:x);f==0?(Q=b,le=oe):(U=b,pe=oe);for(let J=0;J<l.length;J++)p[J]!=null&&(f==0?U=pe=l[J]:
 Q=le=l[J],d.moveTo(U,Q),d.lineTo(pe,le));d.stroke(),S==1&&d.translate(-$,-$)}function Nc(l){let p=!0;return A.forEach((f,g)=>{if(!f.show)return;let b=E[f.scale];
-if(b.min==null){f._show&&(p=!1,f._show=!1,An(!1));return}else f._show||(p=!1,f._show=!0,An(!1));let v=f.side,P=v%2,{min:_,max:L}=b,[F,$]=Rc(g,_,L,P==0?ee:I);if($==
+if(b.min==null){f._show&&(p=!1,f._show=!1,An(!1));return}else f._show||(p=!1,f._show=!0,An(!1));let x=f.side,P=x%2,{min:_,max:L}=b,[F,$]=Rc(g,_,L,P==0?ee:I);if($==
 0)return;let U=b.distr==2,Q=f._splits=f.splits(o,g,_,L,F,$,U),pe=b.distr==2?Q.map(j=>Mt[j]):Q,le=b.distr==2?Mt[Q[1]]-Mt[Q[0]]:F,oe=f._values=f.values(o,f.filter(
-o,pe,g,$,le),g,$,le);f._rotate=v==2?f.rotate(o,oe,g,$):0;let J=f._size;f._size=kt(f.size(o,oe,g,l)),J!=null&&f._size!=J&&(p=!1)}),p}function Fc(l){let p=!0;return Zr.
+o,pe,g,$,le),g,$,le);f._rotate=x==2?f.rotate(o,oe,g,$):0;let J=f._size;f._size=kt(f.size(o,oe,g,l)),J!=null&&f._size!=J&&(p=!1)}),p}function Fc(l){let p=!0;return Zr.
 forEach((f,g)=>{let b=f(o,g,ln,l);b!=Vt[g]&&(p=!1),Vt[g]=b}),p}function $c(){for(let l=0;l<A.length;l++){let p=A[l];if(!p.show||!p._show)continue;let f=p.side,g=f%
-2,b,v,P=p.stroke(o,l),_=f==0||f==3?-1:1,[L,F]=p._found;if(p.label!=null){let et=p.labelGap*_,ut=$e((p._lpos+et)*de);ei(p.labelFont[0],P,"center",f==2?"top":ta),
-d.save(),g==1?(b=v=0,d.translate(ut,$e(gt+St/2)),d.rotate((f==3?-es:es)/2)):(b=$e(at+st/2),v=ut);let pn=Va(p.label)?p.label(o,l,L,F):p.label;d.fillText(pn,b,v),
+2,b,x,P=p.stroke(o,l),_=f==0||f==3?-1:1,[L,F]=p._found;if(p.label!=null){let et=p.labelGap*_,ut=$e((p._lpos+et)*de);ei(p.labelFont[0],P,"center",f==2?"top":ta),
+d.save(),g==1?(b=x=0,d.translate(ut,$e(gt+St/2)),d.rotate((f==3?-es:es)/2)):(b=$e(at+st/2),x=ut);let pn=Va(p.label)?p.label(o,l,L,F):p.label;d.fillText(pn,b,x),
 d.restore()}if(F==0)continue;let $=E[p.scale],U=g==0?st:St,Q=g==0?at:gt,pe=p._splits,le=$.distr==2?pe.map(et=>Mt[et]):pe,oe=$.distr==2?Mt[pe[1]]-Mt[pe[0]]:L,J=p.
-ticks,j=p.border,ke=J.show?J.size:0,_e=$e(ke*de),Be=$e((p.alignTo==2?p._size-ke-p.gap:p.gap)*de),fe=p._rotate*-es/180,Ae=k(p._pos*de),lt=(_e+Be)*_,Xe=Ae+lt;v=g==
+ticks,j=p.border,ke=J.show?J.size:0,_e=$e(ke*de),Be=$e((p.alignTo==2?p._size-ke-p.gap:p.gap)*de),fe=p._rotate*-es/180,Ae=k(p._pos*de),lt=(_e+Be)*_,Xe=Ae+lt;x=g==
 0?Xe:0,b=g==1?Xe:0;let wt=p.font[0],Tt=p.align==1?qn:p.align==2?lr:fe>0?qn:fe<0?lr:g==0?"center":f==3?lr:qn,Nt=fe||g==1?"middle":f==2?"top":ta;ei(wt,P,Tt,Nt);let ct=p.
-font[1]*p.lineGap,vt=pe.map(et=>k(a(et,$,U,Q))),Pt=p._values;for(let et=0;et<Pt.length;et++){let ut=Pt[et];if(ut!=null){g==0?b=vt[et]:v=vt[et],ut=""+ut;let pn=ut.
+font[1]*p.lineGap,xt=pe.map(et=>k(a(et,$,U,Q))),Pt=p._values;for(let et=0;et<Pt.length;et++){let ut=Pt[et];if(ut!=null){g==0?b=xt[et]:x=xt[et],ut=""+ut;let pn=ut.
 indexOf(`
-`)==-1?[ut]:ut.split(/\n/gm);for(let tt=0;tt<pn.length;tt++){let Si=pn[tt];fe?(d.save(),d.translate(b,v+tt*ct),d.rotate(fe),d.fillText(Si,0,0),d.restore()):d.fillText(
-Si,b,v+tt*ct)}}}J.show&&zs(vt,J.filter(o,le,l,F,oe),g,f,Ae,_e,be(J.width*de,3),J.stroke(o,l),J.dash,J.cap);let Ft=p.grid;Ft.show&&zs(vt,Ft.filter(o,le,l,F,oe),g,
+`)==-1?[ut]:ut.split(/\n/gm);for(let tt=0;tt<pn.length;tt++){let Si=pn[tt];fe?(d.save(),d.translate(b,x+tt*ct),d.rotate(fe),d.fillText(Si,0,0),d.restore()):d.fillText(
+Si,b,x+tt*ct)}}}J.show&&zs(xt,J.filter(o,le,l,F,oe),g,f,Ae,_e,be(J.width*de,3),J.stroke(o,l),J.dash,J.cap);let Ft=p.grid;Ft.show&&zs(xt,Ft.filter(o,le,l,F,oe),g,
 g==0?2:1,g==0?gt:at,g==0?St:st,be(Ft.width*de,3),Ft.stroke(o,l),Ft.dash,Ft.cap),j.show&&zs([Ae],[1],g==0?1:0,g==0?1:2,g==1?gt:at,g==1?St:st,be(j.width*de,3),j.stroke(
 o,l),j.dash,j.cap)}Ve("drawAxes")}function An(l){M.forEach((p,f)=>{f>0&&(p._paths=null,l&&(s==1?(p.min=null,p.max=null):p.facets.forEach(g=>{g.min=null,g.max=null})))})}
 let Ro=!1,Hs=!1,lo=[];function Ic(){Hs=!1;for(let l=0;l<lo.length;l++)Ve(...lo[l]);lo.length=0}function Cn(){Ro||(up(ri),Ro=!0)}function Oc(l,p=!1){Ro=!0,Hs=p,l(
-o),ri(),p&&lo.length>0&&queueMicrotask(Ic)}o.batch=Oc;function ri(){if(Cs&&(Ac(),Cs=!1),Sn&&(kc(),Sn=!1),Eo){if(Me(w,qn,we),Me(w,"top",Fe),Me(w,vo,ee),Me(w,xo,I),
-Me(y,qn,we),Me(y,"top",Fe),Me(y,vo,ee),Me(y,xo,I),Me(m,vo,Ut),Me(m,xo,nn),h.width=$e(Ut*de),h.height=$e(nn*de),A.forEach(({_el:l,_show:p,_size:f,_pos:g,side:b})=>{
-if(l!=null)if(p){let v=b===3||b===0?f:0,P=b%2==1;Me(l,P?"left":"top",g-v),Me(l,P?"width":"height",f),Me(l,P?"top":"left",P?Fe:we),Me(l,P?"height":"width",P?I:ee),
+o),ri(),p&&lo.length>0&&queueMicrotask(Ic)}o.batch=Oc;function ri(){if(Cs&&(Ac(),Cs=!1),Sn&&(kc(),Sn=!1),Eo){if(Me(w,qn,we),Me(w,"top",Fe),Me(w,xo,ee),Me(w,vo,I),
+Me(y,qn,we),Me(y,"top",Fe),Me(y,xo,ee),Me(y,vo,I),Me(m,xo,Ut),Me(m,vo,nn),h.width=$e(Ut*de),h.height=$e(nn*de),A.forEach(({_el:l,_show:p,_size:f,_pos:g,side:b})=>{
+if(l!=null)if(p){let x=b===3||b===0?f:0,P=b%2==1;Me(l,P?"left":"top",g-x),Me(l,P?"width":"height",f),Me(l,P?"top":"left",P?Fe:we),Me(l,P?"height":"width",P?I:ee),
 yr(l,gn)}else dt(l,gn)}),Co=_n=Rs=Fs=$s=Is=Os=Us=Ns=null,rt=1,po(!0),we!=kn||Fe!=on||ee!=Ct||I!=sn){An(!1);let l=ee/Ct,p=I/sn;if(Ue&&!rn&&z.left>=0){z.left*=l,z.
 top*=p,Ln&&It(Ln,$e(z.left),0,ee,I),Dn&&It(Dn,0,$e(z.top),ee,I);for(let f=0;f<bt.length;f++){let g=bt[f];g!=null&&(Pn[f]*=l,En[f]*=p,It(g,kt(Pn[f]),kt(En[f]),ee,
-I))}}if(xe.show&&!_o&&xe.left>=0&&xe.width>0){xe.left*=l,xe.width*=l,xe.top*=p,xe.height*=p;for(let f in Ys)Me(Fn,f,xe[f])}kn=we,on=Fe,Ct=ee,sn=I}Ve("setSize"),
-Eo=!1}Ut>0&&nn>0&&(d.clearRect(0,0,h.width,h.height),Ve("drawClear"),H.forEach(l=>l()),Ve("draw")),xe.show&&_o&&(No(xe),_o=!1),Ue&&rn&&(un(null,!0,!1),rn=!1),X.
+I))}}if(ve.show&&!_o&&ve.left>=0&&ve.width>0){ve.left*=l,ve.width*=l,ve.top*=p,ve.height*=p;for(let f in Ys)Me(Fn,f,ve[f])}kn=we,on=Fe,Ct=ee,sn=I}Ve("setSize"),
+Eo=!1}Ut>0&&nn>0&&(d.clearRect(0,0,h.width,h.height),Ve("drawClear"),H.forEach(l=>l()),Ve("draw")),ve.show&&_o&&(No(ve),_o=!1),Ue&&rn&&(un(null,!0,!1),rn=!1),X.
 show&&X.live&&yt&&(Ks(),yt=!1),c||(c=!0,o.status=1,Ve("ready")),ao=!1,Ro=!1}o.redraw=(l,p)=>{Sn=p||!1,l!==!1?jt(N,C.min,C.max):Cn()};function Vs(l,p){let f=E[l];
 if(f.from==null){if(Ke==0){let g=f.range(o,p.min,p.max,l);p.min=g[0],p.max=g[1]}if(p.min>p.max){let g=p.min;p.min=p.max,p.max=g}if(Ke>1&&p.min!=null&&p.max!=null&&
 p.max-p.min<1e-16)return;l==N&&f.distr==2&&Ke>0&&(p.min=_t(p.min,e[0]),p.max=_t(p.max,e[0]),p.min==p.max&&p.max++),G[l]=p,Cs=!0,Cn()}}o.setScale=Vs;let Bs,js,Ln,
-Dn,ii,ai,Rn,Nn,li,ci,ve,Pe,Bt=!1,qe=z.drag,ze=qe.x,He=qe.y;Ue&&(z.x&&(Bs=xt(Nu,y)),z.y&&(js=xt(Fu,y)),C.ori==0?(Ln=Bs,Dn=js):(Ln=js,Dn=Bs),ve=z.left,Pe=z.top);let xe=o.
-select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Fn=xe.show?xt(Ru,xe.over?y:w):null;function No(l,p){if(xe.show){for(let f in l)xe[f]=l[f],f in
+Dn,ii,ai,Rn,Nn,li,ci,xe,Pe,Bt=!1,qe=z.drag,ze=qe.x,He=qe.y;Ue&&(z.x&&(Bs=vt(Nu,y)),z.y&&(js=vt(Fu,y)),C.ori==0?(Ln=Bs,Dn=js):(Ln=js,Dn=Bs),xe=z.left,Pe=z.top);let ve=o.
+select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Fn=ve.show?vt(Ru,ve.over?y:w):null;function No(l,p){if(ve.show){for(let f in l)ve[f]=l[f],f in
 Ys&&Me(Fn,f,l[f]);p!==!1&&Ve("setSelect")}}o.setSelect=No;function Uc(l){if(M[l].show)Ee&&yr(Te[l],gn);else if(Ee&&dt(Te[l],gn),Ue){let f=Tn?bt[0]:bt[l];f!=null&&
-It(f,-10,-10,ee,I)}}function jt(l,p,f){Vs(l,{min:p,max:f})}function Dt(l,p,f,g){p.focus!=null&&Vc(l),p.show!=null&&M.forEach((b,v)=>{v>0&&(l==v||l==null)&&(b.show=
-p.show,Uc(v),s==2?(jt(b.facets[0].scale,null,null),jt(b.facets[1].scale,null,null)):jt(b.scale,null,null),Cn())}),f!==!1&&Ve("setSeries",l,p),g&&ho("setSeries",
+It(f,-10,-10,ee,I)}}function jt(l,p,f){Vs(l,{min:p,max:f})}function Dt(l,p,f,g){p.focus!=null&&Vc(l),p.show!=null&&M.forEach((b,x)=>{x>0&&(l==x||l==null)&&(b.show=
+p.show,Uc(x),s==2?(jt(b.facets[0].scale,null,null),jt(b.facets[1].scale,null,null)):jt(b.scale,null,null),Cn())}),f!==!1&&Ve("setSeries",l,p),g&&ho("setSeries",
 o,l,p)}o.setSeries=Dt;function Gc(l,p){Re(K[l],p)}function Wc(l,p){l.fill=ie(l.fill||null),l.dir=ce(l.dir,-1),p=p??K.length,K.splice(p,0,l)}function zc(l){l==null?
 K.length=0:K.splice(l,1)}o.addBand=Wc,o.setBand=Gc,o.delBand=zc;function Hc(l,p){M[l].alpha=p,Ue&&bt[l]!=null&&(bt[l].style.opacity=p),Ee&&Te[l]&&(Te[l].style.opacity=
-p)}let Gt,Kt,cn,$n={focus:!0};function Vc(l){if(l!=cn){let p=l==null,f=Lt.alpha!=1;M.forEach((g,b)=>{if(s==1||b>0){let v=p||b==0||b==l;g._focus=p?null:v,f&&Hc(b,
-v?1:Lt.alpha)}}),cn=l,f&&Cn()}}Ee&&Mn&&Qe(ra,ae,l=>{z._lock||(an(l),cn!=null&&Dt(null,$n,!0,Le.setSeries))});function Rt(l,p,f){let g=E[p];f&&(l=l/de-(g.ori==1?
-Fe:we));let b=ee;g.ori==1&&(b=I,l=b-l),g.dir==-1&&(l=b-l);let v=g._min,P=g._max,_=l/b,L=v+(P-v)*_,F=g.distr;return F==3?Zn(10,L):F==4?Qu(L,g.asinh):F==100?g.bwd(
+p)}let Gt,Kt,cn,$n={focus:!0};function Vc(l){if(l!=cn){let p=l==null,f=Lt.alpha!=1;M.forEach((g,b)=>{if(s==1||b>0){let x=p||b==0||b==l;g._focus=p?null:x,f&&Hc(b,
+x?1:Lt.alpha)}}),cn=l,f&&Cn()}}Ee&&Mn&&Qe(ra,ae,l=>{z._lock||(an(l),cn!=null&&Dt(null,$n,!0,Le.setSeries))});function Rt(l,p,f){let g=E[p];f&&(l=l/de-(g.ori==1?
+Fe:we));let b=ee;g.ori==1&&(b=I,l=b-l),g.dir==-1&&(l=b-l);let x=g._min,P=g._max,_=l/b,L=x+(P-x)*_,F=g.distr;return F==3?Zn(10,L):F==4?Qu(L,g.asinh):F==100?g.bwd(
 L):L}function Bc(l,p){let f=Rt(l,N,p);return _t(f,e[0],Ge,We)}o.valToIdx=l=>_t(l,e[0]),o.posToIdx=Bc,o.posToVal=Rt,o.valToPos=(l,p,f)=>E[p].ori==0?r(l,E[p],f?st:
-ee,f?at:0):i(l,E[p],f?St:I,f?gt:0),o.setCursor=(l,p,f)=>{ve=l.left,Pe=l.top,un(null,p,f)};function ui(l,p){Me(Fn,qn,xe.left=l),Me(Fn,vo,xe.width=p)}function pi(l,p){
-Me(Fn,"top",xe.top=l),Me(Fn,xo,xe.height=p)}let co=C.ori==0?ui:pi,uo=C.ori==1?ui:pi;function jc(){if(Ee&&X.live)for(let l=s==2?1:0;l<M.length;l++){if(l==0&&te)continue;
+ee,f?at:0):i(l,E[p],f?St:I,f?gt:0),o.setCursor=(l,p,f)=>{xe=l.left,Pe=l.top,un(null,p,f)};function ui(l,p){Me(Fn,qn,ve.left=l),Me(Fn,xo,ve.width=p)}function pi(l,p){
+Me(Fn,"top",ve.top=l),Me(Fn,vo,ve.height=p)}let co=C.ori==0?ui:pi,uo=C.ori==1?ui:pi;function jc(){if(Ee&&X.live)for(let l=s==2?1:0;l<M.length;l++){if(l==0&&te)continue;
 let p=X.values[l],f=0;for(let g in p)it[l][f++].firstChild.nodeValue=p[g]}}function Ks(l,p){if(l!=null&&(l.idxs?l.idxs.forEach((f,g)=>{ue[g]=f}):np(l.idx)||ue.fill(
 l.idx),X.idx=ue[0]),Ee&&X.live){for(let f=0;f<M.length;f++)(f>0||s==1&&!te)&&Kc(f,ue[f]);jc()}yt=!1,p!==!1&&Ve("setLegend")}o.setLegend=Ks;function Kc(l,p){let f=M[l],
-g=l==0&&q==2?Mt:e[l],b;te?b=f.values(o,l,p)??Ne:(b=f.value(o,p==null?null:g[p],l,p),b=b==null?Ne:{_:b}),X.values[l]=b}function un(l,p,f){li=ve,ci=Pe,[ve,Pe]=z.move(
-o,ve,Pe),z.left=ve,z.top=Pe,Ue&&(Ln&&It(Ln,$e(ve),0,ee,I),Dn&&It(Dn,0,$e(Pe),ee,I));let g,b=Ge>We;Gt=ye,Kt=null;let v=C.ori==0?ee:I,P=C.ori==1?ee:I;if(ve<0||Ke==
+g=l==0&&q==2?Mt:e[l],b;te?b=f.values(o,l,p)??Ne:(b=f.value(o,p==null?null:g[p],l,p),b=b==null?Ne:{_:b}),X.values[l]=b}function un(l,p,f){li=xe,ci=Pe,[xe,Pe]=z.move(
+o,xe,Pe),z.left=xe,z.top=Pe,Ue&&(Ln&&It(Ln,$e(xe),0,ee,I),Dn&&It(Dn,0,$e(Pe),ee,I));let g,b=Ge>We;Gt=ye,Kt=null;let x=C.ori==0?ee:I,P=C.ori==1?ee:I;if(xe<0||Ke==
 0||b){g=z.idx=null;for(let _=0;_<M.length;_++){let L=bt[_];L!=null&&It(L,-10,-10,ee,I)}Mn&&Dt(null,$n,!0,l==null&&Le.setSeries),X.live&&(ue.fill(g),yt=!0)}else{
-let _,L,F;s==1&&(_=C.ori==0?ve:Pe,L=Rt(_,N),g=z.idx=_t(L,e[0],Ge,We),F=O(e[0][g],C,v,0));let $=-10,U=-10,Q=0,pe=0,le=!0,oe="",J="";for(let j=s==2?1:0;j<M.length;j++){
+let _,L,F;s==1&&(_=C.ori==0?xe:Pe,L=Rt(_,N),g=z.idx=_t(L,e[0],Ge,We),F=O(e[0][g],C,x,0));let $=-10,U=-10,Q=0,pe=0,le=!0,oe="",J="";for(let j=s==2?1:0;j<M.length;j++){
 let ke=M[j],_e=ue[j],Be=_e==null?null:s==1?e[j][_e]:e[j][1][_e],fe=z.dataIdx(o,j,g,L),Ae=fe==null?null:s==1?e[j][fe]:e[j][1][fe];if(yt=yt||Ae!=Be||fe!=_e,ue[j]=
-fe,j>0&&ke.show){let lt=fe==null?-10:fe==g?F:O(s==1?e[0][fe]:e[j][0][fe],C,v,0),Xe=Ae==null?-10:V(Ae,s==1?E[ke.scale]:E[ke.facets[1].scale],P,0);if(Mn&&Ae!=null){
-let wt=C.ori==1?ve:Pe,Tt=Ie(Lt.dist(o,j,fe,Xe,wt));if(Tt<Gt){let Nt=Lt.bias;if(Nt!=0){let ct=Rt(wt,ke.scale),vt=Ae>=0?1:-1,Pt=ct>=0?1:-1;Pt==vt&&(Pt==1?Nt==1?Ae>=
-ct:Ae<=ct:Nt==1?Ae<=ct:Ae>=ct)&&(Gt=Tt,Kt=j)}else Gt=Tt,Kt=j}}if(yt||Tn){let wt,Tt;C.ori==0?(wt=lt,Tt=Xe):(wt=Xe,Tt=lt);let Nt,ct,vt,Pt,Ft,et,ut=!0,pn=Ze.bbox;if(pn!=
-null){ut=!1;let tt=pn(o,j);vt=tt.left,Pt=tt.top,Nt=tt.width,ct=tt.height}else vt=wt,Pt=Tt,Nt=ct=Ze.size(o,j);if(et=Ze.fill(o,j),Ft=Ze.stroke(o,j),Tn)j==Kt&&Gt<=
-Lt.prox&&($=vt,U=Pt,Q=Nt,pe=ct,le=ut,oe=et,J=Ft);else{let tt=bt[j];tt!=null&&(Pn[j]=vt,En[j]=Pt,da(tt,Nt,ct,ut),ua(tt,et,Ft),It(tt,kt(vt),kt(Pt),ee,I))}}}}if(Tn){
-let j=Lt.prox,ke=cn==null?Gt<=j:Gt>j||Kt!=cn;if(yt||ke){let _e=bt[0];_e!=null&&(Pn[0]=$,En[0]=U,da(_e,Q,pe,le),ua(_e,oe,J),It(_e,kt($),kt(U),ee,I))}}}if(xe.show&&
+fe,j>0&&ke.show){let lt=fe==null?-10:fe==g?F:O(s==1?e[0][fe]:e[j][0][fe],C,x,0),Xe=Ae==null?-10:V(Ae,s==1?E[ke.scale]:E[ke.facets[1].scale],P,0);if(Mn&&Ae!=null){
+let wt=C.ori==1?xe:Pe,Tt=Ie(Lt.dist(o,j,fe,Xe,wt));if(Tt<Gt){let Nt=Lt.bias;if(Nt!=0){let ct=Rt(wt,ke.scale),xt=Ae>=0?1:-1,Pt=ct>=0?1:-1;Pt==xt&&(Pt==1?Nt==1?Ae>=
+ct:Ae<=ct:Nt==1?Ae<=ct:Ae>=ct)&&(Gt=Tt,Kt=j)}else Gt=Tt,Kt=j}}if(yt||Tn){let wt,Tt;C.ori==0?(wt=lt,Tt=Xe):(wt=Xe,Tt=lt);let Nt,ct,xt,Pt,Ft,et,ut=!0,pn=Ze.bbox;if(pn!=
+null){ut=!1;let tt=pn(o,j);xt=tt.left,Pt=tt.top,Nt=tt.width,ct=tt.height}else xt=wt,Pt=Tt,Nt=ct=Ze.size(o,j);if(et=Ze.fill(o,j),Ft=Ze.stroke(o,j),Tn)j==Kt&&Gt<=
+Lt.prox&&($=xt,U=Pt,Q=Nt,pe=ct,le=ut,oe=et,J=Ft);else{let tt=bt[j];tt!=null&&(Pn[j]=xt,En[j]=Pt,da(tt,Nt,ct,ut),ua(tt,et,Ft),It(tt,kt(xt),kt(Pt),ee,I))}}}}if(Tn){
+let j=Lt.prox,ke=cn==null?Gt<=j:Gt>j||Kt!=cn;if(yt||ke){let _e=bt[0];_e!=null&&(Pn[0]=$,En[0]=U,da(_e,Q,pe,le),ua(_e,oe,J),It(_e,kt($),kt(U),ee,I))}}}if(ve.show&&
 Bt)if(l!=null){let[_,L]=Le.scales,[F,$]=Le.match,[U,Q]=l.cursor.sync.scales,pe=l.cursor.drag;if(ze=pe._x,He=pe._y,ze||He){let{left:le,top:oe,width:J,height:j}=l.
-select,ke=l.scales[U].ori,_e=l.posToVal,Be,fe,Ae,lt,Xe,wt=_!=null&&F(_,U),Tt=L!=null&&$(L,Q);wt&&ze?(ke==0?(Be=le,fe=J):(Be=oe,fe=j),Ae=E[_],lt=O(_e(Be,U),Ae,v,
-0),Xe=O(_e(Be+fe,U),Ae,v,0),co(At(lt,Xe),Ie(Xe-lt))):co(0,v),Tt&&He?(ke==1?(Be=le,fe=J):(Be=oe,fe=j),Ae=E[L],lt=V(_e(Be,Q),Ae,P,0),Xe=V(_e(Be+fe,Q),Ae,P,0),uo(At(
+select,ke=l.scales[U].ori,_e=l.posToVal,Be,fe,Ae,lt,Xe,wt=_!=null&&F(_,U),Tt=L!=null&&$(L,Q);wt&&ze?(ke==0?(Be=le,fe=J):(Be=oe,fe=j),Ae=E[_],lt=O(_e(Be,U),Ae,x,
+0),Xe=O(_e(Be+fe,U),Ae,x,0),co(At(lt,Xe),Ie(Xe-lt))):co(0,x),Tt&&He?(ke==1?(Be=le,fe=J):(Be=oe,fe=j),Ae=E[L],lt=V(_e(Be,Q),Ae,P,0),Xe=V(_e(Be+fe,Q),Ae,P,0),uo(At(
 lt,Xe),Ie(Xe-lt))):uo(0,P)}else Js()}else{let _=Ie(li-ii),L=Ie(ci-ai);if(C.ori==1){let Q=_;_=L,L=Q}ze=qe.x&&_>=qe.dist,He=qe.y&&L>=qe.dist;let F=qe.uni;F!=null?
-ze&&He&&(ze=_>=F,He=L>=F,!ze&&!He&&(L>_?He=!0:ze=!0)):qe.x&&qe.y&&(ze||He)&&(ze=He=!0);let $,U;ze&&(C.ori==0?($=Rn,U=ve):($=Nn,U=Pe),co(At($,U),Ie(U-$)),He||uo(
-0,P)),He&&(C.ori==1?($=Rn,U=ve):($=Nn,U=Pe),uo(At($,U),Ie(U-$)),ze||co(0,v)),!ze&&!He&&(co(0,0),uo(0,0))}if(qe._x=ze,qe._y=He,l==null){if(f){if(ki!=null){let[_,
-L]=Le.scales;Le.values[0]=_!=null?Rt(C.ori==0?ve:Pe,_):null,Le.values[1]=L!=null?Rt(C.ori==1?ve:Pe,L):null}ho(cr,o,ve,Pe,ee,I,g)}if(Mn){let _=f&&Le.setSeries,L=Lt.
+ze&&He&&(ze=_>=F,He=L>=F,!ze&&!He&&(L>_?He=!0:ze=!0)):qe.x&&qe.y&&(ze||He)&&(ze=He=!0);let $,U;ze&&(C.ori==0?($=Rn,U=xe):($=Nn,U=Pe),co(At($,U),Ie(U-$)),He||uo(
+0,P)),He&&(C.ori==1?($=Rn,U=xe):($=Nn,U=Pe),uo(At($,U),Ie(U-$)),ze||co(0,x)),!ze&&!He&&(co(0,0),uo(0,0))}if(qe._x=ze,qe._y=He,l==null){if(f){if(ki!=null){let[_,
+L]=Le.scales;Le.values[0]=_!=null?Rt(C.ori==0?xe:Pe,_):null,Le.values[1]=L!=null?Rt(C.ori==1?xe:Pe,L):null}ho(cr,o,xe,Pe,ee,I,g)}if(Mn){let _=f&&Le.setSeries,L=Lt.
 prox;cn==null?Gt<=L&&Dt(Kt,$n,!0,_):Gt>L?Dt(null,$n,!0,_):Kt!=cn&&Dt(Kt,$n,!0,_)}}yt&&(X.idx=g,Ks()),p!==!1&&Ve("setCursor")}let qt=null;Object.defineProperty(o,
-"rect",{get(){return qt==null&&po(!1),qt}});function po(l=!1){l?qt=null:(qt=y.getBoundingClientRect(),Ve("syncRect",qt))}function di(l,p,f,g,b,v,P){z._lock||Bt&&
-l!=null&&l.movementX==0&&l.movementY==0||(qs(l,p,f,g,b,v,P,!1,l!=null),l!=null?un(null,!0,!0):un(p,!0,!1))}function qs(l,p,f,g,b,v,P,_,L){if(qt==null&&po(!1),an(
-l),l!=null)f=l.clientX-qt.left,g=l.clientY-qt.top;else{if(f<0||g<0){ve=-10,Pe=-10;return}let[F,$]=Le.scales,U=p.cursor.sync,[Q,pe]=U.values,[le,oe]=U.scales,[J,
-j]=Le.match,ke=p.axes[0].side%2==1,_e=C.ori==0?ee:I,Be=C.ori==1?ee:I,fe=ke?v:b,Ae=ke?b:v,lt=ke?g:f,Xe=ke?f:g;if(le!=null?f=J(F,le)?a(Q,E[F],_e,0):-10:f=_e*(lt/fe),
+"rect",{get(){return qt==null&&po(!1),qt}});function po(l=!1){l?qt=null:(qt=y.getBoundingClientRect(),Ve("syncRect",qt))}function di(l,p,f,g,b,x,P){z._lock||Bt&&
+l!=null&&l.movementX==0&&l.movementY==0||(qs(l,p,f,g,b,x,P,!1,l!=null),l!=null?un(null,!0,!0):un(p,!0,!1))}function qs(l,p,f,g,b,x,P,_,L){if(qt==null&&po(!1),an(
+l),l!=null)f=l.clientX-qt.left,g=l.clientY-qt.top;else{if(f<0||g<0){xe=-10,Pe=-10;return}let[F,$]=Le.scales,U=p.cursor.sync,[Q,pe]=U.values,[le,oe]=U.scales,[J,
+j]=Le.match,ke=p.axes[0].side%2==1,_e=C.ori==0?ee:I,Be=C.ori==1?ee:I,fe=ke?x:b,Ae=ke?b:x,lt=ke?g:f,Xe=ke?f:g;if(le!=null?f=J(F,le)?a(Q,E[F],_e,0):-10:f=_e*(lt/fe),
 oe!=null?g=j($,oe)?a(pe,E[$],Be,0):-10:g=Be*(Xe/Ae),C.ori==1){let wt=f;f=g,g=wt}}L&&(p==null||p.cursor.event.type==cr)&&((f<=1||f>=ee-1)&&(f=fn(f,ee)),(g<=1||g>=
-I-1)&&(g=fn(g,I))),_?(ii=f,ai=g,[Rn,Nn]=z.move(o,f,g)):(ve=f,Pe=g)}let Ys={width:0,height:0,left:0,top:0};function Js(){No(Ys,!1)}let hi,fi,mi,gi;function yi(l,p,f,g,b,v,P){
-Bt=!0,ze=He=qe._x=qe._y=!1,qs(l,p,f,g,b,v,P,!0,!1),l!=null&&(Qe(ur,mr,bi,!1),ho(oa,o,Rn,Nn,ee,I,null));let{left:_,top:L,width:F,height:$}=xe;hi=_,fi=L,mi=F,gi=$}
-function bi(l,p,f,g,b,v,P){Bt=qe._x=qe._y=!1,qs(l,p,f,g,b,v,P,!1,!0);let{left:_,top:L,width:F,height:$}=xe,U=F>0||$>0,Q=hi!=_||fi!=L||mi!=F||gi!=$;if(U&&Q&&No(xe),
+I-1)&&(g=fn(g,I))),_?(ii=f,ai=g,[Rn,Nn]=z.move(o,f,g)):(xe=f,Pe=g)}let Ys={width:0,height:0,left:0,top:0};function Js(){No(Ys,!1)}let hi,fi,mi,gi;function yi(l,p,f,g,b,x,P){
+Bt=!0,ze=He=qe._x=qe._y=!1,qs(l,p,f,g,b,x,P,!0,!1),l!=null&&(Qe(ur,mr,bi,!1),ho(oa,o,Rn,Nn,ee,I,null));let{left:_,top:L,width:F,height:$}=ve;hi=_,fi=L,mi=F,gi=$}
+function bi(l,p,f,g,b,x,P){Bt=qe._x=qe._y=!1,qs(l,p,f,g,b,x,P,!1,!0);let{left:_,top:L,width:F,height:$}=ve,U=F>0||$>0,Q=hi!=_||fi!=L||mi!=F||gi!=$;if(U&&Q&&No(ve),
 qe.setScale&&U&&Q){let pe=_,le=F,oe=L,J=$;if(C.ori==1&&(pe=L,le=$,oe=_,J=F),ze&&jt(N,Rt(pe,N),Rt(pe+le,N)),He)for(let j in E){let ke=E[j];j!=N&&ke.from==null&&ke.
-min!=ye&&jt(j,Rt(oe+J,j),Rt(oe,j))}Js()}else z.lock&&(z._lock=!z._lock,un(p,!0,l!=null));l!=null&&(xn(ur,mr),ho(ur,o,ve,Pe,ee,I,null))}function qc(l,p,f,g,b,v,P){
-if(z._lock)return;an(l);let _=Bt;if(Bt){let L=!0,F=!0,$=10,U,Q;C.ori==0?(U=ze,Q=He):(U=He,Q=ze),U&&Q&&(L=ve<=$||ve>=ee-$,F=Pe<=$||Pe>=I-$),U&&L&&(ve=ve<Rn?0:ee),
-Q&&F&&(Pe=Pe<Nn?0:I),un(null,!0,!0),Bt=!1}ve=-10,Pe=-10,ue.fill(null),un(null,!0,!0),_&&(Bt=_)}function wi(l,p,f,g,b,v,P){z._lock||(an(l),Ds(),Js(),l!=null&&ho(
-ia,o,ve,Pe,ee,I,null))}function vi(){A.forEach(bd),Ls(o.width,o.height,!0)}yn(ts,Jn,vi);let In={};In.mousedown=yi,In.mousemove=di,In.mouseup=bi,In.dblclick=wi,In.
+min!=ye&&jt(j,Rt(oe+J,j),Rt(oe,j))}Js()}else z.lock&&(z._lock=!z._lock,un(p,!0,l!=null));l!=null&&(vn(ur,mr),ho(ur,o,xe,Pe,ee,I,null))}function qc(l,p,f,g,b,x,P){
+if(z._lock)return;an(l);let _=Bt;if(Bt){let L=!0,F=!0,$=10,U,Q;C.ori==0?(U=ze,Q=He):(U=He,Q=ze),U&&Q&&(L=xe<=$||xe>=ee-$,F=Pe<=$||Pe>=I-$),U&&L&&(xe=xe<Rn?0:ee),
+Q&&F&&(Pe=Pe<Nn?0:I),un(null,!0,!0),Bt=!1}xe=-10,Pe=-10,ue.fill(null),un(null,!0,!0),_&&(Bt=_)}function wi(l,p,f,g,b,x,P){z._lock||(an(l),Ds(),Js(),l!=null&&ho(
+ia,o,xe,Pe,ee,I,null))}function xi(){A.forEach(bd),Ls(o.width,o.height,!0)}yn(ts,Jn,xi);let In={};In.mousedown=yi,In.mousemove=di,In.mouseup=bi,In.dblclick=wi,In.
 setSeries=(l,p,f,g)=>{let b=Le.match[2];f=b(o,p,f),f!=-1&&Dt(f,g,!0,!1)},Ue&&(Qe(oa,y,yi),Qe(cr,y,di),Qe(sa,y,l=>{an(l),po(!1)}),Qe(ra,y,qc),Qe(ia,y,wi),Sr.add(
 o),o.syncRect=po);let Fo=o.hooks=t.hooks||{};function Ve(l,p,f){Hs?lo.push([l,p,f]):l in Fo&&Fo[l].forEach(g=>{g.call(null,o,p,f)})}(t.plugins||[]).forEach(l=>{
-for(let p in l.hooks)Fo[p]=(Fo[p]||[]).concat(l.hooks[p])});let xi=(l,p,f)=>f,Le=Re({key:null,setSeries:!1,filters:{pub:ya,sub:ya},scales:[N,M[1]?M[1].scale:null],
-match:[ba,ba,xi],values:[null,null]},z.sync);Le.match.length==2&&Le.match.push(xi),z.sync=Le;let ki=Le.key,Zs=fl(ki);function ho(l,p,f,g,b,v,P){Le.filters.pub(l,
-p,f,g,b,v,P)&&Zs.pub(l,p,f,g,b,v,P)}Zs.sub(o);function Yc(l,p,f,g,b,v,P){Le.filters.sub(l,p,f,g,b,v,P)&&In[l](null,p,f,g,b,v,P)}o.pub=Yc;function Jc(){Zs.unsub(
-o),Sr.delete(o),tn.clear(),br(ts,Jn,vi),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=Jc;function Qs(){Ve("init",t,e),Qr(e||t.data,!1),G[N]?Vs(N,G[N]):Ds(),_o=
-xe.show&&(xe.width>0||xe.height>0),rn=yt=!0,Ls(t.width,t.height)}return M.forEach(Jr),A.forEach(_c),n?n instanceof HTMLElement?(n.appendChild(u),Qs()):n(o,Qs):Qs(),
-o}Oe.assign=Re;Oe.fmtNum=Cr;Oe.rangeNum=ns;Oe.rangeLog=rs;Oe.rangeAsinh=_r;Oe.orient=wn;Oe.pxRatio=de;Oe.join=cp;Oe.fmtDate=Dr,Oe.tzDate=vp;Oe.sync=fl;{Oe.addGap=
-nd,Oe.clipGaps=ls;let t=Oe.paths={points:vl};t.linear=kl,t.stepped=rd,t.bars=id,t.spline=ld}var ds=128,Pl=50,wd=.25,vd=t=>[t.ray,t.truth,t.sensor,t.noReturn],hs=(t,e)=>({font:tr,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
-frame,width:1,size:4}});function El(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:ds})).
-observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:ds}),s=n()),o)}function _l(t,e){let{session:n}=t,o=x("div",{className:"\
-chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All sweeps"],["first",`First ${Pl}`]],()=>s,y=>{s=y,u=null,n.
-changed()}),i=0,a=-1/0,c=-1,u=null,d=El(o,()=>{let y=vd(e()),S=Array.from({length:i},(k,T)=>({label:`chain ${T+1}`,stroke:y[T%y.length],width:1,points:{show:!1}}));
-return new Oe({width:100,height:ds,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(k,T,M)=>[T,Math.max(M,T+1)]},y:{
-range:(k,T,M)=>Sd(Math.max(T,a),M)}},axes:[hs(e,26),hs(e,52)],series:[{label:"sweep"},...S],hooks:{draw:[k=>Md(k,c,e())]}},[[],...S.map(()=>[])],o)},e),m=x("spa\
-n",{className:"caption",textContent:"log joint by sweep"}),w=x("div",{className:"charted"},x("div",{className:"buttons"},r,m),o);return t.each(()=>{let y=n.shown,
-S=y?.traced?.length?y.trace.length/y.traced.length:0;if(D(w,"hidden",S===0),!y||!S)return;let k=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.sweeps/n.draws.count:
--1,T=d(S!==i&&(i=S,!0));T&&(u===y&&c===k&&T.data[0].length||([u,c]=[y,k],a=s==="all"?kd(y,S):-1/0,T.setData(xd(y,S,s))))}),w}function xd({trace:t,traced:e},n,o){
-let s=o==="all"?e.length:e.filter(r=>r<=Pl).length;return[e.slice(0,s),...Array.from({length:n},(r,i)=>t.slice(i*e.length,i*e.length+s))]}function kd({trace:t,traced:e},n){
-let o=e.length,s=e.findIndex(r=>r>=wd*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Sd(t,e){let n=Math.
-max(.06*(e-t),.5);return[t-n,e+n]}function Md(t,e,n){if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.
-ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Al(t,e){let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"Histogra\
-m of the particles' weights"}),s=x("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),r=x("div",{className:"charted"},s,o),
-a=El(o,()=>new Oe({width:100,height:ds,legend:{show:!1},cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(u,h,d)=>[h,d]},y:{distr:3,range:(u,h,d)=>[
-.5,Math.max(10,2*d)]}},axes:[hs(e,26),{...hs(e,52),values:(u,h)=>h.map(d=>d>=1?String(d):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[
-.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),c=null;return t.each(()=>{let u=n.shown;D(r,"hidden",!u?.weights);let h=u?.weights&&a(!1);if(!u?.weights||!h||
-c===u&&h.data[0].length)return;c=u;let d=[...u.weights],m=-(u.lowest??-1)/d.length,w=[...d.map((y,S)=>(u.lowest??-1)+S*m),0];h.setData([w,[...d.map(y=>y||null),
-null]])}),r}function Cl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=x("p",{className:"said",role:"status"}),r=x("div",{className:"double"},t.numberInput("Robot's radius (m\
+for(let p in l.hooks)Fo[p]=(Fo[p]||[]).concat(l.hooks[p])});let vi=(l,p,f)=>f,Le=Re({key:null,setSeries:!1,filters:{pub:ya,sub:ya},scales:[N,M[1]?M[1].scale:null],
+match:[ba,ba,vi],values:[null,null]},z.sync);Le.match.length==2&&Le.match.push(vi),z.sync=Le;let ki=Le.key,Zs=fl(ki);function ho(l,p,f,g,b,x,P){Le.filters.pub(l,
+p,f,g,b,x,P)&&Zs.pub(l,p,f,g,b,x,P)}Zs.sub(o);function Yc(l,p,f,g,b,x,P){Le.filters.sub(l,p,f,g,b,x,P)&&In[l](null,p,f,g,b,x,P)}o.pub=Yc;function Jc(){Zs.unsub(
+o),Sr.delete(o),tn.clear(),br(ts,Jn,xi),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=Jc;function Qs(){Ve("init",t,e),Qr(e||t.data,!1),G[N]?Vs(N,G[N]):Ds(),_o=
+ve.show&&(ve.width>0||ve.height>0),rn=yt=!0,Ls(t.width,t.height)}return M.forEach(Jr),A.forEach(_c),n?n instanceof HTMLElement?(n.appendChild(u),Qs()):n(o,Qs):Qs(),
+o}Oe.assign=Re;Oe.fmtNum=Cr;Oe.rangeNum=ns;Oe.rangeLog=rs;Oe.rangeAsinh=_r;Oe.orient=wn;Oe.pxRatio=de;Oe.join=cp;Oe.fmtDate=Dr,Oe.tzDate=xp;Oe.sync=fl;{Oe.addGap=
+nd,Oe.clipGaps=ls;let t=Oe.paths={points:xl};t.linear=kl,t.stepped=rd,t.bars=id,t.spline=ld}var ds=128,Pl=50,wd=.25,xd=t=>[t.ray,t.truth,t.sensor,t.noReturn],vd=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),hs=(t,e)=>({font:tr,
+size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().frame,width:1,size:4}});function El(t,e,n){let o=null,s=null,r=()=>Math.floor(
+t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:ds})).observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize(
+{width:r(),height:ds}),s=n()),o)}function _l(t,e){let{session:n}=t,o=v("div",{className:"chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.
+segmented("Trace",[["all","All sweeps"],["first",`First ${Pl}`]],()=>s,y=>{s=y,u=null,n.changed()}),i=0,a=-1/0,c=-1,u=null,d=El(o,()=>{let y=xd(e()),S=Array.from(
+{length:i},(k,T)=>({label:`chain ${T+1}`,stroke:y[T%y.length],width:1,points:{show:!1}}));return new Oe({width:100,height:ds,legend:{show:!1},cursor:{drag:{x:!1,
+y:!1},y:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(k,T,M)=>[T,Math.max(M,T+1)]},y:{range:(k,T,M)=>Md(Math.max(T,a),M)}},axes:[hs(e,26),hs(e,vd)],series:[{
+label:"sweep"},...S],hooks:{draw:[k=>Td(k,c,e())]}},[[],...S.map(()=>[])],o)},e),m=v("span",{className:"caption",textContent:"log joint by sweep"}),w=v("div",{className:"\
+charted"},v("div",{className:"buttons"},r,m),o);return t.each(()=>{let y=n.shown,S=y?.traced?.length?y.trace.length/y.traced.length:0;if(D(w,"hidden",S===0),!y||
+!S)return;let k=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.sweeps/n.draws.count:-1,T=d(S!==i&&(i=S,!0));T&&(u===y&&c===k&&T.data[0].length||([u,c]=[y,k],a=s===
+"all"?Sd(y,S):-1/0,T.setData(kd(y,S,s))))}),w}function kd({trace:t,traced:e},n,o){let s=o==="all"?e.length:e.filter(r=>r<=Pl).length;return[e.slice(0,s),...Array.
+from({length:n},(r,i)=>t.slice(i*e.length,i*e.length+s))]}function Sd({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=wd*e[o-1]);return Math.min(...Array.
+from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Md(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function Td(t,e,n){if(e<0)return;let{
+left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Al(t,e){
+let{session:n}=t,o=v("div",{className:"chart",role:"img","aria-label":"Histogram of the particles' weights"}),s=v("div",{className:"caption",textContent:"partic\
+les by weight, nats below the heaviest"}),r=v("div",{className:"charted"},s,o),a=El(o,()=>new Oe({width:100,height:ds,legend:{show:!1},cursor:{show:!1},padding:[
+8,10,0,0],scales:{x:{time:!1,range:(u,h,d)=>[h,d]},y:{distr:3,range:(u,h,d)=>[.5,Math.max(10,2*d)]}},axes:[hs(e,26),{...hs(e,52),values:(u,h)=>h.map(d=>d>=1?String(
+d):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),c=null;return t.each(()=>{let u=n.
+shown;D(r,"hidden",!u?.weights);let h=u?.weights&&a(!1);if(!u?.weights||!h||c===u&&h.data[0].length)return;c=u;let d=[...u.weights],m=-(u.lowest??-1)/d.length,w=[
+...d.map((y,S)=>(u.lowest??-1)+S*m),0];h.setData([w,[...d.map(y=>y||null),null]])}),r}function Cl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=v("p",{className:"said",role:"status"}),r=v("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,u=>o.set({radius:u}),{min:.01,max:100,step:"any"}),t.numberInput("Highest risk",()=>o.risk,u=>o.set({risk:u}),{min:1e-4,max:.99,step:"any"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),c=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
-r,()=>n.tool==="path"),t.each(()=>{D(c,"textContent",i()),D(s,"textContent",n.tool==="path"?Td(t):Pd(t))}),a}function Td({session:t}){let{start:e,goal:n,path:o,
+r,()=>n.tool==="path"),t.each(()=>{D(c,"textContent",i()),D(s,"textContent",n.tool==="path"?Pd(t):Ed(t))}),a}function Pd({session:t}){let{start:e,goal:n,path:o,
 trouble:s}=t.decisions;if(s)return s;if(!e)return"Click where the robot is, then where it is to go.";if(!n)return"Now click where it is to go.";if(!o)return t.shown?.
 approximate?"Waiting for draws of the map.":"Looking for a path.";let r=o.within_risk?"":" No path was found whose risk is low enough; this is the safest.";return`${Ce(
 o.length_m,2)} m, free with probability ${Ce(o.probability,3)} ± ${Ce(o.standard_error,3)} by ${o.draws} draws. Independent cells would say ${Ce(o.independent,
-3)}.${r}`}function Pd({session:t}){let{views:e,trouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.nats),
+3)}.${r}`}function Ed({session:t}){let{views:e,trouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.nats),
 s=t.editable?" Click to place another sensor.":"";return`One more scan would tell ${Ce(Math.min(...e.nats),1)} to ${Ce(o,1)} nats, cells taken for independent; \
-the best place has a ring.${s}`}var Ed=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],_d=["Draw walls, and drag the robot: a beam reads the first wall that it \
+the best place has a ring.${s}`}var _d=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Ad=["Draw walls, and drag the robot: a beam reads the first wall that it \
 hits, with noise. Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (draw), and where doubt remains\
  (entropy). No beam has been where it is hatched.","While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact\
- in the long run."],Ad="Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom\
- and pan.";function Ll(t){let e=Ii.map(([o,s])=>x("tr",{},x("th",{scope:"row"},x("kbd",{textContent:o})),x("td",{textContent:s}))),n=_d.map(o=>x("p",{textContent:o}));
-return t.dialog("Help",...n,x("table",{},x("tbody",{},...e)),x("p",{textContent:Ad}))}function Dl(t){let e=()=>x("input",{type:"number",min:Se.cells[0],max:Se.cells[1],
-step:1,required:!0,value:"21"}),[n,o]=[e(),e()],s=x("select",{});for(let[i,a]of Ed)s.append(x("option",{value:i,textContent:a}));s.addEventListener("change",()=>{
-s.value==="building"&&Number(n.value)<60&&([n.value,o.value]=["120","80"])});let r=x("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("H\
-eight (cells)",o),x("div",{className:"buttons end"},x("button",{type:"submit",className:"primary",textContent:"Create"})));return r.addEventListener("submit",()=>{
-t.session.act({type:"new",shape:[Number(n.value),Number(o.value)],world:s.value}),t.hand.selected=null}),t.dialog("New map",r)}function Rl(t){let e=x("input",{type:"\
-text",readOnly:!0,"aria-label":"Link"}),n=x("span",{role:"status",className:"copied"}),o=async()=>{e.select();try{await navigator.clipboard.writeText(e.value)}catch{
+ in the long run."],Cd="Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom\
+ and pan.";function Ll(t){let e=Ii.map(([o,s])=>v("tr",{},v("th",{scope:"row"},v("kbd",{textContent:o})),v("td",{textContent:s}))),n=Ad.map(o=>v("p",{textContent:o}));
+return t.dialog("Help",...n,v("table",{},v("tbody",{},...e)),v("p",{textContent:Cd}))}function Dl(t){let e=()=>v("input",{type:"number",min:Se.cells[0],max:Se.cells[1],
+step:1,required:!0,value:"21"}),[n,o]=[e(),e()],s=v("select",{});for(let[i,a]of _d)s.append(v("option",{value:i,textContent:a}));s.addEventListener("change",()=>{
+s.value==="building"&&Number(n.value)<60&&([n.value,o.value]=["120","80"])});let r=v("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("H\
+eight (cells)",o),v("div",{className:"buttons end"},v("button",{type:"submit",className:"primary",textContent:"Create"})));return r.addEventListener("submit",()=>{
+t.session.act({type:"new",shape:[Number(n.value),Number(o.value)],world:s.value}),t.hand.selected=null}),t.dialog("New map",r)}function Rl(t){let e=v("input",{type:"\
+text",readOnly:!0,"aria-label":"Link"}),n=v("span",{role:"status",className:"copied"}),o=async()=>{e.select();try{await navigator.clipboard.writeText(e.value)}catch{
 document.execCommand("copy")}n.textContent="Copied",setTimeout(()=>n.textContent="",2e3)},s=t.button(null,"Copy the link",o,{className:"primary",text:"Copy"}),i=t.
-dialog("Share",x("p",{textContent:"The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while the server r\
-uns; the part from # on can be put after the address of any bayesmap page."}),x("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),
+dialog("Share",v("p",{textContent:"The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while the server r\
+uns; the part from # on can be put after the address of any bayesmap page."}),v("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),
 e.select()}}}var Nl=t=>Math.round(t*180/Math.PI);function Fl(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(c,u)=>t.numberInput(c,()=>Number((o.pose?.[u]??0).toFixed(2)),h=>o.move(
-{[u]:h}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>Nl(o.pose?.yaw??0),c=>o.move({yaw:c*Math.PI/180}),{step:5}),i=x("p",{className:"words ghosted"}),a=t.
-section("Ghost",x("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>D(i,"textContent",Cd(t))),
-a}function Cd({session:t}){let{ghost:e}=t;if(e.trouble)return e.trouble;if(!e.fan)return"Drag the ghost to see what its laser would read.";let{draws:n,low:o,high:s,
+{[u]:h}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>Nl(o.pose?.yaw??0),c=>o.move({yaw:c*Math.PI/180}),{step:5}),i=v("p",{className:"words ghosted"}),a=t.
+section("Ghost",v("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>D(i,"textContent",Ld(t))),
+a}function Ld({session:t}){let{ghost:e}=t;if(e.trouble)return e.trouble;if(!e.fan)return"Drag the ghost to see what its laser would read.";let{draws:n,low:o,high:s,
 near:r}=e.fan,i=Array.from(s,(h,d)=>h-o[d]).filter(Number.isFinite).sort((h,d)=>h-d),a=i.length?`${Ce(100*i[i.length>>1],0)} cm wide at the median beam`:"as wid\
 e as the laser's range",c=n?`${n} draws of the map`:"the mean map, cells taken for independent",u=r?` Rings are the hits of scan ${r.index+1}, taken ${Ce(100*r.
-away,0)} cm from here, turned by ${Nl(r.turn)}°.`:"";return`Dots are predictive medians, bars the central 80 % interval, ${a}, by ${c}.${u}`}function $l(t){let{session:e}=t,n=x("span",{className:"what"});t.each(()=>{let{grid:u,source:h}=e.document??{};if(!u||!h)return;let d=`${u.shape[0]} × ${u.shape[1]}\
+away,0)} cm from here, turned by ${Nl(r.turn)}°.`:"";return`Dots are predictive medians, bars the central 80 % interval, ${a}, by ${c}.${u}`}function $l(t){let{session:e}=t,n=v("span",{className:"what"});t.each(()=>{let{grid:u,source:h}=e.document??{};if(!u||!h)return;let d=`${u.shape[0]} × ${u.shape[1]}\
  cells of ${+u.resolution.toPrecision(3)} m`;D(n,"textContent",h.name?`${h.name}, ${d}`:d)});let o=()=>!e.recorded&&!!e.document,s=[t.button("undo","Undo",()=>e.
 act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo}),t.button("redo","Redo",()=>e.act({type:"redo"}),{title:"Redo (Ctrl+Y)",when:()=>!!e.state?.
-can_redo}),x("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),...t.embedded?[]:[t.button("link","Share",()=>t.command(
+can_redo}),v("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),...t.embedded?[]:[t.button("link","Share",()=>t.command(
 "share"),{text:"Share",when:o})]];for(let u of s)t.visible(u,()=>!e.recorded);let r=t.button("theme","Theme: automatic",()=>t.command("theme")),i=t.button("help",
-"Help",()=>t.command("help"),{title:"Help (?)"}),a=x("span",{className:"space"});return{element:x("header",{},x("h1",{textContent:"bayesmap"}),n,a,...s,Dd(t),r,
-i),nameTheme(u){let h=`Theme: ${u}`;pt(r,"aria-label",h),D(r,"title",h)}}}var Ld=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function Dd(t){
-let{session:e}=t,n=(a,c,u,h)=>{let d=t.button(null,a,()=>t.command(`export ${c}`),{text:a,when:h});return u&&t.visible(d,()=>!e.recorded),d},o=x("div",{className:"\
-menu",hidden:!0},n("Picture (PNG)","png",!1),n("Saved run (netCDF)","run",!0,()=>Ld(e)),n("Map for robots (YAML and PGM)","map",!0),n("Page with its draws (HTML\
+"Help",()=>t.command("help"),{title:"Help (?)"}),a=v("span",{className:"space"});return{element:v("header",{},v("h1",{textContent:"bayesmap"}),n,a,...s,Rd(t),r,
+i),nameTheme(u){let h=`Theme: ${u}`;pt(r,"aria-label",h),D(r,"title",h)}}}var Dd=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function Rd(t){
+let{session:e}=t,n=(a,c,u,h)=>{let d=t.button(null,a,()=>t.command(`export ${c}`),{text:a,when:h});return u&&t.visible(d,()=>!e.recorded),d},o=v("div",{className:"\
+menu",hidden:!0},n("Picture (PNG)","png",!1),n("Saved run (netCDF)","run",!0,()=>Dd(e)),n("Map for robots (YAML and PGM)","map",!0),n("Page with its draws (HTML\
 )","html",!0),n("Document (JSON)","document",!0)),s=t.button("save","Export",()=>r(o.hidden),{text:"Export",when:()=>!!e.document}),r=a=>{o.hidden=!a,s.setAttribute(
-"aria-expanded",String(a)),a&&o.firstElementChild.focus()};r(!1);let i=x("div",{className:"anchor"},s,o);return i.addEventListener("keydown",a=>{a.key!=="Escape"||
+"aria-expanded",String(a)),a&&o.firstElementChild.focus()};r(!1);let i=v("div",{className:"anchor"},s,o);return i.addEventListener("keydown",a=>{a.key!=="Escape"||
 o.hidden||(r(!1),s.focus(),a.stopPropagation())}),i.addEventListener("focusout",a=>{i.contains(a.relatedTarget)||r(!1)}),o.addEventListener("click",()=>{r(!1),s.
-focus()}),i}var Rd={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
+focus()}),i}var Nd={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
 5 5.5L12 3l2.5 2.5M9.5 18.5L12 21l2.5-2.5M5.5 9.5L3 12l2.5 2.5M18.5 9.5L21 12l-2.5 2.5",path:"M5 19a2 2 0 1 0 .1 0M7 18c9-1 1-11 10-12M19 3a2 2 0 1 0 .1 0",look:"\
 M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0 1 0 .1 0",where:"M12 21c-4-5-6-7.500-6-11a6 6 0 0 1 12 0c0 3.500-2 6-6 11M12 8a\
 2 2 0 1 0 .1 0",ghost:"M5 20V11a7 7 0 0 1 14 0v9l-2.300-2-2.400 2-2.300-2-2.300 2-2.400-2zM9.500 11v.5M14.500 11v.5",undo:"M8 5L4 9l4 4M4 9h10a5.5 5.5 0 0 1 0 1\
@@ -601,120 +601,120 @@ M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0
 5-12 7.5z",pause:"M8.5 5v14M15.5 5v14",link:"M10 14a4 4 0 0 0 5.7 0l3-3A4 4 0 0 0 13 5.3l-1 1M14 10a4 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",save:"M12 4v11M7\
 .5 10.5L12 15l4.5-4.5M4 20h16",grid:"M4 4h16v16H4zM4 12h16M12 4v16",theme:"M12 3a9 9 0 1 0 0 18zM12 3a9 9 0 0 1 0 18",help:"M8.5 9a3.5 3.5 0 1 1 5 3.2c-1.1.6-1.\
 5 1.200-1.500 2.500M12 18v.5",close:"M6 6l12 12M18 6L6 18"};function en(t){let e=document.createElementNS("http://www.w3.org/2000/svg","svg"),n=document.createElementNS(
-"http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute("aria-hidden","true"),n.setAttribute("d",Rd[t]),e.append(n),e}var fs=[["truth","true wall"],["ray","ray"],["miss","no return"],["dot","reading"],["sensor","sensor"],["stroke","surface"],["trajectory","trajectory"],["draw",
-"this draw"],["ghost","predicted reading"],["unobserved","unobserved"]];function Il(t,e){let{session:n}=t,o=x("span",{className:"ramp"}),s=x("span"),r=fs.map(([
-c,u])=>{let h=x("i",{className:c});return c==="sensor"&&h.append(en("sensor")),x("li",{},h,u)});t.visible(r[0],()=>!n.document||n.document.source.kind==="simula\
+"http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute("aria-hidden","true"),n.setAttribute("d",Nd[t]),e.append(n),e}var fs=[["truth","true wall"],["ray","ray"],["miss","no return"],["dot","reading"],["sensor","sensor"],["stroke","surface"],["trajectory","trajectory"],["draw",
+"this draw"],["ghost","predicted reading"],["unobserved","unobserved"]];function Il(t,e){let{session:n}=t,o=v("span",{className:"ramp"}),s=v("span"),r=fs.map(([
+c,u])=>{let h=v("i",{className:c});return c==="sensor"&&h.append(en("sensor")),v("li",{},h,u)});t.visible(r[0],()=>!n.document||n.document.source.kind==="simula\
 tion"),t.visible(r[fs.findIndex(([c])=>c==="stroke")],()=>!!n.overlay?.strokes.length),t.visible(r[fs.findIndex(([c])=>c==="trajectory")],()=>!!n.overlay?.trajectory.
 length);let i=c=>r[fs.findIndex(([u])=>u===c)];t.visible(i("draw"),()=>!!n.flicker.under),t.visible(i("ghost"),()=>n.ghost.held||n.reading.picked!==null);let a="";
 return t.each(()=>{let c=n.shown?.layer==="width"?"width":n.view.layer,{kind:u,mean:h,value:d}=n.quantity;D(s,"textContent",c==="entropy"?"entropy (bit)":c==="w\
 idth"?"width of the 90 % interval":u==="binary"?"P(wall)":c==="draw"?d:h);let w=c==="entropy"||c==="width",y=`${w} ${e().ground}`;a!==y&&(a=y,o.style.background=
-ji(w?yo:S=>sr(e(),S)))}),x("ul",{className:"legend","aria-label":"Legend"},x("li",{},s,"0",o,"1"),...r)}var Nd=[.05,.1,.2,.4,.8],Fd=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function Ol(t){let{session:e}=t,n=x("select",{onchange:()=>e.act({type:"\
+ji(w?yo:S=>sr(e(),S)))}),v("ul",{className:"legend","aria-label":"Legend"},v("li",{},s,"0",o,"1"),...r)}var Fd=[.05,.1,.2,.4,.8],$d=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function Ol(t){let{session:e}=t,n=v("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,c]=i.bounds,u=Math.
-max(c[0]-a[0],c[1]-a[1]),h=[...new Set([...Nd,r.resolution])].sort((d,m)=>d-m);if(o!==h.join()){o=h.join();let d=m=>x("option",{value:String(m),textContent:Fd(m),
+max(c[0]-a[0],c[1]-a[1]),h=[...new Set([...Fd,r.resolution])].sort((d,m)=>d-m);if(o!==h.join()){o=h.join();let d=m=>v("option",{value:String(m),textContent:$d(m),
 disabled:u/m>Se.side_of_log-1});n.replaceChildren(...h.map(d))}D(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
-source.kind==="log"),s}function Ul(t){let{session:e}=t,n=x("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=x("output"),s=()=>e.document?.source.
+source.kind==="log"),s}function Ul(t){let{session:e}=t,n=v("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=v("output"),s=()=>e.document?.source.
 scans??0,r=a=>{let c=Number(n.value);t.scrub(c>=s()?null:c,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});let i=t.
-section("Log",x("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),c=e.document?.scans_used??
+section("Log",v("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),c=e.document?.scans_used??
 a;D(n,"max",String(Math.max(1,a))),(!hn(n)||Number(n.value)!==c)&&D(n,"value",String(c));let u=c===a?`all ${a} scans`:`after ${c} of ${a}`;n.style.setProperty("\
---fill",`${100*(c-1)/Math.max(1,a-1)}%`),pt(n,"aria-valuetext",u),D(o,"textContent",u)}),i}var $d="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";function zl(t){
-let{session:e}=t,n=x("span",{className:"chip"}),o=t.button(null,"Not converged",()=>Gl(e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=x("div",{className:"\
+--fill",`${100*(c-1)/Math.max(1,a-1)}%`),pt(n,"aria-valuetext",u),D(o,"textContent",u)}),i}var Id="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";function zl(t){
+let{session:e}=t,n=v("span",{className:"chip"}),o=t.button(null,"Not converged",()=>Gl(e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=v("div",{className:"\
 chips"},n,o);return t.each(()=>{let r=Gl(e);D(o,"hidden",!r),r&&(D(o.firstElementChild,"textContent",`not converged: ${r.text}`),D(o,"title",`${e.shown?.verdict?.
 why}. Click to ${r.text}.`),pt(o,"aria-label",`Not converged: ${r.text}`));let i=e.shown;if(!i||!e.document)return D(s,"hidden",!0);let a=e.draws.count?`draw ${e.
 draw+1} of ${e.draws.count}`:"draw",c=i.layer==="draw"?a+(e.flicker.under?" over the mean":""):i.layer==="width"?"width of the 90 % interval":e.view.layer==="en\
 tropy"?"entropy":"mean";if(i.method==="counts")return D(s,"hidden",!1),D(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():"poses as far \
 as they are known"}`),D(n,"className","chip approximate");let u={importance:"importance sampling",propagate:"belief propagation"}[i.method],h=i.approximate?`app\
-roximate, ${Id(i)}`:u??`${i.sweeps} sweeps`;D(s,"hidden",!1),D(n,"textContent",`${c} · ${h}`),D(n,"className",i.approximate?"chip approximate":"chip")}),s}function Id({
+roximate, ${Od(i)}`:u??`${i.sweeps} sweeps`;D(s,"hidden",!1),D(n,"textContent",`${c} · ${h}`),D(n,"className",i.approximate?"chip approximate":"chip")}),s}function Od({
 method:t,sweeps:e,total:n,averaged:o}){return t==="hits"?"counts of hits":t!=="pilot"?"belief propagation":`${o} draws of one chain, sensor being fitted: sweep ${e}\
  of ${n}`}function Gl(t){let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n||t.recorded||n.source.kind==="run")return null;let o=r=>()=>t.act({type:"set",
 patch:r});if(e.method==="gibbs"&&n.source.kind==="simulation")return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")return{text:"try Gi\
 bbs",apply:o({method:"auto"})};if(t.sampling)return null;let s=Math.min(Se.sweeps[1],4*n.sweeps);return s>n.sweeps?{text:`try ${s} sweeps`,apply:o({sweeps:s})}:
-null}function Hl(t){let{session:e}=t,n=x("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),s=x("div",{className:"banner",
+null}function Hl(t){let{session:e}=t,n=v("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),s=v("div",{className:"banner",
 role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));D(s,"h\
 idden",!r&&e.worker!=="restarted"),D(s,"className",r?"banner":"banner mild"),D(o,"hidden",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept he\
-re.`,c=e.connection.refused?$d:a;D(n,"textContent",r?c:"The worker stopped and is being started again. The map is kept.")}),s}function Vl(t){let{session:e,hand:n}=t,
-o=x("div",{className:"readout",id:`${t.prefix}-readout`}),s=x("span",{role:"status","aria-live":"polite"}),r=x("span",{className:"hidden","aria-live":"polite"});
+re.`,c=e.connection.refused?Id:a;D(n,"textContent",r?c:"The worker stopped and is being started again. The map is kept.")}),s}function Vl(t){let{session:e,hand:n}=t,
+o=v("div",{className:"readout",id:`${t.prefix}-readout`}),s=v("span",{role:"status","aria-live":"polite"}),r=v("span",{className:"hidden","aria-live":"polite"});
 return n.announce=i=>D(r,"textContent",i),n.describe=i=>Wl(e,i),t.each(()=>{let i=n.cursor??n.hover,c=e.editable&&!matchMedia("(pointer: coarse)").matches?"Poin\
 t at a cell, or press ? for the keys":"Point at a cell";D(o,"textContent",i?Wl(e,i):c);let u=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad";D(s,"textC\
-ontent",u?"Ready, but the chains have not converged":e.status.text),D(s,"className",u?"warning":e.status.level)}),{element:x("footer",{},s,o,r),readout:o}}function Wl(t,e){
+ontent",u?"Ready, but the chains have not converged":e.status.text),D(s,"className",u?"warning":e.status.level)}),{element:v("footer",{},s,o,r),readout:o}}function Wl(t,e){
 let{document:n,shown:o}=t;if(!n)return"";let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+1),{x:c,y:u}=On(e,n.grid),h=[`Ce\
 ll ${e.x}, ${e.y}`,`${c.toFixed(a)}, ${u.toFixed(a)} m`];if(o&&o.p.length===r[0]*r[1]){let d=o.p[i]/255,{kind:m,mean:w,value:y,interval:S}=t.quantity;o.layer===
 "width"?h.push(`90 % interval ${d.toFixed(2)} wide`):m!=="binary"&&o.layer==="draw"?h.push(`${y} ${d.toFixed(2)} in this draw`):m!=="binary"?h.push(`${w} ${d.toFixed(
 2)}`,...S?[]:[`entropy ${mo(d).toFixed(2)} bit`]):o.layer==="draw"?h.push(d>.5?"wall in this draw":"free in this draw"):h.push(`P(wall) ${d.toFixed(2)}`,`entrop\
 y ${mo(d).toFixed(2)} bit`);let k=t.cell?.x===e.x&&t.cell.y===e.y?t.cell:null,T=k?k.beams:null;o.observed[i]?T!==null&&h.push(T===1?"1 beam":`${T} beams`):h.push(
 "unobserved"),k?.nats_for!==void 0&&k.nats_against!==void 0&&T&&h.push(`for a wall ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.
-nats_against.toFixed(1)} nats`)}return h.join(" · ")}var Od={logged:"as logged",odometry:"from raw odometry"},Ud=180/Math.PI;function Bl(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
-Od,()=>e.document?.poses??"logged",d=>t.set({poses:d}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,c=[t.slider("po\
-se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:Ud})];for(let d of c)
-t.visible(d,()=>e.editable);let u=x("p",{className:"caption"});t.each(()=>{let{pose_sigma:d=0,heading_sigma:m=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
+nats_against.toFixed(1)} nats`)}return h.join(" · ")}var Ud={logged:"as logged",odometry:"from raw odometry"},Gd=180/Math.PI;function Bl(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+Ud,()=>e.document?.poses??"logged",d=>t.set({poses:d}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,c=[t.slider("po\
+se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:Gd})];for(let d of c)
+t.visible(d,()=>e.editable);let u=v("p",{className:"caption"});t.each(()=>{let{pose_sigma:d=0,heading_sigma:m=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
 poses==="odometry"&&e.shown?.method==="counts"&&!e.running,S=e.editable&&(d>0||m>0)&&!/auto|gibbs|block/.test(w);D(u,"hidden",!S&&!y),D(u,"textContent",y?"Run i\
 nfers where the robot was.":"This method takes poses as known; Gibbs does not.")});let h=t.section("Where the robot was",o,...c,u);return t.visible(h,()=>e.editable||
 n()&&!e.recorded),h}var Ur=t=>t.charAt(0).toUpperCase()+t.slice(1),ms=class{text="Connecting";level="info";until=0;say(e,n,o){this.text=Ur(e),this.level=n,this.until=o}confirmed(e){
 let n=e>this.until&&!/worker/.test(this.text);(this.text==="Connecting"||n)&&this.say("Ready","info",e)}worker(e){e==="restarted"?this.say("The worker stopped a\
 nd is being started again; the map is kept","warning",this.until):e==="ready"&&this.text==="Connecting"?this.say("Ready","info",this.until):e==="ready"&&/worker/.
-test(this.text)&&this.say("The worker runs again","info",this.until)}};var Gd=20,Wd={importance:"particles",propagate:"rounds"};function jl(t,...e){let{session:n}=t,o=x("progress",{max:1,value:0,"aria-label":"Progress"}),s=x("div",
+test(this.text)&&this.say("The worker runs again","info",this.until)}};var Wd=20,zd={importance:"particles",propagate:"rounds"};function jl(t,...e){let{session:n}=t,o=v("progress",{max:1,value:0,"aria-label":"Progress"}),s=v("div",
 {className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=i?i.done/i.of:r&&r.total>0&&!r.approximate?r.sweeps/r.total:0;D(o,"value",a);let c=n.remaining_s(),
-u=Wd[r?.method??""]??"sweeps",h=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${u}`:"",d=c!==null?c<1?"less than 1 s left":`${Math.ceil(c)} s left`:n.running?
-"running":"";i?D(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Gd?"scans":"rounds"}`):D(s,"textContent",Ur([h,d].filter(Boolean).join(", "))||"No chai\
-n yet")}),t.section("Posterior",zd(t),o,s,Hd(t),Vd(t),...e)}function zd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",
+u=zd[r?.method??""]??"sweeps",h=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${u}`:"",d=c!==null?c<1?"less than 1 s left":`${Math.ceil(c)} s left`:n.running?
+"running":"";i?D(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Wd?"scans":"rounds"}`):D(s,"textContent",Ur([h,d].filter(Boolean).join(", "))||"No chai\
+n yet")}),t.section("Posterior",Hd(t),o,s,Vd(t),Bd(t),...e)}function Hd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",
 text:"Run",title:"Run (R)"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling}),s=t.
-checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=x("div",{className:"buttons"},n,o,s);return t.visible(
-r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Hd(t){let{session:e}=t,n=x("dl"),o=(s,r,i,a=!1)=>{let c=x("dd",{textContent:"–"});n.append(x("d\
-iv",{title:r},x("dt",{textContent:s}),c)),t.each(()=>{D(c,"textContent",e.shown?i(e.shown):"–"),a&&D(c,"className",e.shown?.verdict?.level??"")})};return o("E\
+checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=v("div",{className:"buttons"},n,o,s);return t.visible(
+r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Vd(t){let{session:e}=t,n=v("dl"),o=(s,r,i,a=!1)=>{let c=v("dd",{textContent:"–"});n.append(v("d\
+iv",{title:r},v("dt",{textContent:s}),c)),t.each(()=>{D(c,"textContent",e.shown?i(e.shown):"–"),a&&D(c,"className",e.shown?.verdict?.level??"")})};return o("E\
 SS","Effective sample size of the log joint",s=>Ce(s.ess,0),!0),o("R-hat","Agreement of the chains on the log joint; 1 is full",s=>Ce(s.rhat,3),!0),o("log joint",
 "Log of prior times likelihood at the last sweep",s=>Ce(s.log_joint,1)),o("reply","From the hand's last move to its picture",()=>Ce(e.latency.eventToPaint_ms.at(
--1),0," ms")),n}function Vd(t){let{session:e}=t,n=x("div",{className:"verdict"});return t.each(()=>{let o=e.shown?.verdict;if(D(n,"hidden",!o),!o)return;let s={
-good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];D(n,"textContent",`${s}: ${o.why}`),D(n,"className",`verdict ${o.level}`)}),n}var gs=t=>Math.abs(t)<.995?`${Ce(100*Math.abs(t),1)} cm`:`${Ce(Math.abs(t),2)} m`,Bd="Point at a reading to compare it with what the posterior predicts of it.";
-function Kl(t){let{session:e}=t,n=x("p",{className:"words reading",role:"status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.
-document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i}=e.reading,a=s?`Beam ${s.beam+1} of scan ${s.scan+1}.`:Bd;D(n,"textContent",i||
-(r?jd(r):a))}),o}function jd({scan:t,beam:e,reading:n,range:o,low:s,median:r,high:i,residual:a,no_return:c,wall:u}){let h=`Beam ${e+1} of scan ${t+1}`,d=(T,M)=>T===
+-1),0," ms")),n}function Bd(t){let{session:e}=t,n=v("div",{className:"verdict"});return t.each(()=>{let o=e.shown?.verdict;if(D(n,"hidden",!o),!o)return;let s={
+good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];D(n,"textContent",`${s}: ${o.why}`),D(n,"className",`verdict ${o.level}`)}),n}var gs=t=>Math.abs(t)<.995?`${Ce(100*Math.abs(t),1)} cm`:`${Ce(Math.abs(t),2)} m`,jd="Point at a reading to compare it with what the posterior predicts of it.";
+function Kl(t){let{session:e}=t,n=v("p",{className:"words reading",role:"status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.
+document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i}=e.reading,a=s?`Beam ${s.beam+1} of scan ${s.scan+1}.`:jd;D(n,"textContent",i||
+(r?Kd(r):a))}),o}function Kd({scan:t,beam:e,reading:n,range:o,low:s,median:r,high:i,residual:a,no_return:c,wall:u}){let h=`Beam ${e+1} of scan ${t+1}`,d=(T,M)=>T===
 null?M:`${Ce(T,2)} m`,m=`median ${d(r,"no return")}, 80 % between ${d(s,"too close")} and ${d(i,"no return")}`;if(n==="none")return`${h} came back from nothing,\
  which was predicted with probability ${Ce(c??0,3)} (${m}).`;if(n!=="hit"||o===null)return`${h} read nothing that says how far (${m}).`;let w=a===null?"":`, ${gs(
 a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${h} read ${Ce(o,2)} m${w} (${m}).`;if(!u)return y;let S=`${gs(u.across_m)} ${u.across_m<0?"behind":
 "in front of"} the wall, which is ${gs(u.thickness_m)} thick`,k=`${gs(u.along_m)} to the ${u.along_m<0?"right":"left"} along it from the middle of its surface`;
-return`${y} It ended ${S} (one standard deviation), and ${k}; the beam met it at ${Ce(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var Kd={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},qd={
-binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},Yd={noisy:"with noise",exact:"exact"},Jd={auto:"as is best",prior:"draws of the prior",empty:"t\
-he empty map"},Zd={raster:"raster",radial:"radial",random:"random"},ys=2*Math.PI,Qd=t=>Math.round(t*1800/Math.PI)/10,Xd={importance:"Particles",propagate:"Round\
-s"};function ql(t){let{session:e,hand:n,editor:o}=t,s=x("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
-choose("sensor")});let r="";t.each(()=>{let d=e.document?.sensors??[],m=d.map(w=>w.id).join();m!==r&&s.replaceChildren(...d.map(({id:w})=>x("option",{value:String(
+return`${y} It ended ${S} (one standard deviation), and ${k}; the beam met it at ${Ce(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var qd={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},Yd={
+binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},Jd={noisy:"with noise",exact:"exact"},Zd={auto:"as is best",prior:"draws of the prior",empty:"t\
+he empty map"},Qd={raster:"raster",radial:"radial",random:"random"},ys=2*Math.PI,Xd=t=>Math.round(t*1800/Math.PI)/10,eh={importance:"Particles",propagate:"Round\
+s"};function ql(t){let{session:e,hand:n,editor:o}=t,s=v("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
+choose("sensor")});let r="";t.each(()=>{let d=e.document?.sensors??[],m=d.map(w=>w.id).join();m!==r&&s.replaceChildren(...d.map(({id:w})=>v("option",{value:String(
 w),textContent:`Sensor ${w}`}))),r=m,D(s,"value",String(n.sensor?.id??""))});let i=(d,m)=>t.numberInput(d,()=>Number((n.sensor?.[m]??0).toFixed(2)),w=>n.sensor&&
 o.moveSensor(n.sensor,{[m]:w}),{step:"any"}),a=t.numberInput("heading (°)",()=>Math.round((n.sensor?.yaw??0)*180/Math.PI),d=>n.sensor&&o.moveSensor(n.sensor,{yaw:d%
 360*Math.PI/180}),{step:5}),c=t.button("plus","Add a sensor",()=>t.command("add"),{text:"Add"}),u=t.button("minus","Remove the sensor",()=>o.removeSensor(),{text:"\
-Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??ys)<ys);let h=x("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
-a);return t.section("Sensors",x("div",{className:"buttons"},s,c,u),h)}function Yl(t){let{session:e}=t,[n,o]=Se.max_range,[s,r]=Se.fov_deg,i=t.numberInput("Longe\
+Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??ys)<ys);let h=v("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
+a);return t.section("Sensors",v("div",{className:"buttons"},s,c,u),h)}function Yl(t){let{session:e}=t,[n,o]=Se.max_range,[s,r]=Se.fov_deg,i=t.numberInput("Longe\
 st range (m)",()=>e.document?.max_range??0,d=>t.set({max_range:d}),{min:n,max:o,step:"any"}),a=[t.slider("noise",()=>"Noise (m)",{low:Se.noise[0],high:Se.noise[1],
-step:.01,unit:" m"}),t.slider("angles",()=>"Angles",{low:Se.angles[0],high:Se.angles[1],step:1,log:!0}),i,t.numberInput("Field of view (°)",()=>Qd(e.document?.
-fov??ys),d=>t.set({fov:d>=r?ys:d*Math.PI/180}),{min:s,max:r,step:5}),t.select("Readings",Yd,()=>e.document?.readings??"noisy",d=>t.set({readings:d}))];for(let d of a)
+step:.01,unit:" m"}),t.slider("angles",()=>"Angles",{low:Se.angles[0],high:Se.angles[1],step:1,log:!0}),i,t.numberInput("Field of view (°)",()=>Xd(e.document?.
+fov??ys),d=>t.set({fov:d>=r?ys:d*Math.PI/180}),{min:s,max:r,step:5}),t.select("Readings",Jd,()=>e.document?.readings??"noisy",d=>t.set({readings:d}))];for(let d of a)
 t.visible(d,()=>e.editable);let c=t.slider("prior",()=>"Prior P(wall)",{low:Se.prior[0],high:Se.prior[1],step:.01}),u=()=>(e.document?.cells??"binary")==="binar\
-y";t.visible(c,u);let h=t.select("Cells",qd,()=>e.document?.cells??"binary",d=>t.set({cells:d}));return t.visible(h,()=>e.document?.source.kind==="log"),t.section(
+y";t.visible(c,u);let h=t.select("Cells",Yd,()=>e.document?.cells??"binary",d=>t.set({cells:d}));return t.visible(h,()=>e.document?.source.kind==="log"),t.section(
 "Model",h,Ol(t),c,...a)}function Jl(t){let{session:e}=t,n=()=>e.document?.method??"auto",o=()=>(e.document?.cells??"binary")==="binary",s=()=>/auto|gibbs|block/.
-test(n()),[r,i]=Se.seed,a=[t.select("Method",Kd,n,c=>t.set({method:c})),t.select("Order",Zd,()=>e.document?.order??"radial",c=>t.set({order:c}),()=>n()==="gibbs"||
-n()==="auto"),t.select("Start",Jd,()=>e.document?.start??"auto",c=>t.set({start:c}),s)];for(let c of a)t.visible(c,o);return t.section("Inference",...a,t.slider(
-"sweeps",()=>Xd[n()]??"Sweeps",{low:Se.sweeps[0],high:Se.sweeps[1],step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,c=>t.set({seed:Math.round(c)}),{
+test(n()),[r,i]=Se.seed,a=[t.select("Method",qd,n,c=>t.set({method:c})),t.select("Order",Qd,()=>e.document?.order??"radial",c=>t.set({order:c}),()=>n()==="gibbs"||
+n()==="auto"),t.select("Start",Zd,()=>e.document?.start??"auto",c=>t.set({start:c}),s)];for(let c of a)t.visible(c,o);return t.section("Inference",...a,t.slider(
+"sweeps",()=>eh[n()]??"Sweeps",{low:Se.sweeps[0],high:Se.sweeps[1],step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,c=>t.set({seed:Math.round(c)}),{
 min:r,max:i,step:1}))}function Zl(t){let{session:e}=t,n=t.button(null,"Clear walls",()=>e.act({type:"clear",what:"walls"}),{text:"Clear walls",when:()=>e.editable}),
-o=t.button(null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.section("Clear",x("div",{className:"buttons"},n,
-o))}var eh=0,bs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${eh++}`;updates=[];drag=Math.
+o=t.button(null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.section("Clear",v("div",{className:"buttons"},n,
+o))}var th=0,bs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${th++}`;updates=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}refresh(){for(let e of this.updates)e()}set(e){this.session.act({type:"set",patch:e,drag:this.drag})}scrub(e,n){
 this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}visible(e,n){this.each(()=>D(e,"hidden",!n()))}button(e,n,o,{
-className:s="",text:r="",when:i,title:a}={}){let c=x("button",{type:"button",className:s,title:a??n,onclick:o},e&&en(e));return r&&c.append(x("span",{textContent:r})),
-r!==n&&c.setAttribute("aria-label",n),i&&this.each(()=>D(c,"disabled",!i())),c}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=x("div",{className:"\
-segmented",role:"radiogroup","aria-label":e});for(let[c,u,h]of n){let d=x("input",{type:"radio",name:i,value:c,onchange:()=>s(c)});a.append(x("label",{title:u},
-d,h?en(h):null,x("span",{textContent:u}))),this.each(()=>{D(d,"checked",o()===c),r&&D(d,"disabled",!r(c))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
-/\W/g,"")}`;return x("section",{"aria-labelledby":o},x("h2",{id:o,textContent:e}),...n)}row(e,n){return n.id=`${this.prefix}-${e.replace(/\W/g,"")}`,x("div",{className:"\
-row"},x("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:c=1}){let u=`${this.prefix}-${e}`,h=k=>i?1e3*Math.log(k/o)/
+className:s="",text:r="",when:i,title:a}={}){let c=v("button",{type:"button",className:s,title:a??n,onclick:o},e&&en(e));return r&&c.append(v("span",{textContent:r})),
+r!==n&&c.setAttribute("aria-label",n),i&&this.each(()=>D(c,"disabled",!i())),c}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=v("div",{className:"\
+segmented",role:"radiogroup","aria-label":e});for(let[c,u,h]of n){let d=v("input",{type:"radio",name:i,value:c,onchange:()=>s(c)});a.append(v("label",{title:u},
+d,h?en(h):null,v("span",{textContent:u}))),this.each(()=>{D(d,"checked",o()===c),r&&D(d,"disabled",!r(c))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
+/\W/g,"")}`;return v("section",{"aria-labelledby":o},v("h2",{id:o,textContent:e}),...n)}row(e,n){return n.id=`${this.prefix}-${e.replace(/\W/g,"")}`,v("div",{className:"\
+row"},v("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:c=1}){let u=`${this.prefix}-${e}`,h=k=>i?1e3*Math.log(k/o)/
 Math.log(s/o):k,d=k=>{if(!i)return k;let T=o*(s/o)**(k/1e3),M=T<100?1:10**(Math.floor(Math.log10(T))-1);return se(Math.round(T/M)*M,o,s)},m=()=>c===1?this.session.
-document?.[e]??o:Number(((this.session.document?.[e]??o/c)*c).toFixed(3)),w=x("label",{for:u}),y=x("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,
-max:s,step:r}}),S=x("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:d(Number(y.value))/c})),
+document?.[e]??o:Number(((this.session.document?.[e]??o/c)*c).toFixed(3)),w=v("label",{for:u}),y=v("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,
+max:s,step:r}}),S=v("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:d(Number(y.value))/c})),
 y.addEventListener("change",()=>this.endDrag()),S.addEventListener("change",()=>{let k=Number(S.value);S.value===""||!Number.isFinite(k)?S.value=String(m()):this.
 set({[e]:i?Math.round(se(k,o,s)):se(k,o,s)/c}),this.endDrag()}),this.each(()=>{let k=m();D(w,"textContent",n()),pt(S,"aria-label",`${n()}, number`),d(Number(y.value))!==
 k&&(y.value=String(h(k))),pt(y,"aria-valuetext",`${k}${a}`);let T=100*(h(k)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${se(T,0,
-100)}%`),hn(S)||D(S,"value",String(k))}),x("div",{className:"row slider"},w,y,S)}select(e,n,o,s,r){let i=x("select",{onchange:()=>s(i.value)});for(let[a,c]of Object.
-entries(n))i.append(x("option",{value:a,textContent:c}));return this.each(()=>{D(i,"value",o()),r&&D(i,"disabled",!r())}),this.row(e,i)}numberInput(e,n,o,s={}){
-let r=x("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>{r.value!==""&&Number.isFinite(Number(r.value))&&o(se(Number(
-r.value),i,a))}),this.each(()=>{hn(r)||D(r,"value",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=x("input",{type:"checkbox",onchange:()=>o(r.checked)});
-return this.each(()=>D(r,"checked",n())),x("label",{className:"check",title:s},r,x("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(
-/\W/g,"")}`,s=x("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},en("close")),r=x("div",{className:"title"},x("h2",{id:o,textContent:e}),
-s),i=x("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),
-i}};var th=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],nh={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},ws=class{constructor(e){
+100)}%`),hn(S)||D(S,"value",String(k))}),v("div",{className:"row slider"},w,y,S)}select(e,n,o,s,r){let i=v("select",{onchange:()=>s(i.value)});for(let[a,c]of Object.
+entries(n))i.append(v("option",{value:a,textContent:c}));return this.each(()=>{D(i,"value",o()),r&&D(i,"disabled",!r())}),this.row(e,i)}numberInput(e,n,o,s={}){
+let r=v("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>{r.value!==""&&Number.isFinite(Number(r.value))&&o(se(Number(
+r.value),i,a))}),this.each(()=>{hn(r)||D(r,"value",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=v("input",{type:"checkbox",onchange:()=>o(r.checked)});
+return this.each(()=>D(r,"checked",n())),v("label",{className:"check",title:s},r,v("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(
+/\W/g,"")}`,s=v("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},en("close")),r=v("div",{className:"title"},v("h2",{id:o,textContent:e}),
+s),i=v("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),
+i}};var nh=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],oh={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},ws=class{constructor(e){
 this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.session.hasDraws)return;this.session.act({type:"\
 view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.act({type:"view",layer:"draw",chain:n,draw:e})}play(e){let{draw:n,
 draws:o,flicker:s,shown:r}=this.session;this.playing=e&&!s.still,e&&s.wantsMean?this.session.act({type:"view",layer:"mean",chain:this.session.view.chain}):e&&this.
@@ -723,52 +723,52 @@ layer!=="draw"?this.showLayer("draw"):e&&n.wantsMean&&(this.afterMean=!0,this.se
 this.showDraw(0),this.playing=!0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||this.playing)&&e?.layer==="mean"&&!n.
 wantsMean)return this.afterMean=!1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.playing)return;let{draw:o,draws:s}=this.
 session;o+1>=s.count&&n.on?this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function Ql(t,e,n){let{session:o}=t,s=t.segmented(
-"Show",th,()=>o.view.layer,m=>e.showLayer(m),m=>m!=="draw"||o.hasDraws),[,,r,i]=Array.from(s.children);D(i,"title","Width of each cell's 90 % interval"),t.visible(
+"Show",nh,()=>o.view.layer,m=>e.showLayer(m),m=>m!=="draw"||o.hasDraws),[,,r,i]=Array.from(s.children);D(i,"title","Width of each cell's 90 % interval"),t.visible(
 r,()=>!o.quantity.interval),t.visible(i,()=>o.quantity.interval);let a=(m,w)=>t.checkbox(m,()=>n[w],y=>{n[w]=y,o.changed()}),c=a("True walls","truth");t.visible(
 c,()=>!o.document||o.document.source.kind==="simulation");let[u,h]=[a("Surfaces","strokes"),a("Trajectory","trajectory")];t.visible(u,()=>!!o.overlay?.strokes.length),
-t.visible(h,()=>!!o.overlay?.trajectory.length);let d=x("div",{className:"checks",role:"group","aria-label":"Marks"},c,a("Rays","rays"),a("Readings","readings"),
-u,h);return t.section("View",s,oh(t,e),d)}function oh(t,e){let{session:n}=t,o=x("input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener(
-"input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=x("output"),i=x(
+t.visible(h,()=>!!o.overlay?.trajectory.length);let d=v("div",{className:"checks",role:"group","aria-label":"Marks"},c,a("Rays","rays"),a("Readings","readings"),
+u,h);return t.section("View",s,sh(t,e),d)}function sh(t,e){let{session:n}=t,o=v("input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener(
+"input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=v("output"),i=v(
 "select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,Number(i.value))),t.each(()=>{let{chains:d,count:m}=n.draws;D(o,"max",String(
 Math.max(0,m-1))),D(o,"disabled",m===0),D(o,"value",String(n.draw));let w=m?`${n.draw+1} of ${m}`:"none kept";pt(o,"aria-valuetext",w),o.style.setProperty("--fi\
-ll",`${m>1?100*n.draw/(m-1):0}%`),D(r,"textContent",w),i.length!==Math.max(1,d)&&i.replaceChildren(...Array.from({length:Math.max(1,d)},(S,k)=>x("option",{value:String(
+ll",`${m>1?100*n.draw/(m-1):0}%`),D(r,"textContent",w),i.length!==Math.max(1,d)&&i.replaceChildren(...Array.from({length:Math.max(1,d)},(S,k)=>v("option",{value:String(
 k),textContent:`chain ${k+1}`}))),D(i,"value",String(n.view.chain)),D(i,"disabled",d<2),m<2&&e.playing&&e.play(!1);let y=n.flicker.still?"Next draw":e.playing?"\
-Pause the draws":"Play the draws";s.getAttribute("aria-label")!==y&&(s.setAttribute("aria-label",y),s.replaceChildren(en(e.playing?"pause":"play")))});let a=x("\
-select",{"aria-label":"Speed"});for(let[d,m]of Object.entries(nh))a.append(x("option",{value:d,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener(
+Pause the draws":"Play the draws";s.getAttribute("aria-label")!==y&&(s.setAttribute("aria-label",y),s.replaceChildren(en(e.playing?"pause":"play")))});let a=v("\
+select",{"aria-label":"Speed"});for(let[d,m]of Object.entries(oh))a.append(v("option",{value:d,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener(
 "change",()=>e.drawsPerSecond=Number(a.value));let c=t.button(null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1});
 t.each(()=>D(a,"disabled",n.draws.count<2||n.flicker.still));let u=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Each draw in its own colour o\
-ver the mean, as one of the maps that the scans leave possible");t.visible(u,()=>n.draws.count>1);let h=x("div",{className:"wide"},u);return x("div",{className:"\
-player"},s,o,r,x("div",{className:"buttons wide"},i,a,c),h)}function Xl(t){let{session:e}=t,n=x("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),
-o=x("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.section("Scan",x("div",{className:"player bare"},n,o));return t.
+ver the mean, as one of the maps that the scans leave possible");t.visible(u,()=>n.draws.count>1);let h=v("div",{className:"wide"},u);return v("div",{className:"\
+player"},s,o,r,v("div",{className:"buttons wide"},i,a,c),h)}function Xl(t){let{session:e}=t,n=v("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),
+o=v("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.section("Scan",v("div",{className:"player bare"},n,o));return t.
 each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;D(s,"hidden",r<2),D(n,"max",String(Math.max(0,r-1))),hn(n)||D(n,"value",String(
-e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),D(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var tc=2,ec=6,sh=.5,rh=.005;function nc(t){let{session:e,hand:n}=t,o=x("p",{className:"whereabouts",role:"status"}),s=x("p",{className:"caption"}),r=t.section("\
-Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),D(o,"textContent",ih(t)),D(s,"textCon\
+e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),D(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var tc=2,ec=6,rh=.5,ih=.005;function nc(t){let{session:e,hand:n}=t,o=v("p",{className:"whereabouts",role:"status"}),s=v("p",{className:"caption"}),r=t.section("\
+Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),D(o,"textContent",ah(t)),D(s,"textCon\
 tent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.":"Choose a scan below: it is located\
- in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function ih({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
-charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>sh?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
-2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>rh?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
-2)}.`:"";return`${o}${ah(e.modes)}${lh(e,t.editable)}${s}`}function ah(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>tc,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
+ in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function ah({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
+charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>rh?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
+2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>ih?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
+2)}.`:"";return`${o}${lh(e.modes)}${ch(e,t.editable)}${s}`}function lh(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>tc,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
 toFixed(2)} m, heading ${Gr(e.mean[2],0)}`,s=`known to ${Wr(e.sigma_m)} and ${Gr(e.sigma_rad,1)}`;if(t.length===1)return n?`It may be almost anywhere: positions\
  are ${Wr(e.sigma_m)} apart.`:`One place: ${o}, ${s}.`;let r=t.slice(0,ec).map(({probability:a})=>ir(a)),i=t.length>ec?" and less":"";return`${t.length} places:\
- ${r.join(", ")}${i}. The likeliest: ${o}, ${s}.`}function lh({modes:t,pose:e},n){if(!t.length||t[0].sigma_m>tc)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-
+ ${r.join(", ")}${i}. The likeliest: ${o}, ${s}.`}function ch({modes:t,pose:e},n){if(!t.length||t[0].sigma_m>tc)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-
 e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the l\
-ikeliest":`the ${ch(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Wr(o[s])} and ${Gr(r,1)} from ${i}.`}var ch=t=>`${t}${["th","st","nd","rd"][t%100>10&&
+ikeliest":`the ${uh(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Wr(o[s])} and ${Gr(r,1)} from ${i}.`}var uh=t=>`${t}${["th","st","nd","rd"][t%100>10&&
 t%100<14?0:t%10]??"th"}`,Gr=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}°`,Wr=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(
 0)} cm`:`${t.toFixed(1)} m`;function oc(t,e,n){let{shown:o,status:s}=t,i=o?.layer==="draw"||o?.layer==="width"?o.layer:t.view.layer==="entropy"?"entropy":"mean";return{document:t.effectiveDocument(),
 generation:t.generation,painted:o&&{generation:o.generation,layer:i,approximate:o.approximate,sweeps:o.sweeps,method:o.method,quantity:t.quantity,rhat:o.rhat,verdict:o.
 verdict,trace:o.trace,traced:o.traced,weights:o.weights,ess:o.ess,chain:o.chain,draw:o.draw},probability:o?.p??new Uint8Array(0),observed:o?.observed??new Uint8Array(
 0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,status:{text:s.text,level:s.level},connected:t.connection.connected,decisions:{path:t.decisions.path,
-views:t.decisions.views,trouble:t.decisions.trouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:uh(t),reading:{picked:t.reading.picked,
+views:t.decisions.views,trouble:t.decisions.trouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:ph(t),reading:{picked:t.reading.picked,
 found:t.reading.found,trouble:t.reading.trouble},over:!!t.flicker.under,overlay:t.overlay&&{strokes:t.overlay.strokes.length/5,trajectory:t.overlay.trajectory.length/
 2},worker:t.worker,running:t.running,draws:t.draws,view:t.view,seq:{sent:t.acted,confirmed:t.state?.seq??0},events:{...t.counts,eventToPaint_ms:t.latency.eventToPaint_ms},
-layers:{...n.paints},transform:{...e.transform}}}function uh({ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,
-fan:o&&{...o,near:o.near&&{...o.near}}}}var sc="bayesmap-token",zr="bayesmap-kept";function ph(t){try{return localStorage.getItem(t)}catch{return null}}function Hr(t,e){try{e===null?localStorage.removeItem(
+layers:{...n.paints},transform:{...e.transform}}}function ph({ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,
+fan:o&&{...o,near:o.near&&{...o.near}}}}var sc="bayesmap-token",zr="bayesmap-kept";function dh(t){try{return localStorage.getItem(t)}catch{return null}}function Hr(t,e){try{e===null?localStorage.removeItem(
 t):localStorage.setItem(t,e)}catch{}}function Vr(t){t?.source.kind==="simulation"&&location.protocol.startsWith("http")&&Hr(zr,JSON.stringify(t))}function rc(){
-Hr(zr,null)}function ic(){let t=ph(zr);try{return t&&JSON.parse(t)}catch{return null}}function ac(t){t&&Hr(sc,t)}function lc(t){let e=n=>{n.key===sc&&n.newValue&&
+Hr(zr,null)}function ic(){let t=dh(zr);try{return t&&JSON.parse(t)}catch{return null}}function ac(t){t&&Hr(sc,t)}function lc(t){let e=n=>{n.key===sc&&n.newValue&&
 t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",e)}var cc=new Set(["walls","sensor","set","view","live"]);function uc(t,e){let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*
 s+i]=e.wall?1:0;else if(e.type==="set"){let{resolution:r,...i}=e.patch;Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type===
 "view")t.view={layer:e.layer,chain:e.chain??t.view.chain,draw:e.draw??null};else if(e.type==="sensor"&&e.op==="move"){let r=n.sensors.find(i=>i.id===e.id);r&&Object.
-assign(r,{x:e.x,y:e.y,yaw:e.yaw})}}var vs=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";version=0;looking=!1;askedPath="";askedViews="";point(e){
+assign(r,{x:e.x,y:e.y,yaw:e.yaw})}}var xs=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";version=0;looking=!1;askedPath="";askedViews="";point(e){
 this.start&&!this.goal?this.goal=e:[this.start,this.goal]=[e,null],this.path=null,this.trouble="",this.version++,this.ask(),this.session.changed()}set(e){Object.
 assign(this,e),this.ask()}look(e){this.looking!==e&&(this.looking=e,this.trouble="",e||([this.views,this.askedViews]=[null,""]),this.version++,this.ask(),this.session.
 changed())}forget(){this.start=this.goal=this.path=this.views=null,this.askedPath=this.askedViews="",this.version++}ask(){let{session:e,start:n,goal:o,radius:s,
@@ -777,15 +777,15 @@ risk:r}=this,{shown:i}=e;if(!i||i.generation!==e.generation||e.recorded)return;l
 method==="propagate")&&a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){this.trouble=e.type==="undecided"?e.text:"",e.type==="path"&&
 (this.path=e),e.type==="views"&&this.looking&&(this.views={pose:n.pose,nats:n.nats,spacing:e.spacing}),e.type==="undecided"&&(this.path=null),this.version++}nearest(e){
 let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.length;r++){let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,
-s]=[r,i])}return o}};var dh="(prefers-reduced-motion: reduce)",xs=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(dh).matches}get under(){let{mean:e,
+s]=[r,i])}return o}};var hh="(prefers-reduced-motion: reduce)",vs=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(hh).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
-mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var hh=2e3,fh=3e3,mh=2,ks=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
+mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var fh=2e3,mh=3e3,gh=2,ks=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
 version++,this.ask(),this.session.changed()}rest(){this.moving&&(this.moving=!1,this.ask())}refit(){let{pose:e,session:n}=this,o=e&&n.document&&dn(e,n.document.
 grid);(!o||!Yt(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.trouble="",this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!this.held||
 e.recorded||!n||n.generation!==e.generation)return;!this.pose&&o?.pose.length&&(this.pose={x:o.pose[0],y:o.pose[1],yaw:o.pose[2]});let{pose:s}=this;if(!s)return;
-let r=performance.now();if(r-this.askedAt>hh&&(this.waiting=0),this.waiting>=mh)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
-a=e.sampling&&r-this.askedAt>fh;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
+let r=performance.now();if(r-this.askedAt>fh&&(this.waiting=0),this.waiting>=gh)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
+a=e.sampling&&r-this.askedAt>mh;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:c,
 near_hit:u}=n,h=e.near&&{...e.near,pose:a,ranges:c,hit:u},{x:d,y:m,yaw:w,generation:y,draws:S,coarse:k,milliseconds:T}=e;this.fan={x:d,y:m,yaw:w,generation:y,draws:S,
 coarse:k,milliseconds:T,angles:o,low:s,median:r,high:i,near:h},this.answers++}else this.fan=null;this.version++,this.ask()}};var Ss=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
@@ -794,10 +794,10 @@ waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var Ms=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
 e.generation,this.from={sweeps:e.sweeps,time:performance.now()}),this.last=e.sweeps)}remaining_s(e){let n=e.sweeps-this.from.sweeps;return n>0?(e.total-e.sweeps)*
 (performance.now()-this.from.time)/n/1e3:null}};var Ts=class{constructor(e){this.session=e}picked=null;found=null;trouble="";version=0;timer=0;point(e,n){let{session:o}=this,s=o.document&&o.document.source.kind!==
-"simulation"&&!o.recorded,r=e&&s&&o.scan?gh(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=r,
+"simulation"&&!o.recorded,r=e&&s&&o.scan?yh(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=r,
 this.found=null,this.trouble="",this.version++,clearTimeout(this.timer),r&&(this.timer=window.setTimeout(()=>o.act({type:"beam",scan:r.scan,beam:r.beam}),120)),
 o.changed())}forget(){this.picked&&(clearTimeout(this.timer),this.picked=this.found=null,this.version++)}receive(e){let n=e;e.type==="undecided"?this.trouble=e.
-text:n.beam===this.picked?.beam&&n.scan===this.picked.scan&&(this.found=n),this.version++}};function gh({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)
+text:n.beam===this.picked?.beam&&n.scan===this.picked.scan&&(this.found=n),this.version++}};function yh({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)
 return null;let c={x:e[0],y:e[1]},[u,h]=[-1,1/0];for(let d=0;d<n.length;d++){let[m,w]=[Math.cos(e[2]+n[d]),Math.sin(e[2]+n[d])],[y,S]=[r.x-c.x,r.y-c.y],k=y*m+S*
 w,T=s[d]?o[d]:a,M=s[d]?Math.hypot(y-T*m,S-T*w):1/0,A=k>0&&k<T?Math.abs(y*w-S*m):1/0,E=Math.min(M,i/2+2*A);E<h&&([u,h]=[d,E])}return h<i?{scan:t,beam:u,from:c,angle:e[2]+
 n[u]}:null}var Ps=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;asked="";waitingSince=0;follow(e,n){this.sensor=n,e!==this.wanted&&
@@ -806,16 +806,16 @@ n[u]}:null}var Ps=class{constructor(e){this.session=e}found=null;trouble="";vers
 {...e,modes:i,cloud:o,weight:s},this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!n||e.recorded||e.worker!=="ready"||e.editable&&n.generation!==e.
 generation)return;let s=e.editable?"":`${e.draws.count} ${e.sampling}`,r=`${e.generation} ${e.editable?this.sensor:o?.index} ${s}`,i=performance.now();r===this.
 asked||this.waitingSince&&i-this.waitingSince<5e3||([this.asked,this.waitingSince]=[r,i],e.act(e.editable&&this.sensor!==null?{type:"where",sensor:this.sensor}:
-{type:"where"}))}};var yh=new Set(["inspect","path","views","where","ghost","beam"]),Es=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
+{type:"where"}))}};var bh=new Set(["inspect","path","views","where","ghost","beam"]),Es=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
 s;e.onmessage=(r,i)=>this.receive(r,i),e.onstatus=r=>this.onstatus(r)}connection={connected:!1};everConnected=!1;document=null;walls=new Uint8Array(0);wallsVersion=0;view={
-layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;cell=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new vs(
-this);where=new Ps(this);ghost=new ks(this);reading=new Ts(this);flicker=new xs(this);status=new ms;progress=new Ms;latency=new Ss;counts={paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];confirmedWalls={
+layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;cell=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new xs(
+this);where=new Ps(this);ghost=new ks(this);reading=new Ts(this);flicker=new vs(this);status=new ms;progress=new Ms;latency=new Ss;counts={paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];confirmedWalls={
 text:"",walls:this.walls};wallsAhead=!1;broughtAt=null;packed={version:-1,text:""};get shape(){return this.document?this.document.grid.shape:[1,1]}get editable(){
 return!this.recorded&&this.document?.source.kind==="simulation"}get running(){return!!this.state?.running}get stage(){return this.running&&this.shown?.method===
 "counts"?this.lastStage:null}get draws(){return this.state?.draws??{chains:0,count:0}}get sampling(){let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&
 (this.running||this.state?.live))}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.shown.draw??
 e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="info"){this.status.say(e,n,this.acted),
-this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;let o={...e,seq:++this.seq};yh.has(e.type)||(this.acted=this.seq),cc.has(e.type)&&(this.pending.
+this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;let o={...e,seq:++this.seq};bh.has(e.type)||(this.acted=this.seq),cc.has(e.type)&&(this.pending.
 push(o),this.foresee(o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&Vr(this.portableDocument()),this.changed()}bring(e){
 this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.wallsVersion&&(this.packed=
 {version:this.wallsVersion,text:$o(Mi(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.effectiveDocument();
@@ -1076,12 +1076,12 @@ hatch:a,unobserved:c,draw:u,ghost:h}=n;for(let[d,m]of Object.entries({truth:o,ra
 `--${d}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=hc[this.choice];try{localStorage.setItem(fc,this.choice)}catch{}this.dress()}destroy(){
 this.media.removeEventListener("change",this.listen)}};function vh(){try{return localStorage.getItem(fc)}catch{return null}}function As(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(pc+dc),r.adoptedStyleSheets=
 [i],t.toggleAttribute("data-embedded",n);let a=0,c=()=>{a||=requestAnimationFrame(Ue)},u=new Es(e,c,o,s),h=new Un,d=new Wo(u),m=new Go(u,d),w=new ws(u),y=new bs(
-u,d,m,ae,Y=>w.showLayer(Y),n),S=[new Wn,new Hn,new jn,new Bn,new Jo,new Vn,new Gn,new Kn,new zn,new Bo],k=S.map(({name:Y})=>x("canvas",{className:Y})),T=k[k.length-
+u,d,m,ae,Y=>w.showLayer(Y),n),S=[new Wn,new Hn,new jn,new Bn,new Jo,new Vn,new Gn,new Kn,new zn,new Bo],k=S.map(({name:Y})=>v("canvas",{className:Y})),T=k[k.length-
 1];Object.assign(T,{tabIndex:0,role:"application"});let M=new Ho(S,k);new Vo(T,u,h,d,m,n);let A=new zo(T,u,h,d,m),E={truth:!0,rays:!0,readings:!0,strokes:!0,trajectory:!0},
-K=$l(y),N=Xi(y),Z={chip:zl(y),banner:Hl(y)},H=x("main",{className:"stage"},...k,Z.chip,Z.banner),R=()=>X.theme,W=Il(y,R),C=Vl(y);T.setAttribute("aria-describedb\
+K=$l(y),N=Xi(y),Z={chip:zl(y),banner:Hl(y)},H=v("main",{className:"stage"},...k,Z.chip,Z.banner),R=()=>X.theme,W=Il(y,R),C=Vl(y);T.setAttribute("aria-describedb\
 y",C.readout.id);let q=Rl(y),O={help:Ll(y),new:Dl(y),share:q.dialog},[V,G,ne,B]=[ql(y),Yl(y),Jl(y),Zl(y)],Je=[Cl(y),nc(y),Fl(y),Ul(y),jl(y,_l(y,R),Al(y,R)),Xl(y),
-Kl(y),Ql(y,w,E),V,G,Bl(y),ne,B],me=x("aside",{"aria-label":"Controls"},...Je),re=()=>u.recorded||u.document?.source.kind==="run";y.visible(V,()=>u.editable),y.visible(
-G,()=>!re()),y.visible(ne,()=>!re()),y.visible(B,()=>!re()),y.each(()=>{D(N,"inert",!u.document),D(me,"inert",!u.document)});let ue=x("div",{className:"app"},K.
+Kl(y),Ql(y,w,E),V,G,Bl(y),ne,B],me=v("aside",{"aria-label":"Controls"},...Je),re=()=>u.recorded||u.document?.source.kind==="run";y.visible(V,()=>u.editable),y.visible(
+G,()=>!re()),y.visible(ne,()=>!re()),y.visible(B,()=>!re()),y.each(()=>{D(N,"inert",!u.document),D(me,"inert",!u.document)});let ue=v("div",{className:"app"},K.
 element,N,H,W,me,C.element,...Object.values(O));r.replaceChildren(ue);let X=new _s(ue,Y=>{K.nameTheme(Y),c()}),z=()=>{let Y=u.editable&&d.tool==="sensor"?d.sensor?.
 id??null:null;return{session:u,view:h,look:{theme:X.theme,...E,hover:d.hover,cursor:d.cursor,selected:Y}}},Ee="";function Ue(){a=0;let Y=u.take();u.document&&String(
 u.shape)!==Ee&&(Ee=String(u.shape),h.fit(u.shape),d.cursor=d.hover=null,u.decisions.forget(),u.ghost.refit(),T.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.
@@ -1103,24 +1103,24 @@ t.mean),u=Wt(t.observed),h=null,d=0,m={layer:"mean",chain:0,draw:null},w=R=>a?[R
 hit),n.pose.length*S),T=()=>a?k.subarray(d*S,(d+1)*S):k,M=Float32Array.from(s.flat()),A=(o.sweeps??i)/Math.max(1,i),E=Float32Array.from(s[0]??[],(R,W)=>(W+1)*A),
 K=R=>{let W={chains:t.draws?.chains??0,count:h?i:0},C={generation:1,can_undo:!1,can_redo:!1,live:!1,running:!1};H.onmessage({type:"state",document:e,seq:R,...C,
 draws:W,view:m},{})},N=()=>{let R=Float64Array.from(w(n.pose).flat(),Number),W={type:"scan",generation:1,ids:a?[d]:n.ids,index:a?d:null},C=n.exact?.length?y(n.exact):
-new Float32Array(0);H.onmessage(W,{pose:R,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:C,hit:T()})},Z=()=>{let R=m.layer==="draw"&&h?xh(h,m.chain*
+new Float32Array(0);H.onmessage(W,{pose:R,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:C,hit:T()})},Z=()=>{let R=m.layer==="draw"&&h?kh(h,m.chain*
 i+(m.draw??i-1),r):null,W=s[m.chain]?.[(m.layer==="draw"?m.draw:null)??i-1]??null,C=R?{...m,draw:m.draw??i-1}:{layer:m.layer==="draw"?"mean":m.layer},q=o.sweeps??
 i,O={quantity:o.quantity,sweeps:q,total:q,ess:o.ess,rhat:o.rhat,verdict:o.verdict,log_joint:W},V=o.method??e.method,G={p:R??c,observed:u,trace:M,traced:E};H.onmessage(
 {type:"field",generation:1,...C,method:V,approximate:!1,...O},G)},H={...so(),open:()=>H.onstatus({connected:!0}),send:R=>{if(R.type==="hello"){if(H.onmessage({type:"\
 welcome",version:1,recorded:!0},{}),K(R.seq),N(),Z(),!i||!t.draws)return;Io(Wt(t.draws.data)).then(W=>{h=W,K(R.seq)})}else if(R.type==="view")m={layer:R.layer,chain:R.
-chain??m.chain,draw:R.draw??null},K(R.seq),Z();else if(R.type==="scan")d=R.index,K(R.seq),N();else if(R.type==="inspect"){let W=kh(e,n.angles,w(n.pose),w(n.ranges),
-R.x,R.y);H.onmessage({type:"cell",x:R.x,y:R.y,beams:W},{})}},close:()=>{}};return H}function xh(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>
-3]>>7-(o+r&7)&1?255:0)}function kh({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,c=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((h,d)=>{let[m,w,y]=h.map(Number);
+chain??m.chain,draw:R.draw??null},K(R.seq),Z();else if(R.type==="scan")d=R.index,K(R.seq),N();else if(R.type==="inspect"){let W=Sh(e,n.angles,w(n.pose),w(n.ranges),
+R.x,R.y);H.onmessage({type:"cell",x:R.x,y:R.y,beams:W},{})}},close:()=>{}};return H}function kh(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>
+3]>>7-(o+r&7)&1?255:0)}function Sh({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,c=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((h,d)=>{let[m,w,y]=h.map(Number);
 e.forEach((S,k)=>{let[T,M]=[Math.cos(S+y),Math.sin(S+y)],A=[(c[0]-m)/T,(c[0]+a-m)/T,(c[1]-w)/M,(c[1]+a-w)/M],E=Math.max(0,Math.min(A[0],A[1]),Math.min(A[2],A[3])),
-K=Math.min(o[d][k]??1/0,Math.max(A[0],A[1]),Math.max(A[2],A[3]));E<K&&u++})}),u}var jr=250,Sh=8e3;function wc(t){let e=null,n=jr,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+K=Math.min(o[d][k]??1/0,Math.max(A[0],A[1]),Math.max(A[2],A[3]));E<K&&u++})}),u}var jr=250,Mh=8e3;function wc(t){let e=null,n=jr,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let c=new WebSocket(a),u=!1;e=c,c.binaryType="arraybuffer",c.onopen=()=>{u=!0,n=jr,i.onstatus({connected:!0})},c.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...gc(h))},c.onclose=()=>{if(s||e!==c)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
-h),u||Mh(t()).then(d=>d&&e===c&&i.onstatus({...h,refused:d})),n=Math.min(Sh,2*n)}}let i={...so(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
-a))},retry:()=>{n=jr,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};return i}async function Mh(t){try{return(await fetch(t.pathname+
-t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function vc(t){let e=(o,s=[])=>n.onmessage(o,yc(o,s)),n={...so(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
-sg:custom",e)};return n}var Th="This is the map that was drawn here when the connection was lost; undo leads back",Kr=t=>Object.assign(window,{bayesmap:t}),C0={render({model:t,el:e}){let n=document.
-createElement("div");e.append(n);let o=As(n,vc(t),{embedded:!0});return Kr(o),()=>o.destroy()}};async function Ph(){let t=document.querySelector("[data-bayesmap\
+h),u||Th(t()).then(d=>d&&e===c&&i.onstatus({...h,refused:d})),n=Math.min(Mh,2*n)}}let i={...so(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
+a))},retry:()=>{n=jr,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};return i}async function Th(t){try{return(await fetch(t.pathname+
+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function xc(t){let e=(o,s=[])=>n.onmessage(o,yc(o,s)),n={...so(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
+sg:custom",e)};return n}var Ph="This is the map that was drawn here when the connection was lost; undo leads back",Kr=t=>Object.assign(window,{bayesmap:t}),L0={render({model:t,el:e}){let n=document.
+createElement("div");e.append(n);let o=As(n,xc(t),{embedded:!0});return Kr(o),()=>o.destroy()}};async function Eh(){let t=document.querySelector("[data-bayesmap\
 ]");if(!t||t.shadowRoot)return;let e=new CSSStyleSheet;e.replaceSync("body { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector("sc\
 ript[data-recording]");if(n){Kr(As(t,bc(JSON.parse(n.textContent??""))));return}ac(new URLSearchParams(location.search).get("token"));let{document:o,damaged:s}=await Uo(),
 r=o?null:ic(),i=wc(()=>new URL(location.href));lc(c=>{history.replaceState(null,"",`${location.pathname}?token=${encodeURIComponent(c)}${location.hash}`),i.retry?.()}),
-Kr(As(t,i,{adopt:o??r,notice:s?{text:Oo,level:"error"}:r?{text:Th,level:"info"}:null}))}Ph();export{C0 as default,As as mount,bc as recordedTransport,wc as webSocketTransport,vc as widgetTransport};
+Kr(As(t,i,{adopt:o??r,notice:s?{text:Oo,level:"error"}:r?{text:Ph,level:"info"}:null}))}Eh();export{L0 as default,As as mount,bc as recordedTransport,wc as webSocketTransport,xc as widgetTransport};
