@@ -55,22 +55,37 @@ class Compared:
         return self.now / self.before if self.better == "lower" else self.before / self.now
 
 
-def compare(before: Path, now: Path, suite: str, measure: Measure) -> list[Compared]:
-    """Measure a suite in both states in turn, until nothing looks worse or `MOST_ROUNDS` are done."""
-    found: dict[Path, dict[str, list[dict[str, Any]]]] = {before: {}, now: {}}
-    result: list[Compared] = []
-    for number in range(MOST_ROUNDS):
+def compare(
+    before: Path,
+    now: Path,
+    suite: str,
+    measure: Measure,
+    report: Callable[[int, list[Compared]], None] = lambda number, found: None,
+) -> list[Compared]:
+    """Measure a suite in both states in turn, until nothing looks worse or `MOST_ROUNDS` are done.
+
+    Args:
+        before: folder of the earlier state.
+        now: folder of this one.
+        suite: what is measured.
+        measure: a suite's figures in a state.
+        report: is given the number of each round when it is over, and what was found up to then.
+    """
+    measured: dict[Path, dict[str, list[dict[str, Any]]]] = {before: {}, now: {}}
+    found: list[Compared] = []
+    for number in range(1, MOST_ROUNDS + 1):
         for state in (before, now):
             for name, figure in measure(state, suite).items():
-                found[state].setdefault(name, []).append(figure)
-        result = [
-            Compared(name, _best(found[before][name]), _best(figures), figures[0]["unit"], figures[0]["better"])
-            for name, figures in found[now].items()
-            if name in found[before]
+                measured[state].setdefault(name, []).append(figure)
+        found = [
+            Compared(name, _best(measured[before][name]), _best(figures), figures[0]["unit"], figures[0]["better"])
+            for name, figures in measured[now].items()
+            if name in measured[before]
         ]
-        if number + 1 >= ROUNDS and not any(one.factor > WORSE for one in result):
+        report(number, found)
+        if number >= ROUNDS and not any(one.factor > WORSE for one in found):
             break
-    return result
+    return found
 
 
 def _best(figures: list[dict[str, Any]]) -> float:
@@ -119,12 +134,15 @@ def main() -> int:
     parser.add_argument("suites", nargs="*", choices=[[], *SUITES], help="default: all")
     options = parser.parse_args()
     before, worse = laid_out(options.revision), []
-    for suite in options.suites or SUITES:
-        for one in compare(before, ROOT, suite, measure):
+
+    def report(number: int, found: list[Compared]) -> None:
+        print(f"{suite}: the best of {number} {'round' if number == 1 else 'rounds'}", flush=True)
+        for one in found:
             row = f"{one.name:34} {one.before:10.4g} -> {one.now:10.4g} {one.unit:12} {one.factor:5.2f} x"
             print(row, flush=True)
-            if one.factor > WORSE:
-                worse.append(one.name)
+
+    for suite in options.suites or SUITES:
+        worse += [one.name for one in compare(before, ROOT, suite, measure, report) if one.factor > WORSE]
     if worse:
         print(f"worse by more than {WORSE} x: {', '.join(worse)}")
     return 1 if worse else 0

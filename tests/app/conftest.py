@@ -7,6 +7,16 @@ from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragme
 import bayesmap as bm
 
 
+def pytest_collection_modifyitems(items):
+    """A test in a real browser gets a second try: browser, server and worker share a machine that may be busy.
+
+    The summary of the run names the tests that needed it.
+    """
+    for item in items:
+        if "browser" in item.fixturenames:
+            item.add_marker(pytest.mark.flaky(reruns=1))
+
+
 @pytest.fixture(scope="session")
 def browser():
     """Debian's Chromium without a head."""

@@ -27,7 +27,7 @@ ARGUMENTS = (
     "--disable-sync",
     "--no-first-run",
 )
-WAIT_SECONDS = 30.0
+WAIT_SECONDS = 90.0
 DESKTOP = {"viewport": {"width": 1280, "height": 860}, "color_scheme": "light"}
 
 NO_WALLS = base64.b64encode(bytes(56)).decode()

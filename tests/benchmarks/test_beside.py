@@ -58,3 +58,10 @@ def test_lower_rates_are_worse():
 def test_what_only_one_state_measures_is_left_out():
     states = States(old=[{"a": figure(1.0), "gone": figure(1.0)}], new=[{"a": figure(1.0), "new": figure(1.0)}])
     assert [one.name for one in compare(OLD, NEW, "s", states)] == ["a"]
+
+
+def test_each_round_says_what_was_found_up_to_then():
+    states = States(old=[{"a": figure(2.0)}], new=[{"a": figure(9.0)}, {"a": figure(2.0)}])
+    rounds = []
+    compare(OLD, NEW, "s", states, lambda number, found: rounds.append((number, found[0].now)))
+    assert rounds == [(1, 9.0), (2, 2.0)]

@@ -55,6 +55,7 @@ def test_every_command_is_listed_and_described():
         ["demo", "-o", ""],
         ["simulate", "-o", "scans.txt"],
         ["simulate", "--pose", "here"],
+        ["simulate", "--pose", "nan,0,0"],
     ],
 )
 def test_usage_errors_exit_2(arguments):

@@ -163,6 +163,31 @@ def test_scan_returns_the_last_state_and_the_stacked_outputs():
     agrees(trace)
 
 
+EMPTY = jnp.zeros(0)
+
+
+@pytest.mark.parametrize(
+    ("model", "args"),
+    [
+        (genjax.normal.vmap(), (EMPTY, EMPTY)),
+        (genjax.normal.repeat(n=0), (0.0, 1.0)),
+        (genjax.normal.repeat(n=3).vmap(in_axes=(0, None)), (EMPTY, 1.0)),
+        (draw.vmap(), (EMPTY,)),
+        (draw.repeat(n=0), (0.0,)),
+        (step.scan(), (0.0, EMPTY)),
+        (walk.iterate(n=0), (0.0,)),
+        (genjax.gen(lambda: step.scan()(0.0, EMPTY) @ "steps"), ()),
+    ],
+)
+def test_what_has_no_elements_needs_no_choices(model, args):
+    trace = model.simulate(KEY, args)
+    score, retval = model.assess(trace.get_choices(), args)
+    assert score == trace.get_score() == 0.0
+    assert jax.tree.map(jnp.shape, retval) == jax.tree.map(jnp.shape, trace.get_retval())
+    assert model.importance(KEY, C.n(), args)[1] == 0.0
+    assert trace.update(KEY, C.n())[1] == 0.0
+
+
 def test_iterate_and_accumulate_return_every_state_the_others_the_last():
     """D.22."""
     add = genjax.gen(lambda state, x: genjax.normal(state + x, 1.0) @ "z")

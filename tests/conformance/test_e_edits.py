@@ -214,3 +214,16 @@ def test_a_function_defined_in_the_body_is_scored_anew():
     new, weight, _, _ = trace.edit(KEY, Update(C["x"].set(3.0)))
     changes_by_the_joint(trace, new, weight)
     assert new.get_choices()["inner", "y"] == trace.get_choices()["inner", "y"]
+
+
+@pytest.mark.parametrize("moved", [None, (jnp.ones(3), 0.5, 1 + jnp.arange(4.0))])
+def test_an_update_without_choices_replaces_none(moved):
+    normals = sensor.vmap(in_axes=(None, None, 0))
+    args = (jnp.ones(3), 0.5, jnp.arange(4.0))
+    trace = normals.simulate(KEY, args)
+    argdiffs = None if moved is None else Diff.unknown_change(moved)
+    new, weight, _, replaced = trace.update(KEY, C.n(), argdiffs)
+    assert replaced.static_is_empty()
+    expected, _ = normals.assess(trace.get_choices(), moved or args)
+    np.testing.assert_allclose(weight, expected - trace.get_score(), rtol=1e-5)
+    np.testing.assert_allclose(new.get_score(), expected, rtol=1e-6)

@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 Cells = Mapping[str, NDArray[Any]]
 """One map: the arrays that a kind declares, each (nx, ny)."""
 
-BATCH_BYTES = 32 << 20
+BATCH_BYTES = 12 << 20
 """Of stops that are held at a time."""
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from bayesmap.cli.typed_numbers import numbers_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -137,10 +138,7 @@ def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
     Raises:
         click.BadParameter: something else; the message names the flag.
     """
-    try:
-        x, y, degrees = (float(part) for part in text.split(","))
-    except ValueError:
-        raise click.BadParameter(f"{text!r} is not X,Y,DEGREES", param_hint=f"'{flag}'") from None
+    x, y, degrees = numbers_of(text, flag, "X,Y,DEGREES", (3,))
     return x, y, math.radians(degrees)
 
 

@@ -23,6 +23,17 @@ class Mapped(NamedTuple):
         pairs = zip(self.leaves, self.axes, strict=True)
         return self.rebuild([x if axis is None else jnp.take(x, i, axis=axis) for x, axis in pairs])
 
+    def element_shapes(self) -> list[jax.ShapeDtypeStruct]:
+        """Shapes and dtypes of an element's leaves, also where there is no element."""
+
+        def one(x: Any, axis: int | None) -> jax.ShapeDtypeStruct:
+            shape = list(jnp.shape(x))
+            if axis is not None:
+                del shape[axis]
+            return jax.ShapeDtypeStruct(tuple(shape), jnp.result_type(x))  # type: ignore[no-untyped-call]
+
+        return [one(x, axis) for x, axis in zip(self.leaves, self.axes, strict=True)]
+
     def vmap(self, fn: Callable[..., Any], *mapped: Any) -> Any:
         """`fn(*(x[i] for x in mapped), element(i))` for every i, stacked."""
 

@@ -29,7 +29,7 @@ from bayesmap.gen.errors import AddressError
 from bayesmap.gen.fluent import Fluent
 from bayesmap.gen.outline import Outlined, leaf_text
 from bayesmap.gen.pytree import Pytree
-from bayesmap.gen.requests import Edited, EditRequest, Update
+from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -107,6 +107,8 @@ class Trace(Outlined, Pytree):
     def update(self, key: PRNGKey, constraint: ChoiceMap, argdiffs: Any = None) -> tuple[Self, Weight, Any, ChoiceMap]:
         """Change the choices in `constraint`: (new trace, weight, retdiff, the choices replaced)."""
         trace, weight, retdiff, backward = self.edit(key, Update(constraint), argdiffs)
+        if isinstance(backward, EmptyRequest):
+            return trace, weight, retdiff, ChoiceMap.empty()
         if not isinstance(backward, Update):
             raise TypeError(f"This update is undone by {type(backward).__name__}, not by choices; use edit")
         return trace, weight, retdiff, backward.constraint

@@ -44,7 +44,11 @@ class Product(ExactDensity):
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
         mapped, below = self._map(args), []
-        jax.eval_shape(lambda: below.append(self.inner.index_shape(mapped.element(0))))
+
+        def of_element(leaves: list[Any]) -> None:
+            below.append(self.inner.index_shape(mapped.rebuild(leaves)))
+
+        jax.eval_shape(of_element, mapped.element_shapes())
         return (mapped.n, *below[0])
 
     def in_support(self, value: Any) -> Any:

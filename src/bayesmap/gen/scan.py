@@ -94,8 +94,12 @@ class Scan(GenerativeFunction):
             return state, (score, out)
 
         n = self._length(args)
+        each = vectorise(choices, n)
+        if n == 0:  # nothing is drawn, and what has no elements is in no choice map
+            none = self.simulate(jax.random.key(0), args)
+            return none.get_score(), none.get_retval()
         start = jax.tree.map(jnp.asarray, args[0])
-        state, (scores, out) = jax.lax.scan(step, start, (args[1], vectorise(choices, n)), length=n)
+        state, (scores, out) = jax.lax.scan(step, start, (args[1], each), length=n)
         return total(scores), (state, out)
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:

@@ -73,7 +73,11 @@ class Vmap(GenerativeFunction):
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         mapped = self._map(args)
-        scores, retvals = mapped.vmap(self.inner.assess, vectorise(choices, mapped.n))
+        each = vectorise(choices, mapped.n)
+        if mapped.n == 0:  # nothing is drawn, and what has no elements is in no choice map
+            none = self.simulate(jax.random.key(0), args)
+            return none.get_score(), none.get_retval()
+        scores, retvals = mapped.vmap(self.inner.assess, each)
         return total(scores), retvals
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:

@@ -64,7 +64,7 @@ def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
     if states.ndim == 3:
         padded = np.zeros((*states.shape[:2], 8), dtype=np.float32)
         padded[..., : states.shape[2]] = states
-        maps.surface = wp.array(padded, dtype=Cell, device=device)
+        maps.surface = wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
     else:
         maps.stop = devices.to_device(states, wp.float32, device)
     return maps

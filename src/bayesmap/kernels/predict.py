@@ -21,7 +21,7 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_stop import Maps, StopStates, put_maps, stop_in
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.rays import Lines, line_of, put_rays
+from bayesmap.kernels.rays import Lines, first_past, line_of, put_rays
 from bayesmap.kernels.sensor_law import (
     MIXTURE,
     NOISE,
@@ -42,6 +42,8 @@ Floats = NDArray[np.float64]
 # reading; the mixture has a floor.
 GONE = wp.constant(wp.float64(1.0e-30))
 GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
+CELLS_BEYOND = 4.0
+"""Cells past a reading's reach whose surfaces may still explain it, by their extent along the beam."""
 
 
 @wp.func
@@ -85,6 +87,7 @@ def add_forecasts(
     maps: Maps,
     draws: int,
     range_m: wp.array(dtype=wp.float64),
+    reach_m: wp.array(dtype=wp.float64),
     with_cumulative: int,
     most: wp.array(dtype=wp.float64),
     total: wp.array(dtype=wp.float64),
@@ -92,7 +95,10 @@ def add_forecasts(
     below_max: wp.array(dtype=wp.float64),
     below_min: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam: add the law of its reading under each draw of a batch to running sums."""
+    """One thread a beam: add the law of its reading under each draw of a batch to running sums.
+
+    A stop in a cell that the beam enters past its reach explains the reading as well as none at all.
+    """
     b = first + wp.tid()
     z = range_m[b]
     if wp.isnan(z):
@@ -106,10 +112,15 @@ def add_forecasts(
         at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
     gone = weight_of_nothing(law)
     decay = object_decay(law, z)
+    past = first_past(line, cells, offsets[b], offsets[b + 1], reach_m[b], wp.float64(0.0))
     for d in range(draws):
         survive = wp.float64(1.0)
         for i in range(offsets[b + 1] - offsets[b] + 1):
             k = offsets[b] + i
+            if k == past:
+                sums = add_stop(law, sums, survive, z, decay, nowhere)
+                if with_cumulative == 0:
+                    break
             weight = survive
             stop = nowhere
             if k < offsets[b + 1]:
@@ -117,7 +128,8 @@ def add_forecasts(
                 weight = survive * stop[0]
                 survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
-                sums = add_stop(law, sums, weight, z, decay, stop)
+                if k < past:
+                    sums = add_stop(law, sums, weight, z, decay, stop)
                 if with_cumulative != 0:
                     below[b] = below[b] + weight * cumulative(law, at, stop[1], stop[2])
                     if law.kind != NOISE:
@@ -167,6 +179,18 @@ def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
     return tabulated(sensor, limits).typed if parameters is None else parameters.robust
 
 
+def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
+    """Of each reading how far away a stop may be to make it likelier than no stop would, metres; infinite if any may.
+
+    Args:
+        range_m: readings.
+        sensor: their law.
+        limits: of the sensor.
+        resolution_m: edge of the map's cells.
+    """
+    return np.asarray(sensor.reach_m(range_m, limits) + CELLS_BEYOND * resolution_m)
+
+
 def _sums(
     rays: Rays,
     batches: Iterable[StopStates],
@@ -183,11 +207,12 @@ def _sums(
     total = wp.zeros(beams, dtype=wp.float64, device=device)
     cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
     fixed = [*put_rays(rays, device), devices.to_device(rays.columns, wp.int32, device)]
-    ranges = devices.to_device(rays.range_m, wp.float64, device)
+    reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
+    readings = [devices.to_device(a, wp.float64, device) for a in (rays.range_m, reach_m)]
     draws = 0
     for batch in batches:
         draws += len(batch)
-        inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), ranges, int(with_cumulative)]
+        inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
         launch(add_forecasts, beams, [*inputs, most, total, *cumulatives], device)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")

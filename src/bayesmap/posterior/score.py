@@ -11,7 +11,7 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import Predictor, predictor_of
 from bayesmap.posterior.progress_shares import watched
-from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.scans import Reading, Scans
 
 
@@ -35,14 +35,16 @@ def beam_log_scores(
     Raises:
         BadInput: no valid reading, or no draw.
     """
-    from bayesmap.kernels.predict import log_densities
+    from bayesmap.kernels.predict import explained_within_m, log_densities
     from bayesmap.kernels.rays import trace_rays
 
     if not (scans.readings != Reading.INVALID).any():
         raise BadInput("score: none of the scans has a valid reading")
-    rays, draws = trace_rays(scans, predictor.grid, device=device), predictor.draws
+    sensor, limits = predictor.sensor, RangeLimits(scans.min_range_m, scans.max_range_m)
+    reach_m = explained_within_m(scans.ranges_m.ravel(), sensor, limits, predictor.grid.resolution)
+    rays, draws = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device), predictor.draws
     batches = watched(predictor.batches(rays.touched), draws, lambda share: on_progress(round(share * draws), draws))
-    return log_densities(rays, batches, predictor.sensor, predictor.hit_depth, device=device)
+    return log_densities(rays, batches, sensor, predictor.hit_depth, device=device)
 
 
 def log_score(
