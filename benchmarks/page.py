@@ -20,8 +20,26 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.page_hand import EVENTS_PER_SECOND, by_hand
+
 ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]
-EVENTS_PER_SECOND = 30.0
+
+DRAG = by_hand(
+    """
+    const s = bayesmap.snapshot();
+    const at = placeOf([s.sensors[0].x, s.sensors[0].y]);
+    const reach = 1.5 * s.transform.scale * Math.max(1, s.document.grid.shape[0] / 60);
+    const generations = new Set();
+    point("pointerdown", at);
+    const found = await steadily(given[0], given[1],
+      (t) => point("pointermove", { x: at.x + reach * Math.sin(2 * t), y: at.y + reach * Math.sin(3 * t) / 2 }),
+      () => generations.add(bayesmap.snapshot().painted.generation));
+    point("pointerup", at);
+    const painted = generations.size - 1;
+    await new Promise((done) => setTimeout(done, 600));
+    return { ...found, painted, times: [...bayesmap.snapshot().events.eventToPaint_ms] };
+    """
+)
 
 
 @contextlib.contextmanager
@@ -91,57 +109,31 @@ def drag(page: Any, seconds: float, name: str) -> None:
     """Drags the robot to and fro about where it stands, at 30 pointer events a second of the page's own clock."""
     until(page, "s.painted?.generation === s.generation")
     page.evaluate("bayesmap.snapshot().events.eventToPaint_ms.length = 0")
-    found = page.evaluate(
-        """([seconds, rate]) => new Promise((done) => {
-          const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas[role=application]");
-          const s = bayesmap.snapshot();
-          const { resolution, origin } = s.document.grid;
-          const robot = s.sensors[0];
-          const half = (v, axis) => (v - origin[axis]) / resolution - 0.5;
-          const at = bayesmap.cellToClient(half(robot.x, 0), half(robot.y, 1));
-          const reach = 1.5 * s.transform.scale * Math.max(1, s.document.grid.shape[0] / 60);
-          const say = (type, x, y) => canvas.dispatchEvent(new PointerEvent(type,
-            { clientX: x, clientY: y, pointerId: 1, bubbles: true, pointerType: "mouse" }));
-          canvas.setPointerCapture = () => {};
-          const generations = new Set();
-          let sent = 0, stop = false;
-          const look = () => {
-            generations.add(bayesmap.snapshot().painted.generation);
-            if (!stop) requestAnimationFrame(look);
-          };
-          say("pointerdown", at.x, at.y);
-          const start = performance.now();
-          look();
-          const timer = setInterval(() => {
-            const t = (performance.now() - start) / 1000;
-            if (t > seconds) {
-              clearInterval(timer);
-              stop = true;
-              say("pointerup", at.x, at.y);
-              const painted = generations.size - 1;
-              const times = () => [...bayesmap.snapshot().events.eventToPaint_ms];
-              setTimeout(() => done({ painted, sent, seconds: t, times: times() }), 600);
-              return;
-            }
-            sent++;
-            say("pointermove", at.x + reach * Math.sin(2 * t), at.y + reach * Math.sin(3 * t) / 2);
-          }, 1000 / rate);
-        })""",
-        [seconds, EVENTS_PER_SECOND],
-    )
+    found = page.evaluate(DRAG, [seconds, EVENTS_PER_SECOND])
     painted, sent = found["painted"] / found["seconds"], found["sent"] / found["seconds"]
     rate = f"{painted:.1f} posteriors/s painted of {sent:.1f} events/s"
     report(f"{name}: drag for {seconds:.0f} s", rate)
     report(f"{name}: event to paint", f"{spread(found['times'])} ({len(found['times'])} events)")
 
 
-def large(page: Any) -> None:
+def new_building(page: Any, width: int, height: int) -> None:
     page.get_by_role("button", name="New map").click()
     page.get_by_label("World").select_option("building")
-    page.get_by_label("Width").fill("500")
-    page.get_by_label("Height").fill("500")
+    page.get_by_role("spinbutton", name="Width").fill(str(width))
+    page.get_by_role("spinbutton", name="Height").fill(str(height))
     page.get_by_role("button", name="Create").click()
-    until(page, "s.document.grid.shape[0] === 500 && s.painted?.generation === s.generation")
+    until(page, f"s.document.grid.shape[0] === {width} && s.painted?.generation === s.generation")
+    page.wait_for_timeout(1500)
+
+
+def many_beams(page: Any, sensors: int, angles: int) -> None:
+    """Sensors and beams on the map that there is."""
+    for count in range(2, sensors + 1):
+        page.get_by_role("button", name="Add a sensor").click()
+        until(page, f"s.sensors.length === {count} && s.seq.confirmed === s.seq.sent")
+    page.get_by_role("spinbutton", name="Angles").fill(str(angles))
+    page.get_by_role("spinbutton", name="Angles").press("Tab")
+    until(page, f"s.document.angles === {angles} && s.seq.confirmed === s.seq.sent")
     page.wait_for_timeout(1500)
 
 
@@ -181,7 +173,11 @@ def main() -> None:
             times += [timed(page, "Run", f"{kept} && s.generation > {before}")]
         report("1000 Gibbs sweeps, two chains: click to last picture", spread(times))
         export_size(page)
-        large(page)
+        new_building(page, 120, 80)
+        many_beams(page, 8, 1000)
+        drag(page, options.seconds, "120 x 80, 8 x 1000 beams")
+        many_beams(page, 8, 100)
+        new_building(page, 500, 500)
         drag(page, options.seconds, "500 x 500, 100 beams")
         page.get_by_role("spinbutton", name="Sweeps").fill("100000")
         page.get_by_role("spinbutton", name="Sweeps").press("Tab")

@@ -15,50 +15,37 @@ from typing import Any
 import numpy as np
 
 import bayesmap as bm
-from benchmarks.page import ARGUMENTS, EVENTS_PER_SECOND, report, served, spread, until
+from benchmarks.page import ARGUMENTS, report, served, spread, until
+from benchmarks.page_hand import EVENTS_PER_SECOND, by_hand
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", Path(__file__).parents[2] / "shared" / "data"), "intel-corrected.log.gz")
 MAX_RANGE_M = 20.0
 SCREEN = {"width": 1280, "height": 860}
 
-DRAG = """([seconds, rate, path]) => new Promise((done) => {
-  const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas[role=application]");
-  canvas.setPointerCapture = () => {};
-  const { grid } = bayesmap.snapshot().document;
-  const at = ([x, y]) => bayesmap.cellToClient(
-    (x - grid.origin[0]) / grid.resolution - 0.5, (y - grid.origin[1]) / grid.resolution - 0.5);
-  const say = (type, place) => { const { x, y } = at(place); canvas.dispatchEvent(new PointerEvent(type,
-    { clientX: x, clientY: y, pointerId: 1, bubbles: true, pointerType: "mouse" })); };
-  // a fan shows where the ghost was when it was asked for: how long ago was that, when it is painted?
-  const moved = new Map(), painted = [];
-  let sent = 0, last = 0, stop = false;
-  const look = () => {
-    const { fan, answers, pose } = bayesmap.snapshot().ghost;
-    if (answers !== last && fan) {
-      last = answers;
-      const key = `${fan.x} ${fan.y}`;
-      if (moved.has(key)) painted.push(performance.now() - moved.get(key));
-    }
-    if (!stop) requestAnimationFrame(look);
-  };
-  say("pointerdown", path[0]);
-  const start = performance.now();
-  look();
-  const timer = setInterval(() => {
-    const t = (performance.now() - start) / 1000;
-    if (t > seconds) {
-      clearInterval(timer);
-      stop = true;
-      say("pointerup", path[sent % path.length]);
-      done({ painted, sent, seconds: t });
-      return;
-    }
-    sent++;
-    say("pointermove", path[sent % path.length]);
-    const { pose } = bayesmap.snapshot().ghost;
-    moved.set(`${pose.x} ${pose.y}`, performance.now());
-  }, 1000 / rate);
-})"""
+DRAG = by_hand(
+    """
+    const [seconds, rate, path] = given;
+    // a fan shows where the ghost was when it was asked for: how long ago was that, when it is painted?
+    const moved = new Map(), painted = [];
+    let last = 0;
+    point("pointerdown", placeOf(path[0]));
+    const found = await steadily(seconds, rate,
+      (t, sent) => {
+        point("pointermove", placeOf(path[sent % path.length]));
+        const { pose } = bayesmap.snapshot().ghost;
+        moved.set(`${pose.x} ${pose.y}`, performance.now());
+      },
+      () => {
+        const { fan, answers } = bayesmap.snapshot().ghost;
+        if (answers === last || !fan) return;
+        last = answers;
+        const when = moved.get(`${fan.x} ${fan.y}`);
+        if (when !== undefined) painted.push(performance.now() - when);
+      });
+    point("pointerup", placeOf(path[found.sent % path.length]));
+    return { ...found, painted };
+    """
+)
 
 FRAMES = """([click, seconds]) => new Promise((done) => {
   const root = document.querySelector("[data-bayesmap]").shadowRoot;
@@ -80,31 +67,23 @@ FRAMES = """([click, seconds]) => new Promise((done) => {
   look();
 })"""
 
-SCRUB = """([seconds, rate]) => new Promise((done) => {
-  const slider = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("input[aria-label='Scans used']");
-  const generations = new Set();
-  let sent = 0, stop = false;
-  const look = () => {
-    const { generation, method } = bayesmap.snapshot().painted;
-    if (method === "hits") generations.add(generation);
-    if (!stop) requestAnimationFrame(look);
-  };
-  look();
-  const start = performance.now();
-  const timer = setInterval(() => {
-    const t = (performance.now() - start) / 1000;
-    if (t > seconds) {
-      clearInterval(timer);
-      stop = true;
-      slider.dispatchEvent(new Event("change"));
-      done({ painted: generations.size, sent, seconds: t });
-      return;
-    }
-    sent++;
-    slider.value = Math.round(Number(slider.max) * (0.5 + 0.4 * Math.sin(t)));
-    slider.dispatchEvent(new Event("input"));
-  }, 1000 / rate);
-})"""
+SCRUB = by_hand(
+    """
+    const slider = root.querySelector("input[aria-label='Scans used']");
+    const generations = new Set();
+    const found = await steadily(given[0], given[1],
+      (t) => {
+        slider.value = Math.round(Number(slider.max) * (0.5 + 0.4 * Math.sin(t)));
+        slider.dispatchEvent(new Event("input"));
+      },
+      () => {
+        const { generation, method } = bayesmap.snapshot().painted;
+        if (method === "hits") generations.add(generation);
+      });
+    slider.dispatchEvent(new Event("change"));
+    return { ...found, painted: generations.size };
+    """
+)
 
 
 def ghost(browser: Any, seconds: float) -> None:

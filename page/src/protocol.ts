@@ -85,6 +85,8 @@ export type Field = {
   milliseconds?: number;
   chain?: number;
   draw?: number;
+  /** Of the chain that fits the sensor: how many of its draws the mean is made of. */
+  averaged?: number;
   /** (nx, ny), probability in 255ths. */
   p: Uint8Array;
   /** (nx, ny), 0 or 1. */

@@ -1,7 +1,10 @@
 """A browser, a server, and a page that begins with the tutorial's map; skipped where there is no Chromium."""
 
 import pytest
-from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragment, served, until
+from building_log import room_run
+from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragment, listen, served, until
+
+import bayesmap as bm
 
 
 def pytest_collection_modifyitems(items):
@@ -38,10 +41,12 @@ def open_page(browser):
     """Opens addresses in contexts of their own; a page must cause no errors and leave the machine for nothing."""
     contexts, troubles = [], []
 
-    def opened(address, json_document=None, *, quiet=True, **options):
+    def opened(address, json_document=None, *, quiet=True, heard=None, **options):
         context = browser.new_context(**{**DESKTOP, **options})
         contexts.append(context)
         page = context.new_page()
+        if heard is not None:
+            listen(page, heard)
         if quiet:
             page.on("console", lambda message: troubles.append(message.text) if trouble(message) else None)
             page.on("pageerror", lambda error: troubles.append(str(error)))
@@ -53,12 +58,24 @@ def open_page(browser):
             page.evaluate("(hash) => { location.hash = hash; }", fragment(json_document))
             until(page, "s.document.angles === argument", json_document["angles"])
         until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
+        if not address.startswith("file:"):  # of a run's draws the server tells after its picture
+            until(page, "s.document.source.kind !== 'run' || s.draws.count > 0")
         return page
 
     yield opened
     for context in contexts:
         context.close()
     assert troubles == []
+
+
+@pytest.fixture(scope="session")
+def room(tmp_path_factory, browser):
+    """A run of surfaces of a small room, two chains of ten draws, and the address of a server that shows it."""
+    run = room_run(bm.Surface(), draws=10)
+    path = tmp_path_factory.mktemp("room") / "run.nc"
+    run.save(path)
+    with served(path) as (address, _):
+        yield run, address
 
 
 def trouble(message):

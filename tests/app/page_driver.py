@@ -15,6 +15,7 @@ import zlib
 import numpy as np
 from PIL import Image
 
+from bayesmap.app.messages import unframe
 from bayesmap.app.worlds import tutorial_document
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -39,6 +40,39 @@ READ = """
   const plain = ([name, value]) => [name, value?.buffer ? Array.from(value, String) : value];
   const scan = s.scan && Object.fromEntries(Object.entries(s.scan).map(plain));
   return {...s, probability: bytes(s.probability), observed: bytes(s.observed), walls: bytes(s.walls), scan};
+}
+"""
+
+
+NEXT_FRAME = "() => new Promise((done) => requestAnimationFrame(() => done()))"
+"""What is known is painted in the next frame, and callbacks run in the order in which they were asked for."""
+
+STILL = """
+() => new Promise((done) => {
+  let before = "", frames = 0;
+  const look = () => {
+    const { layers, events, seq } = bayesmap.snapshot();
+    const now = JSON.stringify([layers, events.paints, seq]);
+    frames = now === before && seq.sent === seq.confirmed ? frames + 1 : 0;
+    before = now;
+    if (frames === 12) done();
+    else requestAnimationFrame(look);
+  };
+  look();
+})
+"""
+
+WATCH = """
+() => {
+  window.seen = [];
+  let last;
+  const look = () => {
+    const s = bayesmap.snapshot();
+    const now = JSON.stringify(EXPRESSION);
+    if (now !== last) window.seen.push(JSON.parse((last = now)));
+    requestAnimationFrame(look);
+  };
+  look();
 }
 """
 
@@ -88,12 +122,35 @@ def snapshot(page):
 
 
 def until(page, condition, argument=None):
-    """Wait until a JavaScript condition on the snapshot `s` holds (the page's own policy forbids Playwright's way)."""
+    """Wait until a JavaScript condition on the snapshot `s` holds, and its picture and its words are on the screen.
+
+    The page's own policy forbids Playwright's way.
+    """
     wrapped = f"(argument) => {{ const s = window.bayesmap?.snapshot(); return Boolean(s && ({condition})); }}"
     deadline = time.monotonic() + WAIT_SECONDS
     while not page.evaluate(wrapped, argument):
         assert time.monotonic() < deadline, f"never: {condition}"
         page.wait_for_timeout(15)
+    page.evaluate(NEXT_FRAME)
+
+
+def still(page):
+    """Wait until all actions are confirmed and nothing has been painted for some frames."""
+    page.evaluate(STILL)
+
+
+def watch(page, expression):
+    """From now on, `window.seen` is all values that an expression of the snapshot `s` takes from frame to frame."""
+    page.evaluate(WATCH.replace("EXPRESSION", expression))
+
+
+def listen(page, heard):
+    """Add the header of every message that the page is sent to a list; before it opens its address."""
+
+    def hear(payload):
+        heard.append(unframe(payload)[0] if isinstance(payload, bytes) else json.loads(payload))
+
+    page.on("websocket", lambda socket: socket.on("framereceived", hear))
 
 
 def settled(page):

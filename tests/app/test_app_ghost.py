@@ -8,7 +8,7 @@ from acted_engine import Heard
 from building_log import ANGLES, room_run, room_scans
 
 import bayesmap as bm
-from bayesmap.app.ghost import nearest_scan
+from bayesmap.app.ghost import FEW_DRAWS, nearest_scan
 from bayesmap.app.opened import opened_run
 from bayesmap.app.tasks import MoveGhost
 from bayesmap.app.worlds import tutorial_document
@@ -17,8 +17,8 @@ from bayesmap.posterior.predictor import predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 
-def asked(heard, *pose):
-    (report,) = heard.ask(MoveGhost(7, *pose))
+def asked(heard, *pose, coarse=False):
+    (report,) = heard.ask(MoveGhost(7, *pose, coarse))
     assert report.client == 7
     return report.header, report.buffers
 
@@ -43,6 +43,25 @@ def test_the_fan_is_the_library_s_predictive_law(surfaces):
     found = np.column_stack([buffers[name] for name in ("low", "median", "high")])
     np.testing.assert_allclose(found, expected, atol=1e-5)
     np.testing.assert_allclose(buffers["angles"], ANGLES, atol=1e-6)
+
+
+def test_while_the_hand_moves_it_is_that_of_a_few_of_the_draws_and_at_rest_that_of_all(surfaces):
+    heard, pose = opened(surfaces), (2.1, 3.2, 0.4)
+    _, at_rest = asked(heard, *pose)
+    header, moving = asked(heard, *pose, coarse=True)
+    assert (header["coarse"], header["draws"]) == (True, FEW_DRAWS)
+    limits = RangeLimits(surfaces.posterior.scans.min_range_m, surfaces.posterior.scans.max_range_m)
+    whole = predictor_of(surfaces.posterior)
+    (states,) = whole.batches()
+    some = states[np.linspace(0, len(states) - 1, FEW_DRAWS).round().astype(int)]
+    law = ScanPredictor.of(replace(whole, batches=lambda cells=None: iter([some]), draws=FEW_DRAWS), limits)
+    found = np.column_stack([moving[name] for name in ("low", "median", "high")])
+    np.testing.assert_allclose(found, law.quantiles(pose, ANGLES), atol=1e-5)
+    header, again = asked(heard, *pose)
+    assert (header["coarse"], header["draws"]) == (False, 20)
+    for name in ("low", "median", "high"):
+        np.testing.assert_array_equal(again[name], at_rest[name])
+    assert not np.array_equal(moving["median"], at_rest["median"])
 
 
 def test_the_fan_holds_readings_that_were_never_seen(surfaces):

@@ -28,6 +28,7 @@ def test_verdicts(rhat, ess, apart, level):
 
 def test_nothing_is_said_too_early_or_of_a_log_joint_that_never_changed():
     assert judge_chains(2.0, 3, 20, None) is None
+    assert judge_chains(2.0, 3, 20, None, over=True).level == "bad"
     assert judge_chains(math.nan, math.nan, 1000, Difference(0.0, (0, 0))) is None
 
 

@@ -16,7 +16,11 @@ from bayesmap.app.opened import opened_log
 from bayesmap.app.opened_log import OpenedLog, first_beams
 from bayesmap.app.parsing import parse_document
 from bayesmap.app.scanning import hits
-from bayesmap.app.tasks import ShowScan, View
+from bayesmap.app.tasks import MoveGhost, ShowScan, View
+from bayesmap.cells.draws import Draws
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
+from bayesmap.samplers.sampler import Keep
+from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.space.grid import Grid
 
 
@@ -203,15 +207,62 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     assert heard.last("field")[0]["layer"] == "mean"  # there are no draws
 
 
-def test_surfaces_of_a_log_are_counted_first_then_watched_while_the_sensor_is_fitted(log):
+def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log):
+    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)
     heard.engine._showing.due = lambda: True
-    heard.infer(replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2)), "run")
+    heard.infer(document, "run")
     methods = [f["method"] for f in heard.all("field")]
     assert methods == ["hits"] + ["pilot"] * 40 + ["gibbs"] * (len(methods) - 41)
-    pilots = [f for f in heard.all("field") if f["method"] == "pilot"]
+    fields = [r for r in heard.reports if r.header["type"] == "field" and r.header["method"] == "pilot"]
+    pilots = [field.header for field in fields]
     assert [f["sweeps"] for f in pilots] == list(range(1, 41))
+    assert [f["averaged"] for f in pilots] == [(k + 1) // 2 for k in range(1, 41)]
     assert all(f["approximate"] and f["total"] == 40 for f in pilots)
+    # the same chain, by the library
+    prior = bm.Surface()
+    model = replace(log.scene(document).model(prior), sensor=first_sensor(prior, 0.2), hit_depth=prior.hit_depth)
+    problem = StopGibbs().prepare(model, "cpu")
+    maps = []
+    for found, info in piloting(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1)):
+        maps.append(found.prior.mean_map(Draws(model.grid, prior.arrays, info.draws, problem.coordinates)))
+    touched = problem.touched()
+    for k in (1, 2, 7, 40):
+        mean = np.mean(maps[k // 2 : k], axis=0)[touched]
+        np.testing.assert_allclose(fields[k - 1].buffers["p"][touched], 255 * mean, atol=0.6)
+
+
+def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_at(log, monkeypatch):
+    monkeypatch.setattr("bayesmap.app.showing.OVERLAY_SECONDS", 0.0)
+    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
+    heard = Heard(log)
+    heard.engine._showing.due = lambda: True
+    heard.infer(document, "run", steps=9)
+    assert heard.last("field")[0]["method"] == "pilot"
+    heard.engine.take(View("draw", client=1))
+    header, drawn = heard.last("field")
+    assert (header["layer"], header["chain"]) == ("draw", 0)
+    heard.engine.take(View("width", client=1))
+    header, width = heard.last("field")
+    assert header["layer"] == "width"
+    assert width["p"].max() > 20
+    assert not np.array_equal(drawn["p"], width["p"])
+    header, buffers = heard.last("overlay")
+    assert len(buffers["strokes"]) > 10
+    (ghost,) = heard.ask(MoveGhost(1, 1.5, 2.5, 0.3))
+    assert (ghost.header["type"], ghost.header["draws"]) == ("ghost", heard.all("field")[-1]["averaged"])
+
+
+def test_surfaces_of_finished_chains_lie_over_their_log(log):
+    heard = Heard(log)
+    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
+    heard.infer(document, "run")
+    strokes = heard.last("overlay")[1]["strokes"]
+    result = heard.engine._result
+    _, mean, _, reflectivity = result.surfaces
+    shown = reflectivity >= 0.1
+    assert 0 < shown.sum() == len(strokes)
+    np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[shown], atol=1e-5)
 
 
 def test_the_same_readings_are_fitted_once(log):

@@ -1,7 +1,5 @@
 """Decisions on the page: two clicks give a path and its probability; a click on the map of views places a sensor."""
 
-import re
-
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
@@ -33,7 +31,7 @@ def test_two_clicks_give_a_path_and_its_probability(page):
     assert path["path"][0] == pytest.approx([6, 15], abs=0.5)
     assert path["path"][-1] == pytest.approx([10, 14], abs=0.5)
     assert 0 <= path["probability"] <= 1
-    assert re.search(rf"free with probability {path['probability']:.3f}", said.inner_text())
+    playwright.expect(said).to_contain_text(f"free with probability {path['probability']:.3f}")
     assert "Independent cells" in said.inner_text()
     before = snapshot(page)["layers"]["decisions"]
     click(page, 3, 3)  # the start of another

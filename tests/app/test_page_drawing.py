@@ -14,6 +14,7 @@ from page_driver import (
     press_and_drag,
     settled,
     snapshot,
+    still,
     until,
 )
 from PIL import Image
@@ -193,30 +194,33 @@ def test_the_read_out_tells_of_the_cell_under_the_pointer(page):
 def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     settled(page)
 
-    def painted_by(action):
-        page.wait_for_timeout(300)
+    def paints(action, *expected):
+        still(page)
         before = snapshot(page)["layers"]
         action()
-        page.wait_for_timeout(300)
-        return {name for name, count in snapshot(page)["layers"].items() if count > before[name]}
+        until(page, "argument.every(([name, count]) => s.layers[name] > count)", [[n, before[n]] for n in expected])
+        still(page)
+        found = {name for name, count in snapshot(page)["layers"].items() if count > before[name]}
+        assert found == set(expected)
 
     page.mouse.move(*centre(page, 10, 14))
-    assert painted_by(lambda: page.mouse.move(*centre(page, 12, 15))) == {"cursor"}
+    paints(lambda: page.mouse.move(*centre(page, 12, 15)), "cursor")
     page.mouse.move(600, 20)
-    assert painted_by(lambda: page.get_by_role("checkbox", name="Rays").uncheck()) == {"rays"}
-    assert painted_by(lambda: page.get_by_role("checkbox", name="True walls").uncheck()) == {"marks"}
-    assert painted_by(lambda: page.get_by_role("radio", name="Entropy").check()) == {"field"}
+    paints(lambda: page.get_by_role("checkbox", name="Rays").uncheck(), "rays")
+    paints(lambda: page.get_by_role("checkbox", name="True walls").uncheck(), "marks")
+    paints(lambda: page.get_by_role("radio", name="Entropy").check(), "field")
     page.get_by_role("radio", name="Mean").check()
     everything = {
         "field", "hypothesis", "overlay", "rays", "reading", "marks", "decisions", "where", "ghost", "cursor",
     }  # fmt: skip
-    assert painted_by(lambda: page.keyboard.press("+")) == everything
+    paints(lambda: page.keyboard.press("+"), *everything)
 
 
 @pytest.mark.parametrize("height", [860, 861, 777])
 def test_zoom_and_cursors_leave_nothing_behind(open_page, server, height):
     page = open_page(server, document(), viewport={"width": 1280, "height": height})
     settled(page)
+    still(page)
     stage = page.locator("main.stage")
     before = picture_of(page, stage)
     page.get_by_role("radio", name="Pan").check()
@@ -225,11 +229,11 @@ def test_zoom_and_cursors_leave_nothing_behind(open_page, server, height):
         page.mouse.wheel(0, turn)
         press_and_drag(page, [(10, 10), (10, 12), (9, 8)])
         page.mouse.move(480, height - 60)
-        page.wait_for_timeout(40)
+        still(page)
     page.mouse.move(600, 20)
     page.keyboard.press("0")
     page.get_by_role("radio", name="Draw", exact=True).check()
-    page.wait_for_timeout(200)
+    still(page)
     assert np.array_equal(picture_of(page, stage), before)
 
 

@@ -2,22 +2,9 @@
 
 import numpy as np
 import playwright.sync_api as playwright
-import pytest
-from building_log import room_run
-from page_driver import act, served, settled, snapshot, until
-
-import bayesmap as bm
+from page_driver import act, settled, snapshot, still, until, watch
 
 OVER = "s.over && s.painted.layer === 'draw'"
-
-
-@pytest.fixture(scope="module")
-def surfaces(tmp_path_factory, browser):
-    run = room_run(bm.Surface(), draws=6)
-    path = tmp_path_factory.mktemp("flicker") / "run.nc"
-    run.save(path)
-    with served(path) as (address, _):
-        yield run, address
 
 
 def over(page):
@@ -48,11 +35,11 @@ def opacity(page):
     )
 
 
-def test_a_draw_lies_over_the_mean(open_page, surfaces):
-    run, address = surfaces
+def test_a_draw_lies_over_the_mean(open_page, room):
+    run, address = room
     page = open_page(address, device_scale_factor=1)
     over(page)
-    page.wait_for_timeout(100)
+    still(page)
     shown = snapshot(page)
     draw = run.map_of(0, shown["painted"]["draw"])
     expected = np.where(shown["observed"] > 0, np.rint(255 * draw), 0)
@@ -65,47 +52,37 @@ def test_a_draw_lies_over_the_mean(open_page, surfaces):
     assert opacity(page).max() == 0
 
 
-def test_they_are_played_without_end(open_page, surfaces):
-    page = open_page(surfaces[1])
+def test_they_are_played_without_end(open_page, room):
+    page = open_page(room[1])
     over(page)
     page.get_by_role("combobox", name="Speed").select_option("30")
-    page.evaluate(
-        """() => {
-          window.seen = [];
-          const look = () => {
-            const { draw } = bayesmap.snapshot().painted;
-            if (window.seen.at(-1) !== draw) window.seen.push(draw);
-            requestAnimationFrame(look);
-          };
-          look();
-        }"""
-    )
+    watch(page, "s.painted.draw")
     page.get_by_role("button", name="Play the draws").click()
-    until(page, "window.seen.length > 14")  # six draws, more than twice over
-    assert set(page.evaluate("window.seen")) == set(range(6))
+    until(page, "window.seen.length > 22")  # ten draws, more than twice over
+    assert set(page.evaluate("window.seen")) == set(range(10))
     assert snapshot(page)["over"]
     page.get_by_role("button", name="Pause the draws").click()
-    page.wait_for_timeout(200)
-    still = snapshot(page)["painted"]["draw"]
+    still(page)
+    paused = snapshot(page)["painted"]["draw"]
     page.wait_for_timeout(300)
-    assert snapshot(page)["painted"]["draw"] == still
+    assert snapshot(page)["painted"]["draw"] == paused
 
 
-def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, surfaces):
-    page = open_page(surfaces[1], reduced_motion="reduce")
+def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, room):
+    page = open_page(room[1], reduced_motion="reduce")
     over(page)
     playwright.expect(page.get_by_role("button", name="Play the draws")).to_have_count(0)
     playwright.expect(page.get_by_role("combobox", name="Speed")).to_be_disabled()
     first = snapshot(page)["painted"]["draw"]
     for step in (1, 2):
         page.get_by_role("button", name="Next draw").click()
-        until(page, "s.painted.draw === argument", (first + step) % 6)
+        until(page, "s.painted.draw === argument", (first + step) % 10)
     page.wait_for_timeout(400)
-    assert snapshot(page)["painted"]["draw"] == (first + 2) % 6
+    assert snapshot(page)["painted"]["draw"] == (first + 2) % 10
 
 
-def test_a_page_that_begins_at_a_draw_fetches_the_mean(open_page, surfaces):
-    page = open_page(surfaces[1])
+def test_a_page_that_begins_at_a_draw_fetches_the_mean(open_page, room):
+    page = open_page(room[1])
     page.get_by_role("radio", name="One draw").check(force=True)
     until(page, "s.painted.layer === 'draw'")
     over(page)

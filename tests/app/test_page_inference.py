@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from page_driver import NO_WALLS, act, centre, document, settled, snapshot, until
+from page_driver import NO_WALLS, act, centre, document, settled, snapshot, until, watch
 
 import bayesmap as bm
 
@@ -41,9 +41,9 @@ def test_draws_are_played_one_after_another(open_page, server):
     page = open_page(server, document(sweeps=6))
     run(page)
     until(page, "!s.running && s.draws.count === 6")
+    watch(page, "s.painted.layer === 'draw' ? s.painted.draw : -1")
     page.get_by_role("button", name="Play the draws").click()
-    until(page, "s.painted.layer === 'draw' && s.painted.draw === 2")
-    until(page, "s.painted.layer === 'draw' && s.painted.draw === 5")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 5 && window.seen.includes(2)")
     page.get_by_role("button", name="Play the draws").wait_for()  # it stops at the last
     page.get_by_role("radio", name="Mean").check()
 

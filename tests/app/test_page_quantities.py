@@ -75,8 +75,15 @@ def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, s
         with_it = page.locator("canvas.overlay").screenshot()
         page.get_by_role("checkbox", name=name).uncheck()
         until(page, "s.layers.overlay > argument", before)
-        page.wait_for_timeout(50)
         assert page.locator("canvas.overlay").screenshot() != with_it
+
+
+def test_a_saved_run_that_has_not_converged_is_called_so(open_page, surfaces):
+    page = open_page(surfaces[1])  # of two chains of 20 draws
+    assert snapshot(page)["painted"]["verdict"]["level"] == "bad"
+    assert page.locator("dd.bad").count() == 2
+    playwright.expect(page.locator(".verdict")).to_contain_text("Not converged: ")
+    playwright.expect(page.locator("footer [role=status]")).to_contain_text("the chains have not converged")
 
 
 def test_a_run_of_walls_keeps_its_probabilities(open_page, tmp_path):

@@ -5,10 +5,8 @@ import re
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from building_log import ANGLES, room_run, write_room_log
+from building_log import ANGLES, write_room_log
 from page_driver import served, snapshot, until
-
-import bayesmap as bm
 
 END = """(beam) => {
   const { scan, document } = bayesmap.snapshot();
@@ -20,15 +18,6 @@ END = """(beam) => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def surfaces(tmp_path_factory, browser):
-    run = room_run(bm.Surface(), draws=10)
-    path = tmp_path_factory.mktemp("reading") / "run.nc"
-    run.save(path)
-    with served(path) as (address, _):
-        yield run, address
-
-
 def point_at(page, beam):
     place = page.evaluate(END, beam)
     page.mouse.move(place["x"], place["y"])
@@ -36,8 +25,8 @@ def point_at(page, beam):
     return snapshot(page)["reading"]["found"]
 
 
-def test_a_reading_is_told_along_its_beam_and_across_and_along_the_wall(open_page, surfaces):
-    run, address = surfaces
+def test_a_reading_is_told_along_its_beam_and_across_and_along_the_wall(open_page, room):
+    run, address = room
     page = open_page(address)
     said = page.locator(".words.reading")
     playwright.expect(said).to_contain_text("Point at a reading")
@@ -55,22 +44,20 @@ def test_a_reading_is_told_along_its_beam_and_across_and_along_the_wall(open_pag
     assert f"{np.degrees(wall['incidence_rad']):.0f}\u00b0 from its normal" in words
 
 
-def test_it_is_marked_on_the_map_and_forgotten_with_the_scan(open_page, surfaces):
-    page = open_page(surfaces[1])
+def test_it_is_marked_on_the_map_and_forgotten_with_the_scan(open_page, room):
+    page = open_page(room[1])
     point_at(page, 30)
-    page.wait_for_timeout(100)
     marked = page.locator("canvas.reading").screenshot()
     page.get_by_role("slider", name="Scan number").fill("4")
     until(page, "s.scan.index === 4 && !s.reading.picked")
-    page.wait_for_timeout(100)
     assert page.locator("canvas.reading").screenshot() != marked
     playwright.expect(page.locator(".words.reading")).to_contain_text("Point at a reading")
 
 
-def test_far_from_every_beam_nothing_is_picked(open_page, surfaces):
-    page = open_page(surfaces[1])
+def test_far_from_every_beam_nothing_is_picked(open_page, room):
+    page = open_page(room[1])
     point_at(page, 30)
-    pose = surfaces[0].posterior.scans.poses[0]
+    pose = room[0].posterior.scans.poses[0]
     behind = pose[:2] - 0.7 * np.array([np.cos(pose[2]), np.sin(pose[2])])
     at = page.evaluate("(p) => bayesmap.cellToClient(p[0] / 0.2 - 0.5, p[1] / 0.2 - 0.5)", behind.tolist())
     page.mouse.move(at["x"], at["y"])

@@ -70,7 +70,6 @@ def test_every_method_can_be_chosen_and_run(page, method):
     settled_or_preview(page)
     assert page.get_by_label("Order").is_disabled() == (method != "gibbs")
     page.get_by_role("button", name="Run", exact=True).click()
-    page.wait_for_timeout(50)
     shown = settled_or_preview(page)
     assert shown["document"]["method"] == shown["painted"]["method"] == method
     assert (shown["draws"]["count"] > 0) == (method in ("gibbs", "block"))

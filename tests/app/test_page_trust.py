@@ -5,7 +5,7 @@ import base64
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, document, settled, snapshot, until
+from page_driver import NEXT_FRAME, act, document, settled, snapshot, until, watch
 
 import bayesmap as bm
 from bayesmap.posterior.diagnostics import bulk_ess
@@ -83,7 +83,7 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
     }"""
     assert min(canvas.evaluate(inked)) > 20  # a line a chain
     page.get_by_role("radio", name="First 50").check()
-    page.wait_for_timeout(100)
+    page.evaluate(NEXT_FRAME)
     assert min(page.locator(".chart canvas").first.evaluate(inked)) > 20
 
 
@@ -107,9 +107,9 @@ def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page, server):
     until(page, "!s.running && s.draws.count === 30 && s.painted.generation === s.generation")
     mean = snapshot(page)["probability"] > 128
     page.get_by_label("Speed").select_option("30")
+    watch(page, "s.painted.layer === 'draw' ? s.painted.draw : -1")
     page.get_by_role("button", name="From the first sweep").click()
-    until(page, "s.painted.layer === 'draw' && s.painted.draw === 0")
-    until(page, "s.painted.layer === 'draw' && s.painted.draw === 29")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 29 && window.seen.includes(0)")
     observed = snapshot(page)["observed"] > 0
 
     def wrong(draw):

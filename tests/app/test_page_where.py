@@ -7,7 +7,7 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page_driver import centre, colour_at, document, served, settled, snapshot, until
+from page_driver import centre, colour_at, document, served, settled, snapshot, until, watch
 
 import bayesmap as bm
 
@@ -74,12 +74,11 @@ def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page, server):
     found(page)
     page.mouse.move(*centre(page, 8, 9))
     page.mouse.down()
-    poses = set()
+    watch(page, "s.where.found?.pose[0] ?? null")
     for i in range(1, 41):
         page.mouse.move(*centre(page, 8 + i * 0.1, 9))
-        page.wait_for_timeout(50)
-        poses.add(page.evaluate("() => bayesmap.snapshot().where.found.pose[0]"))
-    assert len(poses) > 3  # still under the hand
+        if i % 10 == 0:  # still under the hand
+            until(page, "window.seen.length > argument", i // 10)
     page.mouse.up()
     settled(page)
     answer = found(page)

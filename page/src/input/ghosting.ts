@@ -18,6 +18,6 @@ export function takeGhost(ghost: Ghost, point: Point, reach: number, grid: Grid,
 
 /** Follows the pointer, which is at a place in metres; the grip is taken into account already. */
 export function dragGhost(ghost: Ghost, gesture: GhostGesture, world: Point) {
-  if (!gesture.turn) ghost.move(world);
-  else if (ghost.pose) ghost.move({ yaw: Math.atan2(world.y - ghost.pose.y, world.x - ghost.pose.x) });
+  if (!gesture.turn) ghost.move(world, true);
+  else if (ghost.pose) ghost.move({ yaw: Math.atan2(world.y - ghost.pose.y, world.x - ghost.pose.x) }, true);
 }

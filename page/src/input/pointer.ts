@@ -200,6 +200,7 @@ export class Pointer {
     if (this.fingers.size === 0) {
       this.gesture = null;
       this.hand.busy = false;
+      this.session.ghost.rest();
     }
     this.touched = event.pointerType === "touch";
     if (!this.touched) return;

@@ -2,7 +2,7 @@
 
 import { clamp, toCells } from "../geometry/cells";
 import type { Fan, Near, Pose } from "../state/ghost";
-import { clipToMap, type Layer, type Scene } from "./layer";
+import { clipToMap, strokeOnHalo, type Layer, type Scene } from "./layer";
 import { placeOf } from "./sensors";
 
 const ARROW = [[1.25, 0], [-0.9, 0.8], [-0.45, 0], [-0.9, -0.8]] as const;
@@ -93,22 +93,12 @@ export class GhostLayer implements Layer {
     context.beginPath();
     context.moveTo(point.x, point.y);
     context.lineTo(handle.x, handle.y);
-    context.lineWidth = 4;
-    context.strokeStyle = look.theme.halo;
-    context.stroke();
-    context.lineWidth = 1.5;
-    context.strokeStyle = look.theme.ghost;
-    context.stroke();
+    strokeOnHalo(context, look.theme, look.theme.ghost, 1.5);
     context.beginPath();
     for (const [a, b] of ARROW) context.lineTo(point.x + size * (a * cos - b * sin), point.y + size * (a * sin + b * cos));
     context.closePath();
     context.lineJoin = "round";
-    context.lineWidth = 4;
-    context.strokeStyle = look.theme.halo;
-    context.stroke();
-    context.lineWidth = 2;
-    context.strokeStyle = look.theme.ghost;
-    context.stroke();
+    strokeOnHalo(context, look.theme, look.theme.ghost, 2);
     context.fillStyle = look.theme.halo;
     context.fill();
     context.beginPath();

@@ -86,3 +86,13 @@ export function clipToMap(context: CanvasRenderingContext2D, { session, view }: 
   context.rect(x, y, nx * scale, ny * scale);
   context.clip();
 }
+
+/** Strokes the path in a colour, on a wider line that sets it off from whatever lies beneath. */
+export function strokeOnHalo(context: CanvasRenderingContext2D, { halo }: Theme, colour: string, width: number) {
+  context.lineWidth = 4;
+  context.strokeStyle = halo;
+  context.stroke();
+  context.lineWidth = width;
+  context.strokeStyle = colour;
+  context.stroke();
+}

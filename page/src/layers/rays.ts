@@ -4,6 +4,8 @@ import { clamp, toCells } from "../geometry/cells";
 import { clipToMap, type Layer, type Scene } from "./layer";
 
 const ROUND_DOTS = 600;
+/** Rays that are drawn; of more, every so many-th: thousands are but a haze, and take as long as all else. */
+const MOST_RAYS = 1500;
 /** Opacity of what belongs to scans that are not used. */
 export const UNUSED = 0.3;
 
@@ -25,6 +27,7 @@ export class RaysLayer implements Layer {
     const ny = document.grid.shape[1];
     const beams = scan.angles.length;
     const count = scan.pose.length / 3;
+    const every = Math.ceil((beams * count) / MOST_RAYS);
     const [hits, misses, dots] = [new Path2D(), new Path2D(), new Path2D()];
     const radius = clamp(scale * 0.1, 1.3, 4);
     // of a log's scan that the map is not made of only a shadow is seen
@@ -40,8 +43,10 @@ export class RaysLayer implements Layer {
         const angle = scan.angles[b] + yaw;
         const to = { x: from.x + length * Math.cos(angle), y: from.y - length * Math.sin(angle) };
         const path = hit ? hits : misses;
-        path.moveTo(from.x, from.y);
-        path.lineTo(to.x, to.y);
+        if ((s * beams + b) % every === 0) {
+          path.moveTo(from.x, from.y);
+          path.lineTo(to.x, to.y);
+        }
         if (!hit) continue;
         if (beams * count > ROUND_DOTS) dots.rect(to.x - 0.9 * radius, to.y - 0.9 * radius, 1.8 * radius, 1.8 * radius);
         else {
@@ -52,7 +57,7 @@ export class RaysLayer implements Layer {
     }
     if (look.rays) {
       context.lineWidth = 1;
-      context.globalAlpha = dim * clamp(28 / Math.sqrt(beams * count) / 5, 0.07, 0.45);
+      context.globalAlpha = dim * clamp(28 / Math.sqrt((beams * count) / every) / 5, 0.07, 0.45);
       context.strokeStyle = look.theme.ray;
       context.stroke(hits);
       context.strokeStyle = look.theme.noReturn;

@@ -3,7 +3,7 @@
 import { clamp, toCells } from "../geometry/cells";
 import type { Grid, Point, Sensor } from "../protocol";
 import type { Session } from "../state/session";
-import type { Scene } from "./layer";
+import { strokeOnHalo, type Scene } from "./layer";
 import { write } from "./text";
 import type { Viewport } from "./viewport";
 
@@ -62,12 +62,7 @@ function paintHandle(context: CanvasRenderingContext2D, { point, size, handle }:
   context.arc(handle.x, handle.y, 4.5, 0, 2 * Math.PI);
   context.moveTo(point.x + size * 1.7, point.y);
   context.arc(point.x, point.y, size * 1.7, 0, 2 * Math.PI);
-  context.strokeStyle = theme.halo;
-  context.lineWidth = 4;
-  context.stroke();
-  context.strokeStyle = theme.sensor;
-  context.lineWidth = 1.5;
-  context.stroke();
+  strokeOnHalo(context, theme, theme.sensor, 1.5);
   context.beginPath();
   context.arc(handle.x, handle.y, 4, 0, 2 * Math.PI);
   context.fillStyle = theme.halo;

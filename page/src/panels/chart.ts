@@ -15,7 +15,9 @@ const SETTLED_FROM = 0.25;
 type Range = "all" | "first";
 
 const chainColors = (theme: Theme) => [theme.ray, theme.truth, theme.sensor, theme.noReturn];
-const axis = (theme: () => Theme, size: number): uPlot.Axis => ({
+/** As wide as its longest number: log joints of buildings have seven figures. */
+const asWideAsNumbers = (_: uPlot, values: string[] | null) => Math.max(40, 14 + 6.6 * Math.max(0, ...(values ?? []).map((value) => value?.length ?? 0)));
+const axis = (theme: () => Theme, size: uPlot.Axis.Size): uPlot.Axis => ({
   font: FONT,
   size,
   stroke: () => theme().axis,
@@ -74,7 +76,7 @@ export function traceChart(ui: Ui, theme: () => Theme) {
         cursor: { drag: { x: false, y: false }, y: false },
         padding: [8, 10, 0, 0],
         scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + 1)] }, y: { range: (_, low, high) => padded(Math.max(low, settled), high) } },
-        axes: [axis(theme, 26), axis(theme, 52)],
+        axes: [axis(theme, 26), axis(theme, asWideAsNumbers)],
         series: [{ label: "sweep" }, ...series],
         hooks: { draw: [(chart) => mark(chart, marked, theme())] },
       },

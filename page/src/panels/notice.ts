@@ -42,9 +42,10 @@ export function chip(ui: Ui) {
 }
 
 /** What a quick answer is made of. */
-function quick({ method, sweeps, total }: Field) {
+function quick({ method, sweeps, total, averaged }: Field) {
   if (method === "hits") return "counts of hits";
-  return method === "pilot" ? `fitting the sensor, sweep ${sweeps} of ${total}` : "belief propagation";
+  if (method !== "pilot") return "belief propagation";
+  return `${averaged} draws of one chain, sensor being fitted: sweep ${sweeps} of ${total}`;
 }
 
 /** What to do where the result on show is bad; null where it is not, or nothing can be done here. */

@@ -13,6 +13,8 @@ export type Fan = Pose & {
   generation: number;
   draws: number;
   milliseconds: number;
+  /** By a few draws only, since the hand still moved. */
+  coarse: boolean;
   angles: Float32Array;
   low: Float32Array;
   median: Float32Array;
@@ -25,7 +27,10 @@ const PATIENCE_MS = 2000;
 /** While chains run the fan is asked for again after this. */
 const AGAIN_MS = 3000;
 
-/** One question is under way at a time, and the next one asks for where the ghost is then: a fast hand waits for nothing. */
+/** Questions under way at a time: while one is answered the next is on its way. */
+const MOST_ASKED = 2;
+
+/** Few questions are under way at a time, and the next one asks for where the ghost is then: a fast hand waits for nothing. */
 export class Ghost {
   /** Whether the hand holds it. */
   held = false;
@@ -37,8 +42,11 @@ export class Ghost {
   version = 0;
   /** How many fans came. */
   answers = 0;
+  /** Whether the hand moves it: meanwhile a few draws do. */
+  private moving = false;
   private askedAt = -Infinity;
-  private waiting = false;
+  /** Questions under way. */
+  private waiting = 0;
   private asked = "";
 
   constructor(private readonly session: Session) {}
@@ -52,12 +60,21 @@ export class Ghost {
     this.session.changed();
   }
 
-  move(change: Partial<Pose>) {
+  /** Brings it to another place; `moving` is a hand that has not let go. */
+  move(change: Partial<Pose>, moving = false) {
     const { pose } = this;
+    this.moving = moving;
     this.pose = { x: 0, y: 0, yaw: 0, ...pose, ...change };
     this.version++;
     this.ask();
     this.session.changed();
+  }
+
+  /** The hand has let go. */
+  rest() {
+    if (!this.moving) return;
+    this.moving = false;
+    this.ask();
   }
 
   /** The map has another size: where the ghost stood may be no part of it. */
@@ -80,22 +97,24 @@ export class Ghost {
     const { pose } = this;
     if (!pose) return;
     const now = performance.now();
-    if (this.waiting && now - this.askedAt < PATIENCE_MS) return;
-    const question = JSON.stringify([pose, shown.generation, session.sampling, shown.approximate]);
+    if (now - this.askedAt > PATIENCE_MS) this.waiting = 0;
+    if (this.waiting >= MOST_ASKED) return;
+    const question = JSON.stringify([pose, this.moving, shown.generation, session.sampling, shown.approximate]);
     const old = session.sampling && now - this.askedAt > AGAIN_MS;
     if (question === this.asked && !old) return;
-    [this.asked, this.askedAt, this.waiting] = [question, now, true];
-    session.act({ type: "ghost", ...pose });
+    [this.asked, this.askedAt] = [question, now];
+    this.waiting++;
+    session.act({ type: "ghost", ...pose, coarse: this.moving });
   }
 
   receive(message: Message, buffers: Buffers) {
-    this.waiting = false;
+    this.waiting = Math.max(0, this.waiting - 1);
     this.trouble = message.type === "undecided" ? message.text : "";
     if (message.type === "ghost") {
       const { angles, low, median, high, near_pose, near_ranges, near_hit } = buffers as any;
       const near = message.near && { ...message.near, pose: near_pose, ranges: near_ranges, hit: near_hit };
-      const { x, y, yaw, generation, draws, milliseconds } = message as any;
-      this.fan = { x, y, yaw, generation, draws, milliseconds, angles, low, median, high, near };
+      const { x, y, yaw, generation, draws, coarse, milliseconds } = message as any;
+      this.fan = { x, y, yaw, generation, draws, coarse, milliseconds, angles, low, median, high, near };
       this.answers++;
     } else this.fan = null;
     this.version++;

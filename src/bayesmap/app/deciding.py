@@ -38,17 +38,13 @@ class Maps:
 
 
 def maps_of(result: Result) -> Maps:
-    """The kept draws, or the latest of chains that keep none.
+    """The kept draws, or the latest of chains that keep none, and of the one that fits the sensor.
 
     Raises:
         BadInput: a method without draws.
     """
-    if result.run is not None and result.run.n_draws:
-        return Maps(result.run.posterior.prior, result.run.posterior.draws)
-    if result.stream is not None:
-        draws = result.stream.draws if result.stream.draws.count else result.stream.recent
-        if draws.count:
-            return Maps(result.stream.model.cells, draws)
+    if result.at_hand is not None:
+        return Maps(result.prior, result.at_hand)
     raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
 
 

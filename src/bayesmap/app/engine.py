@@ -277,6 +277,8 @@ class Engine:
             self._result = Result(scene, document, document.method, stream=stream)
             if self._showing.due() or stream.done:
                 self._showing.frame(self._result)
+            if stream.done:
+                self._showing.overlay(self._result)
         self._showing.finished(self._result)
 
     def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:

@@ -23,10 +23,10 @@ from bayesmap.samplers.without_chains import Asked, found_by_beliefs, found_by_i
 from bayesmap.sensors.describe import describe
 
 SAVED_DRAWS = 500
-NO_RUN = ("none", HITS, COUNTS, "pilot")
-"""Methods that make no draws, and of whose maps none can be taken."""
-
 """Maps of each chain that are drawn for a run of a method without chains."""
+
+NO_RUN = ("none", HITS, COUNTS, "pilot")
+"""Methods that make no draws to keep, and of whose maps none can be taken."""
 
 
 def export(result: Result, what: str) -> tuple[str, str, bytes]:

@@ -22,6 +22,9 @@ MOST_DRAWS = 32
 HELD_BYTES = 192 << 20
 """Draws that predictions are averaged over: so many, or as many as fit."""
 
+FEW_DRAWS = 8
+"""While the hand moves: a fan is not looked at for longer than the next one takes."""
+
 STALE_SECONDS = 3.0
 """Of chains that went on the draws are taken anew after this."""
 
@@ -39,6 +42,7 @@ class Ghost:
         self._of: object = None
         self._sweep, self._until = 0, 0.0
         self._predictor: ScanPredictor | None = None
+        self._few: ScanPredictor | None = None  # the same by `FEW_DRAWS`, once they have been asked for
         self._draws = 0
 
     def answer(self, result: Result, task: MoveGhost) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
@@ -48,7 +52,7 @@ class Ghost:
             BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
         """
         began = time.perf_counter()
-        predictor = self._ready(result)
+        predictor, draws = self._ready(result, task.coarse)
         document = result.document
         angles = (
             fan(document.angles, document.fov) if document.simulated else result.scene.scans.angles_rad
@@ -58,7 +62,9 @@ class Ghost:
         buffers: dict[str, NDArray[Any]] = {
             "angles": angles.astype(np.float32), "low": low, "median": median, "high": high,
         }  # fmt: skip
-        header: dict[str, Any] = {"x": task.x, "y": task.y, "yaw": task.yaw, "draws": self._draws, "near": None}
+        header: dict[str, Any] = {
+            "x": task.x, "y": task.y, "yaw": task.yaw, "coarse": task.coarse, "draws": draws, "near": None,
+        }  # fmt: skip
         near = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)
         if near is not None:
             header["near"] = near
@@ -66,19 +72,27 @@ class Ghost:
         header["milliseconds"] = round(1e3 * (time.perf_counter() - began), 1)
         return header, buffers
 
-    def _ready(self, result: Result) -> ScanPredictor:
-        """The predictor of a result; that of chains which go on is made anew now and then."""
-        stream = result.stream
-        of: object = result.run if result.run is not None else stream if stream is not None else result
-        sweep = 0 if stream is None else stream.sweep
+    def _ready(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
+        """The predictor of a result, of which only some draws where those do, and how many draws are in it.
+
+        That of chains which go on is made anew now and then.
+        """
+        stream, pilot = result.stream, result.pilot
+        made_of = (result.run, stream, None if pilot is None else result.scene)
+        of: object = next((part for part in made_of if part is not None), result)
+        sweep = stream.sweep if stream is not None else 0 if pilot is None else pilot.sweep
         last = stream is not None and stream.done  # of what is done nothing is outdated
         stale = sweep != self._sweep and (last or time.perf_counter() > self._until)
         if self._predictor is None or of is not self._of or stale:
             predictor, self._draws = predictor_of_result(result)
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
-            self._predictor, self._of = ScanPredictor.of(predictor, limits), of
+            self._predictor, self._few, self._of = ScanPredictor.of(predictor, limits), None, of
             self._sweep, self._until = sweep, time.perf_counter() + STALE_SECONDS
-        return self._predictor
+        if not coarse or self._draws <= FEW_DRAWS:
+            return self._predictor, self._draws
+        if self._few is None:
+            self._few = self._predictor.thinned(FEW_DRAWS)
+        return self._few, FEW_DRAWS
 
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
@@ -98,8 +112,8 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     sensor, depth = scene.sensor, scene.hit_depth
     if result.run is not None and result.run.posterior.sensor is None:
         raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
-    if result.stream is not None:
-        sensor, depth = result.stream.model.sensor, result.stream.model.hit_depth
+    if (chain := result.stream or result.pilot) is not None:
+        sensor, depth = chain.model.sensor, chain.model.hit_depth
     one = grid.n_cells * (32 if maps.prior.has_surfaces else 4)
     some = maps.draws.thinned(int(np.clip(HELD_BYTES // one, maps.draws.chains, MOST_DRAWS)))
 

@@ -18,7 +18,7 @@ GOOD_ESS = 400.0
 
 BAD_ESS = 50.0
 FEWEST_SWEEPS = 200
-"""Before so many, nothing is said."""
+"""Before so many, nothing is said of chains that go on."""
 
 BAD_DIFFERENCE = 0.25
 """Of P(wall) between two chains: five standard errors for two means of 200 independent draws with p = 1/2."""
@@ -54,9 +54,14 @@ def difference(means: NDArray[np.float64], among: NDArray[np.bool_]) -> Differen
     return Difference(float(spread[i, j]), (int(i), int(j)))
 
 
-def judge_chains(rhat: float, ess: float, sweeps: int, apart: Difference | None) -> Verdict | None:
-    """The verdict on chains, or None where it is too early, or where the log joint never changed."""
-    if sweeps < FEWEST_SWEEPS:
+def judge_chains(
+    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False
+) -> Verdict | None:
+    """The verdict on chains, or None where it is too early, or where the log joint never changed.
+
+    It is never too early for chains that are over: a saved run of few sweeps is to be judged, too.
+    """
+    if sweeps < FEWEST_SWEEPS and not over:
         return None
     if apart is not None and apart.by > BAD_DIFFERENCE:
         x, y = apart.cell

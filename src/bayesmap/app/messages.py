@@ -207,6 +207,7 @@ FIELDS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "ghost": lambda value: {
         **{name: _metres(name, value.get(name)) for name in ("x", "y")},
         "yaw": number("yaw", value.get("yaw"), -1e3, 1e3),
+        **_optional(value, "coarse", lambda v: _flag("coarse", v)),
     },
     "beam": lambda value: {name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("scan", "beam")},
     "where": lambda value: _optional(value, "sensor", lambda v: _whole("sensor", v, 1)),

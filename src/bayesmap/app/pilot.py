@@ -1,18 +1,25 @@
-"""The short chain that fits sensor and prior of reflectivities and surfaces, watched while it runs."""
+"""The short chain that fits sensor and prior of reflectivities and surfaces, watched while it runs.
+
+It draws cells given all readings, as the chains that follow do, but under a sensor and a prior that still move. Both
+are near their place after a few sweeps: so the latter half of its draws is the first that is known of the posterior,
+long before those chains have begun. docs/app.md says how near that is.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Generator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
+from bayesmap.app.recent import joined
 from bayesmap.app.scanning import Scene
 from bayesmap.cells.draws import Draws
-from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
@@ -23,20 +30,25 @@ from bayesmap.samplers.sampler import Keep
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pilot:
-    """Where the chain stands that fits sensor and prior, before the chains that draw begin.
+    """Where the chain stands that fits sensor and prior, before the chains that are kept begin.
 
     Attributes:
-        prior: as fitted so far.
-        mean: probability that a cell stops a beam, by its last sweep, (nx, ny).
+        model: under the sensor and the prior that are fitted so far.
+        draws: the latter half of those that it has made, one chain.
         sweep, total: sweeps that it has made, and will make.
     """
 
-    prior: CellPrior
-    mean: Floats
+    model: Model
+    draws: Draws
     sweep: int
     total: int
+
+    @cached_property
+    def mean(self) -> Floats:
+        """Probability that a cell stops a beam, (nx, ny): the mean over the draws."""
+        return self.model.cells.mean_map(self.draws)
 
 
 Fitted = tuple[Model, Any, Any]
@@ -68,9 +80,11 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     problem = sampler.prepare(model, "cpu")
     yield
     pilot = piloting(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
+    draws: Draws | None = None
     for sweep, (now, info) in enumerate(pilot, 1):
         problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)
-        drawn = Draws(model.grid, now.prior.arrays, info.draws, problem.coordinates)
-        show(Pilot(now.prior, now.prior.mean_map(drawn), sweep, PILOT_SWEEPS))
+        latest = Draws(model.grid, now.prior.arrays, info.draws, problem.coordinates)
+        draws = joined(draws, latest, math.ceil(sweep / 2))
+        show(Pilot(model, draws, sweep, PILOT_SWEEPS))
         yield
     return model, sampler, problem

@@ -41,7 +41,7 @@ def _where(document: Document, client: int, message: Message) -> WhereAmI:
 
 
 def _ghost(document: Document, client: int, message: Message) -> MoveGhost:
-    return MoveGhost(client, message["x"], message["y"], message["yaw"])
+    return MoveGhost(client, message["x"], message["y"], message["yaw"], message.get("coarse", False))
 
 
 def _beam(document: Document, client: int, message: Message) -> CompareBeam:

@@ -30,7 +30,8 @@ def beam_message(result: Result, task: CompareBeam) -> dict[str, Any]:
     """
     from bayesmap.kernels.predict import forecast
     from bayesmap.kernels.rays import trace_rays
-    from bayesmap.kernels.stop_mixture import mix_stops, range_quantiles
+    from bayesmap.kernels.stop_mixture import mix_stops
+    from bayesmap.kernels.stop_quantiles import range_quantiles
 
     predictor, draws = predictor_of_result(result)
     scans = result.scene.scans

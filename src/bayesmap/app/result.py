@@ -113,12 +113,21 @@ class Result:
         return kept if kept is not None and kept.count else None
 
     @property
+    def at_hand(self) -> Draws | None:
+        """The kept maps, or the latest of chains that keep none."""
+        if self.kept is not None:
+            return self.kept
+        if self.pilot is not None:
+            return self.pilot.draws
+        return self.stream.recent if self.stream is not None and self.stream.recent.count else None
+
+    @property
     def prior(self) -> CellPrior:
         """Of the cells on show: it has the words for them."""
         if self.stream is not None:
             return self.stream.model.cells
         if self.pilot is not None:
-            return self.pilot.prior
+            return self.pilot.model.cells
         if self.counted is not None and self.counted.prior is not None:
             return self.counted.prior
         return self.scene.problem.prior if self.run is None else self.run.posterior.prior
@@ -126,9 +135,7 @@ class Result:
     @cached_property
     def width(self) -> NDArray[np.float64] | None:
         """Width of each cell's central 90 % interval, (nx, ny); None for walls, which have none, or without draws."""
-        draws = self.kept
-        if draws is None and self.stream is not None and self.stream.recent.count:
-            draws = self.stream.recent
+        draws = self.at_hand
         if draws is None or not self.prior.has_interval:
             return None
         lower, upper = self.prior.interval(draws.thinned(INTERVAL_DRAWS), 0.9)
@@ -146,7 +153,7 @@ class Result:
         if self.document.simulated:
             return None
         strokes = np.zeros((0, 5), dtype=np.float32)
-        if self.run is not None and self.surfaces is not None:
+        if self.surfaces is not None:
             _, mean, covariance, reflectivity = self.surfaces
             values, vectors = np.linalg.eigh(covariance)
             half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
@@ -160,9 +167,7 @@ class Result:
 
         None without draws, or where cells have none.
         """
-        draws = self.kept
-        if draws is None and self.stream is not None and self.stream.recent.count:
-            draws = self.stream.recent
+        draws = self.at_hand
         if draws is None or not self.prior.has_surfaces:
             return None
         return draws.index["surface_cell"], *self.prior.surfaces(draws)
@@ -205,6 +210,8 @@ class Result:
             chain = min(view.chain or 0, len(self.run.log_joint) - 1)
             number = last if view.draw is None else min(view.draw, last)
             return self.run.map_of(chain, number), chain, number
+        if self.pilot is not None:
+            return self.pilot.model.cells.map_of(self.pilot.draws, 0, -1), 0, 0
         return None
 
     def statistics(self) -> dict[str, Any]:
@@ -231,7 +238,7 @@ class Result:
                 joint = float(self.run.log_joint[:, -1].mean())
                 if np.ptp(self.run.log_joint) > 0:
                     ess, rhat = bulk_ess(self.run.log_joint), split_rhat(self.run.log_joint)
-                verdict = judge_chains(rhat, ess, sweeps, None)
+                verdict = judge_chains(rhat, ess, sweeps, None, over=True)
         numbers = {"ess": ess, "rhat": rhat, "log_joint": joint}
         finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
         return {"sweeps": sweeps, "total": total, **finite, "verdict": None if verdict is None else asdict(verdict)}
@@ -270,6 +277,8 @@ class Result:
             "draws": self.draws(),
             "quantity": self.quantity(),
         }
+        if self.pilot is not None:
+            header["averaged"] = self.pilot.draws.count
         buffers: dict[str, NDArray[Any]] = {"trace": trace, "traced": traced}
         if (weights := self.weights()) is not None:
             buffers["weights"], header["lowest"] = weights

@@ -12,6 +12,8 @@ from bayesmap.app.tasks import OWN_LAYERS, Infer, Report, View
 from bayesmap.space.grid import Grid
 
 FRAME_SECONDS = 0.08
+OVERLAY_SECONDS = 2.0
+"""Surfaces of chains that go on are drawn over their field so often."""
 
 OnReport = Callable[[Report], None]
 
@@ -29,7 +31,7 @@ class Showing:
         self.generation, self.grid = -1, Grid((1, 1))
         self._views: dict[int | None, View] = {}  # of pages that are shown a draw
         self._began = 0.0
-        self._framed = 0.0
+        self._framed = self._overlaid = 0.0
 
     def begin(self, task: Infer) -> None:
         """Another job, from now on."""
@@ -55,6 +57,8 @@ class Showing:
         for view in (View("mean"), *self._views.values()):
             self._field(view, result)
         self._framed = time.perf_counter()
+        if result.prior.has_surfaces and self._framed - self._overlaid > OVERLAY_SECONDS:
+            self.overlay(result)
 
     def _field(self, view: View, result: Result) -> None:
         """A field for one page, or for all that are not shown a draw."""
@@ -71,6 +75,7 @@ class Showing:
         """What is drawn over the field, if anything."""
         if (over := result.overlay()) is not None:
             self.report("overlay", dict(over))
+            self._overlaid = time.perf_counter()
 
     def on_grid(self, grid: Grid) -> None:
         """From now on the map has other cells."""

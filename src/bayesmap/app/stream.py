@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.app.recent import joined
 from bayesmap.cells.draws import Draws
 from bayesmap.model import Model
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
@@ -30,9 +31,6 @@ DRAW_BYTES = 128 << 20
 
 LOOKS = 32
 """At which cells some beam says something is counted so often in a run, besides at sweeps 1, 2, 4 and so on."""
-
-RECENT, RECENT_BYTES = 200, 16 << 20
-"""Maps of each chain that are remembered where none are kept, to decide by."""
 
 DIAGNOSIS_SHARE = 0.1
 """Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
@@ -104,7 +102,7 @@ class Stream:
         latest = replace(self._latest, arrays=info.draws)
         if latest.count:
             self._latest = latest
-            self._recent = _joined(self._recent, latest)
+            self._recent = joined(self._recent, latest)
             for chain in range(self.n_chains):
                 one = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
                 self._sums[chain] += self.model.cells.mean_map(one) * latest.count
@@ -124,7 +122,7 @@ class Stream:
 
     @property
     def recent(self) -> Draws:
-        """The last maps, kept or not: at most `RECENT` of each chain, as far as they fit in `RECENT_BYTES`."""
+        """The last maps, kept or not; see `bayesmap.app.recent`."""
         return self._recent
 
     def mean(self) -> NDArray[np.float64]:
@@ -178,13 +176,3 @@ class Stream:
             n_incidences=self.problem.n_incidences,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
         )  # fmt: skip
-
-
-def _joined(before: Draws, after: Draws) -> Draws:
-    """The last draws of both, as many as are to be remembered."""
-    one = sum(a[:, :1].nbytes for a in after.arrays.values())
-    most = min(RECENT, max(1, RECENT_BYTES // max(one, 1)))
-    if before.index.keys() != after.index.keys():
-        before = replace(after, arrays={name: a[:, :0] for name, a in after.arrays.items()})
-    joined = {name: np.concatenate([before.arrays[name], a], axis=1)[:, -most:] for name, a in after.arrays.items()}
-    return replace(after, arrays=joined)

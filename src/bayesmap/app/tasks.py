@@ -128,12 +128,19 @@ class Remember:
 
 @dataclass(frozen=True)
 class MoveGhost:
-    """What a robot's laser would read at a pose: metres and radians, world frame."""
+    """What a robot's laser would read at a pose: metres and radians, world frame.
+
+    Attributes:
+        client: the page.
+        x, y, yaw: the pose.
+        coarse: whether a few draws do, since the hand still moves.
+    """
 
     client: int
     x: float
     y: float
     yaw: float
+    coarse: bool = False
 
 
 @dataclass(frozen=True)

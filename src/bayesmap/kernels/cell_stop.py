@@ -86,6 +86,14 @@ class HeldMaps:
     hit_depth: float
     device: str
 
+    def thinned(self, most: int) -> "HeldMaps":
+        """At most so many of them, evenly spread."""
+        if most >= self.draws:
+            return self
+        rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
+        states = (self.maps.surface if self.maps.surfaces else self.maps.stop).numpy()[rows]
+        return HeldMaps(put_maps(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
+
 
 def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> HeldMaps:
     """Put draws of all cells of a grid on a device.

@@ -186,16 +186,55 @@ def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
     """P(reading <= range | the beam stops at about the distance), for a finite range."""
     if law.kind == TABLE:
         return table_cumulative(law.table, reading_m, distance_m, variance, law.max_m)
-    one = type(reading_m)(1.0)
     wall = wp.min(distance_m, law.max_m)
     if law.kind == NOISE:
         return noise_below(law, (reading_m - wall) / wp.sqrt(variance_at(law, wall, variance)))
     z = wp.clamp(reading_m, law.min_m, law.max_m)
-    short = law.p_short * (one - wp.exp(-law.rate_short_per_m * wp.min(z, wall)))
-    below = type(reading_m)(0.0)
-    if distance_m <= law.max_m:
-        below = noise_below(law, (z - wall) / wp.sqrt(variance_at(law, wall, variance)))
-        if below > type(reading_m)(0.0):
-            below = below * law.p_return * unblocked(law, wall)
-    uniform = (z - law.min_m) / (law.max_m - law.min_m)
-    return law.p_random * uniform + law.p_known * (short + below)
+    known = met_or_returned(law, z, wp.exp(-law.rate_short_per_m * z), distance_m, variance)
+    return random_below(law, z) + law.p_known * known
+
+
+@wp.func
+def random_below(law: Any, z: Any):
+    """P(reading <= z and the reading is random) of the mixture, for a z within the limits."""
+    return law.p_random * (z - law.min_m) / (law.max_m - law.min_m)
+
+
+@wp.func
+def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any):
+    """P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop.
+
+    ``decay`` is `object_decay` of z, the same for all stops: one far behind z costs no exponential of its own.
+    """
+    one = type(z)(1.0)
+    if is_behind(law, z, distance_m, variance):
+        return law.p_short * (one - decay)
+    wall = wp.min(distance_m, law.max_m)
+    past = wp.exp(-law.rate_short_per_m * wall)
+    met = law.p_short * (one - wp.where(wall < z, past, decay))
+    if distance_m > law.max_m:
+        return met
+    returned = one
+    if not is_before(law, z, distance_m, variance):
+        returned = noise_below(law, (z - wall) / wp.sqrt(variance_at(law, wall, variance)))
+    return met + returned * law.p_return * (one - law.p_short * (one - past))
+
+
+@wp.func
+def is_behind(law: Any, z: Any, distance_m: Any, variance: Any):
+    """Whether a stop lies so far behind z that nothing returns from it below z."""
+    if distance_m > law.max_m:
+        return True
+    error = distance_m - z
+    if error <= type(z)(0.0) or law.dof > type(z)(0.0):
+        return False
+    return error * error > type(z)(FAR_SQ) * variance_at(law, distance_m, variance)
+
+
+@wp.func
+def is_before(law: Any, z: Any, distance_m: Any, variance: Any):
+    """Whether a stop lies so far before z that all that returns from it is below z."""
+    error = z - wp.min(distance_m, law.max_m)
+    if error <= type(z)(0.0) or law.dof > type(z)(0.0):
+        return False
+    return error * error > type(z)(FAR_SQ) * variance_at(law, distance_m, variance)

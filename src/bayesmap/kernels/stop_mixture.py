@@ -1,4 +1,4 @@
-"""Where beams stop, averaged over draws, and what follows from that: quantiles of ranges, chances of first hits.
+"""Where beams stop, averaged over draws, and the chances of first hits that follow from that.
 
 All that a prediction needs of many draws of a map is the mean weight of each stop, since the predictive law is linear
 in the weights. Where draws also differ in *where* a cell is hit, the places of one cell are merged into one, with their
@@ -18,7 +18,7 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_stop import HeldMaps, Maps, StopStates, put_maps, stop_in
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.predict import are_typed, law_with_cumulative
+from bayesmap.kernels.predict import law_with_cumulative
 from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
 from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
 from bayesmap.sensors.model import SensorModel
@@ -26,7 +26,6 @@ from bayesmap.sensors.model import SensorModel
 wp.set_module_options({"enable_backward": False})
 
 Floats = NDArray[np.float64]
-HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at most a 30 000th of it
 LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # of an event, and of getting to it
 LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # of a stop that is looked at: a thousand less likely ones add nothing
 MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
@@ -160,40 +159,6 @@ def mixture_below(law: SensorLaw64, stops: Stops, b: int, range_m: wp.float64) -
 
 
 @wp.kernel
-def find_quantiles(
-    first: int,
-    law: SensorLaw64,
-    stops: Stops,
-    levels: wp.array(dtype=wp.float64),
-    low_m: wp.float64,
-    high_m: wp.float64,
-    quantiles: wp.array2d(dtype=wp.float64),
-):
-    """One thread a beam: halve the span of ranges until each quantile is found; levels rise."""
-    b = first + wp.tid()
-    at_low = mixture_below(law, stops, b, low_m)
-    at_high = mixture_below(law, stops, b, high_m)
-    start = low_m
-    for i in range(levels.shape[0]):
-        level = levels[i]
-        if level <= at_low:
-            quantiles[b, i] = wp.float64(-wp.inf)
-        elif level > at_high:
-            quantiles[b, i] = wp.float64(wp.inf)
-        else:
-            low = start
-            high = high_m
-            for _j in range(HALVINGS):
-                middle = wp.float64(0.5) * (low + high)
-                if mixture_below(law, stops, b, middle) < level:
-                    low = middle
-                else:
-                    high = middle
-            quantiles[b, i] = high
-            start = low
-
-
-@wp.kernel
 def find_events(
     first: int,
     law: SensorLaw64,
@@ -235,7 +200,8 @@ def find_events(
             before = after
 
 
-def _put(stops: StopMixture, device: str) -> Any:
+def put_stops(stops: StopMixture, device: str) -> Any:
+    """A mixture where kernels read it."""
     packed = Stops()
     packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
     packed.weight = devices.to_device(stops.weight, wp.float32, device)
@@ -243,29 +209,6 @@ def _put(stops: StopMixture, device: str) -> Any:
     packed.variance = devices.to_device(stops.spread_m**2, wp.float32, device)
     packed.no_stop = devices.to_device(stops.no_stop, wp.float64, device)
     return packed
-
-
-def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
-    """The least range below which the reading falls with each probability, metres, shape (B, levels).
-
-    No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
-    are looked for from one range below zero to two ranges.
-
-    Args:
-        stops: where the beams stop.
-        levels: rising probabilities.
-        sensor: the law of a reading given where its beam stops.
-        device: where to compute.
-    """
-    device = devices.resolve(device)
-    limits = stops.rays.limits
-    law = law_with_cumulative(sensor, limits, device)
-    low, high = (limits.min_m, limits.max_m) if are_typed(sensor, limits) else (-limits.max_m, 2.0 * limits.max_m)
-    beams = stops.rays.n_beams
-    out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
-    inputs = [law, _put(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
-    launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
-    return np.asarray(out.numpy())
 
 
 def first_hit_events(
@@ -288,7 +231,7 @@ def first_hit_events(
     rays, size = stops.rays, len(stops.weight)
     chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
-    inputs = [law_with_cumulative(sensor, rays.limits, device), _put(stops, device), *put_rays(rays, device)]
+    inputs = [law_with_cumulative(sensor, rays.limits, device), put_stops(stops, device), *put_rays(rays, device)]
     inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
     launch(find_events, rays.n_beams, inputs, device)
     return chance.numpy(), stopped.numpy()

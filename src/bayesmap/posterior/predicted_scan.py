@@ -11,7 +11,7 @@ the scans from many poses cost little each.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -61,6 +61,10 @@ class ScanPredictor:
         held = hold_maps(predictor.batches(), predictor.hit_depth, device=device)
         return cls(predictor.grid, held, predictor.sensor, limits)
 
+    def thinned(self, most: int) -> ScanPredictor:
+        """The same by at most so many of the draws, evenly spread."""
+        return replace(self, held=self.held.thinned(most))
+
     def quantiles(
         self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80
     ) -> NDArray[np.float64]:
@@ -80,7 +84,8 @@ class ScanPredictor:
                 one.
         """
         from bayesmap.kernels.rays import trace_rays
-        from bayesmap.kernels.stop_mixture import mix_held_stops, range_quantiles
+        from bayesmap.kernels.stop_mixture import mix_held_stops
+        from bayesmap.kernels.stop_quantiles import range_quantiles
 
         wanted = np.asarray(levels, dtype=np.float64)
         if wanted.size == 0 or (np.diff(wanted) <= 0).any() or not ((wanted > 0) & (wanted < 1)).all():

@@ -142,7 +142,8 @@ def score_prediction(
     """
     from bayesmap.kernels.predict import forecast
     from bayesmap.kernels.rays import trace_rays
-    from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops, range_quantiles
+    from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops
+    from bayesmap.kernels.stop_quantiles import range_quantiles
 
     valid = (scans.readings != Reading.INVALID).ravel()
     if not valid.any():
