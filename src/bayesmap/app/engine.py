@@ -271,13 +271,15 @@ class Engine:
         yield from self._stream(scene, document, stream)
 
     def _stream(self, scene: Scene, document: Document, stream: Stream) -> Iterator[None]:
-        while not stream.done:
+        ended = stream.done
+        while not ended:
             yield
             stream.advance()
+            ended = stream.done
             self._result = Result(scene, document, document.method, stream=stream)
-            if self._showing.due() or stream.done:
+            if self._showing.due() or ended:
                 self._showing.frame(self._result)
-            if stream.done:
+            if ended:
                 self._showing.overlay(self._result)
         self._showing.finished(self._result)
 
