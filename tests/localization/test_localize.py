@@ -1,10 +1,13 @@
 """The posterior of a pose is that of enumeration: all modes, stretched where nothing holds it, lost where lost."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rooms import ANGLES, LASER, known, offset, scan_from, walls_of
 
 import bayesmap as bm
+from bayesmap.localization.field import likelihood_field
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import Near, localize
 from bayesmap.sensors.model import RangeLimits
@@ -102,6 +105,31 @@ def test_scans_of_another_building_are_lost_and_those_of_this_are_not(offices):
     assert sum(found) >= 8
     assert not any(np.array(found) & np.array(lost))
     assert sum(belief.p_lost > 0.5 for belief in wrong.beliefs) >= 7
+
+
+def test_a_robot_that_looks_past_the_edge_of_the_map_is_found(offices):
+    """Half of a building is known, and a laser near the edge sees mostly the other half.
+
+    The twin's search takes what is unknown for empty, so that any place where all meets some wall looks better.
+    """
+    (here, _), (route, _) = offices
+    observed = np.zeros(here.grid.shape, dtype=bool)
+    observed[: round(10.0 / here.grid.resolution)] = True
+    near = np.flatnonzero((route[:, 0] > 8.5) & (route[:, 0] < 9.7))
+    scans = scan_from(here.walls, here.grid, route[near], angles=ROUND)
+    states = np.where(observed, here.walls, 0.08).astype(np.float32)
+    half = KnownMap.of_draws(
+        states.ravel()[None], here.grid, LASER, scans, occupancy=states.astype(float), observed=observed, hit_depth=0.0
+    )
+    blind = replace(half, unknown_chance=0.0, field=likelihood_field(here.walls & observed, here.grid, half.free))
+
+    def found(known_map):
+        beliefs = localize(known_map, scans, independent=True).beliefs
+        return sum(offset(belief.mean, pose)[0] < 0.2 for belief, pose in zip(beliefs, route[near], strict=True))
+
+    assert len(near) >= 10
+    assert found(half) == len(near)
+    assert found(blind) <= len(near) - 2
 
 
 def test_a_robot_is_followed_by_its_odometry_and_found_again_when_it_was_carried_away(offices):

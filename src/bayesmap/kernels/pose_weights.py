@@ -8,6 +8,7 @@ passed by.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -229,6 +230,17 @@ def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: 
     return PackedMap(put_cells(np.ascontiguousarray(states), device), empty, len(states), frame, device)
 
 
+def unpacked(packed: PackedMap) -> NDArray[np.float32]:
+    """The draws as `pack_map` was given them; surfaces with two flags more."""
+    held = packed.cells.surface if packed.cells.surfaces != 0 else packed.cells.stop
+    return np.asarray(held.numpy())
+
+
+@lru_cache(maxsize=64)
+def _law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
+    return sensor_law(sensor, limits, device, SensorLaw32)
+
+
 def scan_log_likelihood(
     packed: PackedMap,
     poses: Floats,
@@ -266,7 +278,7 @@ def scan_log_likelihood(
     which = np.zeros(count, np.int32) if scan is None else np.asarray(scan, np.int32)
     readings = np.ascontiguousarray(np.atleast_2d(ranges_m), dtype=np.float64)
     inputs = [
-        sensor_law(sensor, limits, device, SensorLaw32),
+        _law(sensor, limits, device),
         packed.frame,
         packed.cells,
         packed.empty,

@@ -58,7 +58,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
 
     found = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES)
     if len(found.poses) == 0:
-        return belief_of(known, prior, scan, everywhere(known, target(last), rng), None, rng)
+        return belief_of(known, prior, scan, everywhere(known, target(last), rng), None)
     count = len(found.poses)
     places = PoseMixture(found.poses, np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3)), np.zeros(count))
     for weight in np.geomspace(first, last, RISES):
@@ -70,7 +70,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
         if power > NEARLY:
             break
     population = draw_population(places, target(last), LAST, rng)
-    return belief_of(known, prior, scan, population, groups_of(places, population.poses), rng)
+    return belief_of(known, prior, scan, population, groups_of(places, population.poses))
 
 
 def distinct(places: PoseMixture) -> PoseMixture:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit
 
+from bayesmap.localization.approach import approached
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.particles import (
@@ -24,11 +25,12 @@ from bayesmap.localization.particles import (
     draw_population,
     groups_of,
     log_sum,
-    proposal_log_density,
+    shared_out,
+    squared_distances,
+    weighed,
 )
 from bayesmap.localization.search import search
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]
 
@@ -39,11 +41,11 @@ KEPT = 5
 ROUNDS, NEARLY = 5, 0.6
 """Places are adapted so often at most, or until weights hardly have to be tempered."""
 
+FEW, EACH, LAST = 8, 24, 32
+"""Draws of each place to tell which count, in a round, and in the last, of the likeliest."""
+
 THINNED = 40
 """Beams of a scan that are looked at, about, until the last round."""
-
-FIT_ROUNDS = 2
-"""The same where only the evidence of one place is asked for."""
 
 FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
 """How far a searched pose may be from the best one near it."""
@@ -118,26 +120,27 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     def target(thin: int, draws: int | None = None) -> Target:
         return Target(known, prior, scan, thin, known.weight_of(scan.ranges_m), draws)
 
+    def density(poses: Floats) -> Floats:
+        return prior.log_density(poses, known)
+
     thin = max(1, len(scan.angles_rad) // THINNED)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
     group = None
     if starts is None:
         population = everywhere(known, target(thin), rng)
     else:
+        starts = approached(starts, density, known, scan.angles_rad, scan.ranges_m, rng)
         if len(starts.means) > 1:
             # Which places count at all, one draw of the map tells.
-            starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 16, rng))
-            starts = starts.best(2 * KEPT)
-            starts, _ = adapted(starts, draw_population(starts, target(thin, 1), 24, rng))
-            starts = starts.best(KEPT)
+            starts = weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)).best(KEPT)
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin), 24, rng))
+            starts, power = adapted(starts, draw_population(starts, target(thin), shared_out(starts, EACH), rng))
             starts = starts.best(KEPT)
             if power > NEARLY:
                 break
-        population = draw_population(starts, target(1), 64 if len(starts.means) == 1 else 40, rng)
+        population = draw_population(starts, target(1), shared_out(starts, LAST), rng)
         group = groups_of(starts, population.poses)
-    return belief_of(known, prior, scan, population, group, rng)
+    return belief_of(known, prior, scan, population, group)
 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
@@ -191,8 +194,9 @@ def everywhere(known: KnownMap, target: Target, rng: np.random.Generator) -> Pop
     chosen = cells[rng.integers(len(cells), size=UNIFORM_DRAWS)] + rng.random((UNIFORM_DRAWS, 2))
     yaw = rng.uniform(-np.pi, np.pi, UNIFORM_DRAWS)
     poses = np.column_stack([np.array(known.grid.origin) + chosen * known.grid.resolution, yaw])
-    log_weights = target(poses) + np.log(known.free_area_m2 * 2 * np.pi)
-    return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp))
+    logs = target(poses)
+    log_weights = logs + np.log(known.free_area_m2 * 2 * np.pi)
+    return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp), logs)
 
 
 def belief_of(
@@ -201,7 +205,6 @@ def belief_of(
     scan: Scan,
     population: Population,
     group: NDArray[np.intp] | None,
-    rng: np.random.Generator,
 ) -> PoseBelief:
     """The posterior of a population, with the chance of being lost."""
     weights = population.weights
@@ -212,7 +215,7 @@ def belief_of(
     unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group)
     if not np.isfinite(scan.ranges_m).any():
         return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
-    evidence, fit = _fit(known, prior, scan, unsure, rng)
+    evidence, fit = _fit(known, prior, scan, population, unsure)
     elsewhere = known.log_elsewhere(scan.ranges_m, _fit_weight(known, scan))
     with np.errstate(divide="ignore"):
         odds = np.log(prior.lost) - np.log1p(-prior.lost) + elsewhere - evidence
@@ -224,39 +227,28 @@ def _fit_weight(known: KnownMap, scan: Scan) -> float:
     return min(1.0, FIT_TIMES * usual)
 
 
-def _fit(
-    known: KnownMap, prior: Prior, scan: Scan, belief: PoseBelief, rng: np.random.Generator
-) -> tuple[float, float]:
-    """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam at the best pose.
+def _fit(known: KnownMap, prior: Prior, scan: Scan, population: Population, belief: PoseBelief) -> tuple[float, float]:
+    """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam.
 
-    With beams that count `FIT_TIMES` as much: whether a scan fits at all is clearer than where exactly it does.
+    With beams that count `FIT_TIMES` as much: whether a scan fits at all is clearer than where exactly it does. The
+    same poses tell it, weighed anew.
     """
-    weight = _fit_weight(known, scan)
-    thin = max(1, len(scan.angles_rad) // THINNED)
-    target = Target(known, prior, scan, thin, weight)
-    mode = belief.modes[0]
-    shrunk = mode.covariance * known.weight_of(scan.ranges_m) / weight + 1e-8 * np.eye(3)
-    components = PoseMixture(mode.mean[None], shrunk[None], np.zeros(1))
-    population = draw_population(components, target, 32, rng)
-    for _ in range(FIT_ROUNDS):
-        components, power = adapted(components, population)
-        population = draw_population(components, target, 32, rng)
-        if power > NEARLY:
-            break
-    best = population.poses[
-        [int(np.argmax(population.log_weights + proposal_log_density(components, population.poses)))]
-    ]
+    weight, usual = _fit_weight(known, scan), known.weight_of(scan.ranges_m)
+    with np.errstate(invalid="ignore"):
+        likelihood = population.log_target - prior.log_density(population.poses, known)
+    logs = np.where(
+        np.isfinite(population.log_weights), population.log_weights + (weight / usual - 1.0) * likelihood, -np.inf
+    )
+    if belief.mode_of is not None:
+        likeliest = np.bincount(belief.mode_of, belief.weights).argmax()
+        logs = np.where(belief.mode_of == likeliest, logs, -np.inf)
+    evidence = float(log_sum(logs) - np.log(len(logs)))
     beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
-    top = known.log_likelihood(best, scan.angles_rad, scan.ranges_m, scan.limits, weight=weight)[0]
-    return population.log_evidence, float(top / weight / beams)
+    return evidence, float(likelihood[int(np.argmax(logs))] / usual / beams)
 
 
 def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
     """Log density of a mixture of normal distributions with the components' masses, (P,)."""
-    off = poses[:, None] - components.means
-    off[..., 2] = wrapped(off[..., 2])
-    inverse = np.linalg.inv(components.covariances)
-    squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
+    squared, half_log_det = squared_distances(components, poses)
     mass = components.log_mass - log_sum(components.log_mass)
-    logs = mass + 0.5 * np.linalg.slogdet(inverse)[1] - 1.5 * np.log(2 * np.pi) - 0.5 * squared
-    return np.asarray(log_sum(logs))
+    return np.asarray(log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared))

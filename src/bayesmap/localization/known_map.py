@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.localization.endpoint_field import EndpointField, endpoint_field
 from bayesmap.localization.field import Field, likelihood_field
 from bayesmap.localization.particles import log_sum
 from bayesmap.sensors.mixture import BeamMixture
@@ -46,9 +48,12 @@ class KnownMap:
         sensor: the law of a reading.
         field: for the search.
         free: cells in which a robot may be, (nx, ny).
+        unknown: cells of which nothing is known, (nx, ny).
+        unknown_chance: that such a cell stops a beam, on average.
         elsewhere: log density of a reading, per metre, in each of `BINS` bins up to the largest range, and log
             probability of no return: of scans taken anywhere, for the chance of being lost.
         max_range_m: of those scans.
+        typical_m: the median of their readings.
         beam_weight: how much of an independent reading a beam is; None: as `INDEPENDENT_BEAMS` says.
     """
 
@@ -57,8 +62,11 @@ class KnownMap:
     sensor: SensorModel
     field: Field
     free: NDArray[np.bool_]
+    unknown: NDArray[np.bool_]
+    unknown_chance: float
     elsewhere: Floats
     max_range_m: float
+    typical_m: float
     beam_weight: float | None = None
 
     @classmethod
@@ -121,22 +129,39 @@ class KnownMap:
         """
         from bayesmap.kernels.pose_weights import pack_map
 
+        readings = scans.ranges_m[np.isfinite(scans.ranges_m)]
         known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
         free: NDArray[np.bool_] = np.logical_and(observed, known < PASSABLE)
         if not free.any():
             raise BadInput("localize: the map has no free cell in which a robot could be")
+        unknown = np.logical_not(observed)
+        chances = (states[..., 0] if states.ndim == 3 else states)[:, unknown.ravel()]
+        chance = float(chances.mean()) if chances.size else 0.0
         return cls(
             grid=grid,
             packed=pack_map(states, grid, hit_depth, device),
             sensor=_compilable(sensor),
-            field=likelihood_field(known, grid, free),
+            field=likelihood_field(known, grid, free, unknown, chance),
             free=free,
+            unknown=unknown,
+            unknown_chance=chance,
             elsewhere=_anywhere(scans),
             max_range_m=scans.max_range_m,
+            typical_m=float(np.median(readings)) if len(readings) else scans.max_range_m,
             beam_weight=beam_weight,
         )
 
-    @property
+    @cached_property
+    def endpoints(self) -> EndpointField:
+        """Where end points of beams fall on surfaces, for proposals."""
+        from bayesmap.kernels.pose_weights import unpacked
+
+        noise = self.sensor.noise if isinstance(self.sensor, BeamMixture) else self.sensor
+        assert isinstance(noise, Gaussian)
+        sigma_m = noise.sigma_m + noise.sigma_per_m * self.typical_m
+        return endpoint_field(unpacked(self.packed), self.grid, sigma_m, self.unknown, self.unknown_chance)
+
+    @cached_property
     def free_area_m2(self) -> float:
         """Where a robot may be."""
         return float(self.free.sum() * self.grid.resolution**2)

@@ -2,7 +2,8 @@
 
 Each round draws from a mixture of Student distributions about the components found so far, weighs the draws by
 target / proposal, and moves the components to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
-Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser.
+Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser. Draws are
+spread evenly: points of a lattice that is shifted at random, each of which has the law of a draw by itself.
 """
 
 from __future__ import annotations
@@ -12,13 +13,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammaln
+from scipy.special import gammaincinv, gammaln, ndtri
 
 from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]
 
 DOF = 5.0
+STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
+LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)
 LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])
 """A proposal is never narrower than this."""
 
@@ -26,8 +29,8 @@ OVERLAP = 2.0
 SAME = np.array([0.2, 0.2, np.radians(7.0)])
 """Places closer than this in all three are one mode in any case."""
 
-COUNTING = 0.3
-"""Share of a place's draws that must count; weights are tempered until they do."""
+COUNTING, ENOUGH = 0.3, 16.0
+"""Share of a place's draws that must count, and how many of them will do; weights are tempered until they do."""
 
 NEGLIGIBLE_NATS = 15.0
 
@@ -69,11 +72,13 @@ class Population:
         poses: (N, 3).
         log_weights: target / proposal, not normalised, (N,): their mean estimates the target's normaliser.
         place: from which place each was drawn, (N,).
+        log_target: the target itself, (N,).
     """
 
     poses: Floats
     log_weights: Floats
     place: NDArray[np.intp]
+    log_target: Floats
 
     @property
     def log_evidence(self) -> float:
@@ -87,33 +92,51 @@ class Population:
 
 
 def draw_population(
-    components: PoseMixture, target: Callable[[Floats], Floats], each: int, rng: np.random.Generator
+    components: PoseMixture, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
 ) -> Population:
     """Draw so many poses from each place, and weigh them by a target.
 
     Args:
-        components: the proposal, all components alike.
+        components: the proposal, their masses left aside.
         target: log density of poses (P, 3), not normalised, (P,).
-        each: draws a place.
+        each: draws a place: one number, or one for each, (K,).
         rng: for the draws.
     """
-    count = len(components.means)
+    counts = np.broadcast_to(each, len(components.means))
+    place = np.repeat(np.arange(len(counts)), counts)
     roots = np.linalg.cholesky(components.covariances)
-    normal = rng.standard_normal((count, each, 3))
-    stretch = np.sqrt(DOF / rng.chisquare(DOF, (count, each, 1)))
-    poses = components.means[:, None] + stretch * np.einsum("kij,knj->kni", roots, normal)
-    poses = poses.reshape(-1, 3)
+    poses = components.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
     poses[:, 2] = wrapped(poses[:, 2])
-    log_weights = target(poses) - proposal_log_density(components, poses)
+    log_target = target(poses)
+    log_weights = log_target - proposal_log_density(components, poses, counts)
     # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their number.
     most = log_sum(log_weights) - 0.5 * np.log(len(poses))
-    return Population(poses, np.minimum(log_weights, most), np.repeat(np.arange(count), each))
+    return Population(poses, np.minimum(log_weights, most), place, log_target)
+
+
+def student_draws(count: int, rng: np.random.Generator) -> Floats:
+    """Draws from the standard Student distribution in three dimensions, evenly spread, (N, 3).
+
+    The lattice is Roberts' (2018), powers of the root of x^5 = x + 1, shifted at random (Cranley and Patterson 1976).
+    """
+    even = (rng.random(4) + np.arange(count)[:, None] * LATTICE) % 1.0
+    even = np.clip(even, 1e-12, 1.0 - 1e-12)
+    stretch = np.sqrt(0.5 * DOF / gammaincinv(0.5 * DOF, even[:, 3:]))
+    return np.asarray(stretch * ndtri(even[:, :3]))
+
+
+def shared_out(components: PoseMixture, most: int) -> NDArray[np.intp]:
+    """Draws for each place, (K,): as the root of its mass, by which its error counts; at least a third of the most."""
+    shares = np.exp(0.5 * (components.log_mass - components.log_mass.max()))
+    return np.asarray(np.maximum(np.round(most * shares), most // 3), dtype=np.intp)
 
 
 def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
     """Labels of poses by place; components closer than `OVERLAP` standard deviations are taken together, (P,)."""
     from scipy.sparse.csgraph import connected_components
 
+    if len(components.means) == 1:
+        return np.zeros(len(poses), dtype=np.intp)
     off = components.means[:, None] - components.means
     off[..., 2] = wrapped(off[..., 2])
     both = np.linalg.inv(components.covariances[:, None] + components.covariances)
@@ -123,19 +146,30 @@ def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
     return np.asarray(group[_student_logs(components, poses).argmax(axis=1)], dtype=np.intp)
 
 
-def proposal_log_density(components: PoseMixture, poses: Floats) -> Floats:
-    """Log density of the mixture of Student distributions, all components alike, (P,)."""
-    return np.asarray(log_sum(_student_logs(components, poses)) - np.log(len(components.means)))
+def proposal_log_density(components: PoseMixture, poses: Floats, counts: NDArray[np.intp]) -> Floats:
+    """Log density of the mixture of Student distributions with shares by these draws of each, (P,)."""
+    return np.asarray(log_sum(_student_logs(components, poses) + np.log(counts / counts.sum())))
+
+
+def squared_distances(components: PoseMixture, poses: Floats) -> tuple[Floats, Floats]:
+    """Squared distances of poses in each place's standard deviations (P, K), and half the log determinants (K,)."""
+    off = poses - components.means[:, None]
+    off[..., 2] = wrapped(off[..., 2])
+    inverse = np.linalg.inv(components.covariances)
+    squared = (np.matmul(off, inverse) * off).sum(axis=-1)
+    return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
 
 
 def _student_logs(components: PoseMixture, poses: Floats) -> Floats:
     """Log density of each place's Student distribution, (P, K)."""
-    off = poses[:, None] - components.means
-    off[..., 2] = wrapped(off[..., 2])
-    inverse = np.linalg.inv(components.covariances)
-    squared = np.einsum("pki,kij,pkj->pk", off, inverse, off)
-    constant = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
-    return np.asarray(constant + 0.5 * np.linalg.slogdet(inverse)[1] - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
+    squared, half_log_det = squared_distances(components, poses)
+    return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
+
+
+def weighed(components: PoseMixture, population: Population) -> PoseMixture:
+    """The same places with the masses that a population says, which was drawn from them."""
+    masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(components.means))]
+    return PoseMixture(components.means, components.covariances, np.array(masses))
 
 
 def adapted(components: PoseMixture, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
@@ -156,7 +190,7 @@ def adapted(components: PoseMixture, population: Population, widen: float = 1.5)
         less = logs - most
         weights = np.exp(less)
         top = most + np.log(weights.sum())
-        while weights.sum() ** 2 < COUNTING * len(logs) * (weights @ weights) and power > 1e-3:
+        while weights.sum() ** 2 < min(COUNTING * len(logs), ENOUGH) * (weights @ weights) and power > 1e-3:
             power *= 0.8
             weights = np.exp(power * less)
         weights /= weights.sum()
