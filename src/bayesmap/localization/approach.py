@@ -18,7 +18,8 @@ Floats = NDArray[np.float64]
 
 POINTS = 60
 SHARPER = 2.0
-"""How much more end points count here than beams: their field is that of all draws of the map in one, and wider."""
+"""How much more end points count here than beams: their field is that of all draws of the map in one, and wider. It
+decides how many rounds the exact law needs, not what it answers."""
 
 STEPS, NEARLY = 3, 0.6
 """Rounds at most, or until weights hardly have to be tempered; one less for several places: a search found them."""
