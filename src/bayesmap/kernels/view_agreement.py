@@ -1,5 +1,6 @@
 """Do two scans agree? Points of one that the other sees, and points that stand where the other saw through."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -72,14 +73,27 @@ def compare_views(
     counts[p, 2] = total
 
 
+@dataclass(frozen=True)
+class Agreement:
+    """When points of one scan count as seen by another, and when as contradicting it.
+
+    Attributes:
+        near_m: a point so near one of the other scan is matched.
+        clear_m: one that stands so far before what the other saw contradicts.
+        beams: about so many of each scan are looked at.
+    """
+
+    near_m: float
+    clear_m: float
+    beams: int
+
+
 def view_counts(
     geometry: Any,
     source: NDArray[np.int32],
     target: NDArray[np.int32],
     relative: NDArray[np.float64],
-    near_m: float,
-    clear_m: float,
-    stride: int = 1,
+    agreement: Agreement,
     threads: int | None = None,
 ) -> NDArray[np.int32]:
     """Of the points of each source: matched by the target, contradicting it, all; (P, 3).
@@ -88,9 +102,10 @@ def view_counts(
     """
     device, count = geometry.device, len(source)
     counts = wp.empty((count, 3), dtype=wp.int32, device=device)
+    stride = max(1, geometry.beams // agreement.beams)
     inputs = [scene_of(geometry, stride), devices.to_device(source, wp.int32, device)]
     inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
-    launch(compare_views, count, [*inputs, near_m, clear_m, counts], device, threads)
+    launch(compare_views, count, [*inputs, agreement.near_m, agreement.clear_m, counts], device, threads)
     return np.asarray(counts.numpy())
 
 
@@ -99,14 +114,12 @@ def mutual_view_counts(
     first: NDArray[np.int32],
     second: NDArray[np.int32],
     relative: NDArray[np.float64],
-    near_m: float,
-    clear_m: float,
-    stride: int = 1,
+    agreement: Agreement,
     threads: int | None = None,
 ) -> NDArray[np.int32]:
     """`view_counts` of the second scans in the views of the first, and the other way round, added up, (P, 3).
 
     ``relative`` are the poses of the second in the frames of the first, (P, 3).
     """
-    there = view_counts(geometry, second, first, relative, near_m, clear_m, stride, threads)
-    return there + view_counts(geometry, first, second, inverse(relative), near_m, clear_m, stride, threads)
+    there = view_counts(geometry, second, first, relative, agreement, threads)
+    return there + view_counts(geometry, first, second, inverse(relative), agreement, threads)

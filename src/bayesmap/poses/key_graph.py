@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.front_end import Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
-from bayesmap.poses.loops import Search, find_closures, path_m
+from bayesmap.poses.key_path import key_path
+from bayesmap.poses.loops import Search, find_closures
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.submap_matching import Closures
@@ -119,15 +120,16 @@ def close_loops(
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
     breaks, joined = track.broken[keys], np.ones(1, np.bool_)
-    part = np.cumsum(breaks).astype(np.intp)
+    path = key_path(geometry, keys, poses, breaks)
     if breaks.any():
-        poses, joined = rejoin(geometry, keys, poses, path_m(poses, breaks), part, half_width_m, threads)
+        poses, joined = rejoin(path, half_width_m, threads)
     guess, chain = poses, chain_of(track, poses)
     closures, weights, loops = None, np.empty(0), NO_FACTORS
     for number, search in enumerate(ROUNDS, start=1):
         parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
         _, precision = solve_step(len(poses), parts)
-        closures = find_closures(geometry, keys, poses, path_m(poses, breaks), precision, half_width_m, search, threads)
+        path = key_path(geometry, keys, poses, breaks)
+        closures = find_closures(path, precision, half_width_m, search, threads)
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)
@@ -138,8 +140,8 @@ def close_loops(
     assert closures is not None
     # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
     for k in np.nonzero(~joined)[0]:
-        across = (part[closures.first] < k) & (part[closures.second] == k)
-        begin = int(np.searchsorted(part, k))
+        across = (path.parts[closures.first] < k) & (path.parts[closures.second] == k)
+        begin = int(np.searchsorted(path.parts, k))
         off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
         right = np.hypot(off[0], off[1]) < SAME_M and abs(off[2]) < SAME_RAD
         joined[k] = right and (across & (weights > 0.5)).sum() >= AGREE

@@ -9,14 +9,13 @@ pairs of places agree on it, and no other relative pose has nearly as many.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.view_agreement import mutual_view_counts
-from bayesmap.poses.loops import places_along
-from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.kernels.view_agreement import Agreement, mutual_view_counts
+from bayesmap.poses.key_path import KeyPath
 from bayesmap.poses.submap_matching import Closures, joined, match_submaps
 from bayesmap.space.planar import between, compose, inverse, wrapped
 
@@ -52,8 +51,8 @@ SAME_M, SAME_RAD = 0.5, np.radians(6.0)
 MET_M, COMPARED = 5.0, 600
 """Key scans of two parts that come to lie so near are held against each other, so many pairs at most."""
 
-NEAR_VIEW_M, CLEAR_VIEW_M, MOST_AGAINST = 0.2, 0.4, 0.15
-"""A point so near one of the other scan is matched; so far before what it saw contradicts; of both, so many may."""
+SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15
+"""When scans of two parts agree or contradict each other, and how many of the points that tell may contradict."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,23 +65,11 @@ class Joint:
     votes: float
 
 
-def rejoin(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    along: Floats,
-    parts: NDArray[np.intp],
-    half_width_m: float,
-    threads: int | None = None,
-) -> tuple[Floats, NDArray[np.bool_]]:
+def rejoin(path: KeyPath, half_width_m: float, threads: int | None = None) -> tuple[Floats, NDArray[np.bool_]]:
     """Put the parts of a path together.
 
     Args:
-        geometry: of all scans.
-        keys: the scans that are keys, (K,).
-        poses: of the keys as the front end left them, (K, 3).
-        along: distance along the path with gaps where it breaks, (K,).
-        parts: the part that each key belongs to, 0, 0, ..., 1, ..., (K,).
+        path: K key scans at the poses that the front end left them at.
         half_width_m: of submaps' grids.
         threads: to compute with; by default all cores.
 
@@ -92,50 +79,43 @@ def rejoin(
     """
     found = []
     for (first, second, centres), half_m, least in (
-        (_near_pairs(poses, along, parts), NEAR_M, NEAR_SCORE),
-        (_all_pairs(along, parts), EVERYWHERE_M, FAR_SCORE),
+        (_near_pairs(path), NEAR_M, NEAR_SCORE),
+        (_all_pairs(path), EVERYWHERE_M, FAR_SCORE),
     ):
         every = np.ones(len(first))
         closures = match_submaps(
-            geometry, keys, poses, along, first, second, centres, half_m * every, np.pi * every, half_width_m, least,
-            threads,
-        )  # fmt: skip
+            path, first, second, centres, half_m * every, np.pi * every, half_width_m, least, threads
+        )
         found.append(closures)
-    closures, islands, where = joined(found), parts.copy(), poses
+    closures, islands = joined(found), path
     while True:
-        joint = _surest(_candidates(closures, where, islands), geometry, keys, where, islands, threads)
+        joint = _surest(_candidates(closures, islands), islands, threads)
         if joint is None:
             break
-        later = islands == joint.later
-        where = np.where(later[:, None], compose(joint.motion, where), where)
-        islands = np.where(later, joint.earlier, islands)
-    return _assembled(where, poses, parts, islands)
+        later = islands.parts == joint.later
+        islands = replace(
+            islands,
+            poses=np.where(later[:, None], compose(joint.motion, islands.poses), islands.poses),
+            parts=np.where(later, joint.earlier, islands.parts),
+        )
+    return _assembled(path, islands)
 
 
-def _surest(
-    pairs: Iterator[list[Joint]],
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    parts: NDArray[np.intp],
-    threads: int | None,
-) -> Joint | None:
+def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, threads: int | None) -> Joint | None:
     """The joint with the most votes that contradicts nothing and has no rival."""
     best = None
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
             continue
-        held = [j for j in candidates if _consistent(geometry, keys, poses, parts, j, threads)]
+        held = [j for j in candidates if _consistent(islands, j, threads)]
         if held and (len(held) == 1 or held[1].votes < RIVAL * held[0].votes):
             best = held[0] if best is None or held[0].votes > best.votes else best
     return best
 
 
-def _near_pairs(
-    poses: Floats, along: Floats, parts: NDArray[np.intp]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+def _near_pairs(path: KeyPath) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Places of each part and those of earlier parts near it; and the relative poses to begin with."""
-    places = places_along(along, SPACING_M)
+    places, poses, parts = path.places(SPACING_M), path.poses, path.parts
     first, second = [], []
     for part in range(1, int(parts[-1]) + 1):
         for query in _queries(places, parts, part):
@@ -149,10 +129,10 @@ def _near_pairs(
     return one, two, between(poses[one], poses[two])
 
 
-def _all_pairs(along: Floats, parts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+def _all_pairs(path: KeyPath) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Some places of each part and all places of earlier ones, as if both stood at the same point."""
-    places = places_along(along, EVERYWHERE_M)
-    queries = np.concatenate([_queries(places_along(along, SPACING_M), parts, p) for p in range(1, int(parts[-1]) + 1)])
+    places, sought, parts = path.places(EVERYWHERE_M), path.places(SPACING_M), path.parts
+    queries = np.concatenate([_queries(sought, parts, p) for p in range(1, int(parts[-1]) + 1)])
     one, two = (grid.ravel() for grid in np.meshgrid(places, queries, indexing="ij"))
     earlier = parts[one] < parts[two]
     return one[earlier], two[earlier], np.zeros((int(earlier.sum()), 3))
@@ -163,8 +143,9 @@ def _queries(places: NDArray[np.intp], parts: NDArray[np.intp], part: int) -> ND
     return np.asarray(own if len(own) <= most else own[np.arange(most) * len(own) // most])
 
 
-def _candidates(closures: Closures, poses: Floats, parts: NDArray[np.intp]) -> Iterator[list[Joint]]:
+def _candidates(closures: Closures, islands: KeyPath) -> Iterator[list[Joint]]:
     """For each pair of parts, relative poses that enough places agree on, the one with the most votes first."""
+    poses, parts = islands.poses, islands.parts
     # Where the later part's frame comes to lie: what brings its key to where the match has it.
     motions = compose(compose(poses[closures.first], closures.relative), inverse(poses[closures.second]))
     pairs = np.stack([parts[closures.first], parts[closures.second]], axis=1)
@@ -188,48 +169,34 @@ def _candidates(closures: Closures, poses: Floats, parts: NDArray[np.intp]) -> I
         yield found
 
 
-def _consistent(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    parts: NDArray[np.intp],
-    joint: Joint,
-    threads: int | None,
-) -> bool:
+def _consistent(islands: KeyPath, joint: Joint, threads: int | None) -> bool:
     """Whether the scans of two parts, joined so, see through little of what the other part's see."""
-    one, two = np.nonzero(parts == joint.earlier)[0], np.nonzero(parts == joint.later)[0]
-    here, there = poses[one], compose(joint.motion, poses[two])
+    one, two = np.nonzero(islands.parts == joint.earlier)[0], np.nonzero(islands.parts == joint.later)[0]
+    here, there = islands.poses[one], compose(joint.motion, islands.poses[two])
     a, b = np.nonzero(np.hypot(*np.moveaxis(here[:, None, :2] - there[None, :, :2], -1, 0)) < MET_M)
     some = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
     a, b = a[some], b[some]
-    stride = max(1, geometry.beams // 60)
-    scans = keys[one[a]].astype(np.int32), keys[two[b]].astype(np.int32)
-    seen = between(here[a], there[b])
-    matched, against, _ = mutual_view_counts(geometry, *scans, seen, NEAR_VIEW_M, CLEAR_VIEW_M, stride, threads).sum(
-        axis=0
-    )
+    scans, seen = (islands.scans(one[a]), islands.scans(two[b])), between(here[a], there[b])
+    matched, against, _ = mutual_view_counts(islands.geometry, *scans, seen, SEEN, threads).sum(axis=0)
     return bool(against <= MOST_AGAINST * (matched + against))
 
 
-def _assembled(
-    where: Floats, poses: Floats, parts: NDArray[np.intp], islands: NDArray[np.intp]
-) -> tuple[Floats, NDArray[np.bool_]]:
+def _assembled(path: KeyPath, islands: KeyPath) -> tuple[Floats, NDArray[np.bool_]]:
     """All islands in one frame: one that nothing joins stays as the front end has it, seen from the part before it.
 
     Args:
-        where: poses of the keys, right within an island, (K, 3).
-        poses: as the front end has them, right within a part, (K, 3).
-        parts: of the keys.
-        islands: the first part of the parts that are joined, by keys.
+        path: poses as the front end has them, right within a part.
+        islands: poses right within an island, whose number is that of the first of the parts that are joined.
     """
+    poses, where, parts = path.poses, islands.poses, path.parts
     result, placed = where.copy(), np.ones(int(parts[-1]) + 1, np.bool_)
     for part in range(1, len(placed)):
         begin = int(np.searchsorted(parts, part))
-        if islands[begin] != part:
+        if islands.parts[begin] != part:
             continue  # joined to an earlier part
         placed[part] = False
         guess = compose(result[begin - 1], between(poses[begin - 1], poses[begin]))
         motion = compose(guess, inverse(where[begin]))
-        own = islands == part
+        own = islands.parts == part
         result[own] = compose(motion, where[own])
     return result, placed
