@@ -49,6 +49,8 @@ def find_closures(
     half_width_m: float,
     search: Search,
     threads: int | None = None,
+    *,
+    within_parts: bool = False,
 ) -> Closures:
     """Seek closures among key scans at their present poses.
 
@@ -58,8 +60,9 @@ def find_closures(
         half_width_m: of submaps' grids.
         search: how far to look.
         threads: to compute with; by default all cores.
+        within_parts: not between parts of a broken path.
     """
-    first, second, sigma = _candidates(path, precision, half_width_m, search)
+    first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):
         return no_closures()
     half_m = np.clip(SIGMAS * sigma[:, :2].max(axis=1), 0.4, search.most_m)
@@ -70,7 +73,7 @@ def find_closures(
 
 
 def _candidates(
-    path: KeyPath, precision: Precision, half_width_m: float, search: Search
+    path: KeyPath, precision: Precision, half_width_m: float, search: Search, within_parts: bool
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
 
@@ -82,6 +85,8 @@ def _candidates(
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
     distance = np.hypot(*(poses[sought[earlier], :2] - poses[sought[later], :2]).T)
     near = distance < search.most_m + min(0.7 * half_width_m, 8.0)
+    if within_parts:
+        near &= path.parts[sought[earlier]] == path.parts[sought[later]]
     earlier, later, distance = sought[earlier[near]], sought[later[near]], distance[near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))

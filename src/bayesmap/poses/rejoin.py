@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.key_path import KeyPath
-from bayesmap.poses.submap_matching import Closures, joined, match_submaps
+from bayesmap.poses.submap_matching import Closures, Fineness, joined, match_submaps, no_closures
 from bayesmap.space.planar import between, compose, inverse, wrapped
 
 Floats = NDArray[np.float64]
@@ -24,13 +24,18 @@ Floats = NDArray[np.float64]
 NEAR_M, NEAR_PLACES = 3.0, 6
 """Each place is compared with the nearest so many of other parts that lie, as far as is known, no further off,"""
 
-SPACING_M, QUERIES, QUERIES_IN_ALL = 1.0, 24, 96
-"""Places that are looked for: so far apart along a part, so many of each, and so many in all parts, evenly spread."""
+SPACING_M, QUERIES, QUERIES_IN_ALL, TURNS = 1.0, 24, 96, 3
+"""Places that are looked for: so far apart along a part, so many of each, and so many in all parts, evenly spread. They
+are taken in so many turns, of which the later ones are spared where the first join all parts surely."""
 
-EVERYWHERE_M = 3.0
-"""and with others everywhere: so far apart. Windows reach as far."""
+EVERYWHERE_M, SAME_PLACE_M, SAME_VIEW_RAD = 3.0, 1.5, np.radians(45.0)
+"""and with others everywhere: so far apart along the path. Windows reach as far. Where the robot came by again, looking
+the same way, it saw the same."""
 
-NEAR_SCORE, FAR_SCORE = 0.6, 0.72
+COARSE = Fineness(60, np.radians(2.0))
+"""How places are looked for: what more points and headings tell of where a place lies refining has from whole scans."""
+
+NEAR_SCORE, FAR_SCORE = 0.6, 0.75
 """Matches below are not looked at: where places are compared with all others chance finds better ones."""
 
 CHANCE = 0.5
@@ -39,11 +44,15 @@ CHANCE = 0.5
 TRIED = 6
 """Relative poses of two parts that are held against what their scans see through."""
 
-AGREE = 3
-"""Places of a part that must agree on its pose relative to another part."""
+AGREE, SURELY = 3, 4
+"""Places of a part that must agree on its pose relative to another part; and while only some were looked for."""
 
-RIVAL = 0.6
-"""Another relative pose with so large a share of the best one's matches makes both doubtful."""
+FEW = 2
+"""Places that make a rival while only some were looked for."""
+
+RIVAL, RIVAL_EARLY = 0.5, 0.4
+"""Another relative pose with so large a share of the best one's votes makes both doubtful; the same, while only some
+places were looked for."""
 
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)
 """Relative poses of parts that differ by no more are one: parts bend."""
@@ -69,7 +78,7 @@ def rejoin(path: KeyPath, half_width_m: float, threads: int | None = None) -> tu
     """Put the parts of a path together.
 
     Args:
-        path: K key scans at the poses that the front end left them at.
+        path: K key scans; poses are right within a part.
         half_width_m: of submaps' grids.
         threads: to compute with; by default all cores.
 
@@ -77,99 +86,144 @@ def rejoin(path: KeyPath, half_width_m: float, threads: int | None = None) -> tu
         poses with every part that was found moved, (K, 3), and which parts are joined to an earlier one by places that
         both saw, (P,); part 0 is.
     """
-    found = []
-    for (first, second, centres), half_m, least in (
-        (_near_pairs(path), NEAR_M, NEAR_SCORE),
-        (_all_pairs(path), EVERYWHERE_M, FAR_SCORE),
-    ):
-        every = np.ones(len(first))
-        closures = match_submaps(
-            path, first, second, centres, half_m * every, np.pi * every, half_width_m, least, threads
-        )
-        found.append(closures)
-    closures, islands = joined(found), path
-    while True:
-        joint = _surest(_candidates(closures, islands), islands, threads)
-        if joint is None:
+    found, islands = [no_closures()], path
+    for turn in range(TURNS):
+        for (first, second, centres), half_m, least in (
+            (_near_pairs(path, turn), NEAR_M, NEAR_SCORE),
+            (_all_pairs(path, turn), EVERYWHERE_M, FAR_SCORE),
+        ):
+            every = np.ones(len(first))
+            found.append(
+                match_submaps(
+                    path, first, second, centres, half_m * every, np.pi * every, half_width_m, least, threads, COARSE
+                )
+            )
+        islands = _together(path, joined(found), AGREE if turn == TURNS - 1 else SURELY, threads)
+        if not islands.parts.any():
             break
+    return _assembled(path, islands)
+
+
+def _together(path: KeyPath, closures: Closures, agree: int, threads: int | None) -> KeyPath:
+    """The parts that so many places join put together: poses are right within an island, named by its first part."""
+    islands = path
+    while True:
+        rival = RIVAL if agree == AGREE else RIVAL_EARLY
+        joint = _surest(_candidates(closures, islands, agree), islands, rival, threads)
+        if joint is None:
+            return islands
         later = islands.parts == joint.later
         islands = replace(
             islands,
             poses=np.where(later[:, None], compose(joint.motion, islands.poses), islands.poses),
             parts=np.where(later, joint.earlier, islands.parts),
         )
-    return _assembled(path, islands)
 
 
-def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, threads: int | None) -> Joint | None:
+def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float, threads: int | None) -> Joint | None:
     """The joint with the most votes that contradicts nothing and has no rival."""
     best = None
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
             continue
-        held = [j for j in candidates if _consistent(islands, j, threads)]
-        if held and (len(held) == 1 or held[1].votes < RIVAL * held[0].votes):
+        held = [j for j in candidates if consistent(islands, j, threads)]
+        if held and (len(held) == 1 or held[1].votes < rival * held[0].votes):
             best = held[0] if best is None or held[0].votes > best.votes else best
     return best
 
 
-def _near_pairs(path: KeyPath) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Places of each part and those of earlier parts near it; and the relative poses to begin with."""
-    places, poses, parts = path.places(SPACING_M), path.poses, path.parts
+Windows = tuple[NDArray[np.intp], NDArray[np.intp], Floats]
+"""Pairs of keys, the first ascending, and the poses of the second in the first's frame to begin with."""
+
+
+def _near_pairs(path: KeyPath, turn: int) -> Windows:
+    """Places of each part and those of longer ones near it."""
+    places, poses = path.places(SPACING_M), path.poses
     first, second = [], []
-    for part in range(1, int(parts[-1]) + 1):
-        for query in _queries(places, parts, part):
-            others = places[parts[places] < part]
-            off = np.hypot(*(poses[others, :2] - poses[query, :2]).T)
-            near = others[off < NEAR_M]
-            near = near[np.argsort(off[off < NEAR_M], kind="stable")][:NEAR_PLACES]
-            first += near.tolist()
-            second += [int(query)] * len(near)
+    for query in _queries(path, turn):
+        others = places[_longer(path)[path.parts[places]] > _longer(path)[path.parts[query]]]
+        off = np.hypot(*(poses[others, :2] - poses[query, :2]).T)
+        near = others[off < NEAR_M]
+        near = near[np.argsort(off[off < NEAR_M], kind="stable")][:NEAR_PLACES]
+        first += near.tolist()
+        second += [int(query)] * len(near)
     one, two = np.array(first, np.intp), np.array(second, np.intp)
+    order = np.argsort(one, kind="stable")
+    one, two = one[order], two[order]
     return one, two, between(poses[one], poses[two])
 
 
-def _all_pairs(path: KeyPath) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Some places of each part and all places of earlier ones, as if both stood at the same point."""
-    places, sought, parts = path.places(EVERYWHERE_M), path.places(SPACING_M), path.parts
-    queries = np.concatenate([_queries(sought, parts, p) for p in range(1, int(parts[-1]) + 1)])
-    one, two = (grid.ravel() for grid in np.meshgrid(places, queries, indexing="ij"))
-    earlier = parts[one] < parts[two]
-    return one[earlier], two[earlier], np.zeros((int(earlier.sum()), 3))
+def _all_pairs(path: KeyPath, turn: int) -> Windows:
+    """Some places of each part and all places of longer ones, as if both stood at the same point."""
+    places = _different(path, path.places(EVERYWHERE_M))
+    one, two = (grid.ravel() for grid in np.meshgrid(places, _queries(path, turn), indexing="ij"))
+    apart = _longer(path)[path.parts[one]] > _longer(path)[path.parts[two]]
+    return one[apart], two[apart], np.zeros((int(apart.sum()), 3))
 
 
-def _queries(places: NDArray[np.intp], parts: NDArray[np.intp], part: int) -> NDArray[np.intp]:
-    own, most = places[parts[places] == part], min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // int(parts[-1])))
-    return np.asarray(own if len(own) <= most else own[np.arange(most) * len(own) // most])
+def _longer(path: KeyPath) -> NDArray[np.intp]:
+    """The rank of each part by its number of key scans, (P,): what both saw is a larger share of the shorter."""
+    rank = np.empty(int(path.parts[-1]) + 1, np.intp)
+    rank[np.lexsort((-np.arange(len(rank)), np.bincount(path.parts)))] = np.arange(len(rank))
+    return rank
 
 
-def _candidates(closures: Closures, islands: KeyPath) -> Iterator[list[Joint]]:
+def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Places without those from which an earlier one of the same part had been seen the same way."""
+    chosen: list[int] = []
+    for place in places:
+        off = between(path.poses[chosen], path.poses[place])
+        again = (np.hypot(off[:, 0], off[:, 1]) < SAME_PLACE_M) & (np.abs(off[:, 2]) < SAME_VIEW_RAD)
+        if not (again & (path.parts[chosen] == path.parts[place])).any():
+            chosen.append(int(place))
+    return np.array(chosen, np.intp)
+
+
+def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
+    """The places of a turn: of all parts but the longest."""
+    places, count = path.places(SPACING_M), int(path.parts[-1]) + 1
+    most, rank = min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
+    found = [np.empty(0, np.intp)]
+    for part in np.nonzero(rank < count - 1)[0]:
+        own = places[path.parts[places] == part]
+        found.append((own if len(own) <= most else own[np.arange(most) * len(own) // most])[turn::TURNS])
+    return np.concatenate(found)
+
+
+def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[list[Joint]]:
     """For each pair of parts, relative poses that enough places agree on, the one with the most votes first."""
     poses, parts = islands.poses, islands.parts
     # Where the later part's frame comes to lie: what brings its key to where the match has it.
     motions = compose(compose(poses[closures.first], closures.relative), inverse(poses[closures.second]))
-    pairs = np.stack([parts[closures.first], parts[closures.second]], axis=1)
+    swapped = parts[closures.first] > parts[closures.second]
+    motions = np.where(swapped[:, None], inverse(motions), motions)
+    brought = np.where(swapped, closures.first, closures.second)
+    pairs = np.sort(np.stack([parts[closures.first], parts[closures.second]], axis=1), axis=1)
     for earlier, later in np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0):
         own = np.nonzero((pairs == (earlier, later)).all(axis=1))[0]
         # Compared where the later part's keys come to lie: a turn about a far origin moves them.
-        at = compose(motions[own][:, None], poses[closures.second[own]][None])
+        at = compose(motions[own][:, None], poses[brought[own]][None])
         off = np.hypot(*np.moveaxis((at - at[np.arange(len(own)), np.arange(len(own))][None])[..., :2], -1, 0))
         turn = np.abs(wrapped(motions[own][:, None, 2] - motions[own][None, :, 2]))
         same = (off < SAME_M) & (turn < SAME_RAD)
         # Several matches of one place are one voice: its loudest.
         places, voice = np.unique(closures.second[own], return_inverse=True)
         loud = np.where(same, (closures.scores[own][None] - CHANCE) ** 2, 0.0)
-        heard = np.stack([loud[:, voice == k].max(axis=1) for k in range(len(places))], axis=1)
-        votes, enough = heard.sum(axis=1), (heard > 0.0).sum(axis=1) >= AGREE
         found: list[Joint] = []
-        while enough.any() and len(found) < TRIED:
-            best = int(np.argmax(np.where(enough, votes, -1.0)))
+        least = agree
+        while len(found) < TRIED:
+            heard = np.stack([loud[:, voice == k].max(axis=1) for k in range(len(places))], axis=1)
+            votes = np.where((heard > 0.0).sum(axis=1) >= least, heard.sum(axis=1), 0.0)
+            best = int(np.argmax(votes))
+            if not votes[best] > 0.0:
+                break
             found.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
-            enough &= ~same[best]
+            loud[:, same[best]] = 0.0  # what agrees with one speaks for no rival: a bent part lies there in many ways
+            least = AGREE if agree == AGREE else FEW
         yield found
 
 
-def _consistent(islands: KeyPath, joint: Joint, threads: int | None) -> bool:
+def consistent(islands: KeyPath, joint: Joint, threads: int | None) -> bool:
     """Whether the scans of two parts, joined so, see through little of what the other part's see."""
     one, two = np.nonzero(islands.parts == joint.earlier)[0], np.nonzero(islands.parts == joint.later)[0]
     here, there = islands.poses[one], compose(joint.motion, islands.poses[two])

@@ -24,9 +24,10 @@ Floats = NDArray[np.float64]
 AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
 """A submap holds the key scans within so much of the path; the one that is matched to it, and those compared."""
 
-RESOLUTION_M, SIGMA_M, STEP_RAD = 0.1, 0.1, np.radians(1.0)
-POINTS = 350
-MODES = 2
+RESOLUTION_M, SIGMA_M = 0.1, 0.1
+MODES, MODE_SHARE = 2, 0.92
+"""So many places of a window are looked at: a further one if its score is at least this share of the best one's."""
+
 ALIKE = 0.7
 
 SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)
@@ -38,6 +39,17 @@ MOST_AGAINST = 0.15
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
 """Standard deviations that a closure has at least: submaps are bent."""
+
+
+@dataclass(frozen=True)
+class Fineness:
+    """Of a search: how many points of a submap are looked for, about, and the step between headings."""
+
+    points: int
+    step_rad: float
+
+
+FINE = Fineness(350, np.radians(1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +96,7 @@ def match_submaps(
     half_width_m: float,
     least_score: float,
     threads: int | None = None,
+    fineness: Fineness = FINE,
 ) -> Closures:
     """Match the submaps of pairs of key scans.
 
@@ -97,6 +110,7 @@ def match_submaps(
         half_width_m: of submaps' grids.
         least_score: matches below are not kept.
         threads: to compute with; by default all cores.
+        fineness: of the search; refining does the rest.
     """
     found = []
     submaps = np.unique(first)
@@ -110,12 +124,13 @@ def match_submaps(
             resolution=RESOLUTION_M, sigma_m=SIGMA_M, levels=6, threads=threads,
         )  # fmt: skip
         jobs = np.nonzero((first >= some[0]) & (first <= some[-1]))[0]
-        points = [path.points_around(int(q), NARROW_M, POINTS) for q in second[jobs]]
+        points = [path.points_around(int(q), NARROW_M, fineness.points) for q in second[jobs]]
         best = match(
             grids, points, centres[jobs], half_m[jobs], half_rad[jobs], grid_of=np.searchsorted(some, first[jobs]),
-            step_rad=STEP_RAD, least=least_score, modes=MODES, apart_m=0.6, apart_rad=np.radians(8.0), threads=threads,
+            step_rad=fineness.step_rad, least=least_score, modes=MODES, share=MODE_SHARE, apart_m=0.6,
+            apart_rad=np.radians(8.0), threads=threads,
         )  # fmt: skip
-        job, mode = np.nonzero(best.found & (best.scores > 0.92 * best.scores[:, :1]))
+        job, mode = np.nonzero(best.found)
         if len(job):
             found.append(
                 _refined(
