@@ -5,8 +5,8 @@ import signal
 from hypothesis import settings
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
 
-# A slow machine is no failure.
-settings.register_profile("bayesmap", deadline=None)
+# A slow machine is no failure; and the examples are the same each time, so that a change fails for its own sake.
+settings.register_profile("bayesmap", deadline=None, derandomize=True)
 settings.load_profile("bayesmap")
 
 # Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to
