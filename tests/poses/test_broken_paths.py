@@ -6,6 +6,7 @@ import numpy as np
 from simulated import odometry_of, off, path_around, recording, ring, scans_of
 
 from bayesmap.poses.front_end import follow
+from bayesmap.poses.key_path import key_path
 from bayesmap.poses.odometry_motion import stated_motions
 from bayesmap.poses.rejoin import AGREE, rejoin
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -112,9 +113,8 @@ def test_parts_are_joined_from_any_heading_and_from_afar():
     broken_at = len(keys) // 2
     poses = track.poses[keys].copy()
     poses[broken_at:] = compose(np.array([9.0, -14.0, 2.5]), poses[broken_at:])
-    along = np.arange(len(keys)) * 0.4 + 1000.0 * (np.arange(len(keys)) >= broken_at)
-    parts = (np.arange(len(keys)) >= broken_at).astype(np.intp)
-    found, joined = rejoin(geometry, keys, poses, along, parts, 8.0, threads=1)
+    path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
+    found, joined = rejoin(path, 8.0, threads=1)
     assert joined.all()
     assert worst_m(found, track.poses[keys]) < 0.1
 
@@ -126,9 +126,8 @@ def test_parts_that_too_few_places_join_stay_where_they_are():
     poses = track.poses[keys].copy()
     broken_at = len(keys) - AGREE + 1
     poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])
-    along = np.arange(len(keys)) * 0.4 + 1000.0 * (np.arange(len(keys)) >= broken_at)
-    parts = (np.arange(len(keys)) >= broken_at).astype(np.intp)
-    found, joined = rejoin(geometry, keys, poses, along, parts, 8.0, threads=1)
+    path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
+    found, joined = rejoin(path, 8.0, threads=1)
     np.testing.assert_array_equal(joined, [True, False])
     np.testing.assert_allclose(found, poses, atol=1e-12)
 

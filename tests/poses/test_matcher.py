@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
+from bayesmap.kernels.view_agreement import Agreement, view_counts
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import Pull, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -144,3 +145,53 @@ def test_maxima_by_numpy_are_those_of_the_kernel():
         found = np.empty((2, 37, 21), np.uint8)
         widen(pyramid[:, 0], found, half)
         np.testing.assert_array_equal(found, on_device.numpy()[:, level])
+
+
+def test_further_modes_that_score_too_little_are_not_looked_for():
+    """Below the share that is asked for they are not there; above it they are what they are without it."""
+    points = GEOMETRY.points_of(2)
+    several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "least": 0.1}
+    whole = match(GRIDS, [points], [np.zeros(3)], 1.0, 1.2, **several)
+    ratio = whole.scores[0] / whole.scores[0, 0]
+    assert ratio[1] > ratio[2] > 0.1
+    for share in (ratio[1] - 1e-9, ratio[1] + 1e-9, ratio[2] - 1e-9):
+        some = match(GRIDS, [points], [np.zeros(3)], 1.0, 1.2, share=share, **several)
+        np.testing.assert_array_equal(some.scores[0], np.where(ratio > share, whole.scores[0], -np.inf))
+
+
+def wall_scan(beams, jump_m=0.0):
+    """A wall 4 m ahead, seen by beams 60 degrees wide; from the middle on it stands further back."""
+    angles = np.radians(30.0) * np.linspace(-1.0, 1.0, beams)
+    ranges = (4.0 + jump_m * (angles > 0)) / np.cos(angles)
+    return scan_geometry(Scans(np.zeros((1, 3)), angles, ranges[None], max_range_m=20.0))
+
+
+@pytest.mark.parametrize("beams", [121, 30, 15], ids=["half a degree", "2 degrees", "4 degrees"])
+def test_a_wall_is_drawn_whole_however_far_apart_beams_are(beams):
+    """Beams 4 degrees apart end 30 cm apart: half a sigma along the wall from a stamp the value is exp(-1/8)."""
+    geometry = wall_scan(beams)
+    grids = likelihood_grids(geometry, [[0]], [np.zeros((1, 3))], [[0.0, 0.0]], 6.0)
+    along = np.column_stack([np.full(200, 4.0), np.linspace(-2.2, 2.2, 200)])
+    values = [score_at(grids, 0, point[None], np.zeros(3))[0] for point in along]
+    assert min(values) > np.exp(-0.125) - 0.25  # and a cell's half diagonal
+    assert score_at(grids, 0, np.array([[3.7, 0.0]]), np.zeros(3))[0] == 0.0
+
+
+def test_nothing_is_drawn_between_walls_one_behind_the_other():
+    geometry = wall_scan(30, jump_m=1.5)
+    grids = likelihood_grids(geometry, [[0]], [np.zeros((1, 3))], [[0.0, 0.0]], 8.0)
+    between_them = np.column_stack([np.linspace(4.3, 5.2, 10), np.zeros(10)])
+    assert [score_at(grids, 0, p[None], np.zeros(3))[0] for p in between_them] == [0.0] * 10
+
+
+@pytest.mark.parametrize("beams", [121, 15], ids=["half a degree", "4 degrees"])
+def test_points_on_a_wall_agree_with_it_between_beams(beams):
+    """A scan moved along a wall: its points fall between beams of the other; 60 cm before it they contradict."""
+    geometry = wall_scan(beams)
+    one = np.zeros(1, np.int32)
+    seen = Agreement(near_m=0.05, clear_m=0.4, beams=1000)
+    for ahead, column in ((0.0, 0), (-0.6, 1)):
+        moved = np.array([[ahead, 0.14, 0.0]])
+        counts = view_counts(geometry, one, one, moved, seen)[0]
+        assert counts[column] > 0.7 * counts[2], counts  # at the wall's ends beams meet nothing
+        assert counts[1 - column] == 0, counts

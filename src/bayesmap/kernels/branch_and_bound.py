@@ -246,6 +246,7 @@ def search(
     least: NDArray[np.float64],
     across: NDArray[np.float64],
     modes: int,
+    share: float,
     apart: tuple[int, int, int],
     strands: int,
     device: str,
@@ -268,6 +269,7 @@ def search(
         least: scores must exceed this, shape (J,).
         across: what a squared cell off the centre costs, shape (J,).
         modes: poses a job.
+        share: of the first one's score that those of further ones must exceed.
         apart: each further mode is more than so many rows, cells and cells away from those before, in one of the three.
         strands: threads that share a job.
         device: where the pyramid is.
@@ -280,9 +282,7 @@ def search(
     jobs.point_begin = devices.to_device(point_offsets[:-1], wp.int32, device)
     jobs.point_end = devices.to_device(point_offsets[1:], wp.int32, device)
     jobs.grid = devices.to_device(grid_of_job, wp.int32, device)
-    jobs.half_x = devices.to_device(np.ascontiguousarray(half_cells[:, 0]), wp.int32, device)
-    jobs.half_y = devices.to_device(np.ascontiguousarray(half_cells[:, 1]), wp.int32, device)
-    jobs.least = devices.to_device(least, wp.float64, device)
+    jobs.half_x, jobs.half_y = (devices.to_device(h, wp.int32, device) for h in np.ascontiguousarray(half_cells.T))
     jobs.across = devices.to_device(across, wp.float64, device)
     rows = len(angles_rad)
     rows_of_job = np.diff(row_offsets)
@@ -308,8 +308,7 @@ def search(
         order = np.argsort(-bounds, kind="stable")
     else:
         order = np.lexsort((-bounds, np.repeat(np.arange(count), np.diff(job_nodes))))
-    order_dev = devices.to_device(order, wp.int32, device)
-    nodes_dev = devices.to_device(job_nodes, wp.int32, device)
+    order_dev, nodes_dev = (devices.to_device(a, wp.int32, device) for a in (order, job_nodes))
     threads_of_all = count * strands
     stack_bound = wp.empty((threads_of_all, 4 * top + 8), dtype=wp.float64, device=device)
     stack_node = wp.empty((threads_of_all, 4 * top + 8), dtype=wp.vec4i, device=device)
@@ -317,6 +316,9 @@ def search(
     found = np.zeros((count, modes, 3), dtype=np.int64)
     found[..., 0] = -1
     for mode in range(modes):
+        if mode > 0:  # where there is no first one there is no further one
+            least = np.where(np.isfinite(scores[:, 0]), np.maximum(least, share * scores[:, 0]), np.inf)
+        jobs.least = devices.to_device(least, wp.float64, device)
         taken = np.where(found[..., :1] >= 0, found, -(1 << 28)).astype(np.int32)
         incumbent = devices.to_device(least.copy(), wp.float64, device)
         best = wp.empty(threads_of_all, dtype=wp.float64, device=device)

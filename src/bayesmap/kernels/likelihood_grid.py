@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.scan_geometry import neighbour, widest_gap
 
 wp.set_module_options({"enable_backward": False})
 
@@ -21,12 +22,19 @@ def draw_points(
     pose: wp.array(dtype=wp.vec3d),
     points: wp.array2d(dtype=wp.vec2f),
     kind: wp.array2d(dtype=wp.uint8),
+    step_rad: wp.float32,
+    full_circle: int,
+    spacing: wp.float32,
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
     stamp: wp.array2d(dtype=wp.uint8),
     pyramid: wp.array4d(dtype=wp.uint8),
 ):
-    """One thread a band of a grid: put the largest of all stamps that cover a cell into it."""
+    """One thread a band of a grid: put the largest of all stamps that cover a cell into it.
+
+    Points of neighbouring beams on one surface that lie further apart than ``spacing`` have stamps in between: a wall
+    is a wall however far apart beams are.
+    """
     t = first + wp.tid()
     g = t / bands
     band = t - g * bands
@@ -43,17 +51,28 @@ def draw_points(
         for b in range(points.shape[1]):
             if kind[s, b] == wp.uint8(0):
                 continue
-            px = wp.float64(points[s, b][0])
-            py = wp.float64(points[s, b][1])
-            cx = int(wp.floor((p[0] + cosine * px - sine * py - origin[g][0]) / resolution))
-            cy = int(wp.floor((p[1] + sine * px + cosine * py - origin[g][1]) / resolution))
-            if cy < -radius or cy >= ny + radius:
-                continue
-            for x in range(wp.max(cx - radius, low), wp.min(cx + radius + 1, high)):
-                for y in range(wp.max(cy - radius, 0), wp.min(cy + radius + 1, ny)):
-                    value = stamp[x - cx + radius, y - cy + radius]
-                    if value > pyramid[g, 0, x, y]:
-                        pyramid[g, 0, x, y] = value
+            here = points[s, b]
+            to_next = wp.vec2f()
+            stamps = int(1)
+            c = neighbour(b, 1, points.shape[1], full_circle)
+            if c >= 0:
+                if kind[s, c] != wp.uint8(0):
+                    apart = wp.length(points[s, c] - here)
+                    if apart > spacing and apart < widest_gap(step_rad, wp.length(here)):
+                        stamps = 1 + int(apart / spacing)
+                        to_next = (points[s, c] - here) / wp.float32(stamps)
+            for k in range(stamps):
+                px = wp.float64(here[0] + wp.float32(k) * to_next[0])
+                py = wp.float64(here[1] + wp.float32(k) * to_next[1])
+                cx = int(wp.floor((p[0] + cosine * px - sine * py - origin[g][0]) / resolution))
+                cy = int(wp.floor((p[1] + sine * px + cosine * py - origin[g][1]) / resolution))
+                if cy < -radius or cy >= ny + radius:
+                    continue
+                for x in range(wp.max(cx - radius, low), wp.min(cx + radius + 1, high)):
+                    for y in range(wp.max(cy - radius, 0), wp.min(cy + radius + 1, ny)):
+                        value = stamp[x - cx + radius, y - cy + radius]
+                        if value > pyramid[g, 0, x, y]:
+                            pyramid[g, 0, x, y] = value
 
 
 @wp.kernel
@@ -74,45 +93,44 @@ def next_level(first: int, level: int, pyramid: wp.array4d(dtype=wp.uint8)):
 
 
 def draw_grids(
-    points: Any,
-    kind: Any,
+    geometry: Any,
     offsets: NDArray[np.int32],
     scan: NDArray[np.int32],
     poses_world: NDArray[np.float64],
     origins: NDArray[np.float64],
     resolution: float,
     stamp: NDArray[np.uint8],
+    spacing_m: float,
     shape: tuple[int, int],
     levels: int,
-    device: str,
     threads: int | None = None,
     pyramid: Any = None,
 ) -> Any:
     """Grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
     Args:
-        points: of all scans, (S, B), on the device.
-        kind: of all scans, (S, B), on the device.
+        geometry: a `bayesmap.poses.scan_geometry.ScanGeometry` of all scans.
         offsets: grid g is made of entries offsets[g] .. offsets[g + 1], shape (grids + 1,).
         scan: of each entry.
         poses_world: of each entry, shape (entries, 3).
         origins: corner of each grid, shape (grids, 2).
         resolution: metres a cell.
         stamp: what a point puts around itself, odd square.
+        spacing_m: stamps of a wall lie no further apart.
         shape: of a grid, cells.
         levels: of the pyramid.
-        device: where the points are.
         threads: to compute with; by default all cores.
         pyramid: an array of the right shape to write into.
     """
-    grids = len(offsets) - 1
+    grids, device = len(offsets) - 1, geometry.device
     if pyramid is None:
         pyramid = wp.empty((grids, levels, *shape), dtype=wp.uint8, device=device)
     bands = 1 if device == "cpu" and grids > 1 else (4 if device == "cpu" else 64)
     if device == "cpu" and threads == 1:
         bands = 1
     inputs = [bands, devices.to_device(offsets, wp.int32, device), devices.to_device(scan, wp.int32, device)]
-    inputs += [devices.to_device(poses_world, wp.vec3d, device), points, kind]
+    inputs += [devices.to_device(poses_world, wp.vec3d, device), geometry.points, geometry.kind]
+    inputs += [wp.float32(geometry.step_rad), int(geometry.full_circle), wp.float32(spacing_m)]
     inputs += [devices.to_device(origins, wp.vec2d, device), wp.float64(resolution)]
     inputs += [devices.to_device(stamp, wp.uint8, device), pyramid]
     if device == "cpu":

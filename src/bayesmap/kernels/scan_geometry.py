@@ -30,6 +30,12 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
     return other
 
 
+@wp.func
+def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
+    """Points of neighbouring beams, one so far from the laser, lie on one surface if they are no further apart."""
+    return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)
+
+
 @wp.kernel
 def scan_points(
     first: int,
@@ -80,7 +86,7 @@ def scan_normals(
         here = points[s, b]
         away = wp.length(here)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
-        gap = wp.float32(0.05) + wp.float32(3.5) * apart
+        gap = widest_gap(step_rad, away)
         reach = reach_m
         for fit in range(REACHES):
             n = float(1.0)

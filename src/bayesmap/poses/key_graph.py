@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.front_end import Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
-from bayesmap.poses.loops import Search, find_closures, path_m
-from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, rejoin
+from bayesmap.poses.key_path import KeyPath, key_path
+from bayesmap.poses.loops import Search, find_closures
+from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.submap_matching import Closures
+from bayesmap.poses.submap_matching import Closures, no_closures
 from bayesmap.space.planar import between, compose, wrapped
 
 Floats = NDArray[np.float64]
@@ -27,7 +28,7 @@ LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
-ROUNDS = (
+ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), passes=2, spacing_m=2.0),
     Search(4.0, np.radians(30.0)),
     Search(2.0, np.radians(20.0)),
@@ -119,15 +120,56 @@ def close_loops(
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
     breaks, joined = track.broken[keys], np.ones(1, np.bool_)
-    part = np.cumsum(breaks).astype(np.intp)
+    path, rounds = key_path(geometry, keys, poses, breaks), ROUNDS
     if breaks.any():
-        poses, joined = rejoin(geometry, keys, poses, path_m(poses, breaks), part, half_width_m, threads)
-    guess, chain = poses, chain_of(track, poses)
-    closures, weights, loops = None, np.empty(0), NO_FACTORS
-    for number, search in enumerate(ROUNDS, start=1):
+        # Loops within a part first: one that is bent by metres lies to another in several ways, each of them right.
+        bent = _rounds(path, chain_of(track, poses), breaks, ROUNDS[:2], half_width_m, threads, within_parts=True)
+        path = key_path(geometry, keys, bent.poses, breaks)
+        poses, joined = rejoin(path, half_width_m, threads)
+        path, rounds = key_path(geometry, keys, poses, breaks), ROUNDS[1:]
+    closed = _rounds(path, chain_of(track, poses), breaks, rounds, half_width_m, threads, on_progress)
+    guess, poses, closures, weights = path.poses, closed.poses, closed.closures, closed.weights
+    # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
+    for k in np.nonzero(~joined)[0]:
+        across = (path.parts[closures.first] < k) & (path.parts[closures.second] == k)
+        begin = int(np.searchsorted(path.parts, k))
+        off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
+        right = np.hypot(off[0], off[1]) < SAME_M and abs(off[2]) < SAME_RAD
+        if right and (across & (weights > 0.5)).sum() >= AGREE:
+            known = path.parts <= k
+            two = (path.parts[known] == k).astype(np.intp)
+            both = KeyPath(geometry, keys[known], poses[known], path.along[known], two)
+            joined[k] = consistent(both, Joint(0, 1, np.zeros(3), 0.0), threads)
+    return ClosedGraph(poses, closures, weights, joined)
+
+
+@dataclass(frozen=True, eq=False)
+class _Closed:
+    """Poses of the keys after rounds of loop closure, the closures of the last round, and their weights."""
+
+    poses: Floats
+    closures: Closures
+    weights: Floats
+
+
+def _rounds(
+    path: KeyPath,
+    chain: Factors,
+    breaks: NDArray[np.bool_],
+    rounds: tuple[Search, ...],
+    half_width_m: float,
+    threads: int | None,
+    on_progress: Callable[[int, Floats], None] | None = None,
+    *,
+    within_parts: bool = False,
+) -> _Closed:
+    """Rounds of loop closure, from the poses of a path on, or of each of its parts by itself."""
+    poses, weights, loops, closures = path.poses, np.empty(0), NO_FACTORS, no_closures()
+    for number, search in enumerate(rounds, start=1):
         parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
         _, precision = solve_step(len(poses), parts)
-        closures = find_closures(geometry, keys, poses, path_m(poses, breaks), precision, half_width_m, search, threads)
+        path = key_path(path.geometry, path.keys, poses, breaks)
+        closures = find_closures(path, precision, half_width_m, search, threads, within_parts=within_parts)
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)
@@ -135,12 +177,4 @@ def close_loops(
             on_progress(number, poses)
         if number > 1 and np.hypot(*(poses - before)[:, :2].T).max() < SETTLED_M:
             break
-    assert closures is not None
-    # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
-    for k in np.nonzero(~joined)[0]:
-        across = (part[closures.first] < k) & (part[closures.second] == k)
-        begin = int(np.searchsorted(part, k))
-        off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
-        right = np.hypot(off[0], off[1]) < SAME_M and abs(off[2]) < SAME_RAD
-        joined[k] = right and (across & (weights > 0.5)).sum() >= AGREE
-    return ClosedGraph(poses, closures, weights, joined)
+    return _Closed(poses, closures, weights)

@@ -1,8 +1,10 @@
 """Likelihood grids: how well a point at a place agrees with scans, as one byte a cell, with the pyramid for matching.
 
 A cell holds 255 exp(-d^2 / (2 sigma^2)), d its distance from the nearest point (Olson 2009, "Real-time correlative scan
-matching"; the likelihood field of Thrun, Burgard and Fox 2005, section 6.4, without the logarithm). Level h of the
-pyramid holds at (x, y) the largest value of the cells (x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
+matching"; the likelihood field of Thrun, Burgard and Fox 2005, section 6.4, without the logarithm). Where neighbouring
+beams ended on one wall further apart than sigma, points in between count as well: what a grid says does not depend on
+how many beams a laser has. Level h of the pyramid holds at (x, y) the largest value of the cells
+(x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
 """
 
 from __future__ import annotations
@@ -82,7 +84,7 @@ def likelihood_grids(
     poses = np.concatenate([np.reshape(p, (-1, 3)) for p in poses_world]) if len(scans) else np.zeros((0, 3))
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
     pyramid = draw_grids(
-        geometry.points, geometry.kind, offsets, scan, poses, origins, resolution, stamp_of(resolution, sigma_m),
-        (cells, cells), levels, geometry.device, threads, None if reuse is None else reuse.pyramid,
+        geometry, offsets, scan, poses, origins, resolution, stamp_of(resolution, sigma_m), sigma_m, (cells, cells),
+        levels, threads, None if reuse is None else reuse.pyramid,
     )  # fmt: skip
     return LikelihoodGrids(pyramid, origins, resolution, geometry.device)

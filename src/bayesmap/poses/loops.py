@@ -11,22 +11,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.poses.key_path import KeyPath
 from bayesmap.poses.precision import Precision, relative_covariances
-from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.se2 import transform
 from bayesmap.poses.submap_matching import Closures, match_submaps, no_closures, supported
 from bayesmap.space.planar import between, wrapped
 
 Floats = NDArray[np.float64]
 
-SHORT = 120.0
-"""Closures are sought from at least so many places along the path: a small loop has few that close it."""
-
 OLD_M = 8.0
 """A loop is at least so long."""
-
-GAP_M = 1000.0
-"""What a break of the path counts in its length: no submap reaches over it, and any two of its sides may close."""
 
 SIGMAS = 3.0
 
@@ -49,63 +43,50 @@ class Search:
     spacing_m: float = 1.2
 
 
-def path_m(poses: Floats, breaks: NDArray[np.bool_]) -> Floats:
-    """Distance along the path from the first pose, counting a turn of a radian as half a metre, (S,).
-
-    Where a part of the path begins, (S,), it grows by `GAP_M`.
-    """
-    step = between(poses[:-1], poses[1:])
-    ways = np.hypot(step[:, 0], step[:, 1]) + 0.5 * np.abs(step[:, 2])
-    return np.concatenate([[0.0], np.cumsum(np.where(breaks[1:], GAP_M, ways))])
-
-
 def find_closures(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    along: Floats,
+    path: KeyPath,
     precision: Precision,
     half_width_m: float,
     search: Search,
     threads: int | None = None,
+    *,
+    within_parts: bool = False,
 ) -> Closures:
     """Seek closures among key scans at their present poses.
 
     Args:
-        geometry: of all scans.
-        keys: the scans that are keys.
-        poses: of the keys, (K, 3).
-        along: distance along the path of each key, (K,): `path_m`.
+        path: the key scans.
         precision: of the graph of the keys, for relative covariances.
         half_width_m: of submaps' grids.
         search: how far to look.
         threads: to compute with; by default all cores.
+        within_parts: not between parts of a broken path.
     """
-    first, second, sigma = _candidates(along, poses, _middles(geometry, keys, poses), precision, half_width_m, search)
+    first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):
         return no_closures()
     half_m = np.clip(SIGMAS * sigma[:, :2].max(axis=1), 0.4, search.most_m)
     half_rad = np.clip(SIGMAS * sigma[:, 2], np.radians(4.0), search.most_rad)
-    centres = between(poses[first], poses[second])
-    closures = match_submaps(
-        geometry, keys, poses, along, first, second, centres, half_m, half_rad, half_width_m, search.least_score,
-        threads,
-    )  # fmt: skip
-    return supported(closures, poses, along)
+    centres = between(path.poses[first], path.poses[second])
+    closures = match_submaps(path, first, second, centres, half_m, half_rad, half_width_m, search.least_score, threads)
+    return supported(closures, path)
 
 
 def _candidates(
-    along: Floats, poses: Floats, middles: Floats, precision: Precision, half_width_m: float, search: Search
+    path: KeyPath, precision: Precision, half_width_m: float, search: Search, within_parts: bool
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
 
     Of each visit of a place two are tried: the one from the most similar pose, and the one that looks at the same
     spot, which of a laser that sees half a circle may stand opposite.
     """
-    sought = places_along(along, search.spacing_m)
+    along, poses, middles = path.along, path.poses, _middles(path)
+    sought = path.places(search.spacing_m)
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
     distance = np.hypot(*(poses[sought[earlier], :2] - poses[sought[later], :2]).T)
     near = distance < search.most_m + min(0.7 * half_width_m, 8.0)
+    if within_parts:
+        near &= path.parts[sought[earlier]] == path.parts[sought[later]]
     earlier, later, distance = sought[earlier[near]], sought[later[near]], distance[near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))
@@ -131,19 +112,11 @@ def _candidates(
     return earlier[pick], later[pick], sigma[pick]
 
 
-def places_along(along: Floats, spacing_m: float) -> NDArray[np.intp]:
-    """Key scans that lie so far apart along the path, or nearer where it is short."""
-    steps = np.diff(along, prepend=0.0)
-    ways = np.cumsum(np.where(steps < GAP_M, steps, spacing_m))
-    spacing = float(np.clip(ways[-1] / SHORT, 0.4, spacing_m))
-    return np.unique(np.searchsorted(ways, np.arange(0.0, ways[-1] + spacing, spacing)).clip(0, len(along) - 1))
-
-
-def _middles(geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats) -> Floats:
+def _middles(path: KeyPath) -> Floats:
     """The median point of each key scan, in the world frame, (K, 2)."""
-    middle = np.zeros((len(keys), 2))
-    for k, scan in enumerate(keys):
-        points = geometry.points_of(int(scan), 60)
+    middle = np.zeros((len(path), 2))
+    for k, scan in enumerate(path.keys):
+        points = path.geometry.points_of(int(scan), 60)
         if len(points):
             middle[k] = np.median(points, axis=0)
-    return transform(poses, middle)
+    return transform(path.poses, middle)

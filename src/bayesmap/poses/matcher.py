@@ -59,6 +59,7 @@ def match(
     least: Floats | float = 0.0,
     pull: Pull | None = None,
     modes: int = 1,
+    share: float = 0.0,
     apart_m: float = 0.5,
     apart_rad: float = np.radians(10.0),
     strands: int = 1,
@@ -76,7 +77,8 @@ def match(
         step_rad: between angles.
         least: scores must exceed this, one number or shape (J,). Searches that cannot end early.
         pull: towards the centre; None looks at the grid alone.
-        modes: poses per job: each further one is the best that lies apart from all before it.
+        modes: poses per job: each further one is the best that lies apart from all before it
+        share: and scores above this share of the first one's score.
         apart_m: by more than this in x or in y,
         apart_rad: or by more than this in yaw.
         strands: threads that share one job; the result does not depend on it.
@@ -122,7 +124,7 @@ def match(
     scores, nodes = search(
         grids.pyramid, grids.origins, grids.resolution, flat, offsets, np.asarray(grid_of, np.int32),
         np.ascontiguousarray(centres[:, :2]), np.round(half / grids.resolution).astype(np.int32), angles, costs, rows,
-        np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))), np.full(jobs, across), modes, apart,
+        np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))), np.full(jobs, across), modes, share, apart,
         strands, grids.device, threads,
     )  # fmt: skip
     poses = np.full((jobs, modes, 3), np.nan)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.scan_refinement import refine_scans
-from bayesmap.kernels.view_agreement import mutual_view_counts
+from bayesmap.kernels.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.likelihood_grid import LikelihoodGrids
 from bayesmap.poses.matcher import Pull, match
 from bayesmap.poses.odometry_motion import RunningOdometry
@@ -43,8 +43,8 @@ STEPS = 8
 SEVERAL = 6
 """Of the newest key scans so many refine scans of which several are placed at once."""
 
-NEAR_M, CLEAR_M = 0.2, 0.5
-"""A point so near the other scan's is matched; one that stands so far before what the other saw contradicts."""
+SEEN = Agreement(near_m=0.2, clear_m=0.5, beams=90)
+"""When a scan and a key scan agree, and when they contradict each other."""
 
 MOST_AGAINST = 0.2
 """Of the points that tell, so many may contradict: people walk about."""
@@ -194,9 +194,8 @@ def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats,
     keys, count = window.keys.astype(np.int32), len(window.keys)
     one = np.full(count, scan, np.int32)
     here = np.broadcast_to(pose, (count, 3))
-    stride = max(1, geometry.beams // 90)
     seen = between(window.poses, here)
-    matched, against, _ = mutual_view_counts(geometry, keys, one, seen, NEAR_M, CLEAR_M, stride, threads).sum(axis=0)
+    matched, against, _ = mutual_view_counts(geometry, keys, one, seen, SEEN, threads).sum(axis=0)
     told = int(matched + against)
     return told >= LEAST_TOLD and against > MOST_AGAINST * told
 

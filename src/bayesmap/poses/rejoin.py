@@ -9,15 +9,14 @@ pairs of places agree on it, and no other relative pose has nearly as many.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.view_agreement import mutual_view_counts
-from bayesmap.poses.loops import places_along
-from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.submap_matching import Closures, joined, match_submaps
+from bayesmap.kernels.view_agreement import Agreement, mutual_view_counts
+from bayesmap.poses.key_path import KeyPath
+from bayesmap.poses.submap_matching import Closures, Fineness, joined, match_submaps, no_closures
 from bayesmap.space.planar import between, compose, inverse, wrapped
 
 Floats = NDArray[np.float64]
@@ -25,13 +24,18 @@ Floats = NDArray[np.float64]
 NEAR_M, NEAR_PLACES = 3.0, 6
 """Each place is compared with the nearest so many of other parts that lie, as far as is known, no further off,"""
 
-SPACING_M, QUERIES, QUERIES_IN_ALL = 1.0, 24, 96
-"""Places that are looked for: so far apart along a part, so many of each, and so many in all parts, evenly spread."""
+SPACING_M, QUERIES, QUERIES_IN_ALL, TURNS = 1.0, 24, 96, 3
+"""Places that are looked for: so far apart along a part, so many of each, and so many in all parts, evenly spread. They
+are taken in so many turns, of which the later ones are spared where the first join all parts surely."""
 
-EVERYWHERE_M = 3.0
-"""and with others everywhere: so far apart. Windows reach as far."""
+EVERYWHERE_M, SAME_PLACE_M, SAME_VIEW_RAD = 3.0, 1.5, np.radians(45.0)
+"""and with others everywhere: so far apart along the path. Windows reach as far. Where the robot came by again, looking
+the same way, it saw the same."""
 
-NEAR_SCORE, FAR_SCORE = 0.6, 0.72
+COARSE = Fineness(60, np.radians(2.0))
+"""How places are looked for: what more points and headings tell of where a place lies refining has from whole scans."""
+
+NEAR_SCORE, FAR_SCORE = 0.6, 0.75
 """Matches below are not looked at: where places are compared with all others chance finds better ones."""
 
 CHANCE = 0.5
@@ -40,11 +44,15 @@ CHANCE = 0.5
 TRIED = 6
 """Relative poses of two parts that are held against what their scans see through."""
 
-AGREE = 3
-"""Places of a part that must agree on its pose relative to another part."""
+AGREE, SURELY = 3, 4
+"""Places of a part that must agree on its pose relative to another part; and while only some were looked for."""
 
-RIVAL = 0.6
-"""Another relative pose with so large a share of the best one's matches makes both doubtful."""
+FEW = 2
+"""Places that make a rival while only some were looked for."""
+
+RIVAL, RIVAL_EARLY = 0.5, 0.4
+"""Another relative pose with so large a share of the best one's votes makes both doubtful; the same, while only some
+places were looked for."""
 
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)
 """Relative poses of parts that differ by no more are one: parts bend."""
@@ -52,8 +60,8 @@ SAME_M, SAME_RAD = 0.5, np.radians(6.0)
 MET_M, COMPARED = 5.0, 600
 """Key scans of two parts that come to lie so near are held against each other, so many pairs at most."""
 
-NEAR_VIEW_M, CLEAR_VIEW_M, MOST_AGAINST = 0.2, 0.4, 0.15
-"""A point so near one of the other scan is matched; so far before what it saw contradicts; of both, so many may."""
+SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15
+"""When scans of two parts agree or contradict each other, and how many of the points that tell may contradict."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,23 +74,11 @@ class Joint:
     votes: float
 
 
-def rejoin(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    along: Floats,
-    parts: NDArray[np.intp],
-    half_width_m: float,
-    threads: int | None = None,
-) -> tuple[Floats, NDArray[np.bool_]]:
+def rejoin(path: KeyPath, half_width_m: float, threads: int | None = None) -> tuple[Floats, NDArray[np.bool_]]:
     """Put the parts of a path together.
 
     Args:
-        geometry: of all scans.
-        keys: the scans that are keys, (K,).
-        poses: of the keys as the front end left them, (K, 3).
-        along: distance along the path with gaps where it breaks, (K,).
-        parts: the part that each key belongs to, 0, 0, ..., 1, ..., (K,).
+        path: K key scans; poses are right within a part.
         half_width_m: of submaps' grids.
         threads: to compute with; by default all cores.
 
@@ -90,146 +86,171 @@ def rejoin(
         poses with every part that was found moved, (K, 3), and which parts are joined to an earlier one by places that
         both saw, (P,); part 0 is.
     """
-    found = []
-    for (first, second, centres), half_m, least in (
-        (_near_pairs(poses, along, parts), NEAR_M, NEAR_SCORE),
-        (_all_pairs(along, parts), EVERYWHERE_M, FAR_SCORE),
-    ):
-        every = np.ones(len(first))
-        closures = match_submaps(
-            geometry, keys, poses, along, first, second, centres, half_m * every, np.pi * every, half_width_m, least,
-            threads,
-        )  # fmt: skip
-        found.append(closures)
-    closures, islands, where = joined(found), parts.copy(), poses
-    while True:
-        joint = _surest(_candidates(closures, where, islands), geometry, keys, where, islands, threads)
-        if joint is None:
+    found, islands = [no_closures()], path
+    for turn in range(TURNS):
+        for (first, second, centres), half_m, least in (
+            (_near_pairs(path, turn), NEAR_M, NEAR_SCORE),
+            (_all_pairs(path, turn), EVERYWHERE_M, FAR_SCORE),
+        ):
+            every = np.ones(len(first))
+            found.append(
+                match_submaps(
+                    path, first, second, centres, half_m * every, np.pi * every, half_width_m, least, threads, COARSE
+                )
+            )
+        islands = _together(path, joined(found), AGREE if turn == TURNS - 1 else SURELY, threads)
+        if not islands.parts.any():
             break
-        later = islands == joint.later
-        where = np.where(later[:, None], compose(joint.motion, where), where)
-        islands = np.where(later, joint.earlier, islands)
-    return _assembled(where, poses, parts, islands)
+    return _assembled(path, islands)
 
 
-def _surest(
-    pairs: Iterator[list[Joint]],
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    parts: NDArray[np.intp],
-    threads: int | None,
-) -> Joint | None:
+def _together(path: KeyPath, closures: Closures, agree: int, threads: int | None) -> KeyPath:
+    """The parts that so many places join put together: poses are right within an island, named by its first part."""
+    islands = path
+    while True:
+        rival = RIVAL if agree == AGREE else RIVAL_EARLY
+        joint = _surest(_candidates(closures, islands, agree), islands, rival, threads)
+        if joint is None:
+            return islands
+        later = islands.parts == joint.later
+        islands = replace(
+            islands,
+            poses=np.where(later[:, None], compose(joint.motion, islands.poses), islands.poses),
+            parts=np.where(later, joint.earlier, islands.parts),
+        )
+
+
+def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float, threads: int | None) -> Joint | None:
     """The joint with the most votes that contradicts nothing and has no rival."""
     best = None
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
             continue
-        held = [j for j in candidates if _consistent(geometry, keys, poses, parts, j, threads)]
-        if held and (len(held) == 1 or held[1].votes < RIVAL * held[0].votes):
+        held = [j for j in candidates if consistent(islands, j, threads)]
+        if held and (len(held) == 1 or held[1].votes < rival * held[0].votes):
             best = held[0] if best is None or held[0].votes > best.votes else best
     return best
 
 
-def _near_pairs(
-    poses: Floats, along: Floats, parts: NDArray[np.intp]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Places of each part and those of earlier parts near it; and the relative poses to begin with."""
-    places = places_along(along, SPACING_M)
+Windows = tuple[NDArray[np.intp], NDArray[np.intp], Floats]
+"""Pairs of keys, the first ascending, and the poses of the second in the first's frame to begin with."""
+
+
+def _near_pairs(path: KeyPath, turn: int) -> Windows:
+    """Places of each part and those of longer ones near it."""
+    places, poses = path.places(SPACING_M), path.poses
     first, second = [], []
-    for part in range(1, int(parts[-1]) + 1):
-        for query in _queries(places, parts, part):
-            others = places[parts[places] < part]
-            off = np.hypot(*(poses[others, :2] - poses[query, :2]).T)
-            near = others[off < NEAR_M]
-            near = near[np.argsort(off[off < NEAR_M], kind="stable")][:NEAR_PLACES]
-            first += near.tolist()
-            second += [int(query)] * len(near)
+    for query in _queries(path, turn):
+        others = places[_longer(path)[path.parts[places]] > _longer(path)[path.parts[query]]]
+        off = np.hypot(*(poses[others, :2] - poses[query, :2]).T)
+        near = others[off < NEAR_M]
+        near = near[np.argsort(off[off < NEAR_M], kind="stable")][:NEAR_PLACES]
+        first += near.tolist()
+        second += [int(query)] * len(near)
     one, two = np.array(first, np.intp), np.array(second, np.intp)
+    order = np.argsort(one, kind="stable")
+    one, two = one[order], two[order]
     return one, two, between(poses[one], poses[two])
 
 
-def _all_pairs(along: Floats, parts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Some places of each part and all places of earlier ones, as if both stood at the same point."""
-    places = places_along(along, EVERYWHERE_M)
-    queries = np.concatenate([_queries(places_along(along, SPACING_M), parts, p) for p in range(1, int(parts[-1]) + 1)])
-    one, two = (grid.ravel() for grid in np.meshgrid(places, queries, indexing="ij"))
-    earlier = parts[one] < parts[two]
-    return one[earlier], two[earlier], np.zeros((int(earlier.sum()), 3))
+def _all_pairs(path: KeyPath, turn: int) -> Windows:
+    """Some places of each part and all places of longer ones, as if both stood at the same point."""
+    places = _different(path, path.places(EVERYWHERE_M))
+    one, two = (grid.ravel() for grid in np.meshgrid(places, _queries(path, turn), indexing="ij"))
+    apart = _longer(path)[path.parts[one]] > _longer(path)[path.parts[two]]
+    return one[apart], two[apart], np.zeros((int(apart.sum()), 3))
 
 
-def _queries(places: NDArray[np.intp], parts: NDArray[np.intp], part: int) -> NDArray[np.intp]:
-    own, most = places[parts[places] == part], min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // int(parts[-1])))
-    return np.asarray(own if len(own) <= most else own[np.arange(most) * len(own) // most])
+def _longer(path: KeyPath) -> NDArray[np.intp]:
+    """The rank of each part by its number of key scans, (P,): what both saw is a larger share of the shorter."""
+    rank = np.empty(int(path.parts[-1]) + 1, np.intp)
+    rank[np.lexsort((-np.arange(len(rank)), np.bincount(path.parts)))] = np.arange(len(rank))
+    return rank
 
 
-def _candidates(closures: Closures, poses: Floats, parts: NDArray[np.intp]) -> Iterator[list[Joint]]:
+def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Places without those from which an earlier one of the same part had been seen the same way."""
+    chosen: list[int] = []
+    for place in places:
+        off = between(path.poses[chosen], path.poses[place])
+        again = (np.hypot(off[:, 0], off[:, 1]) < SAME_PLACE_M) & (np.abs(off[:, 2]) < SAME_VIEW_RAD)
+        if not (again & (path.parts[chosen] == path.parts[place])).any():
+            chosen.append(int(place))
+    return np.array(chosen, np.intp)
+
+
+def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
+    """The places of a turn: of all parts but the longest."""
+    places, count = path.places(SPACING_M), int(path.parts[-1]) + 1
+    most, rank = min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
+    found = [np.empty(0, np.intp)]
+    for part in np.nonzero(rank < count - 1)[0]:
+        own = places[path.parts[places] == part]
+        found.append((own if len(own) <= most else own[np.arange(most) * len(own) // most])[turn::TURNS])
+    return np.concatenate(found)
+
+
+def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[list[Joint]]:
     """For each pair of parts, relative poses that enough places agree on, the one with the most votes first."""
+    poses, parts = islands.poses, islands.parts
     # Where the later part's frame comes to lie: what brings its key to where the match has it.
     motions = compose(compose(poses[closures.first], closures.relative), inverse(poses[closures.second]))
-    pairs = np.stack([parts[closures.first], parts[closures.second]], axis=1)
+    swapped = parts[closures.first] > parts[closures.second]
+    motions = np.where(swapped[:, None], inverse(motions), motions)
+    brought = np.where(swapped, closures.first, closures.second)
+    pairs = np.sort(np.stack([parts[closures.first], parts[closures.second]], axis=1), axis=1)
     for earlier, later in np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0):
         own = np.nonzero((pairs == (earlier, later)).all(axis=1))[0]
         # Compared where the later part's keys come to lie: a turn about a far origin moves them.
-        at = compose(motions[own][:, None], poses[closures.second[own]][None])
+        at = compose(motions[own][:, None], poses[brought[own]][None])
         off = np.hypot(*np.moveaxis((at - at[np.arange(len(own)), np.arange(len(own))][None])[..., :2], -1, 0))
         turn = np.abs(wrapped(motions[own][:, None, 2] - motions[own][None, :, 2]))
         same = (off < SAME_M) & (turn < SAME_RAD)
         # Several matches of one place are one voice: its loudest.
         places, voice = np.unique(closures.second[own], return_inverse=True)
         loud = np.where(same, (closures.scores[own][None] - CHANCE) ** 2, 0.0)
-        heard = np.stack([loud[:, voice == k].max(axis=1) for k in range(len(places))], axis=1)
-        votes, enough = heard.sum(axis=1), (heard > 0.0).sum(axis=1) >= AGREE
         found: list[Joint] = []
-        while enough.any() and len(found) < TRIED:
-            best = int(np.argmax(np.where(enough, votes, -1.0)))
+        least = agree
+        while len(found) < TRIED:
+            heard = np.stack([loud[:, voice == k].max(axis=1) for k in range(len(places))], axis=1)
+            votes = np.where((heard > 0.0).sum(axis=1) >= least, heard.sum(axis=1), 0.0)
+            best = int(np.argmax(votes))
+            if not votes[best] > 0.0:
+                break
             found.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
-            enough &= ~same[best]
+            loud[:, same[best]] = 0.0  # what agrees with one speaks for no rival: a bent part lies there in many ways
+            least = AGREE if agree == AGREE else FEW
         yield found
 
 
-def _consistent(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    parts: NDArray[np.intp],
-    joint: Joint,
-    threads: int | None,
-) -> bool:
+def consistent(islands: KeyPath, joint: Joint, threads: int | None) -> bool:
     """Whether the scans of two parts, joined so, see through little of what the other part's see."""
-    one, two = np.nonzero(parts == joint.earlier)[0], np.nonzero(parts == joint.later)[0]
-    here, there = poses[one], compose(joint.motion, poses[two])
+    one, two = np.nonzero(islands.parts == joint.earlier)[0], np.nonzero(islands.parts == joint.later)[0]
+    here, there = islands.poses[one], compose(joint.motion, islands.poses[two])
     a, b = np.nonzero(np.hypot(*np.moveaxis(here[:, None, :2] - there[None, :, :2], -1, 0)) < MET_M)
     some = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
     a, b = a[some], b[some]
-    stride = max(1, geometry.beams // 60)
-    scans = keys[one[a]].astype(np.int32), keys[two[b]].astype(np.int32)
-    seen = between(here[a], there[b])
-    matched, against, _ = mutual_view_counts(geometry, *scans, seen, NEAR_VIEW_M, CLEAR_VIEW_M, stride, threads).sum(
-        axis=0
-    )
+    scans, seen = (islands.scans(one[a]), islands.scans(two[b])), between(here[a], there[b])
+    matched, against, _ = mutual_view_counts(islands.geometry, *scans, seen, SEEN, threads).sum(axis=0)
     return bool(against <= MOST_AGAINST * (matched + against))
 
 
-def _assembled(
-    where: Floats, poses: Floats, parts: NDArray[np.intp], islands: NDArray[np.intp]
-) -> tuple[Floats, NDArray[np.bool_]]:
+def _assembled(path: KeyPath, islands: KeyPath) -> tuple[Floats, NDArray[np.bool_]]:
     """All islands in one frame: one that nothing joins stays as the front end has it, seen from the part before it.
 
     Args:
-        where: poses of the keys, right within an island, (K, 3).
-        poses: as the front end has them, right within a part, (K, 3).
-        parts: of the keys.
-        islands: the first part of the parts that are joined, by keys.
+        path: poses as the front end has them, right within a part.
+        islands: poses right within an island, whose number is that of the first of the parts that are joined.
     """
+    poses, where, parts = path.poses, islands.poses, path.parts
     result, placed = where.copy(), np.ones(int(parts[-1]) + 1, np.bool_)
     for part in range(1, len(placed)):
         begin = int(np.searchsorted(parts, part))
-        if islands[begin] != part:
+        if islands.parts[begin] != part:
             continue  # joined to an earlier part
         placed[part] = False
         guess = compose(result[begin - 1], between(poses[begin - 1], poses[begin]))
         motion = compose(guess, inverse(where[begin]))
-        own = islands == part
+        own = islands.parts == part
         result[own] = compose(motion, where[own])
     return result, placed

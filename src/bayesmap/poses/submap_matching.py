@@ -12,26 +12,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.scan_refinement import refine_scans
-from bayesmap.kernels.view_agreement import mutual_view_counts
+from bayesmap.kernels.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.graph import Factors
+from bayesmap.poses.key_path import KeyPath
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import match
-from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import transform
 from bayesmap.space.planar import between, compose
 
 Floats = NDArray[np.float64]
 
-AROUND_M = 2.0
-"""A submap holds the key scans within so much of the path."""
+AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
+"""A submap holds the key scans within so much of the path; the one that is matched to it, and those compared."""
 
-RESOLUTION_M, SIGMA_M, STEP_RAD = 0.1, 0.1, np.radians(1.0)
-POINTS = 350
-MODES = 2
+RESOLUTION_M, SIGMA_M = 0.1, 0.1
+MODES, MODE_SHARE = 2, 0.92
+"""So many places of a window are looked at: a further one if its score is at least this share of the best one's."""
+
 ALIKE = 0.7
 
-NEAR_M, CLEAR_M = 0.15, 0.4
-"""A point so near the other submap's is matched; one that stands so far before what others saw contradicts."""
+SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)
+"""When scans of two submaps agree, and when they contradict each other."""
 
 LEAST_MATCHED = 0.2
 MOST_AGAINST = 0.15
@@ -39,6 +39,17 @@ MOST_AGAINST = 0.15
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
 """Standard deviations that a closure has at least: submaps are bent."""
+
+
+@dataclass(frozen=True)
+class Fineness:
+    """Of a search: how many points of a submap are looked for, about, and the step between headings."""
+
+    points: int
+    step_rad: float
+
+
+FINE = Fineness(350, np.radians(1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,10 +87,7 @@ class Closures:
 
 
 def match_submaps(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    along: Floats,
+    path: KeyPath,
     first: NDArray[np.intp],
     second: NDArray[np.intp],
     centres: Floats,
@@ -88,14 +96,12 @@ def match_submaps(
     half_width_m: float,
     least_score: float,
     threads: int | None = None,
+    fineness: Fineness = FINE,
 ) -> Closures:
     """Match the submaps of pairs of key scans.
 
     Args:
-        geometry: of all scans.
-        keys: the scans that are keys, (K,).
-        poses: of the keys, (K, 3), right among those of a submap.
-        along: distance along the path of each key, (K,), metres; submaps do not reach over a gap in it.
+        path: the key scans; submaps do not reach over its breaks.
         first: of M pairs, ascending.
         second: of the same pairs.
         centres: middles of the windows for the second's pose in the first's frame, (M, 3).
@@ -104,57 +110,38 @@ def match_submaps(
         half_width_m: of submaps' grids.
         least_score: matches below are not kept.
         threads: to compute with; by default all cores.
+        fineness: of the search; refining does the rest.
     """
     found = []
     submaps = np.unique(first)
     share = 24  # grids drawn at once: their memory
     for begin in range(0, len(submaps), share):
         some = submaps[begin : begin + share]
-        members = [_submap(along, int(k), AROUND_M) for k in some]
-        local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(some, members, strict=True)]
+        members = [path.around(int(k), AROUND_M) for k in some]
+        local = [path.seen_from(int(k), m) for k, m in zip(some, members, strict=True)]
         grids = likelihood_grids(
-            geometry, [keys[m] for m in members], local, np.zeros((len(some), 2)), half_width_m,
+            path.geometry, [path.keys[m] for m in members], local, np.zeros((len(some), 2)), half_width_m,
             resolution=RESOLUTION_M, sigma_m=SIGMA_M, levels=6, threads=threads,
         )  # fmt: skip
         jobs = np.nonzero((first >= some[0]) & (first <= some[-1]))[0]
-        points = [_submap_points(geometry, keys, poses, _submap(along, int(q), 0.7), int(q)) for q in second[jobs]]
+        points = [path.points_around(int(q), NARROW_M, fineness.points) for q in second[jobs]]
         best = match(
             grids, points, centres[jobs], half_m[jobs], half_rad[jobs], grid_of=np.searchsorted(some, first[jobs]),
-            step_rad=STEP_RAD, least=least_score, modes=MODES, apart_m=0.6, apart_rad=np.radians(8.0), threads=threads,
+            step_rad=fineness.step_rad, least=least_score, modes=MODES, share=MODE_SHARE, apart_m=0.6,
+            apart_rad=np.radians(8.0), threads=threads,
         )  # fmt: skip
-        job, mode = np.nonzero(best.found & (best.scores > 0.92 * best.scores[:, :1]))
+        job, mode = np.nonzero(best.found)
         if len(job):
             found.append(
                 _refined(
-                    geometry, keys, poses, along, first[jobs[job]], second[jobs[job]], best.poses[job, mode],
-                    best.scores[job, mode], threads,
+                    path, first[jobs[job]], second[jobs[job]], best.poses[job, mode], best.scores[job, mode], threads
                 )
-            )  # fmt: skip
+            )
     return joined(found) if found else no_closures()
 
 
-def _submap(along: Floats, key: int, around_m: float) -> NDArray[np.intp]:
-    """Keys within a distance along the path."""
-    low, high = np.searchsorted(along, [along[key] - around_m, along[key] + around_m])
-    members = np.arange(low, max(high, key + 1))
-    return members if len(members) <= 16 else members[:: int(np.ceil(len(members) / 16))]
-
-
-def _submap_points(
-    geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats, members: NDArray[np.intp], key: int
-) -> Floats:
-    """Points of some keys in the frame of one, thinned."""
-    local = between(np.broadcast_to(poses[key], (len(members), 3)), poses[members])
-    points = [transform(p, geometry.points_of(int(keys[m]), 180)) for p, m in zip(local, members, strict=True)]
-    whole = np.concatenate(points)
-    return whole[:: max(1, int(np.ceil(len(whole) / POINTS)))]
-
-
 def _refined(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    along: Floats,
+    path: KeyPath,
     first: NDArray[np.intp],
     second: NDArray[np.intp],
     start: Floats,
@@ -162,14 +149,14 @@ def _refined(
     threads: int | None,
 ) -> Closures:
     """The second's scan refined against the scans of the first's submap, in the first's frame."""
-    members = [_submap(along, int(k), AROUND_M) for k in first]
-    others = np.concatenate([keys[m] for m in members]).astype(np.int32)
+    members = [path.around(int(k), AROUND_M) for k in first]
+    others = path.scans(np.concatenate(members))
     offsets = np.concatenate([[0], np.cumsum([len(m) for m in members])]).astype(np.int32)
     anchor = np.repeat(first, np.diff(offsets))
-    other_poses = between(poses[anchor], poses[np.concatenate(members)])
+    other_poses = between(path.poses[anchor], path.poses[np.concatenate(members)])
     weak = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
     found, laser_information, _ = refine_scans(
-        geometry, None, keys[second].astype(np.int32), offsets, others, other_poses, start, start, weak,
+        path.geometry, None, path.scans(second), offsets, others, other_poses, start, start, weak,
         0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE, threads=threads,
     )  # fmt: skip
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
@@ -177,42 +164,35 @@ def _refined(
     # Refining that ends far from where the search began has slid into something else.
     moved = between(start, found)
     kept = (np.hypot(moved[:, 0], moved[:, 1]) < 0.4) & (np.abs(moved[:, 2]) < np.radians(6.0))
-    kept &= _agrees(geometry, keys, poses, along, first, second, found, threads)
+    kept &= _agrees(path, first, second, found, threads)
     return Closures(first, second, found, information, scores, np.zeros(len(first), np.intp)).select(kept)
 
 
 def _agrees(
-    geometry: ScanGeometry,
-    keys: NDArray[np.intp],
-    poses: Floats,
-    along: Floats,
-    first: NDArray[np.intp],
-    second: NDArray[np.intp],
-    relative: Floats,
-    threads: int | None,
+    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], relative: Floats, threads: int | None
 ) -> NDArray[np.bool_]:
     """Whether the scans about both ends see the same, as far as they see the same places, (M,)."""
     one, two, job = [], [], []
     for k in range(len(first)):
-        a, b = _submap(along, int(first[k]), 1.0)[::2], _submap(along, int(second[k]), 0.7)[::2]
+        a, b = path.around(int(first[k]), WIDE_M)[::2], path.around(int(second[k]), NARROW_M)[::2]
         one.append(np.repeat(a, len(b)))
         two.append(np.tile(b, len(a)))
         job.append(np.full(len(a) * len(b), k))
     starts, ends, of = np.concatenate(one), np.concatenate(two), np.concatenate(job)
     # The poses of the later scans in the frames of the earlier ones: by way of the closure.
+    poses = path.poses
     to_first, from_second = between(poses[starts], poses[first[of]]), between(poses[second[of]], poses[ends])
     across = compose(to_first, compose(relative[of], from_second))
-    stride = max(1, geometry.beams // 90)
-    scans = keys[starts].astype(np.int32), keys[ends].astype(np.int32)
-    counts = mutual_view_counts(geometry, *scans, across, NEAR_M, CLEAR_M, stride, threads)
+    counts = mutual_view_counts(path.geometry, path.scans(starts), path.scans(ends), across, SEEN, threads)
     sums = np.array([np.bincount(of, weights=counts[:, c], minlength=len(first)) for c in range(3)])
     matched, against, total = sums
     decided = np.maximum(matched + against, 1.0)
     return np.asarray((matched > LEAST_MATCHED * total) & (against < MOST_AGAINST * decided))
 
 
-def supported(closures: Closures, poses: Floats, along: Floats) -> Closures:
+def supported(closures: Closures, path: KeyPath) -> Closures:
     """Those that agree with another closure between nearby scans: going round by that one ends at the same place."""
+    poses, along = path.poses, path.along
     a, b = closures.first, closures.second
     one, two = np.nonzero(
         (np.abs(along[a][:, None] - along[a][None]) < 5.0)
