@@ -21,8 +21,11 @@ from typing import Any
 import numpy as np
 
 from benchmarks.page_hand import EVENTS_PER_SECOND, by_hand
+from benchmarks.processor import processor_ms
 
 ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]
+
+SHARES = ("worker", "server", "page", "browser")
 
 DRAG = by_hand(
     """
@@ -109,11 +112,15 @@ def drag(page: Any, seconds: float, name: str) -> None:
     """Drags the robot to and fro about where it stands, at 30 pointer events a second of the page's own clock."""
     until(page, "s.painted?.generation === s.generation")
     page.evaluate("bayesmap.snapshot().events.eventToPaint_ms.length = 0")
+    before = processor_ms()
     found = page.evaluate(DRAG, [seconds, EVENTS_PER_SECOND])
+    used = processor_ms() - before
     painted, sent = found["painted"] / found["seconds"], found["sent"] / found["seconds"]
     rate = f"{painted:.1f} posteriors/s painted of {sent:.1f} events/s"
     report(f"{name}: drag for {seconds:.0f} s", rate)
     report(f"{name}: event to paint", f"{spread(found['times'])} ({len(found['times'])} events)")
+    shares = ", ".join(f"{part} {used[part] / max(1, found['painted']):.0f} ms" for part in SHARES)
+    report(f"{name}: processor time a picture", shares)
 
 
 def new_building(page: Any, width: int, height: int) -> None:
