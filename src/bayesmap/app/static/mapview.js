@@ -135,21 +135,21 @@ De(d,u),u.shape[1]);if(a){e.beginPath();for(let[d,m]of a.path){let w=h({x:d,y:m}
 sensor:s.theme.truth,e.globalAlpha=.3,e.lineWidth=2*c*o.transform.scale/u.resolution,e.stroke(),e.globalAlpha=1,e.lineWidth=2,e.stroke()}for(let d of i?[r,i]:[r]){
 let{x:m,y:w}=h(d);e.beginPath(),e.arc(m,w,5,0,2*Math.PI),e.fillStyle=d===r?s.theme.sensor:s.theme.truth,e.fill(),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}}};var du=10,hu=7,fu=(t,e)=>t.layer==="width"?"width":e==="entropy"&&t.layer!=="draw"?"entropy":"value",Ko=()=>document.createElement("canvas").getContext("2d"),Wn=class{name="\
 field";cells=Ko();mask=Ko();hatch=Ko();palettes=new Map;image=new ImageData(1,1);drawn={field:null,bits:null,palette:"",hatch:""};depends({session:e}){return[e.
-flicker.under??e.shown,e.view.layer==="entropy",...e.shape,e.document===null]}paint(e,n){let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.shape,{
-scale:c,x:u,y:h}=s.transform;je(e,n);let d=o.flicker.under??o.shown;if(!d||d.p.length!==i*a){e.fillStyle=r.theme.unobserved,e.fillRect(u,h,i*c,a*c);return}this.
-fill(d,i,a,r.theme,fu(d,o.view.layer)),e.imageSmoothingEnabled=!1,e.drawImage(this.cells.canvas,u,h,i*c,a*c),this.fillHatch(n),e.drawImage(this.hatch.canvas,0,0,
-this.hatch.canvas.width/s.ratio,this.hatch.canvas.height/s.ratio),c>=du&&this.lines(e,n)}fill(e,n,o,s,r){let{cells:i,mask:a,drawn:c}=this,u=`${s.ground} ${r}`;if(c.
-field===e&&c.palette===u)return;let h=this.palettes.get(u)??Bi(s,r);if(this.palettes.set(u,h),this.image.width!==n||this.image.height!==o){this.image=new ImageData(
-n,o);for(let{canvas:m}of[i,a])Object.assign(m,{width:n,height:o});c.bits=null}let d=new Uint32Array(this.image.data.buffer);for(let m=0,w=0;m<o;m++)for(let y=o-
-1-m;y<n*o;y+=o)d[w++]=h[e.p[y]+(e.observed[y]?0:256)];if(i.putImageData(this.image,0,0),c.bits!==e.bits){for(let m=0,w=0;m<o;m++)for(let y=o-1-m;y<n*o;y+=o)d[w++]=
-e.observed[y]?0:4278190080;a.putImageData(this.image,0,0),c.hatch=""}Object.assign(c,{field:e,bits:e.bits,palette:u})}fillHatch({session:e,view:n,look:o}){let{hatch:s,
-mask:r,drawn:i}=this,{ratio:a,width:c,height:u}=n,{scale:h,x:d,y:m}=n.transform,[w,y]=e.shape,S=[o.theme.ground,h,d,m,c,u,a].join(" ");if(i.hatch===S)return;i.hatch=
-S;let k=Ko(),P=k.canvas.width=k.canvas.height=Math.round(hu*a);k.strokeStyle=o.theme.hatch,k.lineWidth=a,k.beginPath();for(let _ of[-P,0,P])k.moveTo(_-1,P+1),k.
-lineTo(_+P+1,-1);k.stroke(),Object.assign(s.canvas,{width:Math.ceil(c*a),height:Math.ceil(u*a)}),s.setTransform(a,0,0,a,0,0),s.imageSmoothingEnabled=!1,s.drawImage(
-r.canvas,d,m,w*h,y*h),s.globalCompositeOperation="source-in",s.setTransform(1,0,0,1,0,0);let M=s.createPattern(k.canvas,"repeat");M.setTransform(new DOMMatrix().
-translate(Math.round(d*a),Math.round(m*a))),s.fillStyle=M,s.fillRect(0,0,s.canvas.width,s.canvas.height)}lines(e,{session:n,view:o,look:s}){let[r,i]=n.shape,{scale:a,
-x:c,y:u}=o.transform;e.beginPath();for(let h=1;h<r;h++)e.moveTo(c+h*a,u),e.lineTo(c+h*a,u+i*a);for(let h=1;h<i;h++)e.moveTo(c,u+h*a),e.lineTo(c+r*a,u+h*a);e.strokeStyle=
-s.theme.lines,e.lineWidth=1,e.stroke()}};var mu=[[1.25,0],[-.9,.8],[-.45,0],[-.9,-.8]],zn=class{name="ghost";depends({session:e}){return[e.ghost.version,e.document?.grid.resolution,e.document?.max_range]}shows({
+flicker.under??e.shown,e.view.layer==="entropy",...e.shape]}shows({session:e}){return e.document!==null}paint(e,n){let{session:o,view:s,look:r}=n;if(!o.document)
+return;let[i,a]=o.shape,{scale:c,x:u,y:h}=s.transform;je(e,n);let d=o.flicker.under??o.shown;if(!d||d.p.length!==i*a){e.fillStyle=r.theme.unobserved,e.fillRect(
+u,h,i*c,a*c);return}this.fill(d,i,a,r.theme,fu(d,o.view.layer)),e.imageSmoothingEnabled=!1,e.drawImage(this.cells.canvas,u,h,i*c,a*c),this.fillHatch(n),e.drawImage(
+this.hatch.canvas,0,0,this.hatch.canvas.width/s.ratio,this.hatch.canvas.height/s.ratio),c>=du&&this.lines(e,n)}fill(e,n,o,s,r){let{cells:i,mask:a,drawn:c}=this,
+u=`${s.ground} ${r}`;if(c.field===e&&c.palette===u)return;let h=this.palettes.get(u)??Bi(s,r);if(this.palettes.set(u,h),this.image.width!==n||this.image.height!==
+o){this.image=new ImageData(n,o);for(let{canvas:m}of[i,a])Object.assign(m,{width:n,height:o});c.bits=null}let d=new Uint32Array(this.image.data.buffer);for(let m=0,
+w=0;m<o;m++)for(let y=o-1-m;y<n*o;y+=o)d[w++]=h[e.p[y]+(e.observed[y]?0:256)];if(i.putImageData(this.image,0,0),c.bits!==e.bits){for(let m=0,w=0;m<o;m++)for(let y=o-
+1-m;y<n*o;y+=o)d[w++]=e.observed[y]?0:4278190080;a.putImageData(this.image,0,0),c.hatch=""}Object.assign(c,{field:e,bits:e.bits,palette:u})}fillHatch({session:e,
+view:n,look:o}){let{hatch:s,mask:r,drawn:i}=this,{ratio:a,width:c,height:u}=n,{scale:h,x:d,y:m}=n.transform,[w,y]=e.shape,S=[o.theme.ground,h,d,m,c,u,a].join(" ");
+if(i.hatch===S)return;i.hatch=S;let k=Ko(),P=k.canvas.width=k.canvas.height=Math.round(hu*a);k.strokeStyle=o.theme.hatch,k.lineWidth=a,k.beginPath();for(let _ of[
+-P,0,P])k.moveTo(_-1,P+1),k.lineTo(_+P+1,-1);k.stroke(),Object.assign(s.canvas,{width:Math.ceil(c*a),height:Math.ceil(u*a)}),s.setTransform(a,0,0,a,0,0),s.imageSmoothingEnabled=
+!1,s.drawImage(r.canvas,d,m,w*h,y*h),s.globalCompositeOperation="source-in",s.setTransform(1,0,0,1,0,0);let M=s.createPattern(k.canvas,"repeat");M.setTransform(
+new DOMMatrix().translate(Math.round(d*a),Math.round(m*a))),s.fillStyle=M,s.fillRect(0,0,s.canvas.width,s.canvas.height)}lines(e,{session:n,view:o,look:s}){let[
+r,i]=n.shape,{scale:a,x:c,y:u}=o.transform;e.beginPath();for(let h=1;h<r;h++)e.moveTo(c+h*a,u),e.lineTo(c+h*a,u+i*a);for(let h=1;h<i;h++)e.moveTo(c,u+h*a),e.lineTo(
+c+r*a,u+h*a);e.strokeStyle=s.theme.lines,e.lineWidth=1,e.stroke()}};var mu=[[1.25,0],[-.9,.8],[-.45,0],[-.9,-.8]],zn=class{name="ghost";depends({session:e}){return[e.ghost.version,e.document?.grid.resolution,e.document?.max_range]}shows({
 session:{ghost:e,document:n}}){return!!(e.held&&e.pose&&n)}paint(e,n){let{ghost:o}=n.session;if(!(!o.held||!o.pose||!n.session.document)){if(je(e,n),o.fan){let s=this.
 fan(e,n,o.fan);o.fan.near&&this.near(e,n,o.fan,o.fan.near),e.fillStyle=n.look.theme.ghost,e.fill(s)}this.robot(e,n,o.pose)}}ends({session:e,view:n},o,s,r){let{grid:i,
 max_range:a}=e.document;return Array.from(s,(c,u)=>{let h=se(r[u],0,a),d=o.yaw+c,m={x:o.x+h*Math.cos(d),y:o.y+h*Math.sin(d)};return n.fromGrid(De(m,i),i.shape[1])})}fan(e,n,o){
@@ -171,11 +171,11 @@ let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:c,shape:u}=e.document.g
 t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let P=_=>Math.ceil(a[_]/w-1e-9)*w,M=_=>a[_]+u[_]*c+1e-9;for(let _=P(0);_<=M(0);_+=w){let E=d+(_-a[0])/c*h;E<S||
 E>r-4||(t.moveTo(E,y),t.lineTo(E,y+4),Jt(t,_.toFixed(k),E,y+12,s,"center"))}for(let _=P(1);_<=M(1);_+=w){let E=m+(u[1]-(_-a[1])/c)*h;E>y||E<4||(t.moveTo(S,E),t.
 lineTo(S-4,E),Jt(t,_.toFixed(k),S-7,E,s,"right"))}t.stroke(),Jt(t,"m",S-7,y+12,s,"right")}var Vn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=nr(e).flatMap(({id:i,x:a,y:c,yaw:u})=>[i,a,c,u]),{grid:s}=e.document??{},
-r=Ki(e)&&n.truth&&e.wallsVersion;return[s&&[...s.shape,...s.origin,s.resolution].join(),r,n.selected,...o]}paint(e,n){let{session:o,view:s,look:r}=n;if(!o.document)
-return;let[i,a]=o.shape,{scale:c,x:u,y:h}=s.transform;r.truth&&Ki(o)&&this.truth(e,n),e.strokeStyle=r.theme.frame,e.lineWidth=1,e.strokeRect(u-.5,h-.5,i*c+1,a*c+
-1),Ui(e,n),qi(e,n)}truth(e,n){let{session:o,view:s,look:r}=n,{scale:i,x:a,y:c}=s.transform;this.edgesOf!==o.wallsVersion&&(this.edges=Ai(o.walls,o.shape),this.edgesOf=
-o.wallsVersion),e.save(),je(e,n),e.transform(i,0,0,-i,a,c+o.shape[1]*i),e.lineCap="square",e.strokeStyle=r.theme.truth,e.lineWidth=se(i*.09,1,2.5)/i,e.stroke(this.
-edges),e.restore()}},Ki=({document:t})=>t?.source.kind==="simulation";var bu=600,wu=1500,vu=65536,rr=.3,Bn=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
+r=Ki(e)&&n.truth&&e.wallsVersion;return[s&&[...s.shape,...s.origin,s.resolution].join(),r,n.selected,...o]}shows({session:e}){return e.document!==null}paint(e,n){
+let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.shape,{scale:c,x:u,y:h}=s.transform;r.truth&&Ki(o)&&this.truth(e,n),e.strokeStyle=r.theme.frame,
+e.lineWidth=1,e.strokeRect(u-.5,h-.5,i*c+1,a*c+1),Ui(e,n),qi(e,n)}truth(e,n){let{session:o,view:s,look:r}=n,{scale:i,x:a,y:c}=s.transform;this.edgesOf!==o.wallsVersion&&
+(this.edges=Ai(o.walls,o.shape),this.edgesOf=o.wallsVersion),e.save(),je(e,n),e.transform(i,0,0,-i,a,c+o.shape[1]*i),e.lineCap="square",e.strokeStyle=r.theme.truth,
+e.lineWidth=se(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},Ki=({document:t})=>t?.source.kind==="simulation";var bu=600,wu=1500,vu=65536,rr=.3,Bn=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.scan&&e.document&&(n.rays||n.readings)&&!e.ghost.held)}paint(e,n){let{session:o,view:s,look:r}=n,{scan:i,document:a}=o;if(!i||!a)return;
 je(e,n);let{scale:c}=s.transform,u=1/a.grid.resolution,h=a.grid.shape[1],d=i.angles.length,m=i.pose.length/3,w=Math.ceil(d*m/wu),[y,S,k]=[new Path2D,new Path2D,
 new Path2D],P=d*m>bu,M=new Map,_=se(c*.1,1.3,4),E=a.scans_used??1/0,q=(i.index??0)<E?1:rr;for(let D=0;D<m;D++){let[K,V,N]=i.pose.subarray(3*D,3*D+3),G=s.fromGrid(
@@ -1077,26 +1077,26 @@ choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?qo.dark
 hatch:a,unobserved:c,draw:u,ghost:h}=n;for(let[d,m]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:c,draw:u,ghost:h}))this.app.style.setProperty(
 `--${d}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=hc[this.choice];try{localStorage.setItem(fc,this.choice)}catch{}this.dress()}destroy(){
 this.media.removeEventListener("change",this.listen)}};function kh(){try{return localStorage.getItem(fc)}catch{return null}}function As(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(pc+dc),r.adoptedStyleSheets=
-[i],t.toggleAttribute("data-embedded",n);let a=0,c=()=>{a||=requestAnimationFrame(Ue)},u=new Es(e,c,o,s),h=new Un,d=new Wo(u),m=new Go(u,d),w=new ws(u),y=new bs(
-u,d,m,ae,Y=>w.showLayer(Y),n),S=[new Wn,new Hn,new jn,new Bn,new Jo,new Vn,new Gn,new qn,new zn,new Bo],k=S.map(({name:Y})=>x("canvas",{className:Y})),P=k[k.length-
-1];Object.assign(P,{tabIndex:0,role:"application"});let M=new Ho(S,k);new Vo(P,u,h,d,m,n);let _=new zo(P,u,h,d,m),E={truth:!0,rays:!0,readings:!0,strokes:!0,trajectory:!0},
-q=$l(y),D=Xi(y),K={chip:zl(y),banner:Hl(y)},V=x("main",{className:"stage"},...k,K.chip,K.banner),N=()=>ee.theme,G=Il(y,N),C=Vl(y);P.setAttribute("aria-described\
-by",C.readout.id);let Z=Rl(y),I={help:Ll(y),new:Dl(y),share:Z.dialog},[j,W,Q,z]=[Kl(y),Yl(y),Jl(y),Zl(y)],Je=[Cl(y),nc(y),Fl(y),Ul(y),jl(y,_l(y,N),Al(y,N)),Xl(y),
-ql(y),Ql(y,w,E),j,W,Bl(y),Q,z],me=x("aside",{"aria-label":"Controls"},...Je),re=()=>u.recorded||u.document?.source.kind==="run";y.visible(j,()=>u.editable),y.visible(
-W,()=>!re()),y.visible(Q,()=>!re()),y.visible(z,()=>!re()),y.each(()=>{R(D,"inert",!u.document),R(me,"inert",!u.document)});let ue=x("div",{className:"app"},q.element,
-D,V,G,me,C.element,...Object.values(I));r.replaceChildren(ue);let ee=new _s(ue,Y=>{q.nameTheme(Y),c()}),H=()=>{let Y=u.editable&&d.tool==="sensor"?d.sensor?.id??
-null:null;return{session:u,view:h,look:{theme:ee.theme,...E,hover:d.hover,cursor:d.cursor,selected:Y}}},Ee="";function Ue(){a=0;let Y=u.take();u.document&&String(
-u.shape)!==Ee&&(Ee=String(u.shape),h.fit(u.shape),d.cursor=d.hover=null,u.decisions.forget(),u.ghost.refit(),P.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.
-shape[1]} cells`)),M.paint(H()),Y&&(u.painted(),w.step());let{x:ne,y:Ne}=h.transform;K.chip.style.transform=`translate(${Math.max(ne,Ye.left)}px, ${Math.max(Ne-
-28,6)}px)`,pt(P,"data-tool",u.editable||$t.has(d.tool)?d.tool:"pan"),y.refresh()}let ge=new ResizeObserver(()=>{let{width:Y,height:ne}=V.getBoundingClientRect();
+[i],t.toggleAttribute("data-embedded",n);let a=0,c=()=>{a||=requestAnimationFrame(Ue)},u=new Es(e,c,o,s);e.open();let h=new Un,d=new Wo(u),m=new Go(u,d),w=new ws(
+u),y=new bs(u,d,m,ae,Y=>w.showLayer(Y),n),S=[new Wn,new Hn,new jn,new Bn,new Jo,new Vn,new Gn,new qn,new zn,new Bo],k=S.map(({name:Y})=>x("canvas",{className:Y})),
+P=k[k.length-1];Object.assign(P,{tabIndex:0,role:"application"});let M=new Ho(S,k);new Vo(P,u,h,d,m,n);let _=new zo(P,u,h,d,m),E={truth:!0,rays:!0,readings:!0,strokes:!0,
+trajectory:!0},q=$l(y),D=Xi(y),K={chip:zl(y),banner:Hl(y)},V=x("main",{className:"stage"},...k,K.chip,K.banner),N=()=>ee.theme,G=Il(y,N),C=Vl(y);P.setAttribute(
+"aria-describedby",C.readout.id);let Z=Rl(y),I={help:Ll(y),new:Dl(y),share:Z.dialog},[j,W,Q,z]=[Kl(y),Yl(y),Jl(y),Zl(y)],Je=[Cl(y),nc(y),Fl(y),Ul(y),jl(y,_l(y,N),
+Al(y,N)),Xl(y),ql(y),Ql(y,w,E),j,W,Bl(y),Q,z],me=x("aside",{"aria-label":"Controls"},...Je),re=()=>u.recorded||u.document?.source.kind==="run";y.visible(j,()=>u.
+editable),y.visible(W,()=>!re()),y.visible(Q,()=>!re()),y.visible(z,()=>!re()),y.each(()=>{R(D,"inert",!u.document),R(me,"inert",!u.document)});let ue=x("div",{
+className:"app"},q.element,D,V,G,me,C.element,...Object.values(I));r.replaceChildren(ue);let ee=new _s(ue,Y=>{q.nameTheme(Y),c()}),H=()=>{let Y=u.editable&&d.tool===
+"sensor"?d.sensor?.id??null:null;return{session:u,view:h,look:{theme:ee.theme,...E,hover:d.hover,cursor:d.cursor,selected:Y}}},Ee="";function Ue(){a=0;let Y=u.take();
+u.document&&String(u.shape)!==Ee&&(Ee=String(u.shape),h.fit(u.shape),d.cursor=d.hover=null,u.decisions.forget(),u.ghost.refit(),P.setAttribute("aria-label",`Map\
+, ${u.shape[0]} by ${u.shape[1]} cells`)),M.paint(H()),Y&&(u.painted(),w.step());let{x:ne,y:Ne}=h.transform;K.chip.style.transform=`translate(${Math.max(ne,Ye.left)}\
+px, ${Math.max(Ne-28,6)}px)`,pt(P,"data-tool",u.editable||$t.has(d.tool)?d.tool:"pan"),y.refresh()}let ge=new ResizeObserver(()=>{let{width:Y,height:ne}=V.getBoundingClientRect();
 !Y||!ne||(h.resize(Y,ne,devicePixelRatio||1),h.fitted&&h.fit(u.shape),cancelAnimationFrame(a),Ue())});ge.observe(V);async function ae(Y){if(Y==="in"||Y==="out")
 h.zoom(Y==="in"?1.4:1/1.4,h.middle,u.shape);else if(Y==="fit")h.fit(u.shape);else if(Y==="help")I.help.showModal();else if(Y==="new")I.new.showModal();else if(Y===
 "theme")ee.next();else if(Y==="add")_.addSensor();else if(Y==="share"){let ne=u.portableDocument();ne&&Z.show(location.origin+location.pathname+await Ei(ne))}else if(Y===
 "export png"){let ne=await Zi(H());ne&&ar("bayesmap.png",ne),u.say("Saved bayesmap.png")}else Y.startsWith("export ")&&u.act({type:"export",what:Y.slice(7)});c()}
 u.ondownload=(Y,ne,Ne)=>ar(Y,new Blob([Ne],{type:ne}));let it=[[n?t:window,"keydown",Y=>{Y.defaultPrevented||!u.document||Object.values(I).some(ne=>ne.open)||Oi(
 Y,u,{tool:ne=>{d.choose(ne),_.focus()},layer:ne=>w.showLayer(ne),command:ae})}],[window,"online",()=>e.retry?.()],[window,"hashchange",async()=>{if(n)return;let{
-document:Y,damaged:ne}=await Uo();Y?u.bring(Y):ne&&u.say(Oo,"error")}]];for(let[Y,ne,Ne]of it)Y.addEventListener(ne,Ne);return ee.dress(),e.open(),{destroy(){ge.
-disconnect(),cancelAnimationFrame(a),ee.destroy();for(let[Y,ne,Ne]of it)Y.removeEventListener(ne,Ne);e.close(),r.replaceChildren()},snapshot:()=>oc(u,h,M),cellToClient(Y,ne){
+document:Y,damaged:ne}=await Uo();Y?u.bring(Y):ne&&u.say(Oo,"error")}]];for(let[Y,ne,Ne]of it)Y.addEventListener(ne,Ne);return ee.dress(),{destroy(){ge.disconnect(),
+cancelAnimationFrame(a),ee.destroy();for(let[Y,ne,Ne]of it)Y.removeEventListener(ne,Ne);e.close(),r.replaceChildren()},snapshot:()=>oc(u,h,M),cellToClient(Y,ne){
 let Ne=P.getBoundingClientRect(),Ot=h.fromGrid({x:Y+.5,y:ne+.5},u.shape[1]);return{x:Ne.left+Ot.x,y:Ne.top+Ot.y}}}}var Br={uint8:Uint8Array,float32:Float32Array,float64:Float64Array},mc=8,so=()=>({onmessage:()=>{},onstatus:()=>{}});function gc(t){let e=new DataView(t).getUint32(
 0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},s=4+e;for(let{name:r,dtype:i,shape:a}of n.buffers){let c=a.reduce((u,h)=>u*h,1)*Br[i].BYTES_PER_ELEMENT;
 o[r]=new Br[i](t.slice(s,s+c)),s+=Math.ceil(c/mc)*mc}return[n,o]}function yc(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{let{buffer:i,byteOffset:a,
