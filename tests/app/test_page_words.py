@@ -60,29 +60,35 @@ def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_pag
     assert (nats_for > nats_against) == (cell == "wall")
 
 
-@pytest.mark.parametrize("noise", [0.2, 0.002], ids=["short numbers", "long numbers"])
-def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, server, noise):
-    page = open_page(server, document(noise=noise, method="gibbs", start="prior", sweeps=60))
-    settled(page)
-    page.evaluate(LABELS)
-    act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
-    until(page, "!s.running && s.painted.sweeps === 60 && s.painted.generation === s.generation")
+def labels(page, part):
+    """What is written along the trace when this part of it is chosen: numbers to its left, and below it."""
     page.evaluate("() => { window.written.length = 0; }")
-    page.get_by_role("radio", name="First 50").check()
+    page.get_by_role("radio", name=part).check()
     page.evaluate(NEXT_FRAME)
     page.evaluate(NEXT_FRAME)
     written = page.evaluate("window.written")
-    trace = np.array(page.evaluate("[...bayesmap.snapshot().painted.trace]"))
-    log_joint = [one for one in written if one["align"] in ("right", "end")]
-    sweeps = [number(one["text"]) for one in written if one["align"] == "center"]
-    assert len(log_joint) > 1
-    assert len(sweeps) > 1
-    assert max(sweeps) <= 50
     for one in written:
         assert one["from"] >= 0, one
         assert one["to"] <= one["wide"], one
+    return [one["text"] for one in written if one["align"] != "center"], [
+        number(one["text"]) for one in written if one["align"] == "center"
+    ]
+
+
+@pytest.mark.parametrize("noise", [0.2, 0.002], ids=["short numbers", "long numbers"])
+def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, server, noise):
+    page = open_page(server, document(noise=noise, method="gibbs", start="prior", sweeps=1000))
+    settled(page)
+    page.evaluate(LABELS)
+    act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
+    until(page, "!s.running && s.painted.sweeps === 1000 && s.painted.generation === s.generation")
+    trace = np.array(page.evaluate("[...bayesmap.snapshot().painted.trace]"))
+    log_joint, sweeps = labels(page, "First 50")
+    assert len(log_joint) > 1
+    assert len(sweeps) > 1
+    assert max(sweeps) <= 50
     spread = np.ptp(trace)
-    for one in log_joint:
-        assert trace.min() - 0.1 * spread - 1 <= number(one["text"]) <= trace.max() + 0.1 * spread + 1
-    longest = max(len(one["text"]) for one in log_joint)
-    assert longest >= (8 if noise < 0.01 else 3)
+    for text in log_joint:
+        assert trace.min() - 0.1 * spread - 1 <= number(text) <= trace.max() + 0.1 * spread + 1
+    assert max(map(len, log_joint)) >= (8 if noise < 0.01 else 3)
+    assert max(labels(page, "All sweeps")[1]) == 1000

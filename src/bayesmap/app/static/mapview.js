@@ -535,41 +535,42 @@ p,f,g,b,v,T)&&Zs.pub(l,p,f,g,b,v,T)}Zs.sub(o);function Yc(l,p,f,g,b,v,T){Le.filt
 o),Sr.delete(o),tn.clear(),br(ts,Jn,vi),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=Jc;function Qs(){Ve("init",t,e),Qr(e||t.data,!1),W[D]?Vs(D,W[D]):Ds(),_o=
 xe.show&&(xe.width>0||xe.height>0),rn=yt=!0,Ls(t.width,t.height)}return M.forEach(Jr),_.forEach(_c),n?n instanceof HTMLElement?(n.appendChild(u),Qs()):n(o,Qs):Qs(),
 o}Oe.assign=Re;Oe.fmtNum=Cr;Oe.rangeNum=ns;Oe.rangeLog=rs;Oe.rangeAsinh=_r;Oe.orient=wn;Oe.pxRatio=de;Oe.join=up;Oe.fmtDate=Dr,Oe.tzDate=xp;Oe.sync=fl;{Oe.addGap=
-od,Oe.clipGaps=ls;let t=Oe.paths={points:vl};t.linear=kl,t.stepped=id,t.bars=ad,t.spline=cd}var ds=128,Pl=50,vd=.25,xd=t=>[t.ray,t.truth,t.sensor,t.noReturn],kd=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),hs=(t,e)=>({font:tr,
-size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().frame,width:1,size:4}});function El(t,e,n){let o=null,s=null,r=()=>Math.floor(
-t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:ds})).observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize(
-{width:r(),height:ds}),s=n()),o)}function _l(t,e){let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.
-segmented("Trace",[["all","All sweeps"],["first",`First ${Pl}`]],()=>s,y=>{s=y,u=null,n.changed()}),i=0,a=-1/0,c=-1,u=null,d=El(o,()=>{let y=xd(e()),S=Array.from(
-{length:i},(k,P)=>({label:`chain ${P+1}`,stroke:y[P%y.length],width:1,points:{show:!1}}));return new Oe({width:100,height:ds,legend:{show:!1},cursor:{drag:{x:!1,
-y:!1},y:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(k,P,M)=>[P,Math.max(M,P+1)]},y:{range:(k,P,M)=>Td(Math.max(P,a),M)}},axes:[hs(e,26),hs(e,kd)],series:[{
-label:"sweep"},...S],hooks:{draw:[k=>Pd(k,c,e())]}},[[],...S.map(()=>[])],o)},e),m=x("span",{className:"caption",textContent:"log joint by sweep"}),w=x("div",{className:"\
-charted"},x("div",{className:"buttons"},r,m),o);return t.each(()=>{let y=n.shown,S=y?.traced?.length?y.trace.length/y.traced.length:0;if(R(w,"hidden",S===0),!y||
-!S)return;let k=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.sweeps/n.draws.count:-1,P=d(S!==i&&(i=S,!0));P&&(u===y&&c===k&&P.data[0].length||([u,c]=[y,k],a=s===
-"all"?Md(y,S):-1/0,P.setData(Sd(y,S,s))))}),w}function Sd({trace:t,traced:e},n,o){let s=o==="all"?e.length:e.filter(r=>r<=Pl).length;return[e.slice(0,s),...Array.
-from({length:n},(r,i)=>t.slice(i*e.length,i*e.length+s))]}function Md({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=vd*e[o-1]);return Math.min(...Array.
-from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Td(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function Pd(t,e,n){if(e<0)return;let{
-left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Al(t,e){
-let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"Histogram of the particles' weights"}),s=x("div",{className:"caption",textContent:"partic\
-les by weight, nats below the heaviest"}),r=x("div",{className:"charted"},s,o),a=El(o,()=>new Oe({width:100,height:ds,legend:{show:!1},cursor:{show:!1},padding:[
-8,10,0,0],scales:{x:{time:!1,range:(u,h,d)=>[h,d]},y:{distr:3,range:(u,h,d)=>[.5,Math.max(10,2*d)]}},axes:[hs(e,26),{...hs(e,52),values:(u,h)=>h.map(d=>d>=1?String(
-d):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),c=null;return t.each(()=>{let u=n.
-shown;R(r,"hidden",!u?.weights);let h=u?.weights&&a(!1);if(!u?.weights||!h||c===u&&h.data[0].length)return;c=u;let d=[...u.weights],m=-(u.lowest??-1)/d.length,w=[
-...d.map((y,S)=>(u.lowest??-1)+S*m),0];h.setData([w,[...d.map(y=>y||null),null]])}),r}function Cl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=x("p",{className:"said",role:"status"}),r=x("div",{className:"double"},t.numberInput("Robot's radius (m\
+od,Oe.clipGaps=ls;let t=Oe.paths={points:vl};t.linear=kl,t.stepped=id,t.bars=ad,t.spline=cd}var ds=128,Pl=50,vd=.25,xd=t=>[t.ray,t.truth,t.sensor,t.noReturn],kd=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),Sd=({data:t})=>Math.
+max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),hs=(t,e)=>({font:tr,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
+frame,width:1,size:4}});function El(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:ds})).
+observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:ds}),s=n()),o)}function _l(t,e){let{session:n}=t,o=x("div",{className:"\
+chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All sweeps"],["first",`First ${Pl}`]],()=>s,y=>{s=y,u=null,n.
+changed()}),i=0,a=-1/0,c=-1,u=null,d=El(o,()=>{let y=xd(e()),S=Array.from({length:i},(k,P)=>({label:`chain ${P+1}`,stroke:y[P%y.length],width:1,points:{show:!1}}));
+return new Oe({width:100,height:ds,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,Sd,0,0],scales:{x:{time:!1,range:(k,P,M)=>[P,Math.max(M,P+1)]},y:{
+range:(k,P,M)=>Pd(Math.max(P,a),M)}},axes:[hs(e,26),hs(e,kd)],series:[{label:"sweep"},...S],hooks:{draw:[k=>Ed(k,c,e())]}},[[],...S.map(()=>[])],o)},e),m=x("spa\
+n",{className:"caption",textContent:"log joint by sweep"}),w=x("div",{className:"charted"},x("div",{className:"buttons"},r,m),o);return t.each(()=>{let y=n.shown,
+S=y?.traced?.length?y.trace.length/y.traced.length:0;if(R(w,"hidden",S===0),!y||!S)return;let k=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.sweeps/n.draws.count:
+-1,P=d(S!==i&&(i=S,!0));P&&(u===y&&c===k&&P.data[0].length||([u,c]=[y,k],a=s==="all"?Td(y,S):-1/0,P.setData(Md(y,S,s))))}),w}function Md({trace:t,traced:e},n,o){
+let s=o==="all"?e.length:e.filter(r=>r<=Pl).length;return[e.slice(0,s),...Array.from({length:n},(r,i)=>t.slice(i*e.length,i*e.length+s))]}function Td({trace:t,traced:e},n){
+let o=e.length,s=e.findIndex(r=>r>=vd*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Pd(t,e){let n=Math.
+max(.06*(e-t),.5);return[t-n,e+n]}function Ed(t,e,n){if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.
+ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Al(t,e){let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"Histogra\
+m of the particles' weights"}),s=x("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),r=x("div",{className:"charted"},s,o),
+a=El(o,()=>new Oe({width:100,height:ds,legend:{show:!1},cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(u,h,d)=>[h,d]},y:{distr:3,range:(u,h,d)=>[
+.5,Math.max(10,2*d)]}},axes:[hs(e,26),{...hs(e,52),values:(u,h)=>h.map(d=>d>=1?String(d):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[
+.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),c=null;return t.each(()=>{let u=n.shown;R(r,"hidden",!u?.weights);let h=u?.weights&&a(!1);if(!u?.weights||!h||
+c===u&&h.data[0].length)return;c=u;let d=[...u.weights],m=-(u.lowest??-1)/d.length,w=[...d.map((y,S)=>(u.lowest??-1)+S*m),0];h.setData([w,[...d.map(y=>y||null),
+null]])}),r}function Cl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=x("p",{className:"said",role:"status"}),r=x("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,u=>o.set({radius:u}),{min:.01,max:100,step:"any"}),t.numberInput("Highest risk",()=>o.risk,u=>o.set({risk:u}),{min:1e-4,max:.99,step:"any"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),c=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
-r,()=>n.tool==="path"),t.each(()=>{R(c,"textContent",i()),R(s,"textContent",n.tool==="path"?Ed(t):_d(t))}),a}function Ed({session:t}){let{start:e,goal:n,path:o,
+r,()=>n.tool==="path"),t.each(()=>{R(c,"textContent",i()),R(s,"textContent",n.tool==="path"?_d(t):Ad(t))}),a}function _d({session:t}){let{start:e,goal:n,path:o,
 trouble:s}=t.decisions;if(s)return s;if(!e)return"Click where the robot is, then where it is to go.";if(!n)return"Now click where it is to go.";if(!o)return t.shown?.
 approximate?"Waiting for draws of the map.":"Looking for a path.";let r=o.within_risk?"":" No path was found whose risk is low enough; this is the safest.";return`${Ce(
 o.length_m,2)} m, free with probability ${Ce(o.probability,3)} ± ${Ce(o.standard_error,3)} by ${o.draws} draws. Independent cells would say ${Ce(o.independent,
-3)}.${r}`}function _d({session:t}){let{views:e,trouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.nats),
+3)}.${r}`}function Ad({session:t}){let{views:e,trouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.nats),
 s=t.editable?" Click to place another sensor.":"";return`One more scan would tell ${Ce(Math.min(...e.nats),1)} to ${Ce(o,1)} nats, cells taken for independent; \
-the best place has a ring.${s}`}var Ad=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Cd=["Draw walls, and drag the robot: a beam reads the first wall that it \
+the best place has a ring.${s}`}var Cd=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Ld=["Draw walls, and drag the robot: a beam reads the first wall that it \
 hits, with noise. Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (draw), and where doubt remains\
  (entropy). No beam has been where it is hatched.","While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact\
- in the long run."],Ld="Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom\
- and pan.";function Ll(t){let e=Ii.map(([o,s])=>x("tr",{},x("th",{scope:"row"},x("kbd",{textContent:o})),x("td",{textContent:s}))),n=Cd.map(o=>x("p",{textContent:o}));
-return t.dialog("Help",...n,x("table",{},x("tbody",{},...e)),x("p",{textContent:Ld}))}function Dl(t){let e=()=>x("input",{type:"number",min:Se.cells[0],max:Se.cells[1],
-step:1,required:!0,value:"21"}),[n,o]=[e(),e()],s=x("select",{});for(let[i,a]of Ad)s.append(x("option",{value:i,textContent:a}));s.addEventListener("change",()=>{
+ in the long run."],Dd="Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom\
+ and pan.";function Ll(t){let e=Ii.map(([o,s])=>x("tr",{},x("th",{scope:"row"},x("kbd",{textContent:o})),x("td",{textContent:s}))),n=Ld.map(o=>x("p",{textContent:o}));
+return t.dialog("Help",...n,x("table",{},x("tbody",{},...e)),x("p",{textContent:Dd}))}function Dl(t){let e=()=>x("input",{type:"number",min:Se.cells[0],max:Se.cells[1],
+step:1,required:!0,value:"21"}),[n,o]=[e(),e()],s=x("select",{});for(let[i,a]of Cd)s.append(x("option",{value:i,textContent:a}));s.addEventListener("change",()=>{
 s.value==="building"&&Number(n.value)<60&&([n.value,o.value]=["120","80"])});let r=x("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("H\
 eight (cells)",o),x("div",{className:"buttons end"},x("button",{type:"submit",className:"primary",textContent:"Create"})));return r.addEventListener("submit",()=>{
 t.session.act({type:"new",shape:[Number(n.value),Number(o.value)],world:s.value}),t.hand.selected=null}),t.dialog("New map",r)}function Rl(t){let e=x("input",{type:"\
@@ -579,8 +580,8 @@ dialog("Share",x("p",{textContent:"The link holds the walls, the sensors and all
 uns; the part from # on can be put after the address of any bayesmap page."}),x("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),
 e.select()}}}var Nl=t=>Math.round(t*180/Math.PI);function Fl(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(c,u)=>t.numberInput(c,()=>Number((o.pose?.[u]??0).toFixed(2)),h=>o.move(
 {[u]:h}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>Nl(o.pose?.yaw??0),c=>o.move({yaw:c*Math.PI/180}),{step:5}),i=x("p",{className:"words ghosted"}),a=t.
-section("Ghost",x("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>R(i,"textContent",Dd(t))),
-a}function Dd({session:t}){let{ghost:e}=t;if(e.trouble)return e.trouble;if(!e.fan)return"Drag the ghost to see what its laser would read.";let{draws:n,low:o,high:s,
+section("Ghost",x("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>R(i,"textContent",Rd(t))),
+a}function Rd({session:t}){let{ghost:e}=t;if(e.trouble)return e.trouble;if(!e.fan)return"Drag the ghost to see what its laser would read.";let{draws:n,low:o,high:s,
 near:r}=e.fan,i=Array.from(s,(h,d)=>h-o[d]).filter(Number.isFinite).sort((h,d)=>h-d),a=i.length?`${Ce(100*i[i.length>>1],0)} cm wide at the median beam`:"as wid\
 e as the laser's range",c=n?`${n} draws of the map`:"the mean map, cells taken for independent",u=r?` Rings are the hits of scan ${r.index+1}, taken ${Ce(100*r.
 away,0)} cm from here, turned by ${Nl(r.turn)}°.`:"";return`Dots are predictive medians, bars the central 80 % interval, ${a}, by ${c}.${u}`}function $l(t){let{session:e}=t,n=x("span",{className:"what"});t.each(()=>{let{grid:u,source:h}=e.document??{};if(!u||!h)return;let d=`${u.shape[0]} × ${u.shape[1]}\
@@ -588,14 +589,14 @@ away,0)} cm from here, turned by ${Nl(r.turn)}°.`:"";return`Dots are predictive
 act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo}),t.button("redo","Redo",()=>e.act({type:"redo"}),{title:"Redo (Ctrl+Y)",when:()=>!!e.state?.
 can_redo}),x("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),...t.embedded?[]:[t.button("link","Share",()=>t.command(
 "share"),{text:"Share",when:o})]];for(let u of s)t.visible(u,()=>!e.recorded);let r=t.button("theme","Theme: automatic",()=>t.command("theme")),i=t.button("help",
-"Help",()=>t.command("help"),{title:"Help (?)"}),a=x("span",{className:"space"});return{element:x("header",{},x("h1",{textContent:"bayesmap"}),n,a,...s,Nd(t),r,
-i),nameTheme(u){let h=`Theme: ${u}`;pt(r,"aria-label",h),R(r,"title",h)}}}var Rd=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function Nd(t){
+"Help",()=>t.command("help"),{title:"Help (?)"}),a=x("span",{className:"space"});return{element:x("header",{},x("h1",{textContent:"bayesmap"}),n,a,...s,Fd(t),r,
+i),nameTheme(u){let h=`Theme: ${u}`;pt(r,"aria-label",h),R(r,"title",h)}}}var Nd=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function Fd(t){
 let{session:e}=t,n=(a,c,u,h)=>{let d=t.button(null,a,()=>t.command(`export ${c}`),{text:a,when:h});return u&&t.visible(d,()=>!e.recorded),d},o=x("div",{className:"\
-menu",hidden:!0},n("Picture (PNG)","png",!1),n("Saved run (netCDF)","run",!0,()=>Rd(e)),n("Map for robots (YAML and PGM)","map",!0),n("Page with its draws (HTML\
+menu",hidden:!0},n("Picture (PNG)","png",!1),n("Saved run (netCDF)","run",!0,()=>Nd(e)),n("Map for robots (YAML and PGM)","map",!0),n("Page with its draws (HTML\
 )","html",!0),n("Document (JSON)","document",!0)),s=t.button("save","Export",()=>r(o.hidden),{text:"Export",when:()=>!!e.document}),r=a=>{o.hidden=!a,s.setAttribute(
 "aria-expanded",String(a)),a&&o.firstElementChild.focus()};r(!1);let i=x("div",{className:"anchor"},s,o);return i.addEventListener("keydown",a=>{a.key!=="Escape"||
 o.hidden||(r(!1),s.focus(),a.stopPropagation())}),i.addEventListener("focusout",a=>{i.contains(a.relatedTarget)||r(!1)}),o.addEventListener("click",()=>{r(!1),s.
-focus()}),i}var Fd={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
+focus()}),i}var $d={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
 5 5.5L12 3l2.5 2.5M9.5 18.5L12 21l2.5-2.5M5.5 9.5L3 12l2.5 2.5M18.5 9.5L21 12l-2.5 2.5",path:"M5 19a2 2 0 1 0 .1 0M7 18c9-1 1-11 10-12M19 3a2 2 0 1 0 .1 0",look:"\
 M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0 1 0 .1 0",where:"M12 21c-4-5-6-7.500-6-11a6 6 0 0 1 12 0c0 3.500-2 6-6 11M12 8a\
 2 2 0 1 0 .1 0",ghost:"M5 20V11a7 7 0 0 1 14 0v9l-2.300-2-2.400 2-2.300-2-2.300 2-2.400-2zM9.500 11v.5M14.500 11v.5",undo:"M8 5L4 9l4 4M4 9h10a5.5 5.5 0 0 1 0 1\
@@ -603,29 +604,29 @@ M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0
 5-12 7.5z",pause:"M8.5 5v14M15.5 5v14",link:"M10 14a4 4 0 0 0 5.7 0l3-3A4 4 0 0 0 13 5.3l-1 1M14 10a4 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",save:"M12 4v11M7\
 .5 10.5L12 15l4.5-4.5M4 20h16",grid:"M4 4h16v16H4zM4 12h16M12 4v16",theme:"M12 3a9 9 0 1 0 0 18zM12 3a9 9 0 0 1 0 18",help:"M8.5 9a3.5 3.5 0 1 1 5 3.2c-1.1.6-1.\
 5 1.200-1.500 2.500M12 18v.5",close:"M6 6l12 12M18 6L6 18"};function en(t){let e=document.createElementNS("http://www.w3.org/2000/svg","svg"),n=document.createElementNS(
-"http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute("aria-hidden","true"),n.setAttribute("d",Fd[t]),e.append(n),e}var fs=[["truth","true wall"],["ray","ray"],["miss","no return"],["dot","reading"],["sensor","sensor"],["stroke","surface"],["trajectory","trajectory"],["draw",
+"http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute("aria-hidden","true"),n.setAttribute("d",$d[t]),e.append(n),e}var fs=[["truth","true wall"],["ray","ray"],["miss","no return"],["dot","reading"],["sensor","sensor"],["stroke","surface"],["trajectory","trajectory"],["draw",
 "this draw"],["ghost","predicted reading"],["unobserved","unobserved"]];function Il(t,e){let{session:n}=t,o=x("span",{className:"ramp"}),s=x("span"),r=fs.map(([
 c,u])=>{let h=x("i",{className:c});return c==="sensor"&&h.append(en("sensor")),x("li",{},h,u)});t.visible(r[0],()=>!n.document||n.document.source.kind==="simula\
 tion"),t.visible(r[fs.findIndex(([c])=>c==="stroke")],()=>!!n.overlay?.strokes.length),t.visible(r[fs.findIndex(([c])=>c==="trajectory")],()=>!!n.overlay?.trajectory.
 length);let i=c=>r[fs.findIndex(([u])=>u===c)];t.visible(i("draw"),()=>!!n.flicker.under),t.visible(i("ghost"),()=>n.ghost.held||n.reading.picked!==null);let a="";
 return t.each(()=>{let c=n.shown?.layer==="width"?"width":n.view.layer,{kind:u,mean:h,value:d}=n.quantity;R(s,"textContent",c==="entropy"?"entropy (bit)":c==="w\
 idth"?"width of the 90 % interval":u==="binary"?"P(wall)":c==="draw"?d:h);let w=c==="entropy"||c==="width",y=`${w} ${e().ground}`;a!==y&&(a=y,o.style.background=
-ji(w?yo:S=>sr(e(),S)))}),x("ul",{className:"legend","aria-label":"Legend"},x("li",{},s,"0",o,"1"),...r)}var $d=[.05,.1,.2,.4,.8],Id=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function Ol(t){let{session:e}=t,n=x("select",{onchange:()=>e.act({type:"\
+ji(w?yo:S=>sr(e(),S)))}),x("ul",{className:"legend","aria-label":"Legend"},x("li",{},s,"0",o,"1"),...r)}var Id=[.05,.1,.2,.4,.8],Od=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function Ol(t){let{session:e}=t,n=x("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,c]=i.bounds,u=Math.
-max(c[0]-a[0],c[1]-a[1]),h=[...new Set([...$d,r.resolution])].sort((d,m)=>d-m);if(o!==h.join()){o=h.join();let d=m=>x("option",{value:String(m),textContent:Id(m),
+max(c[0]-a[0],c[1]-a[1]),h=[...new Set([...Id,r.resolution])].sort((d,m)=>d-m);if(o!==h.join()){o=h.join();let d=m=>x("option",{value:String(m),textContent:Od(m),
 disabled:u/m>Se.side_of_log-1});n.replaceChildren(...h.map(d))}R(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
 source.kind==="log"),s}function Ul(t){let{session:e}=t,n=x("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=x("output"),s=()=>e.document?.source.
 scans??0,r=a=>{let c=Number(n.value);t.scrub(c>=s()?null:c,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});let i=t.
 section("Log",x("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),c=e.document?.scans_used??
 a;R(n,"max",String(Math.max(1,a))),(!hn(n)||Number(n.value)!==c)&&R(n,"value",String(c));let u=c===a?`all ${a} scans`:`after ${c} of ${a}`;n.style.setProperty("\
---fill",`${100*(c-1)/Math.max(1,a-1)}%`),pt(n,"aria-valuetext",u),R(o,"textContent",u)}),i}var Od="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";function zl(t){
+--fill",`${100*(c-1)/Math.max(1,a-1)}%`),pt(n,"aria-valuetext",u),R(o,"textContent",u)}),i}var Ud="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";function zl(t){
 let{session:e}=t,n=x("span",{className:"chip"}),o=t.button(null,"Not converged",()=>Gl(e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=x("div",{className:"\
 chips"},n,o);return t.each(()=>{let r=Gl(e);R(o,"hidden",!r),r&&(R(o.firstElementChild,"textContent",`not converged: ${r.text}`),R(o,"title",`${e.shown?.verdict?.
 why}. Click to ${r.text}.`),pt(o,"aria-label",`Not converged: ${r.text}`));let i=e.shown;if(!i||!e.document)return R(s,"hidden",!0);let a=e.draws.count?`draw ${e.
 draw+1} of ${e.draws.count}`:"draw",c=i.layer==="draw"?a+(e.flicker.under?" over the mean":""):i.layer==="width"?"width of the 90 % interval":e.view.layer==="en\
 tropy"?"entropy":"mean";if(i.method==="counts")return R(s,"hidden",!1),R(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():"poses as far \
 as they are known"}`),R(n,"className","chip approximate");let u={importance:"importance sampling",propagate:"belief propagation"}[i.method],h=i.approximate?`app\
-roximate, ${Ud(i)}`:u??`${i.sweeps} sweeps`;R(s,"hidden",!1),R(n,"textContent",`${c} · ${h}`),R(n,"className",i.approximate?"chip approximate":"chip")}),s}function Ud({
+roximate, ${Gd(i)}`:u??`${i.sweeps} sweeps`;R(s,"hidden",!1),R(n,"textContent",`${c} · ${h}`),R(n,"className",i.approximate?"chip approximate":"chip")}),s}function Gd({
 method:t,sweeps:e,total:n,averaged:o}){return t==="hits"?"counts of hits":t!=="pilot"?"belief propagation":`${o} draws of one chain, sensor being fitted: sweep ${e}\
  of ${n}`}function Gl(t){let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n||t.recorded||n.source.kind==="run")return null;let o=r=>()=>t.act({type:"set",
 patch:r});if(e.method==="gibbs"&&n.source.kind==="simulation")return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")return{text:"try Gi\
@@ -633,7 +634,7 @@ bbs",apply:o({method:"auto"})};if(t.sampling)return null;let s=Math.min(Se.sweep
 null}function Hl(t){let{session:e}=t,n=x("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),s=x("div",{className:"banner",
 role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));R(s,"h\
 idden",!r&&e.worker!=="restarted"),R(s,"className",r?"banner":"banner mild"),R(o,"hidden",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept he\
-re.`,c=e.connection.refused?Od:a;R(n,"textContent",r?c:"The worker stopped and is being started again. The map is kept.")}),s}function Vl(t){let{session:e,hand:n}=t,
+re.`,c=e.connection.refused?Ud:a;R(n,"textContent",r?c:"The worker stopped and is being started again. The map is kept.")}),s}function Vl(t){let{session:e,hand:n}=t,
 o=x("div",{className:"readout",id:`${t.prefix}-readout`}),s=x("span",{role:"status","aria-live":"polite"}),r=x("span",{className:"hidden","aria-live":"polite"});
 return n.announce=i=>R(r,"textContent",i),n.describe=i=>Wl(e,i),t.each(()=>{let i=n.cursor??n.hover,c=e.editable&&!matchMedia("(pointer: coarse)").matches?"Poin\
 t at a cell, or press ? for the keys":"Point at a cell";R(o,"textContent",i?Wl(e,i):c);let u=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad";R(s,"textC\
@@ -644,38 +645,39 @@ ll ${e.x}, ${e.y}`,`${c.toFixed(a)}, ${u.toFixed(a)} m`];if(o&&o.p.length===r[0]
 2)}`,...S?[]:[`entropy ${mo(d).toFixed(2)} bit`]):o.layer==="draw"?h.push(d>.5?"wall in this draw":"free in this draw"):h.push(`P(wall) ${d.toFixed(2)}`,`entrop\
 y ${mo(d).toFixed(2)} bit`);let k=t.cell?.x===e.x&&t.cell.y===e.y?t.cell:null,P=k?k.beams:null;o.observed[i]?P!==null&&h.push(P===1?"1 beam":`${P} beams`):h.push(
 "unobserved"),k?.nats_for!==void 0&&k.nats_against!==void 0&&P&&h.push(`for a wall ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.
-nats_against.toFixed(1)} nats`)}return h.join(" · ")}var Gd={logged:"as logged",odometry:"from raw odometry"},Wd=180/Math.PI;function Bl(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
-Gd,()=>e.document?.poses??"logged",d=>t.set({poses:d}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,c=[t.slider("po\
-se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:Wd})];for(let d of c)
+nats_against.toFixed(1)} nats`)}return h.join(" · ")}var Wd={logged:"as logged",odometry:"from raw odometry"},zd=180/Math.PI;function Bl(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+Wd,()=>e.document?.poses??"logged",d=>t.set({poses:d}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,c=[t.slider("po\
+se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:zd})];for(let d of c)
 t.visible(d,()=>e.editable);let u=x("p",{className:"caption"});t.each(()=>{let{pose_sigma:d=0,heading_sigma:m=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
 poses==="odometry"&&e.shown?.method==="counts"&&!e.running,S=e.editable&&(d>0||m>0)&&!/auto|gibbs|block/.test(w);R(u,"hidden",!S&&!y),R(u,"textContent",y?"Run i\
 nfers where the robot was.":"This method takes poses as known; Gibbs does not.")});let h=t.section("Where the robot was",o,...c,u);return t.visible(h,()=>e.editable||
 n()&&!e.recorded),h}var Ur=t=>t.charAt(0).toUpperCase()+t.slice(1),ms=class{text="Connecting";level="info";until=0;say(e,n,o){this.text=Ur(e),this.level=n,this.until=o}confirmed(e){
 let n=e>this.until&&!/worker/.test(this.text);(this.text==="Connecting"||n)&&this.say("Ready","info",e)}worker(e){e==="restarted"?this.say("The worker stopped a\
 nd is being started again; the map is kept","warning",this.until):e==="ready"&&this.text==="Connecting"?this.say("Ready","info",this.until):e==="ready"&&/worker/.
-test(this.text)&&this.say("The worker runs again","info",this.until)}};var zd=20,Hd={importance:"particles",propagate:"rounds"};function jl(t,...e){let{session:n}=t,o=x("progress",{max:1,value:0,"aria-label":"Progress"}),s=x("div",
+test(this.text)&&this.say("The worker runs again","info",this.until)}};var Hd=20,Vd={importance:"particles",propagate:"rounds"};function jl(t,...e){let{session:n}=t,o=x("progress",{max:1,value:0,"aria-label":"Progress"}),s=x("div",
 {className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=i?i.done/i.of:r&&r.total>0&&!r.approximate?r.sweeps/r.total:0;R(o,"value",a);let c=n.remaining_s(),
-u=Hd[r?.method??""]??"sweeps",h=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${u}`:"",d=c!==null?c<1?"less than 1 s left":`${Math.ceil(c)} s left`:n.running?
-"running":"";i?R(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>zd?"scans":"rounds"}`):R(s,"textContent",Ur([h,d].filter(Boolean).join(", "))||"No chai\
-n yet")}),t.section("Posterior",Vd(t),o,s,Bd(t),jd(t),...e)}function Vd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",
+u=Vd[r?.method??""]??"sweeps",h=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${u}`:"",d=c!==null?c<1?"less than 1 s left":`${Math.ceil(c)} s left`:n.running?
+"running":"";i?R(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Hd?"scans":"rounds"}`):R(s,"textContent",Ur([h,d].filter(Boolean).join(", "))||"No chai\
+n yet")}),t.section("Posterior",Bd(t),o,s,jd(t),qd(t),...e)}function Bd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",
 text:"Run",title:"Run (R)"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling}),s=t.
 checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=x("div",{className:"buttons"},n,o,s);return t.visible(
-r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Bd(t){let{session:e}=t,n=x("dl"),o=(s,r,i,a=!1)=>{let c=x("dd",{textContent:"–"});n.append(x("d\
+r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function jd(t){let{session:e}=t,n=x("dl"),o=(s,r,i,a=!1)=>{let c=x("dd",{textContent:"–"});n.append(x("d\
 iv",{title:r},x("dt",{textContent:s}),c)),t.each(()=>{R(c,"textContent",e.shown?i(e.shown):"–"),a&&R(c,"className",e.shown?.verdict?.level??"")})};return o("E\
 SS","Effective sample size of the log joint",s=>Ce(s.ess,0),!0),o("R-hat","Agreement of the chains on the log joint; 1 is full",s=>Ce(s.rhat,3),!0),o("log joint",
-"Log of prior times likelihood at the last sweep",s=>Ce(s.log_joint,1)),o("reply","From the hand's last move to its picture",()=>Ce(e.latency.eventToPaint_ms.at(
--1),0," ms")),n}function jd(t){let{session:e}=t,n=x("div",{className:"verdict"});return t.each(()=>{let o=e.shown?.verdict;if(R(n,"hidden",!o),!o)return;let s={
-good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];R(n,"textContent",`${s}: ${o.why}`),R(n,"className",`verdict ${o.level}`)}),n}var gs=t=>Math.abs(t)<.995?`${Ce(100*Math.abs(t),1)} cm`:`${Ce(Math.abs(t),2)} m`,qd="Point at a reading to compare it with what the posterior predicts of it.";
+"Log of prior times likelihood at the last sweep",s=>Ce(s.log_joint,Math.abs(s.log_joint??0)<1e5?1:0)),o("reply","From the hand's last move to its picture",()=>Ce(
+e.latency.eventToPaint_ms.at(-1),0," ms")),n}function qd(t){let{session:e}=t,n=x("div",{className:"verdict"});return t.each(()=>{let o=e.shown?.verdict;if(R(n,"\
+hidden",!o),!o)return;let s={good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];R(n,"textContent",`${s}: ${o.why}`),R(n,"className",`verdict\
+ ${o.level}`)}),n}var gs=t=>Math.abs(t)<.995?`${Ce(100*Math.abs(t),1)} cm`:`${Ce(Math.abs(t),2)} m`,Kd="Point at a reading to compare it with what the posterior predicts of it.";
 function ql(t){let{session:e}=t,n=x("p",{className:"words reading",role:"status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.
-document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i}=e.reading,a=s?`Beam ${s.beam+1} of scan ${s.scan+1}.`:qd;R(n,"textContent",i||
-(r?Kd(r):a))}),o}function Kd({scan:t,beam:e,reading:n,range:o,low:s,median:r,high:i,residual:a,no_return:c,wall:u}){let h=`Beam ${e+1} of scan ${t+1}`,d=(P,M)=>P===
+document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i}=e.reading,a=s?`Beam ${s.beam+1} of scan ${s.scan+1}.`:Kd;R(n,"textContent",i||
+(r?Yd(r):a))}),o}function Yd({scan:t,beam:e,reading:n,range:o,low:s,median:r,high:i,residual:a,no_return:c,wall:u}){let h=`Beam ${e+1} of scan ${t+1}`,d=(P,M)=>P===
 null?M:`${Ce(P,2)} m`,m=`median ${d(r,"no return")}, 80 % between ${d(s,"too close")} and ${d(i,"no return")}`;if(n==="none")return`${h} came back from nothing,\
  which was predicted with probability ${Ce(c??0,3)} (${m}).`;if(n!=="hit"||o===null)return`${h} read nothing that says how far (${m}).`;let w=a===null?"":`, ${gs(
 a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${h} read ${Ce(o,2)} m${w} (${m}).`;if(!u)return y;let S=`${gs(u.across_m)} ${u.across_m<0?"behind":
 "in front of"} the wall, which is ${gs(u.thickness_m)} thick`,k=`${gs(u.along_m)} to the ${u.along_m<0?"right":"left"} along it from the middle of its surface`;
-return`${y} It ended ${S} (one standard deviation), and ${k}; the beam met it at ${Ce(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var Yd={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},Jd={
-binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},Zd={noisy:"with noise",exact:"exact"},Qd={auto:"as is best",prior:"draws of the prior",empty:"t\
-he empty map"},Xd={raster:"raster",radial:"radial",random:"random"},ys=2*Math.PI,eh=t=>Math.round(t*1800/Math.PI)/10,th={importance:"Particles",propagate:"Round\
+return`${y} It ended ${S} (one standard deviation), and ${k}; the beam met it at ${Ce(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var Jd={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},Zd={
+binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},Qd={noisy:"with noise",exact:"exact"},Xd={auto:"as is best",prior:"draws of the prior",empty:"t\
+he empty map"},eh={raster:"raster",radial:"radial",random:"random"},ys=2*Math.PI,th=t=>Math.round(t*1800/Math.PI)/10,nh={importance:"Particles",propagate:"Round\
 s"};function Kl(t){let{session:e,hand:n,editor:o}=t,s=x("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
 choose("sensor")});let r="";t.each(()=>{let d=e.document?.sensors??[],m=d.map(w=>w.id).join();m!==r&&s.replaceChildren(...d.map(({id:w})=>x("option",{value:String(
 w),textContent:`Sensor ${w}`}))),r=m,R(s,"value",String(n.sensor?.id??""))});let i=(d,m)=>t.numberInput(d,()=>Number((n.sensor?.[m]??0).toFixed(2)),w=>n.sensor&&
@@ -684,17 +686,17 @@ o.moveSensor(n.sensor,{[m]:w}),{step:"any"}),a=t.numberInput("heading (°)",()=>
 Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??ys)<ys);let h=x("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
 a);return t.section("Sensors",x("div",{className:"buttons"},s,c,u),h)}function Yl(t){let{session:e}=t,[n,o]=Se.max_range,[s,r]=Se.fov_deg,i=t.numberInput("Longe\
 st range (m)",()=>e.document?.max_range??0,d=>t.set({max_range:d}),{min:n,max:o,step:"any"}),a=[t.slider("noise",()=>"Noise (m)",{low:Se.noise[0],high:Se.noise[1],
-step:.01,unit:" m"}),t.slider("angles",()=>"Angles",{low:Se.angles[0],high:Se.angles[1],step:1,log:!0}),i,t.numberInput("Field of view (°)",()=>eh(e.document?.
-fov??ys),d=>t.set({fov:d>=r?ys:d*Math.PI/180}),{min:s,max:r,step:5}),t.select("Readings",Zd,()=>e.document?.readings??"noisy",d=>t.set({readings:d}))];for(let d of a)
+step:.01,unit:" m"}),t.slider("angles",()=>"Angles",{low:Se.angles[0],high:Se.angles[1],step:1,log:!0}),i,t.numberInput("Field of view (°)",()=>th(e.document?.
+fov??ys),d=>t.set({fov:d>=r?ys:d*Math.PI/180}),{min:s,max:r,step:5}),t.select("Readings",Qd,()=>e.document?.readings??"noisy",d=>t.set({readings:d}))];for(let d of a)
 t.visible(d,()=>e.editable);let c=t.slider("prior",()=>"Prior P(wall)",{low:Se.prior[0],high:Se.prior[1],step:.01}),u=()=>(e.document?.cells??"binary")==="binar\
-y";t.visible(c,u);let h=t.select("Cells",Jd,()=>e.document?.cells??"binary",d=>t.set({cells:d}));return t.visible(h,()=>e.document?.source.kind==="log"),t.section(
+y";t.visible(c,u);let h=t.select("Cells",Zd,()=>e.document?.cells??"binary",d=>t.set({cells:d}));return t.visible(h,()=>e.document?.source.kind==="log"),t.section(
 "Model",h,Ol(t),c,...a)}function Jl(t){let{session:e}=t,n=()=>e.document?.method??"auto",o=()=>(e.document?.cells??"binary")==="binary",s=()=>/auto|gibbs|block/.
-test(n()),[r,i]=Se.seed,a=[t.select("Method",Yd,n,c=>t.set({method:c})),t.select("Order",Xd,()=>e.document?.order??"radial",c=>t.set({order:c}),()=>n()==="gibbs"||
-n()==="auto"),t.select("Start",Qd,()=>e.document?.start??"auto",c=>t.set({start:c}),s)];for(let c of a)t.visible(c,o);return t.section("Inference",...a,t.slider(
-"sweeps",()=>th[n()]??"Sweeps",{low:Se.sweeps[0],high:Se.sweeps[1],step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,c=>t.set({seed:Math.round(c)}),{
+test(n()),[r,i]=Se.seed,a=[t.select("Method",Jd,n,c=>t.set({method:c})),t.select("Order",eh,()=>e.document?.order??"radial",c=>t.set({order:c}),()=>n()==="gibbs"||
+n()==="auto"),t.select("Start",Xd,()=>e.document?.start??"auto",c=>t.set({start:c}),s)];for(let c of a)t.visible(c,o);return t.section("Inference",...a,t.slider(
+"sweeps",()=>nh[n()]??"Sweeps",{low:Se.sweeps[0],high:Se.sweeps[1],step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,c=>t.set({seed:Math.round(c)}),{
 min:r,max:i,step:1}))}function Zl(t){let{session:e}=t,n=t.button(null,"Clear walls",()=>e.act({type:"clear",what:"walls"}),{text:"Clear walls",when:()=>e.editable}),
 o=t.button(null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.section("Clear",x("div",{className:"buttons"},n,
-o))}var nh=0,bs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${nh++}`;updates=[];drag=Math.
+o))}var oh=0,bs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${oh++}`;updates=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}refresh(){for(let e of this.updates)e()}set(e){this.session.act({type:"set",patch:e,drag:this.drag})}scrub(e,n){
 this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}visible(e,n){this.each(()=>R(e,"hidden",!n()))}button(e,n,o,{
 className:s="",text:r="",when:i,title:a}={}){let c=x("button",{type:"button",className:s,title:a??n,onclick:o},e&&en(e));return r&&c.append(x("span",{textContent:r})),
@@ -716,7 +718,7 @@ r.value),i,a))}),this.each(()=>{hn(r)||R(r,"value",String(n()))}),this.row(e,r)}
 return this.each(()=>R(r,"checked",n())),x("label",{className:"check",title:s},r,x("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(
 /\W/g,"")}`,s=x("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},en("close")),r=x("div",{className:"title"},x("h2",{id:o,textContent:e}),
 s),i=x("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),
-i}};var oh=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],sh={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},ws=class{constructor(e){
+i}};var sh=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],rh={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},ws=class{constructor(e){
 this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.session.hasDraws)return;this.session.act({type:"\
 view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.act({type:"view",layer:"draw",chain:n,draw:e})}play(e){let{draw:n,
 draws:o,flicker:s,shown:r}=this.session;this.playing=e&&!s.still,e&&s.wantsMean?this.session.act({type:"view",layer:"mean",chain:this.session.view.chain}):e&&this.
@@ -725,48 +727,48 @@ layer!=="draw"?this.showLayer("draw"):e&&n.wantsMean&&(this.afterMean=!0,this.se
 this.showDraw(0),this.playing=!0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||this.playing)&&e?.layer==="mean"&&!n.
 wantsMean)return this.afterMean=!1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.playing)return;let{draw:o,draws:s}=this.
 session;o+1>=s.count&&n.on?this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function Ql(t,e,n){let{session:o}=t,s=t.segmented(
-"Show",oh,()=>o.view.layer,m=>e.showLayer(m),m=>m!=="draw"||o.hasDraws),[,,r,i]=Array.from(s.children);R(i,"title","Width of each cell's 90 % interval"),t.visible(
+"Show",sh,()=>o.view.layer,m=>e.showLayer(m),m=>m!=="draw"||o.hasDraws),[,,r,i]=Array.from(s.children);R(i,"title","Width of each cell's 90 % interval"),t.visible(
 r,()=>!o.quantity.interval),t.visible(i,()=>o.quantity.interval);let a=(m,w)=>t.checkbox(m,()=>n[w],y=>{n[w]=y,o.changed()}),c=a("True walls","truth");t.visible(
 c,()=>!o.document||o.document.source.kind==="simulation");let[u,h]=[a("Surfaces","strokes"),a("Trajectory","trajectory")];t.visible(u,()=>!!o.overlay?.strokes.length),
 t.visible(h,()=>!!o.overlay?.trajectory.length);let d=x("div",{className:"checks",role:"group","aria-label":"Marks"},c,a("Rays","rays"),a("Readings","readings"),
-u,h);return t.section("View",s,rh(t,e),d)}function rh(t,e){let{session:n}=t,o=x("input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener(
+u,h);return t.section("View",s,ih(t,e),d)}function ih(t,e){let{session:n}=t,o=x("input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener(
 "input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=x("output"),i=x(
 "select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,Number(i.value))),t.each(()=>{let{chains:d,count:m}=n.draws;R(o,"max",String(
 Math.max(0,m-1))),R(o,"disabled",m===0),R(o,"value",String(n.draw));let w=m?`${n.draw+1} of ${m}`:"none kept";pt(o,"aria-valuetext",w),o.style.setProperty("--fi\
 ll",`${m>1?100*n.draw/(m-1):0}%`),R(r,"textContent",w),i.length!==Math.max(1,d)&&i.replaceChildren(...Array.from({length:Math.max(1,d)},(S,k)=>x("option",{value:String(
 k),textContent:`chain ${k+1}`}))),R(i,"value",String(n.view.chain)),R(i,"disabled",d<2),m<2&&e.playing&&e.play(!1);let y=n.flicker.still?"Next draw":e.playing?"\
 Pause the draws":"Play the draws";s.getAttribute("aria-label")!==y&&(s.setAttribute("aria-label",y),s.replaceChildren(en(e.playing?"pause":"play")))});let a=x("\
-select",{"aria-label":"Speed"});for(let[d,m]of Object.entries(sh))a.append(x("option",{value:d,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener(
+select",{"aria-label":"Speed"});for(let[d,m]of Object.entries(rh))a.append(x("option",{value:d,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener(
 "change",()=>e.drawsPerSecond=Number(a.value));let c=t.button(null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1});
 t.each(()=>R(a,"disabled",n.draws.count<2||n.flicker.still));let u=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Each draw in its own colour o\
 ver the mean, as one of the maps that the scans leave possible");t.visible(u,()=>n.draws.count>1);let h=x("div",{className:"wide"},u);return x("div",{className:"\
 player"},s,o,r,x("div",{className:"buttons wide"},i,a,c),h)}function Xl(t){let{session:e}=t,n=x("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),
 o=x("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.section("Scan",x("div",{className:"player bare"},n,o));return t.
 each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;R(s,"hidden",r<2),R(n,"max",String(Math.max(0,r-1))),hn(n)||R(n,"value",String(
-e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),R(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var tc=2,ec=6,ih=.5,ah=.005;function nc(t){let{session:e,hand:n}=t,o=x("p",{className:"whereabouts",role:"status"}),s=x("p",{className:"caption"}),r=t.section("\
-Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),R(o,"textContent",lh(t)),R(s,"textCon\
+e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),R(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var tc=2,ec=6,ah=.5,lh=.005;function nc(t){let{session:e,hand:n}=t,o=x("p",{className:"whereabouts",role:"status"}),s=x("p",{className:"caption"}),r=t.section("\
+Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),R(o,"textContent",ch(t)),R(s,"textCon\
 tent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.":"Choose a scan below: it is located\
- in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function lh({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
-charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>ih?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
-2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>ah?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
-2)}.`:"";return`${o}${ch(e.modes)}${uh(e,t.editable)}${s}`}function ch(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>tc,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
+ in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function ch({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
+charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>ah?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
+2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>lh?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
+2)}.`:"";return`${o}${uh(e.modes)}${ph(e,t.editable)}${s}`}function uh(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>tc,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
 toFixed(2)} m, heading ${Gr(e.mean[2],0)}`,s=`known to ${Wr(e.sigma_m)} and ${Gr(e.sigma_rad,1)}`;if(t.length===1)return n?`It may be almost anywhere: positions\
  are ${Wr(e.sigma_m)} apart.`:`One place: ${o}, ${s}.`;let r=t.slice(0,ec).map(({probability:a})=>ir(a)),i=t.length>ec?" and less":"";return`${t.length} places:\
- ${r.join(", ")}${i}. The likeliest: ${o}, ${s}.`}function uh({modes:t,pose:e},n){if(!t.length||t[0].sigma_m>tc)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-
+ ${r.join(", ")}${i}. The likeliest: ${o}, ${s}.`}function ph({modes:t,pose:e},n){if(!t.length||t[0].sigma_m>tc)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-
 e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the l\
-ikeliest":`the ${ph(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Wr(o[s])} and ${Gr(r,1)} from ${i}.`}var ph=t=>`${t}${["th","st","nd","rd"][t%100>10&&
+ikeliest":`the ${dh(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Wr(o[s])} and ${Gr(r,1)} from ${i}.`}var dh=t=>`${t}${["th","st","nd","rd"][t%100>10&&
 t%100<14?0:t%10]??"th"}`,Gr=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}°`,Wr=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(
 0)} cm`:`${t.toFixed(1)} m`;function oc(t,e,n){let{shown:o,status:s}=t,i=o?.layer==="draw"||o?.layer==="width"?o.layer:t.view.layer==="entropy"?"entropy":"mean";return{document:t.effectiveDocument(),
 generation:t.generation,painted:o&&{generation:o.generation,layer:i,approximate:o.approximate,sweeps:o.sweeps,method:o.method,quantity:t.quantity,rhat:o.rhat,verdict:o.
 verdict,trace:o.trace,traced:o.traced,weights:o.weights,ess:o.ess,chain:o.chain,draw:o.draw},probability:o?.p??new Uint8Array(0),observed:o?.observed??new Uint8Array(
 0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,status:{text:s.text,level:s.level},connected:t.connection.connected,decisions:{path:t.decisions.path,
-views:t.decisions.views,trouble:t.decisions.trouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:dh(t),reading:{picked:t.reading.picked,
+views:t.decisions.views,trouble:t.decisions.trouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:hh(t),reading:{picked:t.reading.picked,
 found:t.reading.found,trouble:t.reading.trouble},over:!!t.flicker.under,overlay:t.overlay&&{strokes:t.overlay.strokes.length/5,trajectory:t.overlay.trajectory.length/
 2},worker:t.worker,running:t.running,draws:t.draws,view:t.view,seq:{sent:t.acted,confirmed:t.state?.seq??0},events:{...t.counts,eventToPaint_ms:t.latency.eventToPaint_ms},
-layers:{...n.paints},transform:{...e.transform}}}function dh({ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,
-fan:o&&{...o,near:o.near&&{...o.near}}}}var sc="bayesmap-token",zr="bayesmap-kept";function hh(t){try{return localStorage.getItem(t)}catch{return null}}function Hr(t,e){try{e===null?localStorage.removeItem(
+layers:{...n.paints},transform:{...e.transform}}}function hh({ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,
+fan:o&&{...o,near:o.near&&{...o.near}}}}var sc="bayesmap-token",zr="bayesmap-kept";function fh(t){try{return localStorage.getItem(t)}catch{return null}}function Hr(t,e){try{e===null?localStorage.removeItem(
 t):localStorage.setItem(t,e)}catch{}}function Vr(t){t?.source.kind==="simulation"&&location.protocol.startsWith("http")&&Hr(zr,JSON.stringify(t))}function rc(){
-Hr(zr,null)}function ic(){let t=hh(zr);try{return t&&JSON.parse(t)}catch{return null}}function ac(t){t&&Hr(sc,t)}function lc(t){let e=n=>{n.key===sc&&n.newValue&&
+Hr(zr,null)}function ic(){let t=fh(zr);try{return t&&JSON.parse(t)}catch{return null}}function ac(t){t&&Hr(sc,t)}function lc(t){let e=n=>{n.key===sc&&n.newValue&&
 t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",e)}var cc=new Set(["walls","sensor","set","view","live"]);function uc(t,e){let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*
 s+i]=e.wall?1:0;else if(e.type==="set"){let{resolution:r,...i}=e.patch;Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type===
 "view")t.view={layer:e.layer,chain:e.chain??t.view.chain,draw:e.draw??null};else if(e.type==="sensor"&&e.op==="move"){let r=n.sensors.find(i=>i.id===e.id);r&&Object.
@@ -779,15 +781,15 @@ risk:r}=this,{shown:i}=e;if(!i||i.generation!==e.generation||e.recorded)return;l
 method==="propagate")&&a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){this.trouble=e.type==="undecided"?e.text:"",e.type==="path"&&
 (this.path=e),e.type==="views"&&this.looking&&(this.views={pose:n.pose,nats:n.nats,spacing:e.spacing}),e.type==="undecided"&&(this.path=null),this.version++}nearest(e){
 let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.length;r++){let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,
-s]=[r,i])}return o}};var fh="(prefers-reduced-motion: reduce)",xs=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(fh).matches}get under(){let{mean:e,
+s]=[r,i])}return o}};var mh="(prefers-reduced-motion: reduce)",xs=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(mh).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
-mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var mh=2e3,gh=3e3,yh=2,ks=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
+mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var gh=2e3,yh=3e3,bh=2,ks=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
 version++,this.ask(),this.session.changed()}rest(){this.moving&&(this.moving=!1,this.ask())}refit(){let{pose:e,session:n}=this,o=e&&n.document&&dn(e,n.document.
 grid);(!o||!Yt(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.trouble="",this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!this.held||
 e.recorded||!n||n.generation!==e.generation)return;!this.pose&&o?.pose.length&&(this.pose={x:o.pose[0],y:o.pose[1],yaw:o.pose[2]});let{pose:s}=this;if(!s)return;
-let r=performance.now();if(r-this.askedAt>mh&&(this.waiting=0),this.waiting>=yh)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
-a=e.sampling&&r-this.askedAt>gh;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
+let r=performance.now();if(r-this.askedAt>gh&&(this.waiting=0),this.waiting>=bh)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
+a=e.sampling&&r-this.askedAt>yh;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:c,
 near_hit:u}=n,h=e.near&&{...e.near,pose:a,ranges:c,hit:u},{x:d,y:m,yaw:w,generation:y,draws:S,coarse:k,milliseconds:P}=e;this.fan={x:d,y:m,yaw:w,generation:y,draws:S,
 coarse:k,milliseconds:P,angles:o,low:s,median:r,high:i,near:h},this.answers++}else this.fan=null;this.version++,this.ask()}};var Ss=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
@@ -796,10 +798,10 @@ waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var Ms=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
 e.generation,this.from={sweeps:e.sweeps,time:performance.now()}),this.last=e.sweeps)}remaining_s(e){let n=e.sweeps-this.from.sweeps;return n>0?(e.total-e.sweeps)*
 (performance.now()-this.from.time)/n/1e3:null}};var Ts=class{constructor(e){this.session=e}picked=null;found=null;trouble="";version=0;timer=0;point(e,n){let{session:o}=this,s=o.document&&o.document.source.kind!==
-"simulation"&&!o.recorded,r=e&&s&&o.scan?bh(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=r,
+"simulation"&&!o.recorded,r=e&&s&&o.scan?wh(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=r,
 this.found=null,this.trouble="",this.version++,clearTimeout(this.timer),r&&(this.timer=window.setTimeout(()=>o.act({type:"beam",scan:r.scan,beam:r.beam}),120)),
 o.changed())}forget(){this.picked&&(clearTimeout(this.timer),this.picked=this.found=null,this.version++)}receive(e){let n=e;e.type==="undecided"?this.trouble=e.
-text:n.beam===this.picked?.beam&&n.scan===this.picked.scan&&(this.found=n),this.version++}};function bh({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)
+text:n.beam===this.picked?.beam&&n.scan===this.picked.scan&&(this.found=n),this.version++}};function wh({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)
 return null;let c={x:e[0],y:e[1]},[u,h]=[-1,1/0];for(let d=0;d<n.length;d++){let[m,w]=[Math.cos(e[2]+n[d]),Math.sin(e[2]+n[d])],[y,S]=[r.x-c.x,r.y-c.y],k=y*m+S*
 w,P=s[d]?o[d]:a,M=s[d]?Math.hypot(y-P*m,S-P*w):1/0,_=k>0&&k<P?Math.abs(y*w-S*m):1/0,E=Math.min(M,i/2+2*_);E<h&&([u,h]=[d,E])}return h<i?{scan:t,beam:u,from:c,angle:e[2]+
 n[u]}:null}var Ps=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;asked="";waitingSince=0;follow(e,n){this.sensor=n,e!==this.wanted&&
@@ -808,7 +810,7 @@ n[u]}:null}var Ps=class{constructor(e){this.session=e}found=null;trouble="";vers
 {...e,modes:i,cloud:o,weight:s},this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!n||e.recorded||e.worker!=="ready"||e.editable&&n.generation!==e.
 generation)return;let s=e.editable?"":`${e.draws.count} ${e.sampling}`,r=`${e.generation} ${e.editable?this.sensor:o?.index} ${s}`,i=performance.now();r===this.
 asked||this.waitingSince&&i-this.waitingSince<5e3||([this.asked,this.waitingSince]=[r,i],e.act(e.editable&&this.sensor!==null?{type:"where",sensor:this.sensor}:
-{type:"where"}))}};var wh=new Set(["inspect","path","views","where","ghost","beam"]),Es=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
+{type:"where"}))}};var vh=new Set(["inspect","path","views","where","ghost","beam"]),Es=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
 s;e.onmessage=(r,i)=>this.receive(r,i),e.onstatus=r=>this.onstatus(r)}connection={connected:!1};everConnected=!1;document=null;walls=new Uint8Array(0);wallsVersion=0;view={
 layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;cell=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new vs(
 this);where=new Ps(this);ghost=new ks(this);reading=new Ts(this);flicker=new xs(this);status=new ms;progress=new Ms;latency=new Ss;counts={paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];confirmedWalls={
@@ -817,7 +819,7 @@ return!this.recorded&&this.document?.source.kind==="simulation"}get running(){re
 "counts"?this.lastStage:null}get draws(){return this.state?.draws??{chains:0,count:0}}get sampling(){let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&
 (this.running||this.state?.live))}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.shown.draw??
 e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="info"){this.status.say(e,n,this.acted),
-this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;let o={...e,seq:++this.seq};wh.has(e.type)||(this.acted=this.seq),cc.has(e.type)&&(this.pending.
+this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;let o={...e,seq:++this.seq};vh.has(e.type)||(this.acted=this.seq),cc.has(e.type)&&(this.pending.
 push(o),this.foresee(o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&Vr(this.portableDocument()),this.changed()}bring(e){
 this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.wallsVersion&&(this.packed=
 {version:this.wallsVersion,text:$o(Mi(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.effectiveDocument();
@@ -1071,12 +1073,12 @@ ck { min-height: 40px; } }
 }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
 @media (forced-colors: active) { .segmented label:has(:checked) { outline: 2px solid Highlight; } }
-`;var fc="bayesmap-theme",hc={auto:"light",light:"dark",dark:"auto"},_s=class{constructor(e,n){this.app=e;this.dressed=n;let o=kh();o&&o in hc&&(this.choice=o),this.
+`;var fc="bayesmap-theme",hc={auto:"light",light:"dark",dark:"auto"},_s=class{constructor(e,n){this.app=e;this.dressed=n;let o=Sh();o&&o in hc&&(this.choice=o),this.
 media.addEventListener("change",this.listen)}theme=qo.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?qo.dark:qo.light;this.app.dataset.theme=e?"dark":"light";let{truth:o,ray:s,noReturn:r,sensor:i,
 hatch:a,unobserved:c,draw:u,ghost:h}=n;for(let[d,m]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:c,draw:u,ghost:h}))this.app.style.setProperty(
 `--${d}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=hc[this.choice];try{localStorage.setItem(fc,this.choice)}catch{}this.dress()}destroy(){
-this.media.removeEventListener("change",this.listen)}};function kh(){try{return localStorage.getItem(fc)}catch{return null}}function As(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(pc+dc),r.adoptedStyleSheets=
+this.media.removeEventListener("change",this.listen)}};function Sh(){try{return localStorage.getItem(fc)}catch{return null}}function As(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(pc+dc),r.adoptedStyleSheets=
 [i],t.toggleAttribute("data-embedded",n);let a=0,c=()=>{a||=requestAnimationFrame(Ue)},u=new Es(e,c,o,s);e.open();let h=new Un,d=new Wo(u),m=new Go(u,d),w=new ws(
 u),y=new bs(u,d,m,ae,Y=>w.showLayer(Y),n),S=[new Wn,new Hn,new jn,new Bn,new Jo,new Vn,new Gn,new qn,new zn,new Bo],k=S.map(({name:Y})=>x("canvas",{className:Y})),
 P=k[k.length-1];Object.assign(P,{tabIndex:0,role:"application"});let M=new Ho(S,k);new Vo(P,u,h,d,m,n);let _=new zo(P,u,h,d,m),E={truth:!0,rays:!0,readings:!0,strokes:!0,
@@ -1105,24 +1107,24 @@ t.mean),u=Wt(t.observed),h=null,d=0,m={layer:"mean",chain:0,draw:null},w=N=>a?[N
 hit),n.pose.length*S),P=()=>a?k.subarray(d*S,(d+1)*S):k,M=Float32Array.from(s.flat()),_=(o.sweeps??i)/Math.max(1,i),E=Float32Array.from(s[0]??[],(N,G)=>(G+1)*_),
 q=N=>{let G={chains:t.draws?.chains??0,count:h?i:0},C={generation:1,can_undo:!1,can_redo:!1,live:!1,running:!1};V.onmessage({type:"state",document:e,seq:N,...C,
 draws:G,view:m},{})},D=()=>{let N=Float64Array.from(w(n.pose).flat(),Number),G={type:"scan",generation:1,ids:a?[d]:n.ids,index:a?d:null},C=n.exact?.length?y(n.exact):
-new Float32Array(0);V.onmessage(G,{pose:N,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:C,hit:P()})},K=()=>{let N=m.layer==="draw"&&h?Sh(h,m.chain*
+new Float32Array(0);V.onmessage(G,{pose:N,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:C,hit:P()})},K=()=>{let N=m.layer==="draw"&&h?Mh(h,m.chain*
 i+(m.draw??i-1),r):null,G=s[m.chain]?.[(m.layer==="draw"?m.draw:null)??i-1]??null,C=N?{...m,draw:m.draw??i-1}:{layer:m.layer==="draw"?"mean":m.layer},Z=o.sweeps??
 i,I={quantity:o.quantity,sweeps:Z,total:Z,ess:o.ess,rhat:o.rhat,verdict:o.verdict,log_joint:G},j=o.method??e.method,W={p:N??c,observed:u,trace:M,traced:E};V.onmessage(
 {type:"field",generation:1,...C,method:j,approximate:!1,...I},W)},V={...so(),open:()=>V.onstatus({connected:!0}),send:N=>{if(N.type==="hello"){if(V.onmessage({type:"\
 welcome",version:1,recorded:!0},{}),q(N.seq),D(),K(),!i||!t.draws)return;Io(Wt(t.draws.data)).then(G=>{h=G,q(N.seq)})}else if(N.type==="view")m={layer:N.layer,chain:N.
-chain??m.chain,draw:N.draw??null},q(N.seq),K();else if(N.type==="scan")d=N.index,q(N.seq),D();else if(N.type==="inspect"){let G=Mh(e,n.angles,w(n.pose),w(n.ranges),
-N.x,N.y);V.onmessage({type:"cell",x:N.x,y:N.y,beams:G},{})}},close:()=>{}};return V}function Sh(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>
-3]>>7-(o+r&7)&1?255:0)}function Mh({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,c=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((h,d)=>{let[m,w,y]=h.map(Number);
+chain??m.chain,draw:N.draw??null},q(N.seq),K();else if(N.type==="scan")d=N.index,q(N.seq),D();else if(N.type==="inspect"){let G=Th(e,n.angles,w(n.pose),w(n.ranges),
+N.x,N.y);V.onmessage({type:"cell",x:N.x,y:N.y,beams:G},{})}},close:()=>{}};return V}function Mh(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>
+3]>>7-(o+r&7)&1?255:0)}function Th({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,c=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((h,d)=>{let[m,w,y]=h.map(Number);
 e.forEach((S,k)=>{let[P,M]=[Math.cos(S+y),Math.sin(S+y)],_=[(c[0]-m)/P,(c[0]+a-m)/P,(c[1]-w)/M,(c[1]+a-w)/M],E=Math.max(0,Math.min(_[0],_[1]),Math.min(_[2],_[3])),
-q=Math.min(o[d][k]??1/0,Math.max(_[0],_[1]),Math.max(_[2],_[3]));E<q&&u++})}),u}var jr=250,Th=8e3;function wc(t){let e=null,n=jr,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+q=Math.min(o[d][k]??1/0,Math.max(_[0],_[1]),Math.max(_[2],_[3]));E<q&&u++})}),u}var jr=250,Ph=8e3;function wc(t){let e=null,n=jr,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let c=new WebSocket(a),u=!1;e=c,c.binaryType="arraybuffer",c.onopen=()=>{u=!0,n=jr,i.onstatus({connected:!0})},c.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...gc(h))},c.onclose=()=>{if(s||e!==c)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
-h),u||Ph(t()).then(d=>d&&e===c&&i.onstatus({...h,refused:d})),n=Math.min(Th,2*n)}}let i={...so(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
-a))},retry:()=>{n=jr,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};return i}async function Ph(t){try{return(await fetch(t.pathname+
+h),u||Eh(t()).then(d=>d&&e===c&&i.onstatus({...h,refused:d})),n=Math.min(Ph,2*n)}}let i={...so(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
+a))},retry:()=>{n=jr,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};return i}async function Eh(t){try{return(await fetch(t.pathname+
 t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function vc(t){let e=(o,s=[])=>n.onmessage(o,yc(o,s)),n={...so(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
-sg:custom",e)};return n}var Eh="This is the map that was drawn here when the connection was lost; undo leads back",qr=t=>Object.assign(window,{bayesmap:t}),D0={render({model:t,el:e}){let n=document.
-createElement("div");e.append(n);let o=As(n,vc(t),{embedded:!0});return qr(o),()=>o.destroy()}};async function _h(){let t=document.querySelector("[data-bayesmap\
+sg:custom",e)};return n}var _h="This is the map that was drawn here when the connection was lost; undo leads back",qr=t=>Object.assign(window,{bayesmap:t}),R0={render({model:t,el:e}){let n=document.
+createElement("div");e.append(n);let o=As(n,vc(t),{embedded:!0});return qr(o),()=>o.destroy()}};async function Ah(){let t=document.querySelector("[data-bayesmap\
 ]");if(!t||t.shadowRoot)return;let e=new CSSStyleSheet;e.replaceSync("body { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector("sc\
 ript[data-recording]");if(n){qr(As(t,bc(JSON.parse(n.textContent??""))));return}ac(new URLSearchParams(location.search).get("token"));let{document:o,damaged:s}=await Uo(),
 r=o?null:ic(),i=wc(()=>new URL(location.href));lc(c=>{history.replaceState(null,"",`${location.pathname}?token=${encodeURIComponent(c)}${location.hash}`),i.retry?.()}),
-qr(As(t,i,{adopt:o??r,notice:s?{text:Oo,level:"error"}:r?{text:Eh,level:"info"}:null}))}_h();export{D0 as default,As as mount,bc as recordedTransport,wc as webSocketTransport,vc as widgetTransport};
+qr(As(t,i,{adopt:o??r,notice:s?{text:Oo,level:"error"}:r?{text:_h,level:"info"}:null}))}Ah();export{R0 as default,As as mount,bc as recordedTransport,wc as webSocketTransport,vc as widgetTransport};
