@@ -10,7 +10,6 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.ising import Ising
 from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput, check_count
 from bayesmap.model import Model
@@ -221,7 +220,7 @@ class Inference:
             sensor = fit_sensor(model, self.device, seed=self.asked.seed, threads=self.threads, watch=watch)
             model = replace(model, sensor=sensor)
             settings["fitted"] = {"sensor": describe(sensor)}
-        if isinstance(model.cells, Ising) and model.cells.is_fitted:
+        if model.cells.is_incomplete:
             pilot = sampler_on_walls(name)
             prior = fit_coupling_to_scans(
                 model, pilot, self.device, seed=self.asked.seed, threads=self.threads, watch=watch

@@ -129,7 +129,6 @@ def test_surfaces_of_a_log_are_painted_while_their_sensor_is_fitted(open_page, t
         chip = "document.querySelector('[data-bayesmap]').shadowRoot.querySelector('.chip').textContent"
         watch(page, f"[s.painted.method, {chip}]")
         page.get_by_role("button", name="Run", exact=True).click()
-        until(page, "s.painted.method === 'pilot'")
         until(page, "s.painted.method === 'gibbs' && s.painted.sweeps > 2")
         page.get_by_role("button", name="Cancel").click()
         until(page, "!s.running && s.overlay.strokes > 10")

@@ -40,6 +40,17 @@ def test_draws_come_back_and_are_counted(tmp_path, monkeypatch, kind, shape):
     assert found.tobytes() == stored.tobytes()
 
 
+def test_a_file_that_is_open_holds_one_chunk_of_each_array(tmp_path, monkeypatch):
+    monkeypatch.setattr(saved_arrays, "CHUNK", 32)
+    spec = SPECS["plain"]
+    with netCDF4.Dataset(tmp_path / "draws.nc", "w") as file:
+        saved_arrays.write_draws(file, spec, np.zeros((2, 7, 13, 3)), (13, 3), lambda count: None)
+        assert file[spec.name].get_var_chunk_cache()[0] == 13 * 3 * 8
+    with netCDF4.Dataset(tmp_path / "draws.nc") as file:
+        saved_arrays.read_draws(file[spec.name], spec, (13, 3))
+        assert file[spec.name].get_var_chunk_cache()[0] == 13 * 3 * 8
+
+
 def test_checksums_do_not_depend_on_how_arrays_lie_in_memory(monkeypatch):
     monkeypatch.setattr(checksum, "SMALL_BYTES", 8)
     array = np.random.default_rng(1).random((4, 6, 5))

@@ -75,11 +75,6 @@ class Hub:
         """End the worker."""
         self._supervisor.stop()
 
-    @property
-    def worker_pid(self) -> int | None:
-        """Process of the present worker."""
-        return self._supervisor.pid
-
     def join(self) -> tuple[int, Outbox]:
         """A page connects: its number, and what is to be sent to it."""
         client = next(self._numbers)

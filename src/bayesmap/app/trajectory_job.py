@@ -41,7 +41,7 @@ STAGES = {
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class PathSoFar:
     """Where the robot was, as far as is known.
 
     Attributes:
@@ -80,7 +80,7 @@ class TrajectoryJob:
         self.trouble: BaseException | None = None
         self._scans, self._grid = scans, grid
         self._in_time = in_time(scans)
-        self._looks: queue.SimpleQueue[Look] = queue.SimpleQueue()
+        self._looks: queue.SimpleQueue[PathSoFar] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._told, self._done, self._of, self._next = "", 0, 1, 0.0
         self._before = TrajectoryJob._last
@@ -92,7 +92,7 @@ class TrajectoryJob:
         """End it, at its next sign of progress."""
         self._stop.set()
 
-    def looks(self) -> Generator[Look | None, None, None]:
+    def looks(self) -> Generator[PathSoFar | None, None, None]:
         """Pictures as they come, and None while there is none, until the inference has ended.
 
         Raises:
@@ -141,7 +141,7 @@ class TrajectoryJob:
         self._told = stage
         scans = self._scans.moved_to(poses[np.argsort(self._in_time)])
         self._grid = grown(self._grid, scans)
-        self._looks.put(Look(stage, self._done, self._of, scans, self._grid, counted_map(scans, self._grid)))
+        self._looks.put(PathSoFar(stage, self._done, self._of, scans, self._grid, counted_map(scans, self._grid)))
         now = time.monotonic()
         self._next = now + max(PICTURE_SECONDS, (now - began) / PICTURE_SHARE)
 

@@ -77,6 +77,10 @@ class BinaryWalls(CellPrior):
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
         """Draw a map of walls, shape (nx, ny)."""
 
+    def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
+        """Independent draws, (count, nx, ny)."""
+        return np.stack([self.sample(rng, grid) for _ in range(count)])
+
     def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
         """A map for a chain to start at, (nx, ny): a draw, or where draws take long a map like one."""
         return self.sample(rng, grid)

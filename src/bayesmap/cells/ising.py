@@ -64,7 +64,7 @@ class Ising(BinaryWalls):
             raise BadInput(f"Ising: coupling must lie in [0, {LARGEST_COUPLING:g}], got {self.coupling}")
 
     @property
-    def is_fitted(self) -> bool:
+    def is_incomplete(self) -> bool:
         """Whether the coupling is still to be fitted."""
         return isinstance(self.coupling, str)
 

@@ -75,6 +75,11 @@ class CellPrior(ABC):
     has_surfaces: ClassVar[bool] = False
     thresholds: ClassVar[tuple[float, float] | None] = None
 
+    @property
+    def is_incomplete(self) -> bool:
+        """Whether something of the prior is to be fitted to the scans before any map can be drawn."""
+        return False
+
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         if "words" in cls.__dict__:

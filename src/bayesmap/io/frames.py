@@ -161,11 +161,11 @@ class FrameTree:
         if fixed == sensor:
             return Chain(())
         up, down = self._upwards(fixed), self._upwards(sensor)
-        meeting = next((frame for frame in down if frame in up), None)
-        if meeting is None:
+        common = next((frame for frame in down if frame in up), None)
+        if common is None:
             return None
-        against = [self._link(frame, True) for frame in up[: up.index(meeting)]]
-        along = [self._link(frame, False) for frame in reversed(down[: down.index(meeting)])]
+        against = [self._link(frame, True) for frame in up[: up.index(common)]]
+        along = [self._link(frame, False) for frame in reversed(down[: down.index(common)])]
         return Chain((*against, *along))
 
     def _link(self, child: str, against: bool) -> tuple[Track, bool, bool]:

@@ -6,6 +6,7 @@ bits are zero and compress well.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
@@ -42,10 +43,12 @@ def write_draws(
     size, dtype = int(np.prod(shape)), {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
     deep = _depth(draws, size)
     wide = tuple(max(1, part) for part in shape) if size <= CHUNK or len(shape) > 1 else (CHUNK,)
+    chunks = (1, max(1, min(deep, draws)), *wide)
     variable = group.createVariable(
-        spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits",
-        chunksizes=(1, max(1, min(deep, draws)), *wide),
+        spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits", chunksizes=chunks,
     )  # fmt: skip
+    # Whole chunks are written: by default netCDF would keep 64 MB of each array until the file is closed.
+    variable.set_var_chunk_cache(size=math.prod(chunks) * np.dtype(dtype).itemsize)
     variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
     if spec.what:
         variable.long_name = spec.what
@@ -65,6 +68,8 @@ def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArra
     if tuple(sizes) != shape:
         raise ValueError(f"{spec.name} has the sizes {sizes}, and not {shape}")
     out = spec.empty(chains, draws, shape)
+    if variable.chunking() != "contiguous":
+        variable.set_var_chunk_cache(size=math.prod(variable.chunking()) * variable.dtype.itemsize)
     for chain, some in _blocks(chains, draws, int(np.prod(shape))):
         out[chain, some] = spec.stored(variable[chain, some])
     return out

@@ -92,9 +92,9 @@ def left_out(name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], so
         )
     notes = []
     if not inside.all():
-        early = int((~inside & (stamps < span[0])).sum())
+        before = int((~inside & (stamps < span[0])).sum())
         notes.append(
-            f"{int((~inside).sum()):,} scans were left out, {early:,} before the first pose and the others after the "
+            f"{int((~inside).sum()):,} scans were left out, {before:,} before the first pose and the others after the "
             f"last: {known}"
         )
     gaps = int(source.chain.in_gaps(stamps[inside], LONGEST_GAP_S, LONGEST_GAP_M).sum())

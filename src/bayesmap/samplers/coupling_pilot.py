@@ -12,6 +12,7 @@ As the pilot of a sensor it is over before the chains begin, and has a number th
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -50,8 +51,7 @@ def fit_coupling_to_scans(
     Raises:
         BadInput: as `WallSampler.prepare`.
     """
-    assert isinstance(model.cells, Ising)
-    now = replace(model.cells, coupling=FIRST)
+    now = replace(cast(Ising, model.cells), coupling=FIRST)
     problem = sampler.prepare(replace(model, cells=now), device, threads, watch)
     state = sampler.init(problem, [PILOT], seed, watch=watch)
     for sweep in range(SWEEPS):

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells.ising import Ising
 from bayesmap.cells.packing import pack
 from bayesmap.errors import check_count
 from bayesmap.samplers.problem import WallProblem
@@ -132,7 +131,6 @@ def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np
 
 def _coupled_maps(problem: WallProblem, key: int, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
     """The maps of some particles, (n, nx, ny): each is one of the maps that are drawn with the number of its batch."""
-    assert isinstance(problem.prior, Ising)
     out = np.empty((len(particles), *problem.grid.shape), dtype=np.bool_)
     together = max(1, COUPLED_CELLS // problem.grid.n_cells)
     batch_of = particles // together

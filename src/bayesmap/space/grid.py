@@ -109,12 +109,12 @@ class Grid:
         (nx, ny), _ = _whole_cells(low, high, resolution)
         shape = (nx, ny)
         if shape[0] * shape[1] > MAX_CELLS:
-            from bayesmap.space.outlying import accusation, outlying
+            from bayesmap.space.outlying import outlying, why_outlying
 
             wrong = outlying(scans)
             if len(wrong):
                 others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
-                what = accusation(scans, int(wrong[0]))
+                what = why_outlying(scans, int(wrong[0]))
                 raise BadInput(f"grid: covering the scans would take {_large(*shape)}: {what}{others}")
         return cls.over(low, high, resolution)
 

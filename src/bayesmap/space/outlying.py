@@ -41,7 +41,7 @@ def longest_m(scans: Scans) -> NDArray[np.float64]:
     return np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
 
 
-def accusation(scans: Scans, scan: int) -> str:
+def why_outlying(scans: Scans, scan: int) -> str:
     """What is wrong with an outlying scan, and what to do about it, for an error."""
     when = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     longest = longest_m(scans)[scan]

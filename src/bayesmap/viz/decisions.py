@@ -117,12 +117,12 @@ def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCol
     Raises:
         BadInput: shapes that do not fit.
     """
-    poses, told = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
-    if poses.ndim != 2 or poses.shape[1] != 3 or told.shape != poses.shape[:1]:
-        raise BadInput(f"picture: candidates have shape {poses.shape} and nats {told.shape}; give (P, 3) and (P,)")
-    order = np.argsort(told)
+    poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
+    if poses.ndim != 2 or poses.shape[1] != 3 or gains.shape != poses.shape[:1]:
+        raise BadInput(f"picture: candidates have shape {poses.shape} and nats {gains.shape}; give (P, 3) and (P,)")
+    order = np.argsort(gains)
     return ax.scatter(
-        poses[order, 0], poses[order, 1], c=told[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
+        poses[order, 0], poses[order, 1], c=gains[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
         edgecolors="white", label="candidates", zorder=3.3,
     )  # fmt: skip
 
