@@ -64,6 +64,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     frame ||= requestAnimationFrame(draw);
   };
   const session = new Session(transport, schedule, adopt, notice);
+  transport.open(); // what it says is heard when the page is there: it is on its way while that is made
   const view = new Viewport();
   const hand = new Hand(session);
   const editor = new Editor(session, hand);
@@ -200,7 +201,6 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   ];
   for (const [target, type, listener] of listeners) target.addEventListener(type, listener);
   themes.dress();
-  transport.open();
 
   return {
     destroy() {

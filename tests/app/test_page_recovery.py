@@ -6,7 +6,19 @@ import signal
 
 import numpy as np
 import playwright.sync_api as playwright
-from page_driver import NO_WALLS, act, centre, document, pid_of_worker, press_and_drag, served, settled, snapshot, until
+from page_driver import (
+    NO_WALLS,
+    WAIT_SECONDS,
+    act,
+    centre,
+    document,
+    pid_of_worker,
+    press_and_drag,
+    served,
+    settled,
+    snapshot,
+    until,
+)
 
 
 def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(open_page, browser):
@@ -23,6 +35,22 @@ def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(ope
         assert np.array_equal(after["probability"], before["probability"])
         page.get_by_role("alert").wait_for(state="hidden")
         act(page, lambda: page.get_by_role("button", name="Undo").click())
+
+
+def test_a_worker_that_hangs_is_replaced_and_the_map_is_as_it_was(open_page, browser):
+    with served() as (address, process):
+        page = open_page(address, document())
+        before = settled(page)
+        hanging = pid_of_worker(process)
+        os.kill(hanging, signal.SIGSTOP)
+        page.get_by_role("alert").get_by_text("The worker stopped").wait_for(timeout=1000 * WAIT_SECONDS)
+        until(page, "s.worker === 'ready' && s.generation > argument", before["generation"])
+        after = settled(page)
+        assert pid_of_worker(process) != hanging
+        assert np.array_equal(after["probability"], before["probability"])
+        page.get_by_role("alert").wait_for(state="hidden")
+        page.get_by_role("radio", name="Draw", exact=True).check()
+        act(page, lambda: press_and_drag(page, [(7, 7), (9, 7)]))
 
 
 CUT = """

@@ -15,6 +15,10 @@ export class DecisionsLayer implements Layer {
     return [session.decisions.version, session.document?.grid.resolution];
   }
 
+  shows({ session: { decisions, document } }: Scene) {
+    return Boolean(document && (decisions.start || (decisions.looking && decisions.views)));
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session } = scene;
     if (!session.document) return;

@@ -27,7 +27,11 @@ export class FieldLayer implements Layer {
   private drawn = { field: null as Field | null, bits: null as Uint8Array | null, palette: "", hatch: "" };
 
   depends({ session }: Scene) {
-    return [session.flicker.under ?? session.shown, session.view.layer === "entropy", ...session.shape, session.document === null];
+    return [session.flicker.under ?? session.shown, session.view.layer === "entropy", ...session.shape];
+  }
+
+  shows({ session }: Scene) {
+    return session.document !== null;
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {

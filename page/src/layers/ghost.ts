@@ -14,6 +14,10 @@ export class GhostLayer implements Layer {
     return [session.ghost.version, session.document?.grid.resolution, session.document?.max_range];
   }
 
+  shows({ session: { ghost, document } }: Scene) {
+    return Boolean(ghost.held && ghost.pose && document);
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { ghost } = scene.session;
     if (!ghost.held || !ghost.pose || !scene.session.document) return;

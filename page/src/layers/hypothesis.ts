@@ -12,6 +12,10 @@ export class HypothesisLayer implements Layer {
     return [session.flicker.under && session.shown];
   }
 
+  shows({ session }: Scene) {
+    return Boolean(session.flicker.under && session.shown);
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, view, look } = scene;
     const field = session.flicker.under && session.shown;

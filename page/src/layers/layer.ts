@@ -28,6 +28,8 @@ export interface Layer {
   readonly name: string;
   /** What its picture depends on besides theme and viewport: it is repainted when one of these is another value. */
   depends(scene: Scene): unknown[];
+  /** Whether there is anything to draw, which is taken for granted where this is not asked. */
+  shows?(scene: Scene): boolean;
   /** Draws onto a clear sheet; the context's unit is the CSS pixel. */
   paint(context: CanvasRenderingContext2D, scene: Scene): void;
 }
@@ -58,9 +60,13 @@ export class Stack {
     const common = [scene.look.theme, width, height, ratio, transform.scale, transform.x, transform.y];
     for (const sheet of this.sheets) {
       const { canvas, context, layer } = sheet;
-      const now = [...common, ...layer.depends(scene)];
+      const shows = layer.shows?.(scene) ?? true;
+      const now = [shows, ...(shows ? [...common, ...layer.depends(scene)] : [])];
       if (now.length === sheet.before.length && now.every((value, i) => Object.is(value, sheet.before[i]))) continue;
       sheet.before = now;
+      // even a clear sheet costs a browser time in every frame: the copying of its pixels, where there is no GPU
+      canvas.style.visibility = shows ? "" : "hidden";
+      if (!shows) continue;
       if (canvas.width !== pixels.width || canvas.height !== pixels.height) {
         Object.assign(canvas, pixels);
         // a stage of half a pixel more must not stretch the sheet

@@ -17,6 +17,10 @@ export class MarksLayer implements Layer {
     return [grid && [...grid.shape, ...grid.origin, grid.resolution].join(), truth, look.selected, ...sensors];
   }
 
+  shows({ session }: Scene) {
+    return session.document !== null;
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, view, look } = scene;
     if (!session.document) return;

@@ -14,6 +14,10 @@ export class OverlayLayer implements Layer {
     return [session.overlay, look.strokes, look.trajectory, session.document?.grid.resolution, session.document?.scans_used];
   }
 
+  shows({ session, look }: Scene) {
+    return Boolean(session.overlay && session.document && (look.strokes || look.trajectory));
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, look } = scene;
     const { overlay, document } = session;

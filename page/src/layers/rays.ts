@@ -6,6 +6,8 @@ import { clipToMap, type Layer, type Scene } from "./layer";
 const ROUND_DOTS = 600;
 /** Rays that are drawn; of more, every so many-th: thousands are but a haze, and take as long as all else. */
 const MOST_RAYS = 1500;
+/** Pixels: no canvas is so wide. */
+const WIDEST = 1 << 16;
 /** Opacity of what belongs to scans that are not used. */
 export const UNUSED = 0.3;
 
@@ -13,14 +15,18 @@ export class RaysLayer implements Layer {
   readonly name = "rays";
 
   depends({ session, look }: Scene) {
-    return [session.scan, session.document?.max_range, look.rays, look.readings, session.document?.scans_used, session.ghost.held];
+    return [session.scan, session.document?.max_range, look.rays, look.readings, session.document?.scans_used];
+  }
+
+  shows({ session, look }: Scene) {
+    // the ghost's fan would be lost among them
+    return Boolean(session.scan && session.document && (look.rays || look.readings) && !session.ghost.held);
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, view, look } = scene;
     const { scan, document } = session;
-    if (session.ghost.held) return; // its fan would be lost among them
-    if (!scan || !document || !(look.rays || look.readings)) return;
+    if (!scan || !document) return;
     clipToMap(context, scene);
     const { scale } = view.transform;
     const cellsAMetre = 1 / document.grid.resolution;
@@ -29,6 +35,8 @@ export class RaysLayer implements Layer {
     const count = scan.pose.length / 3;
     const every = Math.ceil((beams * count) / MOST_RAYS);
     const [hits, misses, dots] = [new Path2D(), new Path2D(), new Path2D()];
+    const small = beams * count > ROUND_DOTS;
+    const squares = new Map<number, { x: number; y: number }>();
     const radius = clamp(scale * 0.1, 1.3, 4);
     // of a log's scan that the map is not made of only a shadow is seen
     const used = document.scans_used ?? Infinity;
@@ -48,7 +56,8 @@ export class RaysLayer implements Layer {
           path.lineTo(to.x, to.y);
         }
         if (!hit) continue;
-        if (beams * count > ROUND_DOTS) dots.rect(to.x - 0.9 * radius, to.y - 0.9 * radius, 1.8 * radius, 1.8 * radius);
+        // of the many that lie on one pixel one is enough
+        if (small) squares.set(Math.round(to.x) * WIDEST + Math.round(to.y), to);
         else {
           dots.moveTo(to.x + radius, to.y);
           dots.arc(to.x, to.y, radius, 0, 2 * Math.PI);
@@ -68,6 +77,8 @@ export class RaysLayer implements Layer {
       context.globalAlpha = dim;
       context.fillStyle = look.theme.ray;
       context.fill(dots);
+      const side = 1.8 * radius;
+      for (const { x, y } of squares.values()) context.fillRect(x - side / 2, y - side / 2, side, side);
       context.globalAlpha = 1;
     }
   }

@@ -10,6 +10,10 @@ export class ReadingLayer implements Layer {
     return [session.reading.version, session.document?.grid.resolution];
   }
 
+  shows({ session: { reading, document, scan } }: Scene) {
+    return Boolean(reading.picked && document && scan?.index === reading.picked.scan);
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, view, look } = scene;
     const { picked, found } = session.reading;

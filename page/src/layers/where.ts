@@ -20,6 +20,10 @@ export class WhereLayer implements Layer {
     return [session.where.version, session.document?.grid.resolution, session.document?.grid.origin.join()];
   }
 
+  shows({ session }: Scene) {
+    return Boolean(session.where.found && session.document);
+  }
+
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session } = scene;
     const { found } = session.where;

@@ -17,6 +17,8 @@ type Range = "all" | "first";
 const chainColors = (theme: Theme) => [theme.ray, theme.truth, theme.sensor, theme.noReturn];
 /** As wide as its longest number: log joints of buildings have seven figures. */
 const asWideAsNumbers = (_: uPlot, values: string[] | null) => Math.max(40, 14 + 6.6 * Math.max(0, ...(values ?? []).map((value) => value?.length ?? 0)));
+/** Room for the right half of the last number: it stands under the end of the line. */
+const halfOfLast = ({ data }: uPlot) => Math.max(10, 4 + 3.3 * (data?.[0]?.at(-1) ?? 0).toLocaleString("en").length);
 const axis = (theme: () => Theme, size: uPlot.Axis.Size): uPlot.Axis => ({
   font: FONT,
   size,
@@ -74,7 +76,7 @@ export function traceChart(ui: Ui, theme: () => Theme) {
         height: HEIGHT,
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, y: false },
-        padding: [8, 10, 0, 0],
+        padding: [8, halfOfLast, 0, 0],
         scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + 1)] }, y: { range: (_, low, high) => padded(Math.max(low, settled), high) } },
         axes: [axis(theme, 26), axis(theme, asWideAsNumbers)],
         series: [{ label: "sweep" }, ...series],

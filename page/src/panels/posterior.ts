@@ -60,7 +60,7 @@ function figures(ui: Ui) {
   };
   add("ESS", "Effective sample size of the log joint", (field) => figure(field.ess, 0), true);
   add("R-hat", "Agreement of the chains on the log joint; 1 is full", (field) => figure(field.rhat, 3), true);
-  add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, 1));
+  add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0));
   add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
   return values;
 }

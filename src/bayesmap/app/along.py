@@ -10,12 +10,11 @@ import numpy as np
 
 from bayesmap.app.document import LARGEST_SIDE_OF_FILE
 from bayesmap.app.hit_counts import Counted
-from bayesmap.app.scanning import Scene
+from bayesmap.app.scanning import Beams, Scene
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.defaults import default_sensor
 from bayesmap.posterior.baselines import log_odds_as_usual
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -60,6 +59,6 @@ def scene_along(scans: Scans, grid: Grid, prior: float) -> Scene:
     none = BeamTable(
         grid, np.zeros(1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32), np.zeros(0, np.float32)
     )
-    problem = WallProblem(none, Independent(prior), scans.poses)
     no_truth = np.zeros((0, len(scans.angles_rad)))
-    return Scene(scans, no_truth, tuple(range(1, len(scans) + 1)), default_sensor(grid.resolution), problem)
+    ids, sensor = tuple(range(1, len(scans) + 1)), default_sensor(grid.resolution)
+    return Scene(scans, no_truth, ids, sensor, grid, Beams.of(none), Independent(prior))

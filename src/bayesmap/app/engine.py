@@ -168,7 +168,7 @@ class Engine:
         if task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
             yield from self._sweep(scene, document, starts(scene.problem, document, None), keep=True)
             return
-        preview = Preview(scene.problem)
+        preview = Preview(scene.near)
         # Belief propagation takes poses as known: where they are not, the first picture is the chains'.
         quiet = task.mode != "preview" and pose_prior(document) is not None
         yield from self._propagate(scene, document, preview, quiet=quiet)

@@ -22,11 +22,10 @@ from bayesmap.app.document import (
 from bayesmap.app.opened_log import OpenedLog
 from bayesmap.app.parsing import parse_simulation
 from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene
+from bayesmap.app.scanning import Beams, Scene
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.result import Run, load
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.space.grid import Grid, bounds_m
 from bayesmap.space.scans import Scans
@@ -68,10 +67,10 @@ class OpenedRun:
         sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)
         depth = float(posterior.settings.get("hit_depth", 0.0))
         table = trace(posterior.scans, posterior.grid, sensor, hit_depth=depth)
-        problem = WallProblem(table, Independent(self.document.prior), posterior.scans.poses)
         ids = tuple(range(1, len(posterior.scans) + 1))
         none = np.zeros((0, len(posterior.scans.angles_rad)))
-        return Scene(posterior.scans, none, ids, sensor, problem, depth)
+        prior = Independent(self.document.prior)
+        return Scene(posterior.scans, none, ids, sensor, posterior.grid, Beams.of(table), prior, depth)
 
     def result(self) -> Result:
         """The run."""

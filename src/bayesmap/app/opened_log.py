@@ -9,11 +9,10 @@ import numpy as np
 from bayesmap.app.document import LARGEST_SIDE_OF_LOG, Document
 from bayesmap.app.hit_counts import Counted, HitCounts, coarse_map
 from bayesmap.app.result import HITS, Result
-from bayesmap.app.scanning import Scene
+from bayesmap.app.scanning import Beams, Scene
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.kinds import BUILT_IN
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -61,10 +60,11 @@ class OpenedLog:
         used, table = document.scans_used, traced.table
         if used is not None:
             table = first_beams(table, used * len(self.scans.angles_rad))
-        problem = WallProblem(table, Independent(document.prior), self.scans.poses[:used])
         ids = tuple(range(1, len(self.scans) + 1))
         none = np.zeros((0, len(self.scans.angles_rad)))
-        return Scene(self.scans, none, ids, traced.sensor, problem, Independent.hit_depth, used)
+        prior = Independent(document.prior)
+        beams = Beams.of(table)
+        return Scene(self.scans, none, ids, traced.sensor, document.grid, beams, prior, Independent.hit_depth, used)
 
     def result(self) -> Result:
         """A log has none."""

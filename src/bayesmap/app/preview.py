@@ -9,7 +9,7 @@ from scipy import special
 from bayesmap.app.scanning import Touched, touched
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.reach import reach_frequency
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.problem import WallProblem, log_odds
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
 
 TOLERANCE = 1e-3
@@ -37,7 +37,7 @@ class Preview:
         self._fixed = (self._p == 0) | (self._p == 1)
         self.converged = len(self.part.cells) == 0 or bool(self._fixed.all())
         if not self.converged:
-            self._beliefs = Beliefs(self.part.table, problem.logit[self.part.cells], problem.device)
+            self._beliefs = Beliefs(self.part.table, log_odds(self._p), problem.device)
 
     def round(self) -> None:
         """One more round."""

@@ -86,7 +86,7 @@ class Result:
             return self.pilot.mean
         if self.counted is not None:
             return self.counted.p_wall
-        return self.scene.problem.p_wall.reshape(self.document.grid.shape)
+        return self.scene.prior.probabilities(self.scene.grid)
 
     def observed(self) -> NDArray[np.bool_]:
         """Cells that a beam reaches, (nx, ny)."""
@@ -130,7 +130,7 @@ class Result:
             return self.pilot.model.cells
         if self.counted is not None and self.counted.prior is not None:
             return self.counted.prior
-        return self.scene.problem.prior if self.run is None else self.run.posterior.prior
+        return self.scene.prior if self.run is None else self.run.posterior.prior
 
     @cached_property
     def width(self) -> NDArray[np.float64] | None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.document import SMALLEST_NOISE_M, Document
 from bayesmap.beams.table import BeamTable
-from bayesmap.cells.binary import Independent
+from bayesmap.cells.binary import BinaryWalls, Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.samplers.problem import WallProblem
@@ -23,6 +25,27 @@ from bayesmap.space.scans import Scans
 
 STREAM_NOISE = 11
 BLUR_SIGMAS = 5.0
+NEAR_SIGMAS = 13.0
+"""Past its reading a beam is followed so far for a preview: a stop there is less than 1e-30 as likely as one at the
+reading, which is 0 to `bayesmap.kernels.propagate`, even where the reading is off by three sigmas itself."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beams:
+    """Beam tables, made when they are asked for: a moving hand is shown the next map before it needs them.
+
+    Attributes:
+        whole: of all that beams could tell.
+        near: of beams that end a little past their readings, for belief propagation.
+    """
+
+    whole: Callable[[], BeamTable]
+    near: Callable[[], BeamTable]
+
+    @classmethod
+    def of(cls, table: BeamTable) -> Beams:
+        """Those of a table that there is."""
+        return cls(lambda: table, lambda: table)
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,16 +57,20 @@ class Scene:
         exact_m: where the beams truly end, (S, A); empty, (0, A), where nobody knows.
         ids: of the sensors, (S,).
         sensor: the law of the readings.
-        problem: beam table and prior.
+        grid: the map's cells.
+        beams: of the scans that the map is made of.
+        prior: of walls.
         hit_depth: where in a cell a beam is expected to stop.
-        used: from the first on, how many scans the map is made of; None is all. The problem is theirs.
+        used: from the first on, how many scans the map is made of; None is all.
     """
 
     scans: Scans
     exact_m: NDArray[np.float64]
     ids: tuple[int, ...]
     sensor: SensorModel
-    problem: WallProblem
+    grid: Grid
+    beams: Beams
+    prior: BinaryWalls
     hit_depth: float = 0.0
     used: int | None = None
 
@@ -52,13 +79,27 @@ class Scene:
         """The scans that the map is made of."""
         return self.scans if self.used is None else self.scans.select(slice(self.used))
 
+    @cached_property
+    def problem(self) -> WallProblem:
+        """Beam table and prior."""
+        return WallProblem(self.beams.whole(), self.prior, self.scans.poses[: self.used])
+
+    @cached_property
+    def near(self) -> WallProblem:
+        """The same of beams that end a little past their readings."""
+        return WallProblem(self.beams.near(), self.prior, self.scans.poses[: self.used])
+
     def model(self, cells: CellPrior) -> Model:
         """The same readings, to be explained by cells of a kind."""
-        return Model(self.used_scans, self.problem.grid, cells, self.sensor, hit_depth=self.hit_depth)
+        return Model(self.used_scans, self.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
     def with_prior(self, p_wall: float) -> Scene:
-        """The same readings under another prior; the beam table is shared, and its index if it is there."""
-        return replace(self, problem=self.problem.under(Independent(p_wall)))
+        """The same readings under another prior; beam tables that there are are shared, and their index."""
+        other = replace(self, prior=Independent(p_wall))
+        for name in ("problem", "near"):
+            if (there := vars(self).get(name)) is not None:
+                vars(other)[name] = there.under(other.prior)
+        return other
 
 
 def fan(angles: int, fov_rad: float = 2 * math.pi) -> NDArray[np.float64]:
@@ -90,9 +131,21 @@ def simulated_scene(document: Document) -> Scene:
 
     scans, exact = simulate_document(document)
     sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))
-    table = trace(scans, document.grid, sensor)
-    problem = WallProblem(table, Independent(document.prior), scans.poses)
-    return Scene(scans, exact, tuple(s.id for s in document.sensors), sensor, problem)
+    beams = Beams(partial(trace, scans, document.grid, sensor), partial(near_beams, scans, document.grid, sensor))
+    ids = tuple(s.id for s in document.sensors)
+    return Scene(scans, exact, ids, sensor, document.grid, beams, Independent(document.prior))
+
+
+def near_beams(scans: Scans, grid: Grid, sensor: Gaussian) -> BeamTable:
+    """The beam table of scans, but that each beam ends where a stop could no longer explain its reading.
+
+    Belief propagation makes the same of it as of the whole one: what is left out would send messages of 1.
+    """
+    from bayesmap.kernels.rays import trace_rays
+    from bayesmap.kernels.trace import table_of
+
+    reach_m = scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
+    return table_of(trace_rays(scans, grid, reach_m=reach_m), sensor)
 
 
 def same_readings(before: Document, after: Document) -> bool:

@@ -96,9 +96,7 @@ class WallProblem:
     @cached_property
     def logit(self) -> NDArray[np.float64]:
         """Prior log-odds of every cell, flat, shape (N,); large but finite where the prior fixes a cell."""
-        p = self.p_wall
-        with np.errstate(divide="ignore"):
-            return np.asarray(np.clip(np.log(p) - np.log1p(-p), -LOG_ODDS_OF_FIXED, LOG_ODDS_OF_FIXED))
+        return log_odds(self.p_wall)
 
     @cached_property
     def device_prior(self) -> Any:
@@ -125,6 +123,12 @@ class WallProblem:
         self.table.check_walls(walls)
         p = self.p_wall.reshape(self.table.grid.shape)
         return np.where(p == 0, False, np.where(p == 1, True, np.asarray(walls) != 0))
+
+
+def log_odds(p_wall: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Log-odds of probabilities, (N,); large but finite where they are 0 or 1."""
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.clip(np.log(p_wall) - np.log1p(-p_wall), -LOG_ODDS_OF_FIXED, LOG_ODDS_OF_FIXED))
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:

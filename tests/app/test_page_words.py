@@ -1,0 +1,94 @@
+"""What is written beside the map: the evidence for a wall in a cell, the numbers along a trace."""
+
+import re
+
+import numpy as np
+import pytest
+from page_driver import NEXT_FRAME, act, centre, document, settled, until
+
+from bayesmap.app.evidence import evidence
+from bayesmap.app.parsing import parse_document
+from bayesmap.app.preview import Preview
+from bayesmap.app.scanning import simulated_scene
+
+LABELS = """
+() => {
+  // what is written on the trace's canvas from now on: text, and where it begins and ends, pixels
+  window.written = [];
+  const write = CanvasRenderingContext2D.prototype.fillText;
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
+    if (this.canvas.closest(".chart")) {
+      const { a, e } = this.getTransform();
+      const width = this.measureText(text).width;
+      const from = x - { right: width, end: width, center: width / 2 }[this.textAlign] || x;
+      window.written.push({ text, from: a * from + e, to: a * (from + width) + e, align: this.textAlign,
+                            wide: this.canvas.width });
+    }
+    return write.call(this, text, x, y, ...rest);
+  };
+}
+"""
+
+
+def number(text):
+    return float(text.replace(",", "").replace("\u2212", "-"))
+
+
+@pytest.mark.parametrize("cell", ["wall", "free"])
+def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, server, cell):
+    asked = document(method="propagate")
+    scene = simulated_scene(parse_document(asked))
+    preview = Preview(scene.near)
+    while not preview.converged:
+        preview.round()
+    p_wall = preview.p_wall()
+    sure = np.argwhere(preview.observed() & ((p_wall > 0.9) if cell == "wall" else (p_wall < 0.1)))
+    x, y = map(int, sure[len(sure) // 2])
+    page = open_page(server, asked)
+    settled(page)
+    page.mouse.move(*centre(page, x, y))
+    read_out = page.locator(".readout")
+    read_out.get_by_text("nats").wait_for()
+    said = read_out.inner_text()
+    assert said.startswith(f"Cell {x}, {y}")
+    found = re.search(r"(\d+) beams?\b.*for a wall (\d+), ([\d.]+) nats.*against (\d+), ([\d.]+) nats", said)
+    beams, beams_for, nats_for, beams_against, nats_against = map(float, found.groups())
+    known = evidence(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y)
+    assert (beams, beams_for, beams_against) == (known.beams, known.beams_for, known.beams_against)
+    assert nats_for == pytest.approx(known.nats_for, abs=0.051)
+    assert nats_against == pytest.approx(known.nats_against, abs=0.051)
+    assert (nats_for > nats_against) == (cell == "wall")
+
+
+def labels(page, part):
+    """What is written along the trace when this part of it is chosen: numbers to its left, and below it."""
+    page.evaluate("() => { window.written.length = 0; }")
+    page.get_by_role("radio", name=part).check()
+    page.evaluate(NEXT_FRAME)
+    page.evaluate(NEXT_FRAME)
+    written = page.evaluate("window.written")
+    for one in written:
+        assert one["from"] >= 0, one
+        assert one["to"] <= one["wide"], one
+    return [one["text"] for one in written if one["align"] != "center"], [
+        number(one["text"]) for one in written if one["align"] == "center"
+    ]
+
+
+@pytest.mark.parametrize("noise", [0.2, 0.002], ids=["short numbers", "long numbers"])
+def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, server, noise):
+    page = open_page(server, document(noise=noise, method="gibbs", start="prior", sweeps=1000))
+    settled(page)
+    page.evaluate(LABELS)
+    act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
+    until(page, "!s.running && s.painted.sweeps === 1000 && s.painted.generation === s.generation")
+    trace = np.array(page.evaluate("[...bayesmap.snapshot().painted.trace]"))
+    log_joint, sweeps = labels(page, "First 50")
+    assert len(log_joint) > 1
+    assert len(sweeps) > 1
+    assert max(sweeps) <= 50
+    spread = np.ptp(trace)
+    for text in log_joint:
+        assert trace.min() - 0.1 * spread - 1 <= number(text) <= trace.max() + 0.1 * spread + 1
+    assert max(map(len, log_joint)) >= (8 if noise < 0.01 else 3)
+    assert max(labels(page, "All sweeps")[1]) == 1000
