@@ -70,12 +70,13 @@ def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, s
     assert found["overlay"]["trajectory"] == 8
     _, _, reflectivity = run.surfaces()
     assert found["overlay"]["strokes"] == (reflectivity >= 0.1).sum()
-    for name in ("Surfaces", "Trajectory"):
-        before = snapshot(page)["layers"]["overlay"]
-        with_it = page.locator("canvas.overlay").screenshot()
-        page.get_by_role("checkbox", name=name).uncheck()
-        until(page, "s.layers.overlay > argument", before)
-        assert page.locator("canvas.overlay").screenshot() != with_it
+    overlay = page.locator("canvas.overlay")
+    before, with_surfaces = found["layers"]["overlay"], overlay.screenshot()
+    page.get_by_role("checkbox", name="Surfaces").uncheck()
+    until(page, "s.layers.overlay > argument", before)
+    assert overlay.screenshot() != with_surfaces
+    page.get_by_role("checkbox", name="Trajectory").uncheck()
+    playwright.expect(overlay).to_be_hidden()
 
 
 def test_a_saved_run_that_has_not_converged_is_called_so(open_page, surfaces):
