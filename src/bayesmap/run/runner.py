@@ -29,7 +29,7 @@ FIRST_STEP = 16
 """Sweeps of the first step, at most."""
 BUFFER_BYTES = 64 << 20
 """Draws of one step, before they are put with the others."""
-CHECKPOINT_SHARE = 0.05  # of the time, at most: five seconds for a large building, all hundred seconds
+CHECKPOINT_SHARE = 0.05  # of the time, at most: five seconds of every hundred
 
 
 @dataclass(frozen=True, eq=False)
