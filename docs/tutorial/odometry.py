@@ -251,8 +251,8 @@ for mode in alone[least].modes[:3]:
     print(f"  {mode.probability:.2f} at x = {x_m:.1f} m, y = {y_m:.1f} m, heading {yaw_rad:.1f} rad")
 
 # %% [markdown]
-# It is too sure of itself: how much a scan's beams count was set with scans of half a circle
-# ([localization.md](../localization.md)).
+# It is too sure of itself: so narrow a scan fits at many walls, and about a third of the right places are not among
+# those that the search lists ([localization.md](../localization.md)).
 #
 # With a few scans more, and the odometry between them, places that only look alike drop out.
 

@@ -35,6 +35,8 @@ from bayesmap.sensors.model import RangeLimits
 Floats = NDArray[np.float64]
 
 CANDIDATES = 24
+"""Of the search, few: that end points fall on walls tells, too. Among more, wrong places came before the right one."""
+
 KEPT = 5
 """Places that are weighed with all beams and draws, at most."""
 
@@ -147,11 +149,10 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
     """Where to look first; None: everywhere alike."""
     found = None
     if look_everywhere or prior.components is None:
-        candidates = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES)
-        if len(candidates.poses):
-            count = len(candidates.poses)
-            covariances = np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3))
-            found = PoseMixture(candidates.poses, covariances, np.zeros(count))
+        poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
+        if len(poses):
+            covariances = np.broadcast_to(np.diag(FOUND_SD**2), (len(poses), 3, 3))
+            found = PoseMixture(poses, covariances, np.zeros(len(poses)))
     if prior.components is None or found is None:
         return found if prior.components is None else prior.components
     return PoseMixture(
@@ -212,14 +213,45 @@ def belief_of(
         weights = np.full(len(population.poses), 1.0 / len(population.poses))
     if group is None:
         group = np.zeros(len(weights), dtype=np.intp)  # spread over the whole map: one mode
+    likelihood = _log_likelihood(known, prior, population)
+    power = known.weight_between_places(scan.ranges_m) / known.weight_of(scan.ranges_m)
+    weights = shared_by_places(weights, group, _at_power(population, likelihood, power))
     unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group)
     if not np.isfinite(scan.ranges_m).any():
         return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
-    evidence, fit = _fit(known, prior, scan, population, unsure)
+    evidence, fit = _fit(known, scan, population, likelihood, unsure)
     elsewhere = known.log_elsewhere(scan.ranges_m, _fit_weight(known, scan))
     with np.errstate(divide="ignore"):
         odds = np.log(prior.lost) - np.log1p(-prior.lost) + elsewhere - evidence
     return replace(unsure, p_lost=float(expit(odds)), nats_per_beam=fit)
+
+
+def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floats) -> Floats:
+    """Weights that are as given within each place, while the places' shares are those of other weights.
+
+    Args:
+        weights: of poses, normalised, (N,).
+        group: the place of each, (N,).
+        log_weights: logs of those that say how likely each place is, (N,), not normalised; -inf has none.
+    """
+    if not group.any() or not np.isfinite(log_weights).any():
+        return weights
+    shares = np.bincount(group, np.exp(log_weights - log_sum(log_weights)), group.max() + 1)
+    own = np.bincount(group, weights, group.max() + 1)
+    return np.asarray(weights * np.divide(shares, own, out=np.zeros_like(own), where=own > 0)[group])
+
+
+def _log_likelihood(known: KnownMap, prior: Prior, population: Population) -> Floats:
+    """That of the scan at each pose, by the beams' usual weight, (N,); -inf where no robot can be."""
+    prior_density = prior.log_density(population.poses, known)
+    possible = np.isfinite(prior_density)
+    return np.where(possible, population.log_target - np.where(possible, prior_density, 0.0), -np.inf)
+
+
+def _at_power(population: Population, likelihood: Floats, power: float) -> Floats:
+    """Log weights of the same poses had each beam counted so many times as much, (N,)."""
+    possible = np.isfinite(population.log_weights)
+    return np.where(possible, population.log_weights + (power - 1.0) * np.where(possible, likelihood, 0.0), -np.inf)
 
 
 def _fit_weight(known: KnownMap, scan: Scan) -> float:
@@ -227,18 +259,16 @@ def _fit_weight(known: KnownMap, scan: Scan) -> float:
     return min(1.0, FIT_TIMES * usual)
 
 
-def _fit(known: KnownMap, prior: Prior, scan: Scan, population: Population, belief: PoseBelief) -> tuple[float, float]:
+def _fit(
+    known: KnownMap, scan: Scan, population: Population, likelihood: Floats, belief: PoseBelief
+) -> tuple[float, float]:
     """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam.
 
     With beams that count `FIT_TIMES` as much: whether a scan fits at all is clearer than where exactly it does. The
     same poses tell it, weighed anew.
     """
     weight, usual = _fit_weight(known, scan), known.weight_of(scan.ranges_m)
-    with np.errstate(invalid="ignore"):
-        likelihood = population.log_target - prior.log_density(population.poses, known)
-    logs = np.where(
-        np.isfinite(population.log_weights), population.log_weights + (weight / usual - 1.0) * likelihood, -np.inf
-    )
+    logs = _at_power(population, likelihood, weight / usual)
     if belief.mode_of is not None:
         likeliest = np.bincount(belief.mode_of, belief.weights).argmax()
         logs = np.where(belief.mode_of == likeliest, logs, -np.inf)

@@ -35,6 +35,11 @@ INDEPENDENT_BEAMS = 5.4
 scan err together, by what the map has wrong and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4)
 advise such a power. Set so that located poses of the Intel log are as far off as they say (docs/localization.md)."""
 
+BEAMS_BETWEEN_PLACES = 2.7
+"""The same for the question which of several places it was: there a whole scan errs one way, where the map lacks
+something or the search missed a place. Set on four buildings, so that places are right as often as they say
+(docs/localization.md)."""
+
 BINS = 60
 
 
@@ -170,6 +175,11 @@ class KnownMap:
         """How much each beam of a scan counts."""
         valid = max(1, int((~np.isnan(ranges_m)).sum()))
         return min(1.0, INDEPENDENT_BEAMS / valid) if self.beam_weight is None else self.beam_weight
+
+    def weight_between_places(self, ranges_m: Floats) -> float:
+        """How much each beam of a scan counts for the question which of several places it was."""
+        valid = max(1, int((~np.isnan(ranges_m)).sum()))
+        return min(1.0, BEAMS_BETWEEN_PLACES / valid) if self.beam_weight is None else self.beam_weight
 
     def is_free(self, poses: Floats) -> NDArray[np.bool_]:
         """Which poses lie in free cells, (P,)."""
