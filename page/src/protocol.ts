@@ -114,7 +114,7 @@ export type Connection = { connected: boolean; retryIn_ms?: number; refused?: bo
 export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 
 /** How far the inference of a log's trajectory is. */
-export type Stage = { name: string; text: string; done: number; of: number };
+export type Stage = { generation: number; name: string; text: string; done: number; of: number };
 
 /** Beams through a cell; of walls how many speak for one there and against it, and how much in nats. */
 export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number };

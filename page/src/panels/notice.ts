@@ -29,7 +29,8 @@ export function chip(ui: Ui) {
     const kind = field.layer === "draw" ? numbered + (session.flicker.under ? " over the mean" : "") : field.layer === "width" ? "width of the 90 % interval" : session.view.layer === "entropy" ? "entropy" : "mean";
     if (field.method === "counts") {
       put(element, "hidden", false);
-      put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : "poses as far as they are known"}`);
+      const along = session.halfway ? "along poses found so far" : "along raw odometry";
+      put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : along}`);
       return put(what, "className", "chip approximate");
     }
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];

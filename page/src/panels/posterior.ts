@@ -23,7 +23,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
     if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.of} ${stage.of > ROUNDS ? "scans" : "rounds"}`);
-    else put(doing, "textContent", sentence([done, state].filter(Boolean).join(", ")) || "No chain yet");
+    else put(doing, "textContent", sentence([done, state].filter(Boolean).join(", ")) || (field?.method === "counts" ? "Run infers where the robot was" : "No chain yet"));
   });
   return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts);
 }

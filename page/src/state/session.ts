@@ -84,6 +84,10 @@ export class Session {
   get stage() {
     return this.running && this.shown?.method === "counts" ? this.lastStage : null;
   }
+  /** Whether the poses on show are somewhere between odometry and the trajectory: it was cancelled on the way. */
+  get halfway() {
+    return this.lastStage?.generation === this.shown?.generation;
+  }
   get draws() {
     return this.state?.draws ?? { chains: 0, count: 0 };
   }
@@ -269,6 +273,7 @@ export class Session {
   private receiveState(state: State) {
     this.status.confirmed(state.seq);
     this.state = state;
+    if (state.document.source.kind === "simulation") this.overlay = null; // of the file that was shown before
     this.generation = Math.max(this.generation, state.generation);
     this.latency.confirmed(state.generation, state.seq);
     this.pending = this.pending.filter((edit) => edit.seq > state.seq);

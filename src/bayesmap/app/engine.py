@@ -212,7 +212,8 @@ class Engine:
 
     def _readings(self, document: Document) -> tuple[Scene, Document]:
         """The scene of a document, and the document on the scene's grid; what did not change is not made again."""
-        log = None if self._locating is None else self._locating.log_of(document)
+        new = document.simulated  # a map may be begun where a log was opened
+        log = None if new or self._locating is None else self._locating.log_of(document)
         if log is not None:
             document = log.on_cells(document)
         self._showing.on_grid(document.grid)

@@ -295,6 +295,8 @@ class Session:
         self.draws = {"chains": 0, "count": 0}
         self._in_flight = True
         self._last.pop("field", None)
+        if self.document.simulated:
+            self._last.pop("overlay", None)  # of the file that was shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = Infer(self.generation, self.document, self._mode, self.scan)
         # The state first: a page must know of a generation before it sees the picture.

@@ -1,0 +1,101 @@
+"""What the page says and offers of a log, a run and a drawn map: each what is true of it."""
+
+import playwright.sync_api as playwright
+import pytest
+from building_log import write_room_log
+from page_driver import act, centre, document, served, settled, snapshot, until
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory, browser):
+    with served(write_room_log(tmp_path_factory.mktemp("log") / "room.log")) as (address, _):
+        yield address
+
+
+def help_of(page):
+    page.keyboard.press("?")
+    dialog = page.get_by_role("dialog", name="Help")
+    dialog.wait_for()
+    return dialog
+
+
+def test_help_and_share_speak_of_what_is_open(open_page, server, log, room):
+    drawn, of_log, of_run = open_page(server, document()), open_page(log), open_page(room[1])
+    for page, wanted, unwanted in (
+        (drawn, ["Draw walls", "draw, erase, sensor", "run, cancel", "Shift or the right"], ["this log", "saved run"]),
+        (of_log, ["scans of this log", "run, cancel", "pan, path"], ["Draw walls", "draw, erase", "add, remove"]),
+        (of_run, ["saved run", "(width)", "pan, path"], ["Draw walls", "draw, erase", "run, cancel", "(entropy)"]),
+    ):
+        dialog = help_of(page)
+        for words in wanted:
+            playwright.expect(dialog.get_by_text(words).first).to_be_visible()
+        for words in unwanted:
+            playwright.expect(dialog.get_by_text(words)).not_to_be_visible()
+        page.keyboard.press("Escape")
+        page.get_by_role("button", name="Share").click()
+        said = page.get_by_role("dialog", name="Share").inner_text()
+        assert ("holds the walls" in said) == (page is drawn)
+        assert ("no scans" in said) == (page is not drawn)
+        page.keyboard.press("Escape")
+    assert not of_log.get_by_role("button", name="Clear walls").is_visible()
+
+
+def test_a_new_map_where_a_log_was_opened_is_its_own(open_page, log):
+    page = open_page(log)
+    until(page, "s.overlay?.trajectory === 12")
+    page.get_by_role("button", name="New map").click()
+    page.get_by_role("button", name="Create").click()
+    until(page, "s.document.source.kind === 'simulation' && s.painted?.generation === s.generation")
+    shown = settled(page)
+    assert shown["overlay"] is None
+    assert len(shown["scan"]["pose"]) == 3  # of one robot, not of the log's scans
+    assert shown["document"]["grid"]["shape"] == [21, 21]
+    page.get_by_role("checkbox", name="Trajectory").wait_for(state="hidden")
+    act(page, lambda: page.get_by_role("button", name="Undo").click())
+    until(page, "s.document.source.kind === 'log' && s.overlay?.trajectory === 12")
+
+
+def test_space_chooses_where_to_look_from(open_page, server):
+    page = open_page(server, document())
+    settled(page)
+    page.keyboard.press("l")
+    until(page, "s.decisions.views?.nats.length > 5")
+    page.keyboard.press("ArrowUp")
+    act(page, lambda: page.keyboard.press("Space"))
+    assert len(settled(page)["sensors"]) == 2
+
+
+def test_space_erases_no_wall_with_a_tool_that_does_not_draw(open_page, server):
+    page = open_page(server, document())
+    before = settled(page)
+    wall = next((x, 10) for x in range(11, 21) if before["walls"][x, 10])
+    page.keyboard.press("l")
+    until(page, "s.decisions.views")
+    for _ in range(wall[0] - 10):
+        page.keyboard.press("ArrowRight")
+    for key in ("o", "w"):
+        page.keyboard.press(key)
+        page.keyboard.press("Space")
+    page.wait_for_timeout(300)
+    assert (settled(page)["walls"] == before["walls"]).all()
+    assert snapshot(page)["seq"]["sent"] == before["seq"]["sent"]
+
+
+def test_the_legend_names_what_each_tool_paints(open_page, server):
+    page = open_page(server, document())
+    settled(page)
+    legend = page.get_by_role("list", name="Legend")
+    for key, words, known in (
+        ("w", "possible pose", "s.where.found"),
+        ("l", "one more scan tells", "s.decisions.views"),
+    ):
+        playwright.expect(legend.get_by_text(words)).not_to_be_visible()
+        page.keyboard.press(key)
+        until(page, known)
+        playwright.expect(legend.get_by_text(words)).to_be_visible()
+    page.keyboard.press("g")
+    playwright.expect(legend.get_by_text("one more scan tells")).not_to_be_visible()
+    for cell in ((6, 15), (10, 14)):
+        page.mouse.click(*centre(page, *cell))
+    until(page, "s.decisions.path")
+    playwright.expect(legend.get_by_text("as wide as the robot")).to_be_visible()
