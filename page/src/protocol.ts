@@ -56,6 +56,8 @@ export type State = {
   can_redo: boolean;
   live: boolean;
   running: boolean;
+  /** Whether the picture is to change yet. */
+  working: boolean;
   draws: { chains: number; count: number };
   view?: { layer?: Layer; chain?: number | null; draw?: number | null };
 };

@@ -230,6 +230,8 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     assert p[often].mean() > p[observed & ~often].mean() + 0.3
     heard.ask(View("draw", client=1))
     assert heard.last("field")[0]["layer"] == "mean"  # there are no draws
+    # surfaces that are on show are of other scans, and go
+    assert [buffers["strokes"].size for _, buffers in heard.every("overlay")] == [0] * (cells == "surface")
 
 
 def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log):

@@ -1,5 +1,7 @@
 """What the page says and offers of a log, a run and a drawn map: each what is true of it."""
 
+import re
+
 import playwright.sync_api as playwright
 import pytest
 from building_log import write_room_log
@@ -38,6 +40,35 @@ def test_help_and_share_speak_of_what_is_open(open_page, server, log, room):
         assert ("no scans" in said) == (page is not drawn)
         page.keyboard.press("Escape")
     assert not of_log.get_by_role("button", name="Clear walls").is_visible()
+
+
+def test_h_shows_the_width_where_entropy_would_mean_nothing(open_page, room):
+    page = open_page(room[1])
+    page.keyboard.press("h")
+    until(page, "s.painted.layer === 'width'")
+    playwright.expect(page.get_by_role("radio", name="Width")).to_be_checked()
+
+
+def test_chains_that_were_cancelled_are_said_to_have_stopped(open_page, server):
+    page = open_page(server, document(sweeps=100_000))
+    until(page, "s.painted.sweeps > 20")
+    cancel = page.get_by_role("button", name="Cancel")
+    cancel.click()
+    playwright.expect(page.get_by_text(re.compile(r"^\d+ of 100000 sweeps, stopped$"))).to_be_visible()
+    playwright.expect(cancel).to_be_disabled()
+
+
+def test_the_legend_is_of_what_is_on_show_until_there_are_intervals(open_page, log):
+    page = open_page(log)
+    page.get_by_role("checkbox", name="Live").uncheck()
+    act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("surface"))
+    scrubber = page.get_by_role("slider", name="Scans used")
+    scrubber.evaluate("(slider) => { slider.value = 6; slider.dispatchEvent(new Event('input')); }")  # still held
+    until(page, "s.painted.generation === s.generation && s.painted.method === 'hits'")
+    page.get_by_role("radio", name="Width").check(force=True)
+    until(page, "s.view.layer === 'width' && s.seq.confirmed === s.seq.sent")
+    assert "width" not in page.get_by_role("list", name="Legend").inner_text()
+    act(page, lambda: scrubber.fill("12"))
 
 
 def test_a_new_map_where_a_log_was_opened_is_its_own(open_page, log):

@@ -22,7 +22,7 @@ export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
   ["[ and ]", "turn the sensor or the ghost", "asked"],
   ["A, Delete", "add, remove a sensor", "drawn"],
   ["R, Escape", "run, cancel", "inferred"],
-  ["M, N, H", "show the mean, a draw, the entropy"],
+  ["M, N, H", "show the mean, a draw, the entropy or the width"],
   ["Ctrl+Z, Ctrl+Y", "undo, redo", "asked"],
   ["+, \u2212, 0", "zoom in, out, whole map"],
   ["?", "this help"],
@@ -148,10 +148,10 @@ export function pageKey(
   }
   if (typing || event.altKey) return;
   if (TOOLS[letter] && (session.editable || (READING.has(TOOLS[letter]) && !session.recorded))) chosen.tool(TOOLS[letter]);
-  else if (LAYERS[letter]) chosen.layer(LAYERS[letter]);
+  else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });
-  else if (event.key === "Escape" && (session.running || session.sampling)) session.act({ type: "cancel" });
+  else if (event.key === "Escape" && (session.running || session.working)) session.act({ type: "cancel" });
   else return;
   event.preventDefault();
 }

@@ -42,7 +42,7 @@ export function legend(ui: Ui, theme: () => Theme) {
   ui.each(() => entry("path").firstElementChild?.classList.toggle("risky", session.decisions.path?.within_risk === false));
   let painted = "";
   ui.each(() => {
-    const layer = session.shown?.layer === "width" ? "width" : session.view.layer;
+    const { layer } = session;
     const { kind, mean, value } = session.quantity;
     const chance = kind === "binary" ? "P(wall)" : layer === "draw" ? value : mean;
     put(name, "textContent", layer === "entropy" ? "entropy (bit)" : layer === "width" ? "width of the 90 % interval" : chance);

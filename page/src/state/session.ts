@@ -1,7 +1,7 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, CellFacts, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
+import type { Buffers, CellFacts, Connection, Field, Layer, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
@@ -80,6 +80,15 @@ export class Session {
   get running() {
     return Boolean(this.state?.running);
   }
+  /** Whether the picture is to change yet. */
+  get working() {
+    return Boolean(this.state?.working);
+  }
+  /** What the colours on show are; before there are draws or intervals, the mean stands for them. */
+  get layer(): Layer {
+    const own = this.shown?.layer;
+    return own === "draw" || own === "width" ? own : this.view.layer === "entropy" ? "entropy" : "mean";
+  }
   /** How far the trajectory is that is being inferred. */
   get stage() {
     return this.running && this.shown?.method === "counts" ? this.lastStage : null;
@@ -94,7 +103,7 @@ export class Session {
   /** Whether there is a chain on show, and it goes on. */
   get sampling() {
     const field = this.shown;
-    return Boolean(field && !field.approximate && field.sweeps < field.total && (this.running || this.state?.live));
+    return Boolean(field && !field.approximate && field.sweeps < field.total && this.working);
   }
   /** The draw on show, from 0. */
   get draw() {

@@ -229,6 +229,8 @@ class Engine:
         """Show what counts of hits and passes say of a log, at once."""
         assert self._locating is not None
         self._result = self._locating.log_of(document).coarse(document)
+        if self._result.prior.has_surfaces:  # those on show may be of other scans
+            self._showing.overlay(self._result)
         self._showing.frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
