@@ -14,6 +14,22 @@ def log(tmp_path_factory, browser):
         yield address
 
 
+BARS = """
+() => {
+  // where bars are drawn on the trace from now on, and how far it reaches, pixels
+  window.bars = [];
+  const fill = CanvasRenderingContext2D.prototype.fillRect;
+  CanvasRenderingContext2D.prototype.fillRect = function (x, y, width, height) {
+    const chart = this.canvas.closest?.(".chart");
+    const over = chart?.querySelector(".u-over").getBoundingClientRect();
+    const own = this.canvas.getBoundingClientRect();
+    if (chart && width === 2) window.bars.push([x + 1, (over.right - own.left) * devicePixelRatio]);
+    return fill.call(this, x, y, width, height);
+  };
+}
+"""
+
+
 def help_of(page):
     page.keyboard.press("?")
     dialog = page.get_by_role("dialog", name="Help")
@@ -47,6 +63,18 @@ def test_h_shows_the_width_where_entropy_would_mean_nothing(open_page, room):
     page.keyboard.press("h")
     until(page, "s.painted.layer === 'width'")
     playwright.expect(page.get_by_role("radio", name="Width")).to_be_checked()
+
+
+def test_the_bar_on_a_runs_trace_is_at_the_draw_on_show(open_page, room):
+    """The room's run made ten sweeps of warm-up before its ten draws: sweeps are not draws."""
+    page = open_page(room[1])
+    playwright.expect(page.get_by_text("log joint by draw")).to_be_visible()
+    page.evaluate(BARS)
+    page.get_by_role("slider", name="Draw number").fill("9")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 9")
+    until(page, "window.bars.length > 0")
+    middle, right = page.evaluate("window.bars.at(-1)")
+    assert middle == pytest.approx(right, abs=3)  # the last draw is at the axis's end
 
 
 def test_chains_that_were_cancelled_are_said_to_have_stopped(open_page, server):

@@ -41,7 +41,7 @@ export function helpDialog(ui: Ui) {
     known = texts.join();
     put(mouse, "textContent", [MOUSE, ...(session.editable ? [MOUSE_DRAWS] : []), TOUCH].join(" "));
   });
-  return ui.dialog("Help", said, h("table", {}, h("tbody", {}, ...rows)), mouse);
+  return ui.dialog("Help", said, mouse, h("table", {}, h("tbody", {}, ...rows)));
 }
 
 /** Which keys there are for whom. */

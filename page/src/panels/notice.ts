@@ -91,8 +91,8 @@ export function foot(ui: Ui) {
   hand.describe = (cell) => describeCell(session, cell);
   ui.each(() => {
     const cell = hand.cursor ?? hand.hover;
-    const keys = session.editable && !matchMedia("(pointer: coarse)").matches;
-    const idle = keys ? "Point at a cell, or press ? for the keys" : "Point at a cell";
+    const fingers = matchMedia("(pointer: coarse)").matches;
+    const idle = fingers ? "Touch a cell" : session.editable ? "Point at a cell, or press ? for the keys" : "Point at a cell";
     put(readout, "textContent", cell ? describeCell(session, cell) : idle);
     const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
     put(status, "textContent", doubt ? "Ready, but the chains have not converged" : session.status.text);

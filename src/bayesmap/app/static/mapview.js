@@ -53,8 +53,8 @@ o.setCursor(null);else return;e.preventDefault(),e.stopPropagation()}addSensor()
 room")}arrow(e,n){let{session:o,view:s,hand:r}=this,[i,a]=o.shape;if(r.tool==="ghost"&&o.ghost.pose&&o.document){let{resolution:l}=o.document.grid,{x:u,y:h}=o.ghost.
 pose;o.ghost.move({x:u+e*l,y:h+n*l})}else if((r.tool==="sensor"||r.tool==="where")&&r.sensor&&o.document&&o.editable){let{resolution:l}=o.document.grid;r.selected=
 r.sensor.id,this.editor.moveSensor(r.sensor,{x:r.sensor.x+e*l,y:r.sensor.y+n*l})}else if(r.tool==="pan"&&o.editable)s.pan(-40*e,40*n,o.shape),o.changed();else{let l=r.
-cursor??{x:Math.floor(i/2),y:Math.floor(a/2)},u={x:se(l.x+e,0,i-1),y:se(l.y+n,0,a-1)};r.setCursor(u);let h=s.fromGrid({x:u.x+.5,y:u.y+.5},a),p=(w,y,S)=>w-se(w,y,
-S),m={x:p(h.x,Ye.left+10,s.width-20),y:p(h.y,20,s.height-Ye.bottom-10)};(m.x||m.y)&&s.pan(-m.x,-m.y,o.shape)}}space(e){let{session:n,hand:o,editor:s}=this;if((o.
+cursor??{x:Math.floor(i/2),y:Math.floor(a/2)},u={x:se(l.x+e,0,i-1),y:se(l.y+n,0,a-1)};r.setCursor(u);let h=s.fromGrid({x:u.x+.5,y:u.y+.5},a),p=(w,y,k)=>w-se(w,y,
+k),f={x:p(h.x,Ye.left+10,s.width-20),y:p(h.y,20,s.height-Ye.bottom-10)};(f.x||f.y)&&s.pan(-f.x,-f.y,o.shape)}}space(e){let{session:n,hand:o,editor:s}=this;if((o.
 tool==="path"||o.tool==="look")&&n.document){o.cursor?Ho(n,o,s,Un(o.cursor,n.document.grid)):this.arrow(0,0);return}if(n.editable){if(o.tool==="sensor"||o.tool===
 "where"){let r=n.document?.sensors??[],i=r.findIndex(a=>a.id===o.sensor?.id);o.select(r[(i+1)%Math.max(1,r.length)]?.id??null),o.selected!==null&&o.announce(`Se\
 nsor ${o.selected}`)}else if(!Et.has(o.tool)){o.cursor||this.arrow(0,0);let r=o.cursor,i=o.tool==="draw"&&!s.isWall(r);s.setWalls([r],i,o.nextGesture(),e),o.announce(
@@ -65,16 +65,16 @@ redo":"undo"});return}if(!(s||t.altKey)){if(nr[r]&&(e.editable||Et.has(nr[r])&&!
 dth":Ii[r]);else if(Oi[t.key])n.command(Oi[t.key]);else if(r==="r"&&!e.recorded)e.act({type:"run"});else if(t.key==="Escape"&&(e.running||e.working))e.act({type:"\
 cancel"});else return;t.preventDefault()}}var Bo=class{paints={};sheets;constructor(e,n){this.sheets=e.map((o,s)=>({layer:o,canvas:n[s],context:n[s].getContext("2d"),before:[]}));for(let{name:o}of e)this.
 paints[o]=0}paint(e){let{width:n,height:o,ratio:s,transform:r}=e.view;if(!n||!o)return;let i={width:Math.max(1,Math.ceil(n*s)),height:Math.max(1,Math.ceil(o*s))},
-a=[e.look.theme,n,o,s,r.scale,r.x,r.y];for(let l of this.sheets){let{canvas:u,context:h,layer:p}=l,m=p.shows?.(e)??!0,w=[m,...m?[...a,...p.depends(e)]:[]];w.length===
-l.before.length&&w.every((y,S)=>Object.is(y,l.before[S]))||(l.before=w,u.style.visibility=m?"":"hidden",m&&((u.width!==i.width||u.height!==i.height)&&(Object.assign(
+a=[e.look.theme,n,o,s,r.scale,r.x,r.y];for(let l of this.sheets){let{canvas:u,context:h,layer:p}=l,f=p.shows?.(e)??!0,w=[f,...f?[...a,...p.depends(e)]:[]];w.length===
+l.before.length&&w.every((y,k)=>Object.is(y,l.before[k]))||(l.before=w,u.style.visibility=f?"":"hidden",f&&((u.width!==i.width||u.height!==i.height)&&(Object.assign(
 u,i),u.style.width=`${i.width/s}px`,u.style.height=`${i.height/s}px`),h.setTransform(1,0,0,1,0,0),h.clearRect(0,0,u.width,u.height),h.setTransform(s,0,0,s,0,0),
 h.save(),p.paint(h,e),h.restore(),this.paints[p.name]++))}}};function je(t,{session:e,view:n}){let[o,s]=e.shape,{scale:r,x:i,y:a}=n.transform;t.beginPath(),t.rect(
 i,a,o*r,s*r),t.clip()}function bo(t,{halo:e},n,o){t.lineWidth=4,t.strokeStyle=e,t.stroke(),t.lineWidth=o,t.strokeStyle=n,t.stroke()}var or='11px -apple-system, "Segoe UI", Roboto, "Noto Sans", "Liberation Sans", Arial, sans-serif';function Jt(t,e,n,o,s,r,i=!1){t.font=or,t.textAlign=r,t.textBaseline=
 "middle",i&&(t.strokeStyle=s.halo,t.lineWidth=3,t.strokeText(e,n,o)),t.fillStyle=s.axis,t.fillText(e,n,o)}function sr({document:t,scan:e}){return t?t.source.kind==="simulation"||!e?t.sensors:Array.from({length:e.pose.length/3},(o,s)=>s).map(o=>({id:o,x:e.pose[3*o],y:e.
 pose[3*o+1],yaw:e.pose[3*o+2]})):[]}function Zt(t,e,n){let o=n.fromGrid(De(t,e),e.shape[1]),s=se(n.transform.scale*.42,7,13),r=s*2.6,i={x:o.x+r*Math.cos(t.yaw),
 y:o.y-r*Math.sin(t.yaw)};return{point:o,size:s,handle:i}}function Wi(t,{session:e,view:n,look:o}){let s=e.document;if(!s)return;let{theme:r}=o,i=sr(e);t.lineJoin=
-"round";for(let a of i){let l=Zt(a,s.grid,n),{point:u,size:h}=l;a.id===o.selected&&su(t,l,o);let[p,m]=[Math.cos(a.yaw),-Math.sin(a.yaw)],w=(y,S)=>[u.x+h*(y*p-S*
-m),u.y+h*(y*m+S*p)];t.beginPath(),t.moveTo(...w(1.25,0)),t.lineTo(...w(-.9,.8)),t.lineTo(...w(-.45,0)),t.lineTo(...w(-.9,-.8)),t.closePath(),t.strokeStyle=r.halo,
+"round";for(let a of i){let l=Zt(a,s.grid,n),{point:u,size:h}=l;a.id===o.selected&&su(t,l,o);let[p,f]=[Math.cos(a.yaw),-Math.sin(a.yaw)],w=(y,k)=>[u.x+h*(y*p-k*
+f),u.y+h*(y*f+k*p)];t.beginPath(),t.moveTo(...w(1.25,0)),t.lineTo(...w(-.9,.8)),t.lineTo(...w(-.45,0)),t.lineTo(...w(-.9,-.8)),t.closePath(),t.strokeStyle=r.halo,
 t.lineWidth=3,t.stroke(),t.fillStyle=r.sensor,t.fill(),i.length>1&&i.length<100&&Jt(t,String(a.id),u.x,u.y+h*2+4,r,"center",!0)}}function su(t,{point:e,size:n,handle:o},{
 theme:s}){t.beginPath(),t.moveTo(e.x,e.y),t.lineTo(o.x,o.y),t.moveTo(o.x+4.5,o.y),t.arc(o.x,o.y,4.5,0,2*Math.PI),t.moveTo(e.x+n*1.7,e.y),t.arc(e.x,e.y,n*1.7,0,2*
 Math.PI),bo(t,s,s.sensor,1.5),t.beginPath(),t.arc(o.x,o.y,4,0,2*Math.PI),t.fillStyle=s.halo,t.fill()}function zi(t,e,n,o,s){let r=l=>Math.hypot(e.x-l.x,e.y-l.y),i=t.pose&&Zt({id:0,...t.pose},o,s);return i&&r(i.handle)<Math.min(n,r(i.point))?{kind:"ghost",turn:!0,
@@ -92,9 +92,9 @@ i.id),this.begin(i);if(e.button===1||Et.has(o.tool)||!n.editable)return this.beg
 nsor"&&o.select(a.id);else if(o.tool==="sensor")e.shiftKey?this.editor.addSensor({world:this.metres(r,s)}):o.sensor&&(o.selected=o.sensor.id,this.begin({kind:"s\
 ensor",id:o.sensor.id,drag:o.nextGesture(),grip:{x:0,y:0}}),this.dragSensor(e));else{let l=o.tool==="draw"!==(e.button===2||e.shiftKey),u=this.cellAt(r),h=l&&this.
 editor.isWall(u);this.begin({kind:"stroke",id:o.nextGesture(),wall:l,last:u,held:e,onWall:h}),e.pointerType!=="touch"?this.release():setTimeout(()=>this.release(),
-iu)}}gripAt(e,n,o){let{hand:s,view:r}=this,i=this.reach(n),a=m=>Math.hypot(e.x-m.x,e.y-m.y),l=s.tool==="sensor"&&s.sensor?Zt(s.sensor,o.grid,r):null;if(l&&s.sensor&&
-a(l.handle)<Math.min(i,a(l.point)))return{kind:"turn",id:s.sensor.id,drag:s.nextGesture()};if(n.button!==0||s.tool==="erase")return null;let u=o.sensors.map(m=>({
-id:m.id,...Zt(m,o.grid,r)}));u.sort((m,w)=>a(m.point)-a(w.point));let h=u.find(({point:m,size:w})=>a(m)<Math.max(i,w));if(!h)return null;let p={x:h.point.x-e.x,
+iu)}}gripAt(e,n,o){let{hand:s,view:r}=this,i=this.reach(n),a=f=>Math.hypot(e.x-f.x,e.y-f.y),l=s.tool==="sensor"&&s.sensor?Zt(s.sensor,o.grid,r):null;if(l&&s.sensor&&
+a(l.handle)<Math.min(i,a(l.point)))return{kind:"turn",id:s.sensor.id,drag:s.nextGesture()};if(n.button!==0||s.tool==="erase")return null;let u=o.sensors.map(f=>({
+id:f.id,...Zt(f,o.grid,r)}));u.sort((f,w)=>a(f.point)-a(w.point));let h=u.find(({point:f,size:w})=>a(f)<Math.max(i,w));if(!h)return null;let p={x:h.point.x-e.x,
 y:h.point.y-e.y};return{kind:"sensor",id:h.id,drag:s.nextGesture(),grip:p}}release(){if(this.gesture?.kind!=="stroke"||!this.gesture.held)return;let e=this.gesture.
 held;this.gesture.held=null,this.stroke([this.gesture.last],e)}move(e){let{gesture:n,session:o,view:s,hand:r}=this,i=this.at(e);if(this.fingers.has(e.pointerId)&&
 this.fingers.set(e.pointerId,i),!n)r.point(this.cellAt(i)),this.pointAtReading(e);else if(n.kind==="ghost")this.dragGhost(e);else if(n.kind==="stroke"){this.release();
@@ -130,87 +130,87 @@ t*16));return rr(qo(ji,6*e),qo(ji,6*e+6),t*16-e)}function Ki(t,e){let n=new Uint
 var ar=t=>`linear-gradient(90deg,${[0,.125,.25,.375,.5,.625,.75,.875,1].map(e=>`rgb(${t(e).map(Math.round)})`)})`;var du=9,pu=2.5,zn=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
 return!!(n&&(e.start||e.looking&&e.views))}paint(e,n){let{session:o}=n;o.document&&(je(e,n),o.decisions.looking&&this.views(e,n),this.path(e,n))}views(e,{session:n,
 view:o,look:s}){let{views:r}=n.decisions,i=n.document?.grid;if(!r?.nats.length||!i)return;let[a,l]=[Math.min(...r.nats),Math.max(...r.nats)],u=se(.38*r.spacing*
-o.transform.scale/i.resolution,pu,du),h=r.nats.indexOf(l);for(let p=0;p<r.nats.length;p++){let m=o.fromGrid(De({x:r.pose[3*p],y:r.pose[3*p+1]},i),i.shape[1]);e.
-beginPath(),e.arc(m.x,m.y,u,0,2*Math.PI),e.fillStyle=`rgb(${Wn(se((r.nats[p]-a)/Math.max(l-a,1e-9),0,1)).map(Math.round)})`,e.fill(),p===h&&(e.lineWidth=2.5,e.strokeStyle=
+o.transform.scale/i.resolution,pu,du),h=r.nats.indexOf(l);for(let p=0;p<r.nats.length;p++){let f=o.fromGrid(De({x:r.pose[3*p],y:r.pose[3*p+1]},i),i.shape[1]);e.
+beginPath(),e.arc(f.x,f.y,u,0,2*Math.PI),e.fillStyle=`rgb(${Wn(se((r.nats[p]-a)/Math.max(l-a,1e-9),0,1)).map(Math.round)})`,e.fill(),p===h&&(e.lineWidth=2.5,e.strokeStyle=
 s.theme.truth,e.stroke())}}path(e,{session:n,view:o,look:s}){let{start:r,goal:i,path:a,radius:l}=n.decisions,u=n.document?.grid;if(!u||!r)return;let h=p=>o.fromGrid(
-De(p,u),u.shape[1]);if(a){e.beginPath();for(let[p,m]of a.path){let w=h({x:p,y:m});e.lineTo(w.x,w.y)}e.lineJoin=e.lineCap="round",e.strokeStyle=a.within_risk?s.theme.
+De(p,u),u.shape[1]);if(a){e.beginPath();for(let[p,f]of a.path){let w=h({x:p,y:f});e.lineTo(w.x,w.y)}e.lineJoin=e.lineCap="round",e.strokeStyle=a.within_risk?s.theme.
 sensor:s.theme.truth,e.globalAlpha=.3,e.lineWidth=2*l*o.transform.scale/u.resolution,e.stroke(),e.globalAlpha=1,e.lineWidth=2,e.stroke()}for(let p of i?[r,i]:[r]){
-let{x:m,y:w}=h(p);e.beginPath(),e.arc(m,w,5,0,2*Math.PI),e.fillStyle=p===r?s.theme.sensor:s.theme.truth,e.fill(),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}}};var hu=10,fu=7,mu=(t,e)=>t.layer==="width"?"width":e==="entropy"&&t.layer!=="draw"?"entropy":"value",Jo=()=>document.createElement("canvas").getContext("2d"),Hn=class{name="\
+let{x:f,y:w}=h(p);e.beginPath(),e.arc(f,w,5,0,2*Math.PI),e.fillStyle=p===r?s.theme.sensor:s.theme.truth,e.fill(),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}}};var hu=10,fu=7,mu=(t,e)=>t.layer==="width"?"width":e==="entropy"&&t.layer!=="draw"?"entropy":"value",Jo=()=>document.createElement("canvas").getContext("2d"),Hn=class{name="\
 field";cells=Jo();mask=Jo();hatch=Jo();palettes=new Map;image=new ImageData(1,1);drawn={field:null,bits:null,palette:"",hatch:""};depends({session:e}){return[e.
 flicker.under??e.shown,e.view.layer==="entropy",...e.shape]}shows({session:e}){return e.document!==null}paint(e,n){let{session:o,view:s,look:r}=n;if(!o.document)
 return;let[i,a]=o.shape,{scale:l,x:u,y:h}=s.transform;je(e,n);let p=o.flicker.under??o.shown;if(!p||p.p.length!==i*a){e.fillStyle=r.theme.unobserved,e.fillRect(
 u,h,i*l,a*l);return}this.fill(p,i,a,r.theme,mu(p,o.view.layer)),e.imageSmoothingEnabled=!1,e.drawImage(this.cells.canvas,u,h,i*l,a*l),this.fillHatch(n),e.drawImage(
 this.hatch.canvas,0,0,this.hatch.canvas.width/s.ratio,this.hatch.canvas.height/s.ratio),l>=hu&&this.lines(e,n)}fill(e,n,o,s,r){let{cells:i,mask:a,drawn:l}=this,
 u=`${s.ground} ${r}`;if(l.field===e&&l.palette===u)return;let h=this.palettes.get(u)??Ki(s,r);if(this.palettes.set(u,h),this.image.width!==n||this.image.height!==
-o){this.image=new ImageData(n,o);for(let{canvas:m}of[i,a])Object.assign(m,{width:n,height:o});l.bits=null}let p=new Uint32Array(this.image.data.buffer);for(let m=0,
-w=0;m<o;m++)for(let y=o-1-m;y<n*o;y+=o)p[w++]=h[e.p[y]+(e.observed[y]?0:256)];if(i.putImageData(this.image,0,0),l.bits!==e.bits){for(let m=0,w=0;m<o;m++)for(let y=o-
-1-m;y<n*o;y+=o)p[w++]=e.observed[y]?0:4278190080;a.putImageData(this.image,0,0),l.hatch=""}Object.assign(l,{field:e,bits:e.bits,palette:u})}fillHatch({session:e,
-view:n,look:o}){let{hatch:s,mask:r,drawn:i}=this,{ratio:a,width:l,height:u}=n,{scale:h,x:p,y:m}=n.transform,[w,y]=e.shape,S=[o.theme.ground,h,p,m,l,u,a].join(" ");
-if(i.hatch===S)return;i.hatch=S;let k=Jo(),P=k.canvas.width=k.canvas.height=Math.round(fu*a);k.strokeStyle=o.theme.hatch,k.lineWidth=a,k.beginPath();for(let _ of[
--P,0,P])k.moveTo(_-1,P+1),k.lineTo(_+P+1,-1);k.stroke(),Object.assign(s.canvas,{width:Math.ceil(l*a),height:Math.ceil(u*a)}),s.setTransform(a,0,0,a,0,0),s.imageSmoothingEnabled=
-!1,s.drawImage(r.canvas,p,m,w*h,y*h),s.globalCompositeOperation="source-in",s.setTransform(1,0,0,1,0,0);let M=s.createPattern(k.canvas,"repeat");M.setTransform(
-new DOMMatrix().translate(Math.round(p*a),Math.round(m*a))),s.fillStyle=M,s.fillRect(0,0,s.canvas.width,s.canvas.height)}lines(e,{session:n,view:o,look:s}){let[
+o){this.image=new ImageData(n,o);for(let{canvas:f}of[i,a])Object.assign(f,{width:n,height:o});l.bits=null}let p=new Uint32Array(this.image.data.buffer);for(let f=0,
+w=0;f<o;f++)for(let y=o-1-f;y<n*o;y+=o)p[w++]=h[e.p[y]+(e.observed[y]?0:256)];if(i.putImageData(this.image,0,0),l.bits!==e.bits){for(let f=0,w=0;f<o;f++)for(let y=o-
+1-f;y<n*o;y+=o)p[w++]=e.observed[y]?0:4278190080;a.putImageData(this.image,0,0),l.hatch=""}Object.assign(l,{field:e,bits:e.bits,palette:u})}fillHatch({session:e,
+view:n,look:o}){let{hatch:s,mask:r,drawn:i}=this,{ratio:a,width:l,height:u}=n,{scale:h,x:p,y:f}=n.transform,[w,y]=e.shape,k=[o.theme.ground,h,p,f,l,u,a].join(" ");
+if(i.hatch===k)return;i.hatch=k;let S=Jo(),P=S.canvas.width=S.canvas.height=Math.round(fu*a);S.strokeStyle=o.theme.hatch,S.lineWidth=a,S.beginPath();for(let _ of[
+-P,0,P])S.moveTo(_-1,P+1),S.lineTo(_+P+1,-1);S.stroke(),Object.assign(s.canvas,{width:Math.ceil(l*a),height:Math.ceil(u*a)}),s.setTransform(a,0,0,a,0,0),s.imageSmoothingEnabled=
+!1,s.drawImage(r.canvas,p,f,w*h,y*h),s.globalCompositeOperation="source-in",s.setTransform(1,0,0,1,0,0);let M=s.createPattern(S.canvas,"repeat");M.setTransform(
+new DOMMatrix().translate(Math.round(p*a),Math.round(f*a))),s.fillStyle=M,s.fillRect(0,0,s.canvas.width,s.canvas.height)}lines(e,{session:n,view:o,look:s}){let[
 r,i]=n.shape,{scale:a,x:l,y:u}=o.transform;e.beginPath();for(let h=1;h<r;h++)e.moveTo(l+h*a,u),e.lineTo(l+h*a,u+i*a);for(let h=1;h<i;h++)e.moveTo(l,u+h*a),e.lineTo(
 l+r*a,u+h*a);e.strokeStyle=s.theme.lines,e.lineWidth=1,e.stroke()}};var gu=[[1.25,0],[-.9,.8],[-.45,0],[-.9,-.8]],Vn=class{name="ghost";depends({session:e}){return[e.ghost.version,e.document?.grid.resolution,e.document?.max_range]}shows({
 session:{ghost:e,document:n}}){return!!(e.held&&e.pose&&n)}paint(e,n){let{ghost:o}=n.session;if(!(!o.held||!o.pose||!n.session.document)){if(je(e,n),o.fan){let s=this.
 fan(e,n,o.fan);o.fan.near&&this.near(e,n,o.fan,o.fan.near),e.fillStyle=n.look.theme.ghost,e.fill(s)}this.robot(e,n,o.pose)}}ends({session:e,view:n},o,s,r){let{grid:i,
-max_range:a}=e.document;return Array.from(s,(l,u)=>{let h=se(r[u],0,a),p=o.yaw+l,m={x:o.x+h*Math.cos(p),y:o.y+h*Math.sin(p)};return n.fromGrid(De(m,i),i.shape[1])})}fan(e,n,o){
+max_range:a}=e.document;return Array.from(s,(l,u)=>{let h=se(r[u],0,a),p=o.yaw+l,f={x:o.x+h*Math.cos(p),y:o.y+h*Math.sin(p)};return n.fromGrid(De(f,i),i.shape[1])})}fan(e,n,o){
 let{theme:s}=n.look,[r,i,a]=[o.low,o.median,o.high].map(y=>this.ends(n,o,o.angles,y)),{grid:l}=n.session.document,u=n.view.fromGrid(De(o,l),l.shape[1]),h=new Path2D;
-h.moveTo(u.x,u.y);for(let{x:y,y:S}of r)h.lineTo(y,S);h.closePath(),e.fillStyle=s.ghost,e.globalAlpha=.1,e.fill(h);let p=new Path2D,m=new Path2D,w=se(n.view.transform.
-scale*.12,1.2,3);for(let y=0;y<r.length;y++)p.moveTo(r[y].x,r[y].y),p.lineTo(a[y].x,a[y].y),Number.isFinite(o.median[y])&&m.rect(i[y].x-w,i[y].y-w,2*w,2*w);return e.
-strokeStyle=s.ghost,e.lineCap="round",e.lineWidth=se(n.view.transform.scale*.25,2,5),e.globalAlpha=.4,e.stroke(p),e.globalAlpha=1,m}near(e,n,o,{pose:s,ranges:r,
-hit:i}){let{theme:a}=n.look,l=se(n.view.transform.scale*.14,1.5,4),u=this.ends(n,{x:s[0],y:s[1],yaw:s[2]},o.angles,r),h=new Path2D;u.forEach(({x:p,y:m},w)=>{i[w]&&
-(h.moveTo(p+l,m),h.arc(p,m,l,0,2*Math.PI))}),e.lineWidth=1,e.strokeStyle=a.truth,e.stroke(h)}robot(e,{session:n,view:o,look:s},r){let{grid:i}=n.document,{point:a,
+h.moveTo(u.x,u.y);for(let{x:y,y:k}of r)h.lineTo(y,k);h.closePath(),e.fillStyle=s.ghost,e.globalAlpha=.1,e.fill(h);let p=new Path2D,f=new Path2D,w=se(n.view.transform.
+scale*.12,1.2,3);for(let y=0;y<r.length;y++)p.moveTo(r[y].x,r[y].y),p.lineTo(a[y].x,a[y].y),Number.isFinite(o.median[y])&&f.rect(i[y].x-w,i[y].y-w,2*w,2*w);return e.
+strokeStyle=s.ghost,e.lineCap="round",e.lineWidth=se(n.view.transform.scale*.25,2,5),e.globalAlpha=.4,e.stroke(p),e.globalAlpha=1,f}near(e,n,o,{pose:s,ranges:r,
+hit:i}){let{theme:a}=n.look,l=se(n.view.transform.scale*.14,1.5,4),u=this.ends(n,{x:s[0],y:s[1],yaw:s[2]},o.angles,r),h=new Path2D;u.forEach(({x:p,y:f},w)=>{i[w]&&
+(h.moveTo(p+l,f),h.arc(p,f,l,0,2*Math.PI))}),e.lineWidth=1,e.strokeStyle=a.truth,e.stroke(h)}robot(e,{session:n,view:o,look:s},r){let{grid:i}=n.document,{point:a,
 size:l,handle:u}=Zt({id:0,...r},i,o),[h,p]=[Math.cos(r.yaw),-Math.sin(r.yaw)];e.beginPath(),e.moveTo(a.x,a.y),e.lineTo(u.x,u.y),bo(e,s.theme,s.theme.ghost,1.5),
-e.beginPath();for(let[m,w]of gu)e.lineTo(a.x+l*(m*h-w*p),a.y+l*(m*p+w*h));e.closePath(),e.lineJoin="round",bo(e,s.theme,s.theme.ghost,2),e.fillStyle=s.theme.halo,
+e.beginPath();for(let[f,w]of gu)e.lineTo(a.x+l*(f*h-w*p),a.y+l*(f*p+w*h));e.closePath(),e.lineJoin="round",bo(e,s.theme,s.theme.ghost,2),e.fillStyle=s.theme.halo,
 e.fill(),e.beginPath(),e.arc(u.x,u.y,4.5,0,2*Math.PI),e.fill(),e.stroke()}};var Bn=class{name="hypothesis";cells=document.createElement("canvas").getContext("2d");drawn={field:null,colour:""};depends({session:e}){return[e.flicker.under&&
 e.shown]}shows({session:e}){return!!(e.flicker.under&&e.shown)}paint(e,n){let{session:o,view:s,look:r}=n,i=o.flicker.under&&o.shown;if(!i)return;let[a,l]=o.shape,
 {scale:u,x:h,y:p}=s.transform;(this.drawn.field!==i||this.drawn.colour!==r.theme.draw)&&this.fill(i,a,l,r.theme.draw),je(e,n),e.imageSmoothingEnabled=!1,e.drawImage(
 this.cells.canvas,h,p,a*u,l*u)}fill(e,n,o,s){let[r,i,a]=[1,3,5].map(u=>parseInt(s.slice(u,u+2),16));Object.assign(this.cells.canvas,{width:n,height:o});let l=new ImageData(
 n,o);for(let u=0,h=0;u<o;u++)for(let p=o-1-u;p<n*o;p+=o,h+=4)l.data.set([r,i,a,e.observed[p]?e.p[p]:0],h);this.cells.putImageData(l,0,0),this.drawn={field:e,colour:s}}};var yu=46;function bu(t){let e=10**Math.floor(Math.log10(t));return e*([1,2,5].find(n=>n*e>=t)??10)}function qi(t,{session:e,view:n,look:o}){if(!e.document)return;
-let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:l,shape:u}=e.document.grid,{scale:h,x:p,y:m}=n.transform,w=bu(yu/h*l),y=Math.min(m+u[1]*h,i-Ye.bottom)+
-.5,S=Math.max(p,Ye.left)-.5;t.fillStyle=s.ground,p<S&&t.fillRect(0,0,S,i+1),m+u[1]*h>y&&t.fillRect(0,y,r+1,i+1-y);let k=Math.max(0,-Math.floor(Math.log10(w)+1e-9));
-t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let P=_=>Math.ceil(a[_]/w-1e-9)*w,M=_=>a[_]+u[_]*l+1e-9;for(let _=P(0);_<=M(0);_+=w){let E=p+(_-a[0])/l*h;E<S||
-E>r-4||(t.moveTo(E,y),t.lineTo(E,y+4),Jt(t,_.toFixed(k),E,y+12,s,"center"))}for(let _=P(1);_<=M(1);_+=w){let E=m+(u[1]-(_-a[1])/l)*h;E>y||E<4||(t.moveTo(S,E),t.
-lineTo(S-4,E),Jt(t,_.toFixed(k),S-7,E,s,"right"))}t.stroke(),Jt(t,"m",S-7,y+12,s,"right")}var jn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=sr(e).flatMap(({id:i,x:a,y:l,yaw:u})=>[i,a,l,u]),{grid:s}=e.document??{},
+let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:l,shape:u}=e.document.grid,{scale:h,x:p,y:f}=n.transform,w=bu(yu/h*l),y=Math.min(f+u[1]*h,i-Ye.bottom)+
+.5,k=Math.max(p,Ye.left)-.5;t.fillStyle=s.ground,p<k&&t.fillRect(0,0,k,i+1),f+u[1]*h>y&&t.fillRect(0,y,r+1,i+1-y);let S=Math.max(0,-Math.floor(Math.log10(w)+1e-9));
+t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let P=_=>Math.ceil(a[_]/w-1e-9)*w,M=_=>a[_]+u[_]*l+1e-9;for(let _=P(0);_<=M(0);_+=w){let E=p+(_-a[0])/l*h;E<k||
+E>r-4||(t.moveTo(E,y),t.lineTo(E,y+4),Jt(t,_.toFixed(S),E,y+12,s,"center"))}for(let _=P(1);_<=M(1);_+=w){let E=f+(u[1]-(_-a[1])/l)*h;E>y||E<4||(t.moveTo(k,E),t.
+lineTo(k-4,E),Jt(t,_.toFixed(S),k-7,E,s,"right"))}t.stroke(),Jt(t,"m",k-7,y+12,s,"right")}var jn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=sr(e).flatMap(({id:i,x:a,y:l,yaw:u})=>[i,a,l,u]),{grid:s}=e.document??{},
 r=Yi(e)&&n.truth&&e.wallsVersion;return[s&&[...s.shape,...s.origin,s.resolution].join(),r,n.selected,...o]}shows({session:e}){return e.document!==null}paint(e,n){
 let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.shape,{scale:l,x:u,y:h}=s.transform;r.truth&&Yi(o)&&this.truth(e,n),e.strokeStyle=r.theme.frame,
 e.lineWidth=1,e.strokeRect(u-.5,h-.5,i*l+1,a*l+1),Wi(e,n),qi(e,n)}truth(e,n){let{session:o,view:s,look:r}=n,{scale:i,x:a,y:l}=s.transform;this.edgesOf!==o.wallsVersion&&
 (this.edges=Li(o.walls,o.shape),this.edgesOf=o.wallsVersion),e.save(),je(e,n),e.transform(i,0,0,-i,a,l+o.shape[1]*i),e.lineCap="square",e.strokeStyle=r.theme.truth,
 e.lineWidth=se(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},Yi=({document:t})=>t?.source.kind==="simulation";var wu=600,vu=1500,xu=65536,lr=.3,Kn=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.scan&&e.document&&(n.rays||n.readings)&&!e.ghost.held)}paint(e,n){let{session:o,view:s,look:r}=n,{scan:i,document:a}=o;if(!i||!a)return;
-je(e,n);let{scale:l}=s.transform,u=1/a.grid.resolution,h=a.grid.shape[1],p=i.angles.length,m=i.pose.length/3,w=Math.ceil(p*m/vu),[y,S,k]=[new Path2D,new Path2D,
-new Path2D],P=p*m>wu,M=new Map,_=se(l*.1,1.3,4),E=a.scans_used??1/0,K=(i.index??0)<E?1:lr;for(let R=0;R<m;R++){let[q,V,N]=i.pose.subarray(3*R,3*R+3),G=s.fromGrid(
+je(e,n);let{scale:l}=s.transform,u=1/a.grid.resolution,h=a.grid.shape[1],p=i.angles.length,f=i.pose.length/3,w=Math.ceil(p*f/vu),[y,k,S]=[new Path2D,new Path2D,
+new Path2D],P=p*f>wu,M=new Map,_=se(l*.1,1.3,4),E=a.scans_used??1/0,K=(i.index??0)<E?1:lr;for(let R=0;R<f;R++){let[q,V,N]=i.pose.subarray(3*R,3*R+3),G=s.fromGrid(
 De({x:q,y:V},a.grid),h);for(let A=0;A<p;A++){let Z=i.ranges[R*p+A],I=i.hit[R*p+A]===1,j=(I?Z:a.max_range)*u*l,W=i.angles[A]+N,Q={x:G.x+j*Math.cos(W),y:G.y-j*Math.
-sin(W)},z=I?y:S;(R*p+A)%w===0&&(z.moveTo(G.x,G.y),z.lineTo(Q.x,Q.y)),I&&(P?M.set(Math.round(Q.x)*xu+Math.round(Q.y),Q):(k.moveTo(Q.x+_,Q.y),k.arc(Q.x,Q.y,_,0,2*
-Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=K*se(28/Math.sqrt(p*m/w)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.noReturn,e.stroke(
-S),e.globalAlpha=1),r.readings){e.globalAlpha=K,e.fillStyle=r.theme.ray,e.fill(k);let R=1.8*_;for(let{x:q,y:V}of M.values())e.fillRect(q-R/2,V-R/2,R,R);e.globalAlpha=
+sin(W)},z=I?y:k;(R*p+A)%w===0&&(z.moveTo(G.x,G.y),z.lineTo(Q.x,Q.y)),I&&(P?M.set(Math.round(Q.x)*xu+Math.round(Q.y),Q):(S.moveTo(Q.x+_,Q.y),S.arc(Q.x,Q.y,_,0,2*
+Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=K*se(28/Math.sqrt(p*f/w)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.noReturn,e.stroke(
+k),e.globalAlpha=1),r.readings){e.globalAlpha=K,e.fillStyle=r.theme.ray,e.fill(S);let R=1.8*_;for(let{x:q,y:V}of M.values())e.fillRect(q-R/2,V-R/2,R,R);e.globalAlpha=
 1}}};var ku=2.5,qn=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.overlay&&e.document&&(n.strokes||n.trajectory))}paint(e,n){let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(je(e,n),s.trajectory&&
 this.trajectory(e,n,r.trajectory),s.strokes&&n.view.transform.scale>=ku&&this.strokes(e,n,r.strokes))}trajectory(e,{session:n,view:o,look:s},r){let i=n.document?.
 grid;if(!i)return;let a=r.length/2,l=Math.min(a,n.document?.scans_used??a);e.strokeStyle=s.theme.sensor,e.lineWidth=1,e.lineJoin="round";for(let[u,h,p]of[[0,l,.6],
-[Math.max(0,l-1),a,.6*lr]]){e.beginPath();for(let m=u;m<h;m++){let w=o.fromGrid(De({x:r[2*m],y:r[2*m+1]},i),i.shape[1]);e.lineTo(w.x,w.y)}e.globalAlpha=p,e.stroke()}
-e.globalAlpha=1}strokes(e,{session:n,view:o,look:s},r){let i=n.document?.grid;if(i){e.beginPath();for(let a=0;a<r.length;a+=5){let[l,u,h,p]=r.subarray(a,a+4),[m,
-w]=[o.fromGrid(De({x:l,y:u},i),i.shape[1]),o.fromGrid(De({x:h,y:p},i),i.shape[1])];e.moveTo(m.x,m.y),e.lineTo(w.x,w.y)}e.strokeStyle=s.theme.ray,e.lineCap="roun\
+[Math.max(0,l-1),a,.6*lr]]){e.beginPath();for(let f=u;f<h;f++){let w=o.fromGrid(De({x:r[2*f],y:r[2*f+1]},i),i.shape[1]);e.lineTo(w.x,w.y)}e.globalAlpha=p,e.stroke()}
+e.globalAlpha=1}strokes(e,{session:n,view:o,look:s},r){let i=n.document?.grid;if(i){e.beginPath();for(let a=0;a<r.length;a+=5){let[l,u,h,p]=r.subarray(a,a+4),[f,
+w]=[o.fromGrid(De({x:l,y:u},i),i.shape[1]),o.fromGrid(De({x:h,y:p},i),i.shape[1])];e.moveTo(f.x,f.y),e.lineTo(w.x,w.y)}e.strokeStyle=s.theme.ray,e.lineCap="roun\
 d",e.lineWidth=se(o.transform.scale/5,.8,2.5),e.stroke()}}};var Su=2.2,Zo=7,[Mu,Tu]=[.03,.75],Pu=2.4477,Ji=9,Yn=class{name="where";depends({session:e}){return[e.where.version,e.document?.grid.resolution,e.document?.grid.
 origin.join()]}shows({session:e}){return!!(e.where.found&&e.document)}paint(e,n){let{session:o}=n,{found:s}=o.where,r=o.document?.grid;if(!(!s||!r)){je(e,n),this.
 cloud(e,n,r);for(let i of s.modes)this.place(e,n,r,i,s.modes.length>1)}}cloud(e,{session:n,view:o,look:s},r){let{cloud:i,weight:a}=n.where.found,l=a[a.length-1]||
-1;e.strokeStyle=e.fillStyle=s.theme.belief,e.lineWidth=1.2;for(let u=0;u<a.length;u++){if(a[u]<Mu**2*l)continue;let[h,p,m]=i.subarray(3*u,3*u+3),w=o.fromGrid(De(
+1;e.strokeStyle=e.fillStyle=s.theme.belief,e.lineWidth=1.2;for(let u=0;u<a.length;u++){if(a[u]<Mu**2*l)continue;let[h,p,f]=i.subarray(3*u,3*u+3),w=o.fromGrid(De(
 {x:h,y:p},r),r.shape[1]);e.globalAlpha=Tu*Math.sqrt(a[u]/l),e.beginPath(),e.arc(w.x,w.y,Su,0,2*Math.PI),e.fill(),e.beginPath(),e.moveTo(w.x,w.y),e.lineTo(w.x+Zo*
-Math.cos(m),w.y-Zo*Math.sin(m)),e.stroke()}e.globalAlpha=1}place(e,{view:n,look:o},s,r,i){let[a,l,u]=r.mean,h=n.fromGrid(De({x:a,y:l},s),s.shape[1]),p=Pu*n.transform.
-scale/s.resolution,[[m,w],[,y]]=r.covariance,[S,k]=[(m+y)/2,Math.hypot((m-y)/2,w)],[P,M]=[S+k,S-k].map(E=>Math.max(Ji,p*Math.sqrt(Math.max(E,0))));e.beginPath(),
-e.ellipse(h.x,h.y,P,M,-Math.atan2(2*w,m-y)/2,0,2*Math.PI);let _=Ji+1;e.moveTo(h.x+_*Math.cos(u),h.y-_*Math.sin(u)),e.lineTo(h.x+(_+Zo)*Math.cos(u),h.y-(_+Zo)*Math.
+Math.cos(f),w.y-Zo*Math.sin(f)),e.stroke()}e.globalAlpha=1}place(e,{view:n,look:o},s,r,i){let[a,l,u]=r.mean,h=n.fromGrid(De({x:a,y:l},s),s.shape[1]),p=Pu*n.transform.
+scale/s.resolution,[[f,w],[,y]]=r.covariance,[k,S]=[(f+y)/2,Math.hypot((f-y)/2,w)],[P,M]=[k+S,k-S].map(E=>Math.max(Ji,p*Math.sqrt(Math.max(E,0))));e.beginPath(),
+e.ellipse(h.x,h.y,P,M,-Math.atan2(2*w,f-y)/2,0,2*Math.PI);let _=Ji+1;e.moveTo(h.x+_*Math.cos(u),h.y-_*Math.sin(u)),e.lineTo(h.x+(_+Zo)*Math.cos(u),h.y-(_+Zo)*Math.
 sin(u)),e.strokeStyle=o.theme.halo,e.lineWidth=4,e.stroke(),e.strokeStyle=o.theme.belief,e.lineWidth=2,e.stroke(),i&&Jt(e,cr(r.probability),h.x,h.y-M-9,o.theme,
 "center",!0)}},cr=t=>t>.995&&t<1?"over 99 %":t<.005?"under 1 %":`${Math.round(100*t)} %`;var Zi=900,wo=2;function Qi({session:t,look:e}){let[n,o]=t.shape,s=new Gn;s.resize(Zi,Math.round(se(Zi*o/n,300,1800)),wo),s.fit(t.shape);let r=document.createElement(
 "canvas");Object.assign(r,{width:s.width*wo,height:s.height*wo});let i=r.getContext("2d");i.scale(wo,wo),i.fillStyle=e.theme.ground,i.fillRect(0,0,s.width,s.height);
 let a=[new Hn,new Bn,new qn,new Kn,new jn,new zn,new Yn,new Vn],l={session:t,view:s,look:{...e,hover:null,cursor:null,selected:null}};for(let u of a)(u.shows?.(
 l)??!0)&&(i.save(),u.paint(i,l),i.restore());return new Promise(u=>r.toBlob(u))}var Qo=class{name="reading";depends({session:e}){return[e.reading.version,e.document?.grid.resolution]}shows({session:{reading:e,document:n,scan:o,ghost:s}}){return!!(!s.
 held&&e.picked&&n&&o?.index===e.picked.scan)}paint(e,n){let{session:o,view:s,look:r}=n,{picked:i,found:a}=o.reading,{scan:l,document:u}=o;if(!i||!u||l?.index!==
-i.scan)return;je(e,n);let{grid:h,max_range:p}=u,m=k=>{let P={x:i.from.x+k*Math.cos(i.angle),y:i.from.y+k*Math.sin(i.angle)};return s.fromGrid(De(P,h),h.shape[1])},
-w=(k,P,M,_)=>{e.beginPath(),e.moveTo(k.x,k.y),e.lineTo(P.x,P.y),e.lineWidth=M,e.strokeStyle=_,e.stroke()},y=l.hit[i.beam]===1,S=m(y?l.ranges[i.beam]:p);if(w(m(0),
-S,3,r.theme.halo),w(m(0),S,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let k=(P,M)=>se(P??M,0,p);if(w(m(k(a.low,0)),m(k(a.high,p)),6,r.theme.ghost),
-a.median!==null){let P=m(a.median),M={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};w({x:P.x-M.x,y:P.y-M.y},{x:P.x+M.x,y:P.y+M.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),
-e.arc(S.x,S.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};function x(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
+i.scan)return;je(e,n);let{grid:h,max_range:p}=u,f=S=>{let P={x:i.from.x+S*Math.cos(i.angle),y:i.from.y+S*Math.sin(i.angle)};return s.fromGrid(De(P,h),h.shape[1])},
+w=(S,P,M,_)=>{e.beginPath(),e.moveTo(S.x,S.y),e.lineTo(P.x,P.y),e.lineWidth=M,e.strokeStyle=_,e.stroke()},y=l.hit[i.beam]===1,k=f(y?l.ranges[i.beam]:p);if(w(f(0),
+k,3,r.theme.halo),w(f(0),k,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let S=(P,M)=>se(P??M,0,p);if(w(f(S(a.low,0)),f(S(a.high,p)),6,r.theme.ghost),
+a.median!==null){let P=f(a.median),M={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};w({x:P.x-M.x,y:P.y-M.y},{x:P.x+M.x,y:P.y+M.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),
+e.arc(k.x,k.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};function x(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
 "role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function L(t,e,n){t[e]!==n&&(t[e]=n)}function dt(t,e,n){t.getAttribute(
 e)!==n&&t.setAttribute(e,n)}var hn=t=>t.getRootNode().activeElement===t,Me=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function ur(t,e){let n=URL.
 createObjectURL(e);x("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Xi=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
@@ -231,13 +231,13 @@ o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:ht((n+o)/2),e[s]<t?n=s:
 s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var za=t=>t!=null,Ha=t=>t!=null&&t>0,is=Wa(za),Yu=Wa(Ha);function Ju(t,e,n,o=0,s=!1){
 let r=s?Yu:is,i=s?Ha:za;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let u=e;u<=n;u++){let h=t[u];i(h)&&(h<
 a?a=h:h>l&&(l=h))}return[a??ye,l??-ye]}function as(t,e,n,o){let s=ga(t),r=ga(e);t==e&&(s==-1?(t*=n,e/=n):(t/=n,e*=n));let i=n==10?zt:Va,a=s==1?ht:kt,l=r==1?kt:ht,
-u=a(i(Ie(t))),h=l(i(Ie(e))),p=Xn(n,u),m=Xn(n,h);return n==10&&(u<0&&(p=be(p,-u)),h<0&&(m=be(m,-h))),o||n==2?(t=p*s,e=m*r):(t=qa(t,p),e=ls(e,m)),[t,e]}function Lr(t,e,n,o){
+u=a(i(Ie(t))),h=l(i(Ie(e))),p=Xn(n,u),f=Xn(n,h);return n==10&&(u<0&&(p=be(p,-u)),h<0&&(f=be(f,-h))),o||n==2?(t=p*s,e=f*r):(t=qa(t,p),e=ls(e,f)),[t,e]}function Lr(t,e,n,o){
 let s=as(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Dr=.1,fa={mode:3,pad:Dr},Mo={pad:0,soft:null,mode:0},Zu={min:Mo,max:Mo};function ss(t,e,n,o){return cs(
 n)?ma(t,e,n):(Mo.pad=n,Mo.soft=o?0:null,Mo.mode=o?3:0,ma(t,e,Zu))}function ce(t,e){return t??e}function Qu(t,e,n){for(e=ce(e,0),n=ce(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function ma(t,e,n){let o=n.min,s=n.max,r=ce(o.pad,0),i=ce(s.pad,0),a=ce(o.hard,-ye),l=ce(s.hard,ye),u=ce(o.soft,ye),h=ce(s.soft,-ye),
-p=ce(o.mode,0),m=ce(s.mode,0),w=e-t,y=zt(w),S=nt(Ie(t),Ie(e)),k=zt(S),P=Ie(k-y);(w<1e-24||P>10)&&(w=0,(t==0||e==0)&&(w=1e-24,p==2&&u!=ye&&(r=0),m==2&&h!=-ye&&(i=
-0)));let M=w||S||1e3,_=zt(M),E=Xn(10,ht(_)),K=M*(w==0?t==0?.1:1:r),R=be(qa(t-K,E/10),24),q=t>=u&&(p==1||p==3&&R<=u||p==2&&R>=u)?u:ye,V=nt(a,R<q&&t>=q?q:At(q,R)),
-N=M*(w==0?e==0?.1:1:i),G=be(ls(e+N,E/10),24),A=e<=h&&(m==1||m==3&&G>=h||m==2&&G<=h)?h:-ye,Z=At(l,G>A&&e<=A?A:nt(A,G));return V==Z&&V==0&&(Z=100),[V,Z]}var Xu=new Intl.
+p=ce(o.mode,0),f=ce(s.mode,0),w=e-t,y=zt(w),k=nt(Ie(t),Ie(e)),S=zt(k),P=Ie(S-y);(w<1e-24||P>10)&&(w=0,(t==0||e==0)&&(w=1e-24,p==2&&u!=ye&&(r=0),f==2&&h!=-ye&&(i=
+0)));let M=w||k||1e3,_=zt(M),E=Xn(10,ht(_)),K=M*(w==0?t==0?.1:1:r),R=be(qa(t-K,E/10),24),q=t>=u&&(p==1||p==3&&R<=u||p==2&&R>=u)?u:ye,V=nt(a,R<q&&t>=q?q:At(q,R)),
+N=M*(w==0?e==0?.1:1:i),G=be(ls(e+N,E/10),24),A=e<=h&&(f==1||f==3&&G>=h||f==2&&G<=h)?h:-ye,Z=At(l,G>A&&e<=A?A:nt(A,G));return V==Z&&V==0&&(Z=100),[V,Z]}var Xu=new Intl.
 NumberFormat(oo?Ku.language:"en-US"),Rr=t=>Xu.format(t),ft=Math,ns=ft.PI,Ie=ft.abs,ht=ft.floor,$e=ft.round,kt=ft.ceil,At=ft.min,nt=ft.max,Xn=ft.pow,ga=ft.sign,zt=ft.
 log10,Va=ft.log2,ed=(t,e=1)=>ft.sinh(t)*e,fr=(t,e=1)=>ft.asinh(t/e),ye=1/0;function ya(t){return(zt((t^t>>31)-(t>>31))|0)+1}function kr(t,e,n){return At(nt(t,e),
 n)}function Ba(t){return typeof t=="function"}function ie(t){return Ba(t)?t:()=>t}var td=()=>{},ja=t=>t,Ka=(t,e)=>e,nd=t=>null,ba=t=>!0,wa=(t,e)=>t==e,od=/\.\d*?(?=9{6,}|0{6,})/gm,
@@ -245,7 +245,7 @@ bn=t=>{if(Ja(t)||Xt.has(t))return t;let e=`${t}`,n=e.match(od);if(n==null)return
 s)}e${r}`}return be(t,o)};function fn(t,e){return bn(be(bn(t/e))*e)}function ls(t,e){return bn(kt(bn(t/e))*e)}function qa(t,e){return bn(ht(bn(t/e))*e)}function be(t,e=0){
 if(Ja(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return $e(o)/n}var Xt=new Map;function Ya(t){return((""+t).split(".")[1]||"").length}function Po(t,e,n,o){
 let s=[],r=o.map(Ya);for(let i=e;i<n;i++){let a=Ie(i),l=be(Xn(t,i),a);for(let u=0;u<o.length;u++){let h=t==10?+`${o[u]}e${i}`:o[u]*l,p=(i>=0?0:a)+(i>=r[u]?0:r[u]),
-m=t==10?h:be(h,p);s.push(m),Xt.set(m,p)}}return s}var To={},Nr=[],eo=[null,null],Qt=Array.isArray,Ja=Number.isInteger,sd=t=>t===void 0;function va(t){return typeof t==
+f=t==10?h:be(h,p);s.push(f),Xt.set(f,p)}}return s}var To={},Nr=[],eo=[null,null],Qt=Array.isArray,Ja=Number.isInteger,sd=t=>t===void 0;function va(t){return typeof t==
 "string"}function cs(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function rd(t){return t!=null&&typeof t=="object"}var id=Object.getPrototypeOf(
 Uint8Array),Za="__proto__";function to(t,e=cs){let n;if(Qt(t)){let o=t.find(s=>s!=null);if(Qt(o)||e(o)){n=Array(t.length);for(let s=0;s<t.length;s++)n[s]=to(t[s],
 e)}else n=t.slice()}else if(t instanceof id)n=t.slice();else if(e(t)){n={};for(let o in t)o!=Za&&(n[o]=to(t[o],e))}else n=t;return n}function Re(t){let e=arguments;
@@ -253,8 +253,8 @@ for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=Za&&(cs(t[s])?Re(t[s],t
 s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function dd(t,e){if(fd(t)){let i=t[0].
 slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return md(i[0])||(i=hd(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],u=l.length;for(let h=0;h<
 u;h++)n.add(l[h])}let o=[Array.from(n).sort((i,a)=>i-a)],s=o[0].length,r=new Map;for(let i=0;i<s;i++)r.set(o[0][i],i);for(let i=0;i<t.length;i++){let a=t[i],l=a[0];
-for(let u=1;u<a.length;u++){let h=a[u],p=Array(s).fill(void 0),m=e?e[i][u]:ld,w=[];for(let y=0;y<h.length;y++){let S=h[y],k=r.get(l[y]);S===null?m!=ad&&(p[k]=S,
-m==cd&&w.push(k)):p[k]=S}ud(p,w,s),o.push(p)}}return o}var pd=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function hd(t){let e=t[0],n=e.
+for(let u=1;u<a.length;u++){let h=a[u],p=Array(s).fill(void 0),f=e?e[i][u]:ld,w=[];for(let y=0;y<h.length;y++){let k=h[y],S=r.get(l[y]);k===null?f!=ad&&(p[S]=k,
+f==cd&&w.push(S)):p[S]=k}ud(p,w,s),o.push(p)}}return o}var pd=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function hd(t){let e=t[0],n=e.
 length,o=Array(n);for(let r=0;r<o.length;r++)o[r]=r;o.sort((r,i)=>e[r]-e[i]);let s=[];for(let r=0;r<t.length;r++){let i=t[r],a=Array(n);for(let l=0;l<n;l++)a[l]=
 i[o[l]];s.push(a)}return s}function fd(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let s=t[o][0];if(s.length!=n)return!1;if(s!=e){for(let r=0;r<n;r++)
 if(s[r]!=e[r])return!1}}return!0}function md(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
@@ -273,14 +273,14 @@ tl),mn=Sd.concat(nl),$r=`
 s=o*24,r=s*30,i=s*365,l=(t==1?Po(10,0,3,rs).filter(tl):Po(10,-3,0,rs)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
 4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),u=[[i,ol,he,he,he,he,he,he,1],[s*28,"{MMM}",xa,he,he,he,he,he,1],[s,sl,xa,he,
 he,he,he,he,1],[o,"{h}"+rl,es,he,So,he,he,he,1],[n,Zn,es,he,So,he,he,he,1],[e,Sa,es+" "+Zn,he,So+" "+Zn,he,ka,he,1],[t,Sa+".{fff}",es+" "+Zn,he,So+" "+Zn,he,ka,
-he,1]];function h(p){return(m,w,y,S,k,P)=>{let M=[],_=k>=i,E=k>=r&&k<i,K=p(y),R=be(K*t,3),q=mr(K.getFullYear(),_?0:K.getMonth(),E||_?1:K.getDate()),V=be(q*t,3);
-if(E||_){let N=E?k/r:0,G=_?k/i:0,A=R==V?R:be(mr(q.getFullYear()+G,q.getMonth()+N,1)*t,3),Z=new Date($e(A/t)),I=Z.getFullYear(),j=Z.getMonth();for(let W=0;A<=S;W++){
-let Q=mr(I+G*W,j+N*W,1),z=Q-p(be(Q*t,3));A=be((+Q+z)*t,3),A<=S&&M.push(A)}}else{let N=k>=s?s:k,G=ht(y)-ht(R),A=V+G+ls(R-V,N);M.push(A);let Z=p(A),I=Z.getHours()+
-Z.getMinutes()/n+Z.getSeconds()/o,j=k/o,W=m.axes[w]._space,Q=P/W;for(;A=be(A+k,t==1?0:3),!(A>S);)if(j>1){let z=ht(be(I+j,6))%24,re=p(A).getHours()-z;re>1&&(re=-1),
-A-=re*o,I=(I+j)%24;let ue=M[M.length-1];be((A-ue)/k,3)*Q>=.7&&M.push(A)}else M.push(A)}return M}}return[l,u,h]}var[Pd,Ed,_d]=il(1),[Cd,Ad,Ld]=il(.001);Po(2,-53,
+he,1]];function h(p){return(f,w,y,k,S,P)=>{let M=[],_=S>=i,E=S>=r&&S<i,K=p(y),R=be(K*t,3),q=mr(K.getFullYear(),_?0:K.getMonth(),E||_?1:K.getDate()),V=be(q*t,3);
+if(E||_){let N=E?S/r:0,G=_?S/i:0,A=R==V?R:be(mr(q.getFullYear()+G,q.getMonth()+N,1)*t,3),Z=new Date($e(A/t)),I=Z.getFullYear(),j=Z.getMonth();for(let W=0;A<=k;W++){
+let Q=mr(I+G*W,j+N*W,1),z=Q-p(be(Q*t,3));A=be((+Q+z)*t,3),A<=k&&M.push(A)}}else{let N=S>=s?s:S,G=ht(y)-ht(R),A=V+G+ls(R-V,N);M.push(A);let Z=p(A),I=Z.getHours()+
+Z.getMinutes()/n+Z.getSeconds()/o,j=S/o,W=f.axes[w]._space,Q=P/W;for(;A=be(A+S,t==1?0:3),!(A>k);)if(j>1){let z=ht(be(I+j,6))%24,re=p(A).getHours()-z;re>1&&(re=-1),
+A-=re*o,I=(I+j)%24;let ue=M[M.length-1];be((A-ue)/S,3)*Q>=.7&&M.push(A)}else M.push(A)}return M}}return[l,u,h]}var[Pd,Ed,_d]=il(1),[Cd,Ad,Ld]=il(.001);Po(2,-53,
 53,[1]);function Ma(t,e){return t.map(n=>n.map((o,s)=>s==0||s==8||o==null?o:e(s==1||n[8]==0?o:n[1]+o)))}function Ta(t,e){return(n,o,s,r,i)=>{let a=e.find(y=>i>=
-y[0])||e[e.length-1],l,u,h,p,m,w;return o.map(y=>{let S=t(y),k=S.getFullYear(),P=S.getMonth(),M=S.getDate(),_=S.getHours(),E=S.getMinutes(),K=S.getSeconds(),R=k!=
-l&&a[2]||P!=u&&a[3]||M!=h&&a[4]||_!=p&&a[5]||E!=m&&a[6]||K!=w&&a[7]||a[1];return l=k,u=P,h=M,p=_,m=E,w=K,R(S)})}}function Dd(t,e){let n=Fr(e);return(o,s,r,i,a)=>s.
+y[0])||e[e.length-1],l,u,h,p,f,w;return o.map(y=>{let k=t(y),S=k.getFullYear(),P=k.getMonth(),M=k.getDate(),_=k.getHours(),E=k.getMinutes(),K=k.getSeconds(),R=S!=
+l&&a[2]||P!=u&&a[3]||M!=h&&a[4]||_!=p&&a[5]||E!=f&&a[6]||K!=w&&a[7]||a[1];return l=S,u=P,h=M,p=_,f=E,w=K,R(k)})}}function Dd(t,e){let n=Fr(e);return(o,s,r,i,a)=>s.
 map(l=>n(t(l)))}function mr(t,e,n){return new Date(t,e,n)}function Pa(t,e){return e(t)}var Rd="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function Ea(t,e){return(n,o,s,r)=>r==
 null?Cr:e(t(o))}function Nd(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Fd(t,e){return t.series[e].fill(
 t,e)}var $d={show:!0,live:!0,isolate:!1,mount:td,markers:{show:!0,width:2,stroke:Nd,fill:Fd,dash:"solid"},idx:null,idxs:null,values:[]};function Id(t,e){let n=t.
@@ -295,11 +295,11 @@ show:!0,stroke:"rgba(0,0,0,0.07)",width:2},Ir=Re({},al,{filter:Ka}),ll=Re({},Ir,
 show:!0,scale:"x",stroke:_r,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:ul,side:2,grid:Ir,ticks:ll,border:cl,font:Or,lineGap:dl,rotate:0},
 Hd="Value",Vd="Time",Ca={show:!0,scale:"x",auto:!1,sorted:1,min:ye,max:-ye,idxs:[]};function Bd(t,e,n,o,s){return e.map(r=>r==null?"":Rr(r))}function jd(t,e,n,o,s,r,i){
 let a=[],l=Xt.get(s)||0;n=i?n:be(ls(n,s),l);for(let u=n;u<=o;u=be(u+s,l))a.push(Object.is(u,-0)?0:u);return a}function Sr(t,e,n,o,s,r,i){let a=[],l=t.scales[t.axes[e].
-scale].log,u=l==10?zt:Va,h=ht(u(n));s=Xn(l,h),l==10&&(s=mn[Ct(s,mn)]);let p=n,m=s*l;l==10&&(m=mn[Ct(m,mn)]);do a.push(p),p=p+s,l==10&&!Xt.has(p)&&(p=be(p,Xt.get(
-s))),p>=m&&(s=p,m=s*l,l==10&&(m=mn[Ct(m,mn)]));while(p<=o);return a}function Kd(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,u=o>l?Sr(t,e,nt(l,n),o,s):[
-l],h=o>=0&&n<=0?[0]:[];return(n<-l?Sr(t,e,nt(l,-o),-n,s):[l]).reverse().map(m=>-m).concat(h,u)}var pl=/./,qd=/[12357]/,Yd=/[125]/,Aa=/1/,Mr=(t,e,n,o)=>t.map((s,r)=>e==
+scale].log,u=l==10?zt:Va,h=ht(u(n));s=Xn(l,h),l==10&&(s=mn[Ct(s,mn)]);let p=n,f=s*l;l==10&&(f=mn[Ct(f,mn)]);do a.push(p),p=p+s,l==10&&!Xt.has(p)&&(p=be(p,Xt.get(
+s))),p>=f&&(s=p,f=s*l,l==10&&(f=mn[Ct(f,mn)]));while(p<=o);return a}function Kd(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,u=o>l?Sr(t,e,nt(l,n),o,s):[
+l],h=o>=0&&n<=0?[0]:[];return(n<-l?Sr(t,e,nt(l,-o),-n,s):[l]).reverse().map(f=>-f).concat(h,u)}var pl=/./,qd=/[12357]/,Yd=/[125]/,Aa=/1/,Mr=(t,e,n,o)=>t.map((s,r)=>e==
 4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function Jd(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,u=r._space,h=l(10,i),p=l(
-9,i)-h>=u?pl:l(7,i)-h>=u?qd:l(5,i)-h>=u?Yd:Aa;if(p==Aa){let m=Ie(l(1,i)-h);if(m<u)return Mr(e.slice().reverse(),a.distr,p,kt(u/m)).reverse()}return Mr(e,a.distr,
+9,i)-h>=u?pl:l(7,i)-h>=u?qd:l(5,i)-h>=u?Yd:Aa;if(p==Aa){let f=Ie(l(1,i)-h);if(f<u)return Mr(e.slice().reverse(),a.distr,p,kt(u/f)).reverse()}return Mr(e,a.distr,
 p,1)}function Zd(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,u=Ie(l(1,i)-l(2,i));return u<a?Mr(e.slice().reverse(),3,pl,kt(a/u)).reverse():e}function Qd(t,e,n,o){
 return o==null?Cr:e==null?"":Rr(e)}var La={show:!0,scale:"y",stroke:_r,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:ul,side:3,grid:Ir,ticks:ll,
 border:cl,font:Or,lineGap:dl,rotate:0};function Xd(t,e){let n=3+(t||1)*2;return be(n*e,3)}function ep(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
@@ -309,75 +309,75 @@ gaps:hl,alpha:1,points:{show:ep,filter:null},values:null,min:ye,max:-ye,idxs:[],
 distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},np=Re({},fl,{time:!1,ori:1}),Fa={};function ml(t,e){let n=Fa[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,u){for(let h=0;h<n.plots.length;h++)n.plots[h]!=s&&n.plots[h].pub(o,s,r,i,a,l,u)}},t!=null&&(Fa[t]=
 n)),n}var no=1,Tr=2;function wn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],u=o==2?r[1]:r[e],h=o==2?i[s.facets[0].scale]:
-i[t.series[0].scale],p=o==2?i[s.facets[1].scale]:i[s.scale],m=a.left,w=a.top,y=a.width,S=a.height,k=t.valToPosH,P=t.valToPosV;return h.ori==0?n(s,l,u,h,p,k,P,m,
-w,y,S,ds,so,hs,yl,wl):n(s,l,u,h,p,P,k,w,m,S,y,ps,ro,Wr,bl,vl)}function Ur(t,e){let n=0,o=0,s=ce(t.bands,Nr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
+i[t.series[0].scale],p=o==2?i[s.facets[1].scale]:i[s.scale],f=a.left,w=a.top,y=a.width,k=a.height,S=t.valToPosH,P=t.valToPosV;return h.ori==0?n(s,l,u,h,p,S,P,f,
+w,y,k,ds,so,hs,yl,wl):n(s,l,u,h,p,P,S,w,f,k,y,ps,ro,Wr,bl,vl)}function Ur(t,e){let n=0,o=0,s=ce(t.bands,Nr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
 e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function op(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
-l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function Ht(t,e,n,o,s,r){return wn(t,e,(i,a,l,u,h,p,m,w,y,S,k)=>{let P=i.pxRound,M=u.
-dir*(u.ori==0?1:-1),_=u.ori==0?so:ro,E,K;M==1?(E=n,K=o):(E=o,K=n);let R=P(p(a[E],u,S,w)),q=P(m(l[E],h,k,y)),V=P(p(a[K],u,S,w)),N=P(m(r==1?h.max:h.min,h,k,y)),G=new Path2D(
-s);return _(G,V,N),_(G,R,N),_(G,R,q),G})}function us(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?hs:Wr,l=n;for(let p=0;p<t.length;p++){let m=t[p];
-if(m[1]>m[0]){let w=m[0]-l;w>0&&a(i,l,o,w,o+r),l=m[1]}}let u=n+s-l,h=10;u>0&&a(i,l,o-h/2,u,o+r+h)}return i}function sp(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
-n:t.push([e,n])}function Gr(t,e,n,o,s,r,i){let a=[],l=t.length;for(let u=s==1?n:o;u>=n&&u<=o;u+=s)if(e[u]===null){let p=u,m=u;if(s==1)for(;++u<=o&&e[u]===null;)
-m=u;else for(;--u>=n&&e[u]===null;)m=u;let w=r(t[p]),y=m==p?w:r(t[m]),S=p-s;w=i<=0&&S>=0&&S<l?r(t[S]):w;let P=m+s;y=i>=0&&P>=0&&P<l?r(t[P]):y,y>=w&&a.push([w,y])}
+l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function Ht(t,e,n,o,s,r){return wn(t,e,(i,a,l,u,h,p,f,w,y,k,S)=>{let P=i.pxRound,M=u.
+dir*(u.ori==0?1:-1),_=u.ori==0?so:ro,E,K;M==1?(E=n,K=o):(E=o,K=n);let R=P(p(a[E],u,k,w)),q=P(f(l[E],h,S,y)),V=P(p(a[K],u,k,w)),N=P(f(r==1?h.max:h.min,h,S,y)),G=new Path2D(
+s);return _(G,V,N),_(G,R,N),_(G,R,q),G})}function us(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?hs:Wr,l=n;for(let p=0;p<t.length;p++){let f=t[p];
+if(f[1]>f[0]){let w=f[0]-l;w>0&&a(i,l,o,w,o+r),l=f[1]}}let u=n+s-l,h=10;u>0&&a(i,l,o-h/2,u,o+r+h)}return i}function sp(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
+n:t.push([e,n])}function Gr(t,e,n,o,s,r,i){let a=[],l=t.length;for(let u=s==1?n:o;u>=n&&u<=o;u+=s)if(e[u]===null){let p=u,f=u;if(s==1)for(;++u<=o&&e[u]===null;)
+f=u;else for(;--u>=n&&e[u]===null;)f=u;let w=r(t[p]),y=f==p?w:r(t[f]),k=p-s;w=i<=0&&k>=0&&k<l?r(t[k]):w;let P=f+s;y=i>=0&&P>=0&&P<l?r(t[P]):y,y>=w&&a.push([w,y])}
 return a}function $a(t){return t==0?ja:t==1?$e:e=>fn(e,t)}function gl(t){let e=t==0?ds:ps,n=t==0?(s,r,i,a,l,u)=>{s.arcTo(r,i,a,l,u)}:(s,r,i,a,l,u)=>{s.arcTo(i,r,
 l,a,u)},o=t==0?(s,r,i,a,l)=>{s.rect(r,i,a,l)}:(s,r,i,a,l)=>{s.rect(i,r,l,a)};return(s,r,i,a,l,u=0,h=0)=>{u==0&&h==0?o(s,r,i,a,l):(u=At(u,a/2,l/2),h=At(h,a/2,l/2),
 e(s,r+u,i),n(s,r+a,i,r+a,i+l,u),n(s,r+a,i+l,r,i+l,h),n(s,r,i+l,r,i,h),n(s,r,i,r+a,i,u),s.closePath())}}var ds=(t,e,n)=>{t.moveTo(e,n)},ps=(t,e,n)=>{t.moveTo(n,e)},
 so=(t,e,n)=>{t.lineTo(e,n)},ro=(t,e,n)=>{t.lineTo(n,e)},hs=gl(0),Wr=gl(1),yl=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},bl=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},wl=(t,e,n,o,s,r,i)=>{
-t.bezierCurveTo(e,n,o,s,r,i)},vl=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function xl(t){return(e,n,o,s,r)=>wn(e,n,(i,a,l,u,h,p,m,w,y,S,k)=>{let{pxRound:P,
+t.bezierCurveTo(e,n,o,s,r,i)},vl=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function xl(t){return(e,n,o,s,r)=>wn(e,n,(i,a,l,u,h,p,f,w,y,k,S)=>{let{pxRound:P,
 points:M}=i,_,E;u.ori==0?(_=ds,E=yl):(_=ps,E=bl);let K=be(M.width*pe,3),R=(M.size-M.width)/2*pe,q=be(R*2,3),V=new Path2D,N=new Path2D,{left:G,top:A,width:Z,height:I}=e.
-bbox;hs(N,G-q,A-q,Z+q*2,I+q*2);let j=W=>{if(l[W]!=null){let Q=P(p(a[W],u,S,w)),z=P(m(l[W],h,k,y));_(V,Q+R,z),E(V,Q,z,R,0,ns*2)}};if(r)r.forEach(j);else for(let W=o;W<=
+bbox;hs(N,G-q,A-q,Z+q*2,I+q*2);let j=W=>{if(l[W]!=null){let Q=P(p(a[W],u,k,w)),z=P(f(l[W],h,S,y));_(V,Q+R,z),E(V,Q,z,R,0,ns*2)}};if(r)r.forEach(j);else for(let W=o;W<=
 s;W++)j(W);return{stroke:K>0?V:null,fill:V,clip:N,flags:no|Tr}})}function kl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var rp=kl(so),ip=kl(ro);function Sl(t){let e=ce(t?.alignGaps,0);return(n,o,s,r)=>wn(n,o,(i,a,l,u,h,p,m,w,y,S,k)=>{[s,r]=is(l,s,r);let P=i.pxRound,M=I=>P(p(I,u,S,
-w)),_=I=>P(m(I,h,k,y)),E,K;u.ori==0?(E=so,K=rp):(E=ro,K=ip);let R=u.dir*(u.ori==0?1:-1),q={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:no},V=q.
-stroke,N=!1;if(r-s>=S*4){let I=H=>n.posToVal(H,u.key,!0),j=null,W=null,Q,z,Je,me=M(a[R==1?s:r]),re=M(a[s]),ue=M(a[r]),ee=I(R==1?re+1:ue-1);for(let H=R==1?s:r;H>=
+var rp=kl(so),ip=kl(ro);function Sl(t){let e=ce(t?.alignGaps,0);return(n,o,s,r)=>wn(n,o,(i,a,l,u,h,p,f,w,y,k,S)=>{[s,r]=is(l,s,r);let P=i.pxRound,M=I=>P(p(I,u,k,
+w)),_=I=>P(f(I,h,S,y)),E,K;u.ori==0?(E=so,K=rp):(E=ro,K=ip);let R=u.dir*(u.ori==0?1:-1),q={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:no},V=q.
+stroke,N=!1;if(r-s>=k*4){let I=H=>n.posToVal(H,u.key,!0),j=null,W=null,Q,z,Je,me=M(a[R==1?s:r]),re=M(a[s]),ue=M(a[r]),ee=I(R==1?re+1:ue-1);for(let H=R==1?s:r;H>=
 s&&H<=r;H+=R){let _e=a[H],ge=(R==1?_e<ee:_e>ee)?me:M(_e),ae=l[H];ge==me?ae!=null?(z=ae,j==null?(E(V,ge,_(z)),Q=j=W=z):z<j?j=z:z>W&&(W=z)):ae===null&&(N=!0):(j!=
 null&&K(V,me,_(j),_(W),_(Q),_(z)),ae!=null?(z=ae,E(V,ge,_(z)),j=W=Q=z):(j=W=null,ae===null&&(N=!0)),me=ge,ee=I(me+R))}j!=null&&j!=W&&Je!=me&&K(V,me,_(j),_(W),_(
 Q),_(z))}else for(let I=R==1?s:r;I>=s&&I<=r;I+=R){let j=l[I];j===null?N=!0:j!=null&&E(V,M(a[I]),_(j))}let[A,Z]=Ur(n,o);if(i.fill!=null||A!=0){let I=q.fill=new Path2D(
 V),j=i.fillTo(n,o,i.min,i.max,A),W=_(j),Q=M(a[s]),z=M(a[r]);R==-1&&([z,Q]=[Q,z]),E(I,z,W),E(I,Q,W)}if(!i.spanGaps){let I=[];N&&I.push(...Gr(a,l,s,r,R,M,e)),q.gaps=
-I=i.gaps(n,o,s,r,I),q.clip=us(I,u.ori,w,y,S,k)}return Z!=0&&(q.band=Z==2?[Ht(n,o,s,r,V,-1),Ht(n,o,s,r,V,1)]:Ht(n,o,s,r,V,Z)),q})}function ap(t){let e=ce(t.align,
-1),n=ce(t.ascDesc,!1),o=ce(t.alignGaps,0),s=ce(t.extend,!1);return(r,i,a,l)=>wn(r,i,(u,h,p,m,w,y,S,k,P,M,_)=>{[a,l]=is(p,a,l);let E=u.pxRound,{left:K,width:R}=r.
-bbox,q=re=>E(y(re,m,M,k)),V=re=>E(S(re,w,_,P)),N=m.ori==0?so:ro,G={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:no},A=G.stroke,Z=m.dir*(m.ori==
+I=i.gaps(n,o,s,r,I),q.clip=us(I,u.ori,w,y,k,S)}return Z!=0&&(q.band=Z==2?[Ht(n,o,s,r,V,-1),Ht(n,o,s,r,V,1)]:Ht(n,o,s,r,V,Z)),q})}function ap(t){let e=ce(t.align,
+1),n=ce(t.ascDesc,!1),o=ce(t.alignGaps,0),s=ce(t.extend,!1);return(r,i,a,l)=>wn(r,i,(u,h,p,f,w,y,k,S,P,M,_)=>{[a,l]=is(p,a,l);let E=u.pxRound,{left:K,width:R}=r.
+bbox,q=re=>E(y(re,f,M,S)),V=re=>E(k(re,w,_,P)),N=f.ori==0?so:ro,G={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:no},A=G.stroke,Z=f.dir*(f.ori==
 0?1:-1),I=V(p[Z==1?a:l]),j=q(h[Z==1?a:l]),W=j,Q=j;s&&e==-1&&(Q=K,N(A,Q,I)),N(A,j,I);for(let re=Z==1?a:l;re>=a&&re<=l;re+=Z){let ue=p[re];if(ue==null)continue;let ee=q(
 h[re]),H=V(ue);e==1?N(A,ee,I):N(A,W,H),N(A,ee,H),I=H,W=ee}let z=W;s&&e==1&&(z=K+R,N(A,z,I));let[Je,me]=Ur(r,i);if(u.fill!=null||Je!=0){let re=G.fill=new Path2D(
 A),ue=u.fillTo(r,i,u.min,u.max,Je),ee=V(ue);N(re,z,ee),N(re,Q,ee)}if(!u.spanGaps){let re=[];re.push(...Gr(h,p,a,l,Z,q,o));let ue=u.width*pe/2,ee=n||e==1?ue:-ue,
-H=n||e==-1?-ue:ue;re.forEach(_e=>{_e[0]+=ee,_e[1]+=H}),G.gaps=re=u.gaps(r,i,a,l,re),G.clip=us(re,m.ori,k,P,M,_)}return me!=0&&(G.band=me==2?[Ht(r,i,a,l,A,-1),Ht(
+H=n||e==-1?-ue:ue;re.forEach(_e=>{_e[0]+=ee,_e[1]+=H}),G.gaps=re=u.gaps(r,i,a,l,re),G.clip=us(re,f.ori,S,P,M,_)}return me!=0&&(G.band=me==2?[Ht(r,i,a,l,A,-1),Ht(
 r,i,a,l,A,1)]:Ht(r,i,a,l,A,me)),G})}function Ia(t,e,n,o,s,r,i=ye){if(t.length>1){let a=null;for(let l=0,u=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let h=Ie(
 t[l]-t[a]);h<u&&(u=h,i=Ie(n(t[l],o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function lp(t){t=t||To;let e=ce(t.size,[.6,ye,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==
-null?[0,0]:typeof s=="number"?[s,0]:s;let r=ie(s),i=1-e[0],a=ce(e[1],ye),l=ce(e[2],1),u=ce(t.disp,To),h=ce(t.each,w=>{}),{fill:p,stroke:m}=u;return(w,y,S,k)=>wn(
+null?[0,0]:typeof s=="number"?[s,0]:s;let r=ie(s),i=1-e[0],a=ce(e[1],ye),l=ce(e[2],1),u=ce(t.disp,To),h=ce(t.each,w=>{}),{fill:p,stroke:f}=u;return(w,y,k,S)=>wn(
 w,y,(P,M,_,E,K,R,q,V,N,G,A)=>{let Z=P.pxRound,I=n,j=o*pe,W=a*pe,Q=l*pe,z,Je;E.ori==0?[z,Je]=r(w,y):[Je,z]=r(w,y);let me=E.dir*(E.ori==0?1:-1),re=E.ori==0?hs:Wr,
 ue=E.ori==0?h:(O,we,Fe,Sn,on,Lt,sn)=>{h(O,we,Fe,on,Sn,sn,Lt)},ee=ce(w.bands,Nr).find(O=>O.series[0]==y),H=ee!=null?ee.dir:0,_e=P.fillTo(w,y,P.min,P.max,H),Ue=Z(
-q(_e,K,A,N)),ge,ae,mt,ot=G,Pe=Z(P.width*pe),it=!1,Y=null,ne=null,Ne=null,Ot=null;p!=null&&(Pe==0||m!=null)&&(it=!0,Y=p.values(w,y,S,k),ne=new Map,new Set(Y).forEach(
-O=>{O!=null&&ne.set(O,new Path2D)}),Pe>0&&(Ne=m.values(w,y,S,k),Ot=new Map,new Set(Ne).forEach(O=>{O!=null&&Ot.set(O,new Path2D)})));let{x0:xn,size:ao}=u;if(xn!=
-null&&ao!=null){I=1,M=xn.values(w,y,S,k),xn.unit==2&&(M=M.map(Fe=>w.posToVal(V+Fe*G,E.key,!0)));let O=ao.values(w,y,S,k);ao.unit==2?ae=O[0]*G:ae=R(O[0],E,G,V)-R(
+q(_e,K,A,N)),ge,ae,mt,ot=G,Pe=Z(P.width*pe),it=!1,Y=null,ne=null,Ne=null,Ot=null;p!=null&&(Pe==0||f!=null)&&(it=!0,Y=p.values(w,y,k,S),ne=new Map,new Set(Y).forEach(
+O=>{O!=null&&ne.set(O,new Path2D)}),Pe>0&&(Ne=f.values(w,y,k,S),Ot=new Map,new Set(Ne).forEach(O=>{O!=null&&Ot.set(O,new Path2D)})));let{x0:xn,size:ao}=u;if(xn!=
+null&&ao!=null){I=1,M=xn.values(w,y,k,S),xn.unit==2&&(M=M.map(Fe=>w.posToVal(V+Fe*G,E.key,!0)));let O=ao.values(w,y,k,S);ao.unit==2?ae=O[0]*G:ae=R(O[0],E,G,V)-R(
 0,E,G,V),ot=Ia(M,_,R,E,G,V,ot),mt=ot-ae+j}else ot=Ia(M,_,R,E,G,V,ot),mt=ot*i+j,ae=ot-mt;mt<1&&(mt=0),Pe>=ae/2&&(Pe=0),mt<5&&(Z=ja);let Eo=mt>0,tn=ot-mt-(Eo?Pe:0);
 ae=Z(kr(tn,Q,W)),ge=(I==0?ae/2:I==me?0:ae)-I*me*((I==0?j/2:0)+(Eo?Pe/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},kn=it?null:new Path2D,
-Ut=null;if(ee!=null)Ut=w.data[ee.series[1]];else{let{y0:O,y1:we}=u;O!=null&&we!=null&&(_=we.values(w,y,S,k),Ut=O.values(w,y,S,k))}let nn=z*ae,te=Je*ae;for(let O=me==
-1?S:k;O>=S&&O<=k;O+=me){let we=_[O];if(we==null)continue;if(Ut!=null){let st=Ut[O]??0;if(we-st==0)continue;Ue=q(st,K,A,N)}let Fe=E.distr!=2||u!=null?M[O]:O,Sn=R(
+Ut=null;if(ee!=null)Ut=w.data[ee.series[1]];else{let{y0:O,y1:we}=u;O!=null&&we!=null&&(_=we.values(w,y,k,S),Ut=O.values(w,y,k,S))}let nn=z*ae,te=Je*ae;for(let O=me==
+1?k:S;O>=k&&O<=S;O+=me){let we=_[O];if(we==null)continue;if(Ut!=null){let st=Ut[O]??0;if(we-st==0)continue;Ue=q(st,K,A,N)}let Fe=E.distr!=2||u!=null?M[O]:O,Sn=R(
 Fe,E,G,V),on=q(ce(we,_e),K,A,N),Lt=Z(Sn-ge),sn=Z(nt(on,Ue)),at=Z(At(on,Ue)),gt=sn-at;if(we!=null){let st=we<0?te:nn,St=we<0?nn:te;it?(Pe>0&&Ne[O]!=null&&re(Ot.get(
 Ne[O]),Lt,at+ht(Pe/2),ae,nt(0,gt-Pe),st,St),Y[O]!=null&&re(ne.get(Y[O]),Lt,at+ht(Pe/2),ae,nt(0,gt-Pe),st,St)):re(kn,Lt,at+ht(Pe/2),ae,nt(0,gt-Pe),st,St),ue(w,y,
 O,Lt-Pe/2,at,ae+Pe,gt)}}return Pe>0?Qe.stroke=it?Ot:kn:it||(Qe._fill=P.width==0?P._fill:P._stroke??P._fill,Qe.width=0),Qe.fill=it?ne:kn,Qe})}function cp(t,e){let n=ce(
-e?.alignGaps,0);return(o,s,r,i)=>wn(o,s,(a,l,u,h,p,m,w,y,S,k,P)=>{[r,i]=is(u,r,i);let M=a.pxRound,_=z=>M(m(z,h,k,y)),E=z=>M(w(z,p,P,S)),K,R,q;h.ori==0?(K=ds,q=so,
+e?.alignGaps,0);return(o,s,r,i)=>wn(o,s,(a,l,u,h,p,f,w,y,k,S,P)=>{[r,i]=is(u,r,i);let M=a.pxRound,_=z=>M(f(z,h,S,y)),E=z=>M(w(z,p,P,k)),K,R,q;h.ori==0?(K=ds,q=so,
 R=wl):(K=ps,q=ro,R=vl);let V=h.dir*(h.ori==0?1:-1),N=_(l[V==1?r:i]),G=N,A=[],Z=[];for(let z=V==1?r:i;z>=r&&z<=i;z+=V)if(u[z]!=null){let me=l[z],re=_(me);A.push(
 G=re),Z.push(E(u[z]))}let I={stroke:t(A,Z,K,q,R,M),fill:null,clip:null,band:null,gaps:null,flags:no},j=I.stroke,[W,Q]=Ur(o,s);if(a.fill!=null||W!=0){let z=I.fill=
 new Path2D(j),Je=a.fillTo(o,s,a.min,a.max,W),me=E(Je);q(z,G,me),q(z,N,me)}if(!a.spanGaps){let z=[];z.push(...Gr(l,u,r,i,V,_,n)),I.gaps=z=a.gaps(o,s,r,i,z),I.clip=
-us(z,h.ori,y,S,k,P)}return Q!=0&&(I.band=Q==2?[Ht(o,s,r,i,j,-1),Ht(o,s,r,i,j,1)]:Ht(o,s,r,i,j,Q)),I})}function up(t){return cp(dp,t)}function dp(t,e,n,o,s,r){let i=t.
-length;if(i<2)return null;let a=new Path2D;if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),u=Array(i-1),h=Array(i-1),p=Array(i-1);for(let m=0;m<i-1;m++)
-h[m]=e[m+1]-e[m],p[m]=t[m+1]-t[m],u[m]=h[m]/p[m];l[0]=u[0];for(let m=1;m<i-1;m++)u[m]===0||u[m-1]===0||u[m-1]>0!=u[m]>0?l[m]=0:(l[m]=3*(p[m-1]+p[m])/((2*p[m]+p[m-
-1])/u[m-1]+(p[m]+2*p[m-1])/u[m]),isFinite(l[m])||(l[m]=0));l[i-1]=u[i-2];for(let m=0;m<i-1;m++)s(a,t[m]+p[m]/3,e[m]+l[m]*p[m]/3,t[m+1]-p[m]/3,e[m+1]-l[m+1]*p[m]/
-3,t[m+1],e[m+1])}return a}var Pr=new Set;function Oa(){for(let t of Pr)t.syncRect(!0)}oo&&(yn(Bu,Qn,Oa),yn(ju,Qn,Oa,!0),yn(os,Qn,()=>{Oe.pxRatio=pe}));var pp=Sl(),
+us(z,h.ori,y,k,S,P)}return Q!=0&&(I.band=Q==2?[Ht(o,s,r,i,j,-1),Ht(o,s,r,i,j,1)]:Ht(o,s,r,i,j,Q)),I})}function up(t){return cp(dp,t)}function dp(t,e,n,o,s,r){let i=t.
+length;if(i<2)return null;let a=new Path2D;if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),u=Array(i-1),h=Array(i-1),p=Array(i-1);for(let f=0;f<i-1;f++)
+h[f]=e[f+1]-e[f],p[f]=t[f+1]-t[f],u[f]=h[f]/p[f];l[0]=u[0];for(let f=1;f<i-1;f++)u[f]===0||u[f-1]===0||u[f-1]>0!=u[f]>0?l[f]=0:(l[f]=3*(p[f-1]+p[f])/((2*p[f]+p[f-
+1])/u[f-1]+(p[f]+2*p[f-1])/u[f]),isFinite(l[f])||(l[f]=0));l[i-1]=u[i-2];for(let f=0;f<i-1;f++)s(a,t[f]+p[f]/3,e[f]+l[f]*p[f]/3,t[f+1]-p[f]/3,e[f+1]-l[f+1]*p[f]/
+3,t[f+1],e[f+1])}return a}var Pr=new Set;function Oa(){for(let t of Pr)t.syncRect(!0)}oo&&(yn(Bu,Qn,Oa),yn(ju,Qn,Oa,!0),yn(os,Qn,()=>{Oe.pxRatio=pe}));var pp=Sl(),
 hp=xl();function Ua(t,e,n,o){return(o?[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Er(r,i,e,n))}function fp(t,e){return t.map((n,o)=>o==
 0?{}:Re({},e,n))}function Er(t,e,n,o){return Re({},e==0?n:o,t)}function Ml(t,e,n){return e==null?eo:[e,n]}var mp=Ml;function gp(t,e,n){return e==null?eo:ss(e,n,
 Dr,!0)}function Tl(t,e,n,o){return e==null?eo:as(e,n,t.scales[o].log,!1)}var yp=Tl;function Pl(t,e,n,o){return e==null?eo:Lr(e,n,t.scales[o].log,!1)}var bp=Pl;function wp(t,e,n,o,s){
 let r=nt(ya(t),ya(e)),i=e-t,a=Ct(s/o*i,n);do{let l=n[a],u=o*l/i;if(u>=s&&r+(l<5?Xt.get(l):0)<=17)return[l,u]}while(++a<n.length);return[0,0]}function Ga(t){let e,
 n;return t=t.replace(/(\d+)px/,(o,s)=>(e=$e((n=+s)*pe))+"px"),[t,e,n]}function vp(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=be(e[2]*pe,1);e[0]=e[0].replace(
-/[0-9.]+px/,n+"px"),e[1]=n})}function Oe(t,e,n){let o={mode:ce(t.mode,1)},s=o.mode;function r(c,d,f,g){let b=d.valToPct(c);return g+f*(d.dir==-1?1-b:b)}function i(c,d,f,g){
-let b=d.valToPct(c);return g+f*(d.dir==-1?b:1-b)}function a(c,d,f,g){return d.ori==0?r(c,d,f,g):i(c,d,f,g)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let u=o.
-root=xt(Eu);if(t.id!=null&&(u.id=t.id),pt(u,t.class),t.title){let c=xt(Au,u);c.textContent=t.title}let h=_t("canvas"),p=o.ctx=h.getContext("2d"),m=xt(Lu,u);yn("\
-click",m,c=>{c.target===y&&(ve!=Nn||Ee!=Fn)&&qe.click(o,c)},!0);let w=o.under=xt(Du,m);m.appendChild(h);let y=o.over=xt(Ru,m);t=to(t);let S=+ce(t.pxAlign,1),k=$a(
-S);(t.plugins||[]).forEach(c=>{c.opts&&(t=c.opts(o,t)||t)});let P=t.ms||.001,M=o.series=s==1?Ua(t.series||[],Ca,Na,!1):fp(t.series||[null],Ra),_=o.axes=Ua(t.axes||
+/[0-9.]+px/,n+"px"),e[1]=n})}function Oe(t,e,n){let o={mode:ce(t.mode,1)},s=o.mode;function r(c,d,m,g){let b=d.valToPct(c);return g+m*(d.dir==-1?1-b:b)}function i(c,d,m,g){
+let b=d.valToPct(c);return g+m*(d.dir==-1?b:1-b)}function a(c,d,m,g){return d.ori==0?r(c,d,m,g):i(c,d,m,g)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let u=o.
+root=xt(Eu);if(t.id!=null&&(u.id=t.id),pt(u,t.class),t.title){let c=xt(Au,u);c.textContent=t.title}let h=_t("canvas"),p=o.ctx=h.getContext("2d"),f=xt(Lu,u);yn("\
+click",f,c=>{c.target===y&&(ve!=Nn||Ee!=Fn)&&qe.click(o,c)},!0);let w=o.under=xt(Du,f);f.appendChild(h);let y=o.over=xt(Ru,f);t=to(t);let k=+ce(t.pxAlign,1),S=$a(
+k);(t.plugins||[]).forEach(c=>{c.opts&&(t=c.opts(o,t)||t)});let P=t.ms||.001,M=o.series=s==1?Ua(t.series||[],Ca,Na,!1):fp(t.series||[null],Ra),_=o.axes=Ua(t.axes||
 [],_a,La,!0),E=o.scales={},K=o.bands=t.bands||[];K.forEach(c=>{c.fill=ie(c.fill||null),c.dir=ce(c.dir,-1)});let R=s==2?M[1].facets[0].scale:M[0].scale,q={axes:Ic,
-series:Dc},V=(t.drawOrder||["axes","series"]).map(c=>q[c]);function N(c){let d=c.distr==3?f=>zt(f>0?f:c.clamp(o,f,c.min,c.max,c.key)):c.distr==4?f=>fr(f,c.asinh):
-c.distr==100?f=>c.fwd(f):f=>f;return f=>{let g=d(f),{_min:b,_max:v}=c,T=v-b;return(g-b)/T}}function G(c){let d=E[c];if(d==null){let f=(t.scales||To)[c]||To;if(f.
-from!=null){G(f.from);let g=Re({},E[f.from],f,{key:c});g.valToPct=N(g),E[c]=g}else{d=E[c]=Re({},c==R?fl:np,f),d.key=c;let g=d.time,b=d.range,v=Qt(b);if((c!=R||s==
+series:Dc},V=(t.drawOrder||["axes","series"]).map(c=>q[c]);function N(c){let d=c.distr==3?m=>zt(m>0?m:c.clamp(o,m,c.min,c.max,c.key)):c.distr==4?m=>fr(m,c.asinh):
+c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=d(m),{_min:b,_max:v}=c,T=v-b;return(g-b)/T}}function G(c){let d=E[c];if(d==null){let m=(t.scales||To)[c]||To;if(m.
+from!=null){G(m.from);let g=Re({},E[m.from],m,{key:c});g.valToPct=N(g),E[c]=g}else{d=E[c]=Re({},c==R?fl:np,m),d.key=c;let g=d.time,b=d.range,v=Qt(b);if((c!=R||s==
 2&&!g)&&(v&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?fa:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?fa:{mode:1,hard:b[1],soft:b[1]}},v=!1),!v&&cs(b))){let T=b;
 b=(C,D,F)=>D==null?eo:ss(D,F,T)}d.range=ie(b||(g?mp:c==R?d.distr==3?yp:d.distr==4?bp:Ml:d.distr==3?Tl:d.distr==4?Pl:gp)),d.auto=ie(v?!1:d.auto),d.clamp=ie(d.clamp||
 tp),d._min=d._max=null,d.valToPct=N(d)}}}G("x"),G("y"),s==1&&M.forEach(c=>{G(c.scale)}),_.forEach(c=>{G(c.scale)});for(let c in t.scales)G(c);let A=E[R],Z=A.distr,
@@ -386,49 +386,49 @@ let Q=t.tzDate||(c=>new Date($e(c/P))),z=t.fmtDate||Fr,Je=P==1?_d(Q):Ld(Q),me=Ta
 cursor=Re({},zd,{drag:{y:s==2}},t.cursor),_e=ee.show,Ue=H.show,ge=ee.markers;ee.idxs=ue,ge.width=ie(ge.width),ge.dash=ie(ge.dash),ge.stroke=ie(ge.stroke),ge.fill=
 ie(ge.fill);let ae,mt,ot,Pe=[],it=[],Y,ne=!1,Ne={};if(ee.live){let c=M[1]?M[1].values:null;ne=c!=null,Y=ne?c(o,1,0):{_:0};for(let d in Y)Ne[d]=Cr}if(_e)if(ae=_t(
 "table",Uu,u),ot=_t("tbody",null,ae),ee.mount(o,ae),ne){mt=_t("thead",null,ae,ot);let c=_t("tr",null,mt);_t("th",null,c);for(var Ot in Y)_t("th",ta,c).textContent=
-Ot}else pt(ae,Wu),ee.live&&pt(ae,Gu);let xn={show:!0},ao={show:!1};function Eo(c,d){if(d==0&&(ne||!ee.live||s==2))return eo;let f=[],g=_t("tr",zu,ot,ot.childNodes[d]);
+Ot}else pt(ae,Wu),ee.live&&pt(ae,Gu);let xn={show:!0},ao={show:!1};function Eo(c,d){if(d==0&&(ne||!ee.live||s==2))return eo;let m=[],g=_t("tr",zu,ot,ot.childNodes[d]);
 pt(g,c.class),c.show||pt(g,gn);let b=_t("th",null,g);if(ge.show){let C=xt(Hu,b);if(d>0){let D=ge.width(o,d);D&&(C.style.border=D+"px "+ge.dash(o,d)+" "+ge.stroke(
 o,d)),C.style.background=ge.fill(o,d)}}let v=xt(ta,b);c.label instanceof HTMLElement?v.appendChild(c.label):v.textContent=c.label,d>0&&(ge.show||(v.style.color=
 c.width>0?ge.stroke(o,d):ge.fill(o,d)),Qe("click",b,C=>{if(H._lock)return;an(C);let D=M.indexOf(c);if((C.ctrlKey||C.metaKey)!=ee.isolate){let F=M.some(($,U)=>U>
 0&&U!=D&&$.show);M.forEach(($,U)=>{U>0&&Rt(U,F?U==D?xn:ao:xn,!0,Le.setSeries)})}else Rt(D,{show:!c.show},!0,Le.setSeries)},!1),Tn&&Qe(ra,b,C=>{H._lock||(an(C),Rt(
-M.indexOf(c),In,!0,Le.setSeries))},!1));for(var T in Y){let C=_t("td",Vu,g);C.textContent="--",f.push(C)}return[g,f]}let tn=new Map;function Qe(c,d,f,g=!0){let b=tn.
-get(d)||{},v=H.bind[c](o,d,f,g);v&&(yn(c,d,b[c]=v),tn.set(d,b))}function kn(c,d,f){let g=tn.get(d)||{};for(let b in g)(c==null||b==c)&&(xr(b,d,g[b]),delete g[b]);
-c==null&&tn.delete(d)}let Ut=0,nn=0,te=0,O=0,we=0,Fe=0,Sn=we,on=Fe,Lt=te,sn=O,at=0,gt=0,st=0,St=0;o.bbox={};let Ds=!1,_o=!1,Mn=!1,rn=!1,Co=!1,yt=!1;function Rs(c,d,f){
-(f||c!=o.width||d!=o.height)&&Jr(c,d),An(!1),Mn=!0,_o=!0,Ln()}function Jr(c,d){o.width=Ut=te=c,o.height=nn=O=d,we=Fe=0,Tc(),Pc();let f=o.bbox;at=f.left=fn(we*pe,
-.5),gt=f.top=fn(Fe*pe,.5),st=f.width=fn(te*pe,.5),St=f.height=fn(O*pe,.5)}let kc=3;function Sc(){let c=!1,d=0;for(;!c;){d++;let f=Fc(d),g=$c(d);c=d==kc||f&&g,c||
-(Jr(o.width,o.height),_o=!0)}}function Mc({width:c,height:d}){Rs(c,d)}o.setSize=Mc;function Tc(){let c=!1,d=!1,f=!1,g=!1;_.forEach((b,v)=>{if(b.show&&b._show){let{
-side:T,_size:C}=b,D=T%2,F=b.label!=null?b.labelSize:0,$=C+F;$>0&&(D?(te-=$,T==3?(we+=$,g=!0):f=!0):(O-=$,T==0?(Fe+=$,c=!0):d=!0))}}),ln[0]=c,ln[1]=f,ln[2]=d,ln[3]=
-g,te-=Vt[1]+Vt[3],we+=Vt[3],O-=Vt[2]+Vt[0],Fe+=Vt[0]}function Pc(){let c=we+te,d=Fe+O,f=we,g=Fe;function b(v,T){switch(v){case 1:return c+=T,c-T;case 2:return d+=
-T,d-T;case 3:return f-=T,f+T;case 0:return g-=T,g+T}}_.forEach((v,T)=>{if(v.show&&v._show){let C=v.side;v._pos=b(C,v._size),v.label!=null&&(v._lpos=b(C,v.labelSize))}})}
-if(H.dataIdx==null){let c=H.hover,d=c.skip=new Set(c.skip??[]);d.add(void 0);let f=c.prox=ie(c.prox),g=c.bias??=0;H.dataIdx=(b,v,T,C)=>{if(v==0)return T;let D=T,
-F=f(b,v,T,C)??ye,$=F>=0&&F<ye,U=A.ori==0?te:O,X=H.left,de=e[0],le=e[v];if(d.has(le[T])){D=null;let oe=null,J=null,B;if(g==0||g==-1)for(B=T;oe==null&&B-- >0;)d.has(
+M.indexOf(c),In,!0,Le.setSeries))},!1));for(var T in Y){let C=_t("td",Vu,g);C.textContent="--",m.push(C)}return[g,m]}let tn=new Map;function Qe(c,d,m,g=!0){let b=tn.
+get(d)||{},v=H.bind[c](o,d,m,g);v&&(yn(c,d,b[c]=v),tn.set(d,b))}function kn(c,d,m){let g=tn.get(d)||{};for(let b in g)(c==null||b==c)&&(xr(b,d,g[b]),delete g[b]);
+c==null&&tn.delete(d)}let Ut=0,nn=0,te=0,O=0,we=0,Fe=0,Sn=we,on=Fe,Lt=te,sn=O,at=0,gt=0,st=0,St=0;o.bbox={};let Ds=!1,_o=!1,Mn=!1,rn=!1,Co=!1,yt=!1;function Rs(c,d,m){
+(m||c!=o.width||d!=o.height)&&Jr(c,d),An(!1),Mn=!0,_o=!0,Ln()}function Jr(c,d){o.width=Ut=te=c,o.height=nn=O=d,we=Fe=0,Tc(),Pc();let m=o.bbox;at=m.left=fn(we*pe,
+.5),gt=m.top=fn(Fe*pe,.5),st=m.width=fn(te*pe,.5),St=m.height=fn(O*pe,.5)}let kc=3;function Sc(){let c=!1,d=0;for(;!c;){d++;let m=Fc(d),g=$c(d);c=d==kc||m&&g,c||
+(Jr(o.width,o.height),_o=!0)}}function Mc({width:c,height:d}){Rs(c,d)}o.setSize=Mc;function Tc(){let c=!1,d=!1,m=!1,g=!1;_.forEach((b,v)=>{if(b.show&&b._show){let{
+side:T,_size:C}=b,D=T%2,F=b.label!=null?b.labelSize:0,$=C+F;$>0&&(D?(te-=$,T==3?(we+=$,g=!0):m=!0):(O-=$,T==0?(Fe+=$,c=!0):d=!0))}}),ln[0]=c,ln[1]=m,ln[2]=d,ln[3]=
+g,te-=Vt[1]+Vt[3],we+=Vt[3],O-=Vt[2]+Vt[0],Fe+=Vt[0]}function Pc(){let c=we+te,d=Fe+O,m=we,g=Fe;function b(v,T){switch(v){case 1:return c+=T,c-T;case 2:return d+=
+T,d-T;case 3:return m-=T,m+T;case 0:return g-=T,g+T}}_.forEach((v,T)=>{if(v.show&&v._show){let C=v.side;v._pos=b(C,v._size),v.label!=null&&(v._lpos=b(C,v.labelSize))}})}
+if(H.dataIdx==null){let c=H.hover,d=c.skip=new Set(c.skip??[]);d.add(void 0);let m=c.prox=ie(c.prox),g=c.bias??=0;H.dataIdx=(b,v,T,C)=>{if(v==0)return T;let D=T,
+F=m(b,v,T,C)??ye,$=F>=0&&F<ye,U=A.ori==0?te:O,X=H.left,de=e[0],le=e[v];if(d.has(le[T])){D=null;let oe=null,J=null,B;if(g==0||g==-1)for(B=T;oe==null&&B-- >0;)d.has(
 le[B])||(oe=B);if(g==0||g==1)for(B=T;J==null&&B++<le.length;)d.has(le[B])||(J=B);if(oe!=null||J!=null)if($){let ke=oe==null?-1/0:I(de[oe],A,U,0),Ce=J==null?1/0:
 I(de[J],A,U,0),Be=X-ke,fe=Ce-X;Be<=fe?Be<=F&&(D=oe):fe<=F&&(D=J)}else D=J==null?oe:oe==null?J:T-oe<=J-T?oe:J}else $&&Ie(X-I(de[T],A,U,0))>F&&(D=null);return D}}
 let an=c=>{H.event=c};H.idxs=ue,H._lock=!1;let Ze=H.points;Ze.show=ie(Ze.show),Ze.size=ie(Ze.size),Ze.stroke=ie(Ze.stroke),Ze.width=ie(Ze.width),Ze.fill=ie(Ze.fill);
-let Dt=o.focus=Re({},t.focus||{alpha:.3},H.focus),Tn=Dt.prox>=0,Pn=Tn&&Ze.one,bt=[],En=[],_n=[];function Zr(c,d){let f=Ze.show(o,d);if(f instanceof HTMLElement)
-return pt(f,Ou),pt(f,c.class),It(f,-10,-10,te,O),y.insertBefore(f,bt[d]),f}function Qr(c,d){if(s==1||d>0){let f=s==1&&E[c.scale].time,g=c.value;c.value=f?va(g)?
-Ea(Q,Pa(g,z)):g||re:g||Qd,c.label=c.label||(f?Vd:Hd)}if(Pn||d>0){c.width=c.width==null?1:c.width,c.paths=c.paths||pp||nd,c.fillTo=ie(c.fillTo||op),c.pxAlign=+ce(
-c.pxAlign,S),c.pxRound=$a(c.pxAlign),c.stroke=ie(c.stroke||null),c.fill=ie(c.fill||null),c._stroke=c._fill=c._paths=c._focus=null;let f=Xd(nt(1,c.width),1),g=c.
-points=Re({},{size:f,width:nt(1,f*.2),stroke:c.stroke,space:f*2,paths:hp,_stroke:null,_fill:null},c.points);g.show=ie(g.show),g.filter=ie(g.filter),g.fill=ie(g.
-fill),g.stroke=ie(g.stroke),g.paths=ie(g.paths),g.pxAlign=c.pxAlign}if(_e){let f=Eo(c,d);Pe.splice(d,0,f[0]),it.splice(d,0,f[1]),ee.values.push(null)}if(Ue){ue.
-splice(d,0,null);let f=null;Pn?d==0&&(f=Zr(c,d)):d>0&&(f=Zr(c,d)),bt.splice(d,0,f),En.splice(d,0,0),_n.splice(d,0,0)}Ve("addSeries",d)}function Ec(c,d){d=d??M.length,
+let Dt=o.focus=Re({},t.focus||{alpha:.3},H.focus),Tn=Dt.prox>=0,Pn=Tn&&Ze.one,bt=[],En=[],_n=[];function Zr(c,d){let m=Ze.show(o,d);if(m instanceof HTMLElement)
+return pt(m,Ou),pt(m,c.class),It(m,-10,-10,te,O),y.insertBefore(m,bt[d]),m}function Qr(c,d){if(s==1||d>0){let m=s==1&&E[c.scale].time,g=c.value;c.value=m?va(g)?
+Ea(Q,Pa(g,z)):g||re:g||Qd,c.label=c.label||(m?Vd:Hd)}if(Pn||d>0){c.width=c.width==null?1:c.width,c.paths=c.paths||pp||nd,c.fillTo=ie(c.fillTo||op),c.pxAlign=+ce(
+c.pxAlign,k),c.pxRound=$a(c.pxAlign),c.stroke=ie(c.stroke||null),c.fill=ie(c.fill||null),c._stroke=c._fill=c._paths=c._focus=null;let m=Xd(nt(1,c.width),1),g=c.
+points=Re({},{size:m,width:nt(1,m*.2),stroke:c.stroke,space:m*2,paths:hp,_stroke:null,_fill:null},c.points);g.show=ie(g.show),g.filter=ie(g.filter),g.fill=ie(g.
+fill),g.stroke=ie(g.stroke),g.paths=ie(g.paths),g.pxAlign=c.pxAlign}if(_e){let m=Eo(c,d);Pe.splice(d,0,m[0]),it.splice(d,0,m[1]),ee.values.push(null)}if(Ue){ue.
+splice(d,0,null);let m=null;Pn?d==0&&(m=Zr(c,d)):d>0&&(m=Zr(c,d)),bt.splice(d,0,m),En.splice(d,0,0),_n.splice(d,0,0)}Ve("addSeries",d)}function Ec(c,d){d=d??M.length,
 c=s==1?Er(c,d,Ca,Na):Er(c,d,{},Ra),M.splice(d,0,c),Qr(M[d],d)}o.addSeries=Ec;function _c(c){if(M.splice(c,1),_e){ee.values.splice(c,1),it.splice(c,1);let d=Pe.splice(
 c,1)[0];kn(null,d.firstChild),d.remove()}Ue&&(ue.splice(c,1),bt.splice(c,1)[0].remove(),En.splice(c,1),_n.splice(c,1)),Ve("delSeries",c)}o.delSeries=_c;let ln=[
-!1,!1,!1,!1];function Cc(c,d){if(c._show=c.show,c.show){let f=c.side%2,g=E[c.scale];g==null&&(c.scale=f?M[1].scale:R,g=E[c.scale]);let b=g.time;c.size=ie(c.size),
+!1,!1,!1,!1];function Cc(c,d){if(c._show=c.show,c.show){let m=c.side%2,g=E[c.scale];g==null&&(c.scale=m?M[1].scale:R,g=E[c.scale]);let b=g.time;c.size=ie(c.size),
 c.space=ie(c.space),c.rotate=ie(c.rotate),Qt(c.incrs)&&c.incrs.forEach(T=>{!Xt.has(T)&&Xt.set(T,Ya(T))}),c.incrs=ie(c.incrs||(g.distr==2?Md:b?P==1?Pd:Cd:mn)),c.
 splits=ie(c.splits||(b&&g.distr==1?Je:g.distr==3?Sr:g.distr==4?Kd:jd)),c.stroke=ie(c.stroke),c.grid.stroke=ie(c.grid.stroke),c.ticks.stroke=ie(c.ticks.stroke),c.
 border.stroke=ie(c.border.stroke);let v=c.values;c.values=Qt(v)&&!Qt(v[0])?ie(v):b?Qt(v)?Ta(Q,Ma(v,z)):va(v)?Dd(Q,v):v||me:v||Bd,c.filter=ie(c.filter||(g.distr>=
 3&&g.log==10?Jd:g.distr==3&&g.log==2?Zd:Ka)),c.font=Ga(c.font),c.labelFont=Ga(c.labelFont),c._size=c.size(o,null,d,0),c._space=c._rotate=c._incrs=c._found=c._splits=
-c._values=null,c._size>0&&(ln[d]=!0,c._el=xt(Nu,m))}}function lo(c,d,f,g){let[b,v,T,C]=f,D=d%2,F=0;return D==0&&(C||v)&&(F=d==0&&!b||d==2&&!T?$e(_a.size/3):0),D==
+c._values=null,c._size>0&&(ln[d]=!0,c._el=xt(Nu,f))}}function lo(c,d,m,g){let[b,v,T,C]=m,D=d%2,F=0;return D==0&&(C||v)&&(F=d==0&&!b||d==2&&!T?$e(_a.size/3):0),D==
 1&&(b||T)&&(F=d==1&&!v||d==3&&!C?$e(La.size/2):0),F}let Xr=o.padding=(t.padding||[lo,lo,lo,lo]).map(c=>ie(ce(c,lo))),Vt=o._padding=Xr.map((c,d)=>c(o,d,ln,0)),Ke,
-Ge=null,We=null,Ao=s==1?M[0].idxs:null,Mt=null,co=!1;function ei(c,d){if(e=c??[],o.data=o._data=e,s==2){Ke=0;for(let f=1;f<M.length;f++)Ke+=e[f][0].length}else{
-e.length==0&&(o.data=o._data=e=[[]]),Mt=e[0],Ke=Mt.length;let f=e;if(Z==2){f=e.slice();let g=f[0]=Array(Ke);for(let b=0;b<Ke;b++)g[b]=b}o._data=e=f}if(An(!0),Ve(
-"setData"),Z==2&&(Mn=!0),d!==!1){let f=A;f.auto(o,co)?Ns():jt(R,f.min,f.max),rn=rn||H.left>=0,yt=!0,Ln()}}o.setData=ei;function Ns(){co=!0;let c,d;s==1&&(Ke>0?(Ge=
+Ge=null,We=null,Ao=s==1?M[0].idxs:null,Mt=null,co=!1;function ei(c,d){if(e=c??[],o.data=o._data=e,s==2){Ke=0;for(let m=1;m<M.length;m++)Ke+=e[m][0].length}else{
+e.length==0&&(o.data=o._data=e=[[]]),Mt=e[0],Ke=Mt.length;let m=e;if(Z==2){m=e.slice();let g=m[0]=Array(Ke);for(let b=0;b<Ke;b++)g[b]=b}o._data=e=m}if(An(!0),Ve(
+"setData"),Z==2&&(Mn=!0),d!==!1){let m=A;m.auto(o,co)?Ns():jt(R,m.min,m.max),rn=rn||H.left>=0,yt=!0,Ln()}}o.setData=ei;function Ns(){co=!0;let c,d;s==1&&(Ke>0?(Ge=
 Ao[0]=0,We=Ao[1]=Ke-1,c=e[0][Ge],d=e[0][We],Z==2?(c=Ge,d=We):c==d&&(Z==3?[c,d]=as(c,c,A.log,!1):Z==4?[c,d]=Lr(c,c,A.log,!1):A.time?d=c+$e(86400/P):[c,d]=ss(c,d,
-Dr,!0))):(Ge=Ao[0]=c=null,We=Ao[1]=d=null)),jt(R,c,d)}let Lo,Cn,Fs,$s,Is,Os,Us,Gs,Ws,rt;function ti(c,d,f,g,b,v){c??=oa,f??=Nr,g??="butt",b??=oa,v??="round",c!=
-Lo&&(p.strokeStyle=Lo=c),b!=Cn&&(p.fillStyle=Cn=b),d!=Fs&&(p.lineWidth=Fs=d),v!=Is&&(p.lineJoin=Is=v),g!=Os&&(p.lineCap=Os=g),f!=$s&&p.setLineDash($s=f)}function ni(c,d,f,g){
-d!=Cn&&(p.fillStyle=Cn=d),c!=Us&&(p.font=Us=c),f!=Gs&&(p.textAlign=Gs=f),g!=Ws&&(p.textBaseline=Ws=g)}function zs(c,d,f,g,b=0){if(g.length>0&&c.auto(o,co)&&(d==
-null||d.min==null)){let v=ce(Ge,0),T=ce(We,g.length-1),C=f.min==null?Ju(g,v,T,b,c.distr==3):[f.min,f.max];c.min=At(c.min,f.min=C[0]),c.max=nt(c.max,f.max=C[1])}}
+Dr,!0))):(Ge=Ao[0]=c=null,We=Ao[1]=d=null)),jt(R,c,d)}let Lo,Cn,Fs,$s,Is,Os,Us,Gs,Ws,rt;function ti(c,d,m,g,b,v){c??=oa,m??=Nr,g??="butt",b??=oa,v??="round",c!=
+Lo&&(p.strokeStyle=Lo=c),b!=Cn&&(p.fillStyle=Cn=b),d!=Fs&&(p.lineWidth=Fs=d),v!=Is&&(p.lineJoin=Is=v),g!=Os&&(p.lineCap=Os=g),m!=$s&&p.setLineDash($s=m)}function ni(c,d,m,g){
+d!=Cn&&(p.fillStyle=Cn=d),c!=Us&&(p.font=Us=c),m!=Gs&&(p.textAlign=Gs=m),g!=Ws&&(p.textBaseline=Ws=g)}function zs(c,d,m,g,b=0){if(g.length>0&&c.auto(o,co)&&(d==
+null||d.min==null)){let v=ce(Ge,0),T=ce(We,g.length-1),C=m.min==null?Ju(g,v,T,b,c.distr==3):[m.min,m.max];c.min=At(c.min,m.min=C[0]),c.max=nt(c.max,m.max=C[1])}}
 let oi={min:null,max:null};function Ac(){for(let g in E){let b=E[g];W[g]==null&&(b.min==null||W[R]!=null&&b.auto(o,co))&&(W[g]=oi)}for(let g in E){let b=E[g];W[g]==
 null&&b.from!=null&&W[b.from]!=null&&(W[g]=oi)}W[R]!=null&&An(!0);let c={};for(let g in W){let b=W[g];if(b!=null){let v=c[g]=to(E[g],rd);if(b.min!=null)Re(v,b);else if(g!=
 R||s==2)if(Ke==0&&v.from==null){let T=v.range(o,null,null,g);v.min=T[0],v.max=T[1]}else v.min=ye,v.max=-ye}}if(Ke>0){M.forEach((g,b)=>{if(s==1){let v=g.scale,T=W[v];
@@ -436,68 +436,68 @@ if(T==null)return;let C=c[v];if(b==0){let D=C.range(o,C.min,C.max,v);C.min=D[0],
 C.max&&We--),g.min=Mt[Ge],g.max=Mt[We]}else g.show&&g.auto&&zs(C,T,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[v,T]=g.facets,C=v.
 scale,D=T.scale,[F,$]=e[b],U=c[C],X=c[D];U!=null&&zs(U,W[C],v,F,v.sorted),X!=null&&zs(X,W[D],T,$,T.sorted),g.min=T.min,g.max=T.max}});for(let g in c){let b=c[g],
 v=W[g];if(b.from==null&&(v==null||v.min==null)){let T=b.range(o,b.min==ye?null:b.min,b.max==-ye?null:b.max,g);b.min=T[0],b.max=T[1]}}}for(let g in c){let b=c[g];
-if(b.from!=null){let v=c[b.from];if(v.min==null)b.min=b.max=null;else{let T=b.range(o,v.min,v.max,g);b.min=T[0],b.max=T[1]}}}let d={},f=!1;for(let g in c){let b=c[g],
+if(b.from!=null){let v=c[b.from];if(v.min==null)b.min=b.max=null;else{let T=b.range(o,v.min,v.max,g);b.min=T[0],b.max=T[1]}}}let d={},m=!1;for(let g in c){let b=c[g],
 v=E[g];if(v.min!=b.min||v.max!=b.max){v.min=b.min,v.max=b.max;let T=v.distr;v._min=T==3?zt(v.min):T==4?fr(v.min,v.asinh):T==100?v.fwd(v.min):v.min,v._max=T==3?zt(
-v.max):T==4?fr(v.max,v.asinh):T==100?v.fwd(v.max):v.max,d[g]=f=!0}}if(f){M.forEach((g,b)=>{s==2?b>0&&d.y&&(g._paths=null):d[g.scale]&&(g._paths=null)});for(let g in d)
-Mn=!0,Ve("setScale",g);Ue&&H.left>=0&&(rn=yt=!0)}for(let g in W)W[g]=null}function Lc(c){let d=kr(Ge-1,0,Ke-1),f=kr(We+1,0,Ke-1);for(;c[d]==null&&d>0;)d--;for(;c[f]==
-null&&f<Ke-1;)f++;return[d,f]}function Dc(){if(Ke>0){let c=M.some(d=>d._focus)&&rt!=Dt.alpha;c&&(p.globalAlpha=rt=Dt.alpha),M.forEach((d,f)=>{if(f>0&&d.show&&(si(
-f,!1),si(f,!0),d._paths==null)){let g=rt;rt!=d.alpha&&(p.globalAlpha=rt=d.alpha);let b=s==2?[0,e[f][0].length-1]:Lc(e[f]);d._paths=d.paths(o,f,b[0],b[1]),rt!=g&&
-(p.globalAlpha=rt=g)}}),M.forEach((d,f)=>{if(f>0&&d.show){let g=rt;rt!=d.alpha&&(p.globalAlpha=rt=d.alpha),d._paths!=null&&ri(f,!1);{let b=d._paths!=null?d._paths.
-gaps:null,v=d.points.show(o,f,Ge,We,b),T=d.points.filter(o,f,v,b);(v||T)&&(d.points._paths=d.points.paths(o,f,Ge,We,T),ri(f,!0))}rt!=g&&(p.globalAlpha=rt=g),Ve(
-"drawSeries",f)}}),c&&(p.globalAlpha=rt=1)}}function si(c,d){let f=d?M[c].points:M[c];f._stroke=f.stroke(o,c),f._fill=f.fill(o,c)}function ri(c,d){let f=d?M[c].
-points:M[c],{stroke:g,fill:b,clip:v,flags:T,_stroke:C=f._stroke,_fill:D=f._fill,_width:F=f.width}=f._paths;F=be(F*pe,3);let $=null,U=F%2/2;d&&D==null&&(D=F>0?"#\
-fff":C);let X=f.pxAlign==1&&U>0;if(X&&p.translate(U,U),!d){let de=at-F/2,le=gt-F/2,oe=st+F,J=St+F;$=new Path2D,$.rect(de,le,oe,J)}d?Hs(C,F,f.dash,f.cap,D,g,b,T,
-v):Rc(c,C,F,f.dash,f.cap,D,g,b,T,$,v),X&&p.translate(-U,-U)}function Rc(c,d,f,g,b,v,T,C,D,F,$){let U=!1;D!=0&&K.forEach((X,de)=>{if(X.series[0]==c){let le=M[X.series[1]],
+v.max):T==4?fr(v.max,v.asinh):T==100?v.fwd(v.max):v.max,d[g]=m=!0}}if(m){M.forEach((g,b)=>{s==2?b>0&&d.y&&(g._paths=null):d[g.scale]&&(g._paths=null)});for(let g in d)
+Mn=!0,Ve("setScale",g);Ue&&H.left>=0&&(rn=yt=!0)}for(let g in W)W[g]=null}function Lc(c){let d=kr(Ge-1,0,Ke-1),m=kr(We+1,0,Ke-1);for(;c[d]==null&&d>0;)d--;for(;c[m]==
+null&&m<Ke-1;)m++;return[d,m]}function Dc(){if(Ke>0){let c=M.some(d=>d._focus)&&rt!=Dt.alpha;c&&(p.globalAlpha=rt=Dt.alpha),M.forEach((d,m)=>{if(m>0&&d.show&&(si(
+m,!1),si(m,!0),d._paths==null)){let g=rt;rt!=d.alpha&&(p.globalAlpha=rt=d.alpha);let b=s==2?[0,e[m][0].length-1]:Lc(e[m]);d._paths=d.paths(o,m,b[0],b[1]),rt!=g&&
+(p.globalAlpha=rt=g)}}),M.forEach((d,m)=>{if(m>0&&d.show){let g=rt;rt!=d.alpha&&(p.globalAlpha=rt=d.alpha),d._paths!=null&&ri(m,!1);{let b=d._paths!=null?d._paths.
+gaps:null,v=d.points.show(o,m,Ge,We,b),T=d.points.filter(o,m,v,b);(v||T)&&(d.points._paths=d.points.paths(o,m,Ge,We,T),ri(m,!0))}rt!=g&&(p.globalAlpha=rt=g),Ve(
+"drawSeries",m)}}),c&&(p.globalAlpha=rt=1)}}function si(c,d){let m=d?M[c].points:M[c];m._stroke=m.stroke(o,c),m._fill=m.fill(o,c)}function ri(c,d){let m=d?M[c].
+points:M[c],{stroke:g,fill:b,clip:v,flags:T,_stroke:C=m._stroke,_fill:D=m._fill,_width:F=m.width}=m._paths;F=be(F*pe,3);let $=null,U=F%2/2;d&&D==null&&(D=F>0?"#\
+fff":C);let X=m.pxAlign==1&&U>0;if(X&&p.translate(U,U),!d){let de=at-F/2,le=gt-F/2,oe=st+F,J=St+F;$=new Path2D,$.rect(de,le,oe,J)}d?Hs(C,F,m.dash,m.cap,D,g,b,T,
+v):Rc(c,C,F,m.dash,m.cap,D,g,b,T,$,v),X&&p.translate(-U,-U)}function Rc(c,d,m,g,b,v,T,C,D,F,$){let U=!1;D!=0&&K.forEach((X,de)=>{if(X.series[0]==c){let le=M[X.series[1]],
 oe=e[X.series[1]],J=(le._paths||To).band;Qt(J)&&(J=X.dir==1?J[0]:J[1]);let B,ke=null;le.show&&J&&Qu(oe,Ge,We)?(ke=X.fill(o,de)||v,B=le._paths.clip):J=null,Hs(d,
-f,g,b,ke,T,C,D,F,$,B,J),U=!0}}),U||Hs(d,f,g,b,v,T,C,D,F,$)}let ii=no|Tr;function Hs(c,d,f,g,b,v,T,C,D,F,$,U){ti(c,d,f,g,b),(D||F||U)&&(p.save(),D&&p.clip(D),F&&
+m,g,b,ke,T,C,D,F,$,B,J),U=!0}}),U||Hs(d,m,g,b,v,T,C,D,F,$)}let ii=no|Tr;function Hs(c,d,m,g,b,v,T,C,D,F,$,U){ti(c,d,m,g,b),(D||F||U)&&(p.save(),D&&p.clip(D),F&&
 p.clip(F)),U?(C&ii)==ii?(p.clip(U),$&&p.clip($),Ro(b,T),Do(c,v,d)):C&Tr?(Ro(b,T),p.clip(U),Do(c,v,d)):C&no&&(p.save(),p.clip(U),$&&p.clip($),Ro(b,T),p.restore(),
-Do(c,v,d)):(Ro(b,T),Do(c,v,d)),(D||F||U)&&p.restore()}function Do(c,d,f){f>0&&(d instanceof Map?d.forEach((g,b)=>{p.strokeStyle=Lo=b,p.stroke(g)}):d!=null&&c&&p.
-stroke(d))}function Ro(c,d){d instanceof Map?d.forEach((f,g)=>{p.fillStyle=Cn=g,p.fill(f)}):d!=null&&c&&p.fill(d)}function Nc(c,d,f,g){let b=_[c],v;if(g<=0)v=[0,
-0];else{let T=b._space=b.space(o,c,d,f,g),C=b._incrs=b.incrs(o,c,d,f,g,T);v=wp(d,f,C,g,T)}return b._found=v}function Vs(c,d,f,g,b,v,T,C,D,F){let $=T%2/2;S==1&&p.
-translate($,$),ti(C,T,D,F,C),p.beginPath();let U,X,de,le,oe=b+(g==0||g==3?-v:v);f==0?(X=b,le=oe):(U=b,de=oe);for(let J=0;J<c.length;J++)d[J]!=null&&(f==0?U=de=c[J]:
-X=le=c[J],p.moveTo(U,X),p.lineTo(de,le));p.stroke(),S==1&&p.translate(-$,-$)}function Fc(c){let d=!0;return _.forEach((f,g)=>{if(!f.show)return;let b=E[f.scale];
-if(b.min==null){f._show&&(d=!1,f._show=!1,An(!1));return}else f._show||(d=!1,f._show=!0,An(!1));let v=f.side,T=v%2,{min:C,max:D}=b,[F,$]=Nc(g,C,D,T==0?te:O);if($==
-0)return;let U=b.distr==2,X=f._splits=f.splits(o,g,C,D,F,$,U),de=b.distr==2?X.map(B=>Mt[B]):X,le=b.distr==2?Mt[X[1]]-Mt[X[0]]:F,oe=f._values=f.values(o,f.filter(
-o,de,g,$,le),g,$,le);f._rotate=v==2?f.rotate(o,oe,g,$):0;let J=f._size;f._size=kt(f.size(o,oe,g,c)),J!=null&&f._size!=J&&(d=!1)}),d}function $c(c){let d=!0;return Xr.
-forEach((f,g)=>{let b=f(o,g,ln,c);b!=Vt[g]&&(d=!1),Vt[g]=b}),d}function Ic(){for(let c=0;c<_.length;c++){let d=_[c];if(!d.show||!d._show)continue;let f=d.side,g=f%
-2,b,v,T=d.stroke(o,c),C=f==0||f==3?-1:1,[D,F]=d._found;if(d.label!=null){let et=d.labelGap*C,ut=$e((d._lpos+et)*pe);ni(d.labelFont[0],T,"center",f==2?"top":na),
-p.save(),g==1?(b=v=0,p.translate(ut,$e(gt+St/2)),p.rotate((f==3?-ns:ns)/2)):(b=$e(at+st/2),v=ut);let dn=Ba(d.label)?d.label(o,c,D,F):d.label;p.fillText(dn,b,v),
+Do(c,v,d)):(Ro(b,T),Do(c,v,d)),(D||F||U)&&p.restore()}function Do(c,d,m){m>0&&(d instanceof Map?d.forEach((g,b)=>{p.strokeStyle=Lo=b,p.stroke(g)}):d!=null&&c&&p.
+stroke(d))}function Ro(c,d){d instanceof Map?d.forEach((m,g)=>{p.fillStyle=Cn=g,p.fill(m)}):d!=null&&c&&p.fill(d)}function Nc(c,d,m,g){let b=_[c],v;if(g<=0)v=[0,
+0];else{let T=b._space=b.space(o,c,d,m,g),C=b._incrs=b.incrs(o,c,d,m,g,T);v=wp(d,m,C,g,T)}return b._found=v}function Vs(c,d,m,g,b,v,T,C,D,F){let $=T%2/2;k==1&&p.
+translate($,$),ti(C,T,D,F,C),p.beginPath();let U,X,de,le,oe=b+(g==0||g==3?-v:v);m==0?(X=b,le=oe):(U=b,de=oe);for(let J=0;J<c.length;J++)d[J]!=null&&(m==0?U=de=c[J]:
+X=le=c[J],p.moveTo(U,X),p.lineTo(de,le));p.stroke(),k==1&&p.translate(-$,-$)}function Fc(c){let d=!0;return _.forEach((m,g)=>{if(!m.show)return;let b=E[m.scale];
+if(b.min==null){m._show&&(d=!1,m._show=!1,An(!1));return}else m._show||(d=!1,m._show=!0,An(!1));let v=m.side,T=v%2,{min:C,max:D}=b,[F,$]=Nc(g,C,D,T==0?te:O);if($==
+0)return;let U=b.distr==2,X=m._splits=m.splits(o,g,C,D,F,$,U),de=b.distr==2?X.map(B=>Mt[B]):X,le=b.distr==2?Mt[X[1]]-Mt[X[0]]:F,oe=m._values=m.values(o,m.filter(
+o,de,g,$,le),g,$,le);m._rotate=v==2?m.rotate(o,oe,g,$):0;let J=m._size;m._size=kt(m.size(o,oe,g,c)),J!=null&&m._size!=J&&(d=!1)}),d}function $c(c){let d=!0;return Xr.
+forEach((m,g)=>{let b=m(o,g,ln,c);b!=Vt[g]&&(d=!1),Vt[g]=b}),d}function Ic(){for(let c=0;c<_.length;c++){let d=_[c];if(!d.show||!d._show)continue;let m=d.side,g=m%
+2,b,v,T=d.stroke(o,c),C=m==0||m==3?-1:1,[D,F]=d._found;if(d.label!=null){let et=d.labelGap*C,ut=$e((d._lpos+et)*pe);ni(d.labelFont[0],T,"center",m==2?"top":na),
+p.save(),g==1?(b=v=0,p.translate(ut,$e(gt+St/2)),p.rotate((m==3?-ns:ns)/2)):(b=$e(at+st/2),v=ut);let dn=Ba(d.label)?d.label(o,c,D,F):d.label;p.fillText(dn,b,v),
 p.restore()}if(F==0)continue;let $=E[d.scale],U=g==0?st:St,X=g==0?at:gt,de=d._splits,le=$.distr==2?de.map(et=>Mt[et]):de,oe=$.distr==2?Mt[de[1]]-Mt[de[0]]:D,J=d.
-ticks,B=d.border,ke=J.show?J.size:0,Ce=$e(ke*pe),Be=$e((d.alignTo==2?d._size-ke-d.gap:d.gap)*pe),fe=d._rotate*-ns/180,Ae=k(d._pos*pe),lt=(Ce+Be)*C,Xe=Ae+lt;v=g==
-0?Xe:0,b=g==1?Xe:0;let wt=d.font[0],Tt=d.align==1?Jn:d.align==2?dr:fe>0?Jn:fe<0?dr:g==0?"center":f==3?dr:Jn,Ft=fe||g==1?"middle":f==2?"top":na;ni(wt,T,Tt,Ft);let ct=d.
-font[1]*d.lineGap,vt=de.map(et=>k(a(et,$,U,X))),Pt=d._values;for(let et=0;et<Pt.length;et++){let ut=Pt[et];if(ut!=null){g==0?b=vt[et]:v=vt[et],ut=""+ut;let dn=ut.
+ticks,B=d.border,ke=J.show?J.size:0,Ce=$e(ke*pe),Be=$e((d.alignTo==2?d._size-ke-d.gap:d.gap)*pe),fe=d._rotate*-ns/180,Ae=S(d._pos*pe),lt=(Ce+Be)*C,Xe=Ae+lt;v=g==
+0?Xe:0,b=g==1?Xe:0;let wt=d.font[0],Tt=d.align==1?Jn:d.align==2?dr:fe>0?Jn:fe<0?dr:g==0?"center":m==3?dr:Jn,Ft=fe||g==1?"middle":m==2?"top":na;ni(wt,T,Tt,Ft);let ct=d.
+font[1]*d.lineGap,vt=de.map(et=>S(a(et,$,U,X))),Pt=d._values;for(let et=0;et<Pt.length;et++){let ut=Pt[et];if(ut!=null){g==0?b=vt[et]:v=vt[et],ut=""+ut;let dn=ut.
 indexOf(`
 `)==-1?[ut]:ut.split(/\n/gm);for(let tt=0;tt<dn.length;tt++){let Ti=dn[tt];fe?(p.save(),p.translate(b,v+tt*ct),p.rotate(fe),p.fillText(Ti,0,0),p.restore()):p.fillText(
-Ti,b,v+tt*ct)}}}J.show&&Vs(vt,J.filter(o,le,c,F,oe),g,f,Ae,Ce,be(J.width*pe,3),J.stroke(o,c),J.dash,J.cap);let $t=d.grid;$t.show&&Vs(vt,$t.filter(o,le,c,F,oe),g,
+Ti,b,v+tt*ct)}}}J.show&&Vs(vt,J.filter(o,le,c,F,oe),g,m,Ae,Ce,be(J.width*pe,3),J.stroke(o,c),J.dash,J.cap);let $t=d.grid;$t.show&&Vs(vt,$t.filter(o,le,c,F,oe),g,
 g==0?2:1,g==0?gt:at,g==0?St:st,be($t.width*pe,3),$t.stroke(o,c),$t.dash,$t.cap),B.show&&Vs([Ae],[1],g==0?1:0,g==0?1:2,g==1?gt:at,g==1?St:st,be(B.width*pe,3),B.stroke(
-o,c),B.dash,B.cap)}Ve("drawAxes")}function An(c){M.forEach((d,f)=>{f>0&&(d._paths=null,c&&(s==1?(d.min=null,d.max=null):d.facets.forEach(g=>{g.min=null,g.max=null})))})}
+o,c),B.dash,B.cap)}Ve("drawAxes")}function An(c){M.forEach((d,m)=>{m>0&&(d._paths=null,c&&(s==1?(d.min=null,d.max=null):d.facets.forEach(g=>{g.min=null,g.max=null})))})}
 let No=!1,Bs=!1,uo=[];function Oc(){Bs=!1;for(let c=0;c<uo.length;c++)Ve(...uo[c]);uo.length=0}function Ln(){No||(pd(ai),No=!0)}function Uc(c,d=!1){No=!0,Bs=d,c(
 o),ai(),d&&uo.length>0&&queueMicrotask(Oc)}o.batch=Uc;function ai(){if(Ds&&(Ac(),Ds=!1),Mn&&(Sc(),Mn=!1),_o){if(Te(w,Jn,we),Te(w,"top",Fe),Te(w,xo,te),Te(w,ko,O),
-Te(y,Jn,we),Te(y,"top",Fe),Te(y,xo,te),Te(y,ko,O),Te(m,xo,Ut),Te(m,ko,nn),h.width=$e(Ut*pe),h.height=$e(nn*pe),_.forEach(({_el:c,_show:d,_size:f,_pos:g,side:b})=>{
-if(c!=null)if(d){let v=b===3||b===0?f:0,T=b%2==1;Te(c,T?"left":"top",g-v),Te(c,T?"width":"height",f),Te(c,T?"top":"left",T?Fe:we),Te(c,T?"height":"width",T?O:te),
+Te(y,Jn,we),Te(y,"top",Fe),Te(y,xo,te),Te(y,ko,O),Te(f,xo,Ut),Te(f,ko,nn),h.width=$e(Ut*pe),h.height=$e(nn*pe),_.forEach(({_el:c,_show:d,_size:m,_pos:g,side:b})=>{
+if(c!=null)if(d){let v=b===3||b===0?m:0,T=b%2==1;Te(c,T?"left":"top",g-v),Te(c,T?"width":"height",m),Te(c,T?"top":"left",T?Fe:we),Te(c,T?"height":"width",T?O:te),
 vr(c,gn)}else pt(c,gn)}),Lo=Cn=Fs=Is=Os=Us=Gs=Ws=$s=null,rt=1,fo(!0),we!=Sn||Fe!=on||te!=Lt||O!=sn){An(!1);let c=te/Lt,d=O/sn;if(Ue&&!rn&&H.left>=0){H.left*=c,H.
-top*=d,Dn&&It(Dn,$e(H.left),0,te,O),Rn&&It(Rn,0,$e(H.top),te,O);for(let f=0;f<bt.length;f++){let g=bt[f];g!=null&&(En[f]*=c,_n[f]*=d,It(g,kt(En[f]),kt(_n[f]),te,
-O))}}if(xe.show&&!Co&&xe.left>=0&&xe.width>0){xe.left*=c,xe.width*=c,xe.top*=d,xe.height*=d;for(let f in Zs)Te($n,f,xe[f])}Sn=we,on=Fe,Lt=te,sn=O}Ve("setSize"),
+top*=d,Dn&&It(Dn,$e(H.left),0,te,O),Rn&&It(Rn,0,$e(H.top),te,O);for(let m=0;m<bt.length;m++){let g=bt[m];g!=null&&(En[m]*=c,_n[m]*=d,It(g,kt(En[m]),kt(_n[m]),te,
+O))}}if(xe.show&&!Co&&xe.left>=0&&xe.width>0){xe.left*=c,xe.width*=c,xe.top*=d,xe.height*=d;for(let m in Zs)Te($n,m,xe[m])}Sn=we,on=Fe,Lt=te,sn=O}Ve("setSize"),
 _o=!1}Ut>0&&nn>0&&(p.clearRect(0,0,h.width,h.height),Ve("drawClear"),V.forEach(c=>c()),Ve("draw")),xe.show&&Co&&(Fo(xe),Co=!1),Ue&&rn&&(un(null,!0,!1),rn=!1),ee.
-show&&ee.live&&yt&&(Ys(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),co=!1,No=!1}o.redraw=(c,d)=>{Mn=d||!1,c!==!1?jt(R,A.min,A.max):Ln()};function js(c,d){let f=E[c];
-if(f.from==null){if(Ke==0){let g=f.range(o,d.min,d.max,c);d.min=g[0],d.max=g[1]}if(d.min>d.max){let g=d.min;d.min=d.max,d.max=g}if(Ke>1&&d.min!=null&&d.max!=null&&
-d.max-d.min<1e-16)return;c==R&&f.distr==2&&Ke>0&&(d.min=Ct(d.min,e[0]),d.max=Ct(d.max,e[0]),d.min==d.max&&d.max++),W[c]=d,Ds=!0,Ln()}}o.setScale=js;let Ks,qs,Dn,
+show&&ee.live&&yt&&(Ys(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),co=!1,No=!1}o.redraw=(c,d)=>{Mn=d||!1,c!==!1?jt(R,A.min,A.max):Ln()};function js(c,d){let m=E[c];
+if(m.from==null){if(Ke==0){let g=m.range(o,d.min,d.max,c);d.min=g[0],d.max=g[1]}if(d.min>d.max){let g=d.min;d.min=d.max,d.max=g}if(Ke>1&&d.min!=null&&d.max!=null&&
+d.max-d.min<1e-16)return;c==R&&m.distr==2&&Ke>0&&(d.min=Ct(d.min,e[0]),d.max=Ct(d.max,e[0]),d.min==d.max&&d.max++),W[c]=d,Ds=!0,Ln()}}o.setScale=js;let Ks,qs,Dn,
 Rn,li,ci,Nn,Fn,ui,di,ve,Ee,Bt=!1,qe=H.drag,ze=qe.x,He=qe.y;Ue&&(H.x&&(Ks=xt($u,y)),H.y&&(qs=xt(Iu,y)),A.ori==0?(Dn=Ks,Rn=qs):(Dn=qs,Rn=Ks),ve=H.left,Ee=H.top);let xe=o.
-select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),$n=xe.show?xt(Fu,xe.over?y:w):null;function Fo(c,d){if(xe.show){for(let f in c)xe[f]=c[f],f in
-Zs&&Te($n,f,c[f]);d!==!1&&Ve("setSelect")}}o.setSelect=Fo;function Gc(c){if(M[c].show)_e&&vr(Pe[c],gn);else if(_e&&pt(Pe[c],gn),Ue){let f=Pn?bt[0]:bt[c];f!=null&&
-It(f,-10,-10,te,O)}}function jt(c,d,f){js(c,{min:d,max:f})}function Rt(c,d,f,g){d.focus!=null&&Bc(c),d.show!=null&&M.forEach((b,v)=>{v>0&&(c==v||c==null)&&(b.show=
-d.show,Gc(v),s==2?(jt(b.facets[0].scale,null,null),jt(b.facets[1].scale,null,null)):jt(b.scale,null,null),Ln())}),f!==!1&&Ve("setSeries",c,d),g&&mo("setSeries",
+select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),$n=xe.show?xt(Fu,xe.over?y:w):null;function Fo(c,d){if(xe.show){for(let m in c)xe[m]=c[m],m in
+Zs&&Te($n,m,c[m]);d!==!1&&Ve("setSelect")}}o.setSelect=Fo;function Gc(c){if(M[c].show)_e&&vr(Pe[c],gn);else if(_e&&pt(Pe[c],gn),Ue){let m=Pn?bt[0]:bt[c];m!=null&&
+It(m,-10,-10,te,O)}}function jt(c,d,m){js(c,{min:d,max:m})}function Rt(c,d,m,g){d.focus!=null&&Bc(c),d.show!=null&&M.forEach((b,v)=>{v>0&&(c==v||c==null)&&(b.show=
+d.show,Gc(v),s==2?(jt(b.facets[0].scale,null,null),jt(b.facets[1].scale,null,null)):jt(b.scale,null,null),Ln())}),m!==!1&&Ve("setSeries",c,d),g&&mo("setSeries",
 o,c,d)}o.setSeries=Rt;function Wc(c,d){Re(K[c],d)}function zc(c,d){c.fill=ie(c.fill||null),c.dir=ce(c.dir,-1),d=d??K.length,K.splice(d,0,c)}function Hc(c){c==null?
 K.length=0:K.splice(c,1)}o.addBand=zc,o.setBand=Wc,o.delBand=Hc;function Vc(c,d){M[c].alpha=d,Ue&&bt[c]!=null&&(bt[c].style.opacity=d),_e&&Pe[c]&&(Pe[c].style.opacity=
-d)}let Gt,Kt,cn,In={focus:!0};function Bc(c){if(c!=cn){let d=c==null,f=Dt.alpha!=1;M.forEach((g,b)=>{if(s==1||b>0){let v=d||b==0||b==c;g._focus=d?null:v,f&&Vc(b,
-v?1:Dt.alpha)}}),cn=c,f&&Ln()}}_e&&Tn&&Qe(ia,ae,c=>{H._lock||(an(c),cn!=null&&Rt(null,In,!0,Le.setSeries))});function Nt(c,d,f){let g=E[d];f&&(c=c/pe-(g.ori==1?
+d)}let Gt,Kt,cn,In={focus:!0};function Bc(c){if(c!=cn){let d=c==null,m=Dt.alpha!=1;M.forEach((g,b)=>{if(s==1||b>0){let v=d||b==0||b==c;g._focus=d?null:v,m&&Vc(b,
+v?1:Dt.alpha)}}),cn=c,m&&Ln()}}_e&&Tn&&Qe(ia,ae,c=>{H._lock||(an(c),cn!=null&&Rt(null,In,!0,Le.setSeries))});function Nt(c,d,m){let g=E[d];m&&(c=c/pe-(g.ori==1?
 Fe:we));let b=te;g.ori==1&&(b=O,c=b-c),g.dir==-1&&(c=b-c);let v=g._min,T=g._max,C=c/b,D=v+(T-v)*C,F=g.distr;return F==3?Xn(10,D):F==4?ed(D,g.asinh):F==100?g.bwd(
-D):D}function jc(c,d){let f=Nt(c,R,d);return Ct(f,e[0],Ge,We)}o.valToIdx=c=>Ct(c,e[0]),o.posToIdx=jc,o.posToVal=Nt,o.valToPos=(c,d,f)=>E[d].ori==0?r(c,E[d],f?st:
-te,f?at:0):i(c,E[d],f?St:O,f?gt:0),o.setCursor=(c,d,f)=>{ve=c.left,Ee=c.top,un(null,d,f)};function pi(c,d){Te($n,Jn,xe.left=c),Te($n,xo,xe.width=d)}function hi(c,d){
+D):D}function jc(c,d){let m=Nt(c,R,d);return Ct(m,e[0],Ge,We)}o.valToIdx=c=>Ct(c,e[0]),o.posToIdx=jc,o.posToVal=Nt,o.valToPos=(c,d,m)=>E[d].ori==0?r(c,E[d],m?st:
+te,m?at:0):i(c,E[d],m?St:O,m?gt:0),o.setCursor=(c,d,m)=>{ve=c.left,Ee=c.top,un(null,d,m)};function pi(c,d){Te($n,Jn,xe.left=c),Te($n,xo,xe.width=d)}function hi(c,d){
 Te($n,"top",xe.top=c),Te($n,ko,xe.height=d)}let po=A.ori==0?pi:hi,ho=A.ori==1?pi:hi;function Kc(){if(_e&&ee.live)for(let c=s==2?1:0;c<M.length;c++){if(c==0&&ne)
-continue;let d=ee.values[c],f=0;for(let g in d)it[c][f++].firstChild.nodeValue=d[g]}}function Ys(c,d){if(c!=null&&(c.idxs?c.idxs.forEach((f,g)=>{ue[g]=f}):sd(c.
-idx)||ue.fill(c.idx),ee.idx=ue[0]),_e&&ee.live){for(let f=0;f<M.length;f++)(f>0||s==1&&!ne)&&qc(f,ue[f]);Kc()}yt=!1,d!==!1&&Ve("setLegend")}o.setLegend=Ys;function qc(c,d){
-let f=M[c],g=c==0&&Z==2?Mt:e[c],b;ne?b=f.values(o,c,d)??Ne:(b=f.value(o,d==null?null:g[d],c,d),b=b==null?Ne:{_:b}),ee.values[c]=b}function un(c,d,f){ui=ve,di=Ee,
+continue;let d=ee.values[c],m=0;for(let g in d)it[c][m++].firstChild.nodeValue=d[g]}}function Ys(c,d){if(c!=null&&(c.idxs?c.idxs.forEach((m,g)=>{ue[g]=m}):sd(c.
+idx)||ue.fill(c.idx),ee.idx=ue[0]),_e&&ee.live){for(let m=0;m<M.length;m++)(m>0||s==1&&!ne)&&qc(m,ue[m]);Kc()}yt=!1,d!==!1&&Ve("setLegend")}o.setLegend=Ys;function qc(c,d){
+let m=M[c],g=c==0&&Z==2?Mt:e[c],b;ne?b=m.values(o,c,d)??Ne:(b=m.value(o,d==null?null:g[d],c,d),b=b==null?Ne:{_:b}),ee.values[c]=b}function un(c,d,m){ui=ve,di=Ee,
 [ve,Ee]=H.move(o,ve,Ee),H.left=ve,H.top=Ee,Ue&&(Dn&&It(Dn,$e(ve),0,te,O),Rn&&It(Rn,0,$e(Ee),te,O));let g,b=Ge>We;Gt=ye,Kt=null;let v=A.ori==0?te:O,T=A.ori==1?te:
 O;if(ve<0||Ke==0||b){g=H.idx=null;for(let C=0;C<M.length;C++){let D=bt[C];D!=null&&It(D,-10,-10,te,O)}Tn&&Rt(null,In,!0,c==null&&Le.setSeries),ee.live&&(ue.fill(
 g),yt=!0)}else{let C,D,F;s==1&&(C=A.ori==0?ve:Ee,D=Nt(C,R),g=H.idx=Ct(D,e[0],Ge,We),F=I(e[0][g],A,v,0));let $=-10,U=-10,X=0,de=0,le=!0,oe="",J="";for(let B=s==2?
@@ -513,27 +513,27 @@ height:B}=c.select,ke=c.scales[U].ori,Ce=c.posToVal,Be,fe,Ae,lt,Xe,wt=C!=null&&F
 Be,U),Ae,v,0),Xe=I(Ce(Be+fe,U),Ae,v,0),po(At(lt,Xe),Ie(Xe-lt))):po(0,v),Tt&&He?(ke==1?(Be=le,fe=J):(Be=oe,fe=B),Ae=E[D],lt=j(Ce(Be,X),Ae,T,0),Xe=j(Ce(Be+fe,X),Ae,
 T,0),ho(At(lt,Xe),Ie(Xe-lt))):ho(0,T)}else Qs()}else{let C=Ie(ui-li),D=Ie(di-ci);if(A.ori==1){let X=C;C=D,D=X}ze=qe.x&&C>=qe.dist,He=qe.y&&D>=qe.dist;let F=qe.uni;
 F!=null?ze&&He&&(ze=C>=F,He=D>=F,!ze&&!He&&(D>C?He=!0:ze=!0)):qe.x&&qe.y&&(ze||He)&&(ze=He=!0);let $,U;ze&&(A.ori==0?($=Nn,U=ve):($=Fn,U=Ee),po(At($,U),Ie(U-$)),
-He||ho(0,T)),He&&(A.ori==1?($=Nn,U=ve):($=Fn,U=Ee),ho(At($,U),Ie(U-$)),ze||po(0,v)),!ze&&!He&&(po(0,0),ho(0,0))}if(qe._x=ze,qe._y=He,c==null){if(f){if(Mi!=null){
-let[C,D]=Le.scales;Le.values[0]=C!=null?Nt(A.ori==0?ve:Ee,C):null,Le.values[1]=D!=null?Nt(A.ori==1?ve:Ee,D):null}mo(pr,o,ve,Ee,te,O,g)}if(Tn){let C=f&&Le.setSeries,
+He||ho(0,T)),He&&(A.ori==1?($=Nn,U=ve):($=Fn,U=Ee),ho(At($,U),Ie(U-$)),ze||po(0,v)),!ze&&!He&&(po(0,0),ho(0,0))}if(qe._x=ze,qe._y=He,c==null){if(m){if(Mi!=null){
+let[C,D]=Le.scales;Le.values[0]=C!=null?Nt(A.ori==0?ve:Ee,C):null,Le.values[1]=D!=null?Nt(A.ori==1?ve:Ee,D):null}mo(pr,o,ve,Ee,te,O,g)}if(Tn){let C=m&&Le.setSeries,
 D=Dt.prox;cn==null?Gt<=D&&Rt(Kt,In,!0,C):Gt>D?Rt(null,In,!0,C):Kt!=cn&&Rt(Kt,In,!0,C)}}yt&&(ee.idx=g,Ys()),d!==!1&&Ve("setCursor")}let qt=null;Object.defineProperty(
-o,"rect",{get(){return qt==null&&fo(!1),qt}});function fo(c=!1){c?qt=null:(qt=y.getBoundingClientRect(),Ve("syncRect",qt))}function fi(c,d,f,g,b,v,T){H._lock||Bt&&
-c!=null&&c.movementX==0&&c.movementY==0||(Js(c,d,f,g,b,v,T,!1,c!=null),c!=null?un(null,!0,!0):un(d,!0,!1))}function Js(c,d,f,g,b,v,T,C,D){if(qt==null&&fo(!1),an(
-c),c!=null)f=c.clientX-qt.left,g=c.clientY-qt.top;else{if(f<0||g<0){ve=-10,Ee=-10;return}let[F,$]=Le.scales,U=d.cursor.sync,[X,de]=U.values,[le,oe]=U.scales,[J,
-B]=Le.match,ke=d.axes[0].side%2==1,Ce=A.ori==0?te:O,Be=A.ori==1?te:O,fe=ke?v:b,Ae=ke?b:v,lt=ke?g:f,Xe=ke?f:g;if(le!=null?f=J(F,le)?a(X,E[F],Ce,0):-10:f=Ce*(lt/fe),
-oe!=null?g=B($,oe)?a(de,E[$],Be,0):-10:g=Be*(Xe/Ae),A.ori==1){let wt=f;f=g,g=wt}}D&&(d==null||d.cursor.event.type==pr)&&((f<=1||f>=te-1)&&(f=fn(f,te)),(g<=1||g>=
-O-1)&&(g=fn(g,O))),C?(li=f,ci=g,[Nn,Fn]=H.move(o,f,g)):(ve=f,Ee=g)}let Zs={width:0,height:0,left:0,top:0};function Qs(){Fo(Zs,!1)}let mi,gi,yi,bi;function wi(c,d,f,g,b,v,T){
-Bt=!0,ze=He=qe._x=qe._y=!1,Js(c,d,f,g,b,v,T,!0,!1),c!=null&&(Qe(hr,br,vi,!1),mo(sa,o,Nn,Fn,te,O,null));let{left:C,top:D,width:F,height:$}=xe;mi=C,gi=D,yi=F,bi=$}
-function vi(c,d,f,g,b,v,T){Bt=qe._x=qe._y=!1,Js(c,d,f,g,b,v,T,!1,!0);let{left:C,top:D,width:F,height:$}=xe,U=F>0||$>0,X=mi!=C||gi!=D||yi!=F||bi!=$;if(U&&X&&Fo(xe),
+o,"rect",{get(){return qt==null&&fo(!1),qt}});function fo(c=!1){c?qt=null:(qt=y.getBoundingClientRect(),Ve("syncRect",qt))}function fi(c,d,m,g,b,v,T){H._lock||Bt&&
+c!=null&&c.movementX==0&&c.movementY==0||(Js(c,d,m,g,b,v,T,!1,c!=null),c!=null?un(null,!0,!0):un(d,!0,!1))}function Js(c,d,m,g,b,v,T,C,D){if(qt==null&&fo(!1),an(
+c),c!=null)m=c.clientX-qt.left,g=c.clientY-qt.top;else{if(m<0||g<0){ve=-10,Ee=-10;return}let[F,$]=Le.scales,U=d.cursor.sync,[X,de]=U.values,[le,oe]=U.scales,[J,
+B]=Le.match,ke=d.axes[0].side%2==1,Ce=A.ori==0?te:O,Be=A.ori==1?te:O,fe=ke?v:b,Ae=ke?b:v,lt=ke?g:m,Xe=ke?m:g;if(le!=null?m=J(F,le)?a(X,E[F],Ce,0):-10:m=Ce*(lt/fe),
+oe!=null?g=B($,oe)?a(de,E[$],Be,0):-10:g=Be*(Xe/Ae),A.ori==1){let wt=m;m=g,g=wt}}D&&(d==null||d.cursor.event.type==pr)&&((m<=1||m>=te-1)&&(m=fn(m,te)),(g<=1||g>=
+O-1)&&(g=fn(g,O))),C?(li=m,ci=g,[Nn,Fn]=H.move(o,m,g)):(ve=m,Ee=g)}let Zs={width:0,height:0,left:0,top:0};function Qs(){Fo(Zs,!1)}let mi,gi,yi,bi;function wi(c,d,m,g,b,v,T){
+Bt=!0,ze=He=qe._x=qe._y=!1,Js(c,d,m,g,b,v,T,!0,!1),c!=null&&(Qe(hr,br,vi,!1),mo(sa,o,Nn,Fn,te,O,null));let{left:C,top:D,width:F,height:$}=xe;mi=C,gi=D,yi=F,bi=$}
+function vi(c,d,m,g,b,v,T){Bt=qe._x=qe._y=!1,Js(c,d,m,g,b,v,T,!1,!0);let{left:C,top:D,width:F,height:$}=xe,U=F>0||$>0,X=mi!=C||gi!=D||yi!=F||bi!=$;if(U&&X&&Fo(xe),
 qe.setScale&&U&&X){let de=C,le=F,oe=D,J=$;if(A.ori==1&&(de=D,le=$,oe=C,J=F),ze&&jt(R,Nt(de,R),Nt(de+le,R)),He)for(let B in E){let ke=E[B];B!=R&&ke.from==null&&ke.
-min!=ye&&jt(B,Nt(oe+J,B),Nt(oe,B))}Qs()}else H.lock&&(H._lock=!H._lock,un(d,!0,c!=null));c!=null&&(kn(hr,br),mo(hr,o,ve,Ee,te,O,null))}function Yc(c,d,f,g,b,v,T){
+min!=ye&&jt(B,Nt(oe+J,B),Nt(oe,B))}Qs()}else H.lock&&(H._lock=!H._lock,un(d,!0,c!=null));c!=null&&(kn(hr,br),mo(hr,o,ve,Ee,te,O,null))}function Yc(c,d,m,g,b,v,T){
 if(H._lock)return;an(c);let C=Bt;if(Bt){let D=!0,F=!0,$=10,U,X;A.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=ve<=$||ve>=te-$,F=Ee<=$||Ee>=O-$),U&&D&&(ve=ve<Nn?0:te),
-X&&F&&(Ee=Ee<Fn?0:O),un(null,!0,!0),Bt=!1}ve=-10,Ee=-10,ue.fill(null),un(null,!0,!0),C&&(Bt=C)}function xi(c,d,f,g,b,v,T){H._lock||(an(c),Ns(),Qs(),c!=null&&mo(
+X&&F&&(Ee=Ee<Fn?0:O),un(null,!0,!0),Bt=!1}ve=-10,Ee=-10,ue.fill(null),un(null,!0,!0),C&&(Bt=C)}function xi(c,d,m,g,b,v,T){H._lock||(an(c),Ns(),Qs(),c!=null&&mo(
 aa,o,ve,Ee,te,O,null))}function ki(){_.forEach(vp),Rs(o.width,o.height,!0)}yn(os,Qn,ki);let On={};On.mousedown=wi,On.mousemove=fi,On.mouseup=vi,On.dblclick=xi,On.
-setSeries=(c,d,f,g)=>{let b=Le.match[2];f=b(o,d,f),f!=-1&&Rt(f,g,!0,!1)},Ue&&(Qe(sa,y,wi),Qe(pr,y,fi),Qe(ra,y,c=>{an(c),fo(!1)}),Qe(ia,y,Yc),Qe(aa,y,xi),Pr.add(
-o),o.syncRect=fo);let $o=o.hooks=t.hooks||{};function Ve(c,d,f){Bs?uo.push([c,d,f]):c in $o&&$o[c].forEach(g=>{g.call(null,o,d,f)})}(t.plugins||[]).forEach(c=>{
-for(let d in c.hooks)$o[d]=($o[d]||[]).concat(c.hooks[d])});let Si=(c,d,f)=>f,Le=Re({key:null,setSeries:!1,filters:{pub:ba,sub:ba},scales:[R,M[1]?M[1].scale:null],
-match:[wa,wa,Si],values:[null,null]},H.sync);Le.match.length==2&&Le.match.push(Si),H.sync=Le;let Mi=Le.key,Xs=ml(Mi);function mo(c,d,f,g,b,v,T){Le.filters.pub(c,
-d,f,g,b,v,T)&&Xs.pub(c,d,f,g,b,v,T)}Xs.sub(o);function Jc(c,d,f,g,b,v,T){Le.filters.sub(c,d,f,g,b,v,T)&&On[c](null,d,f,g,b,v,T)}o.pub=Jc;function Zc(){Xs.unsub(
+setSeries=(c,d,m,g)=>{let b=Le.match[2];m=b(o,d,m),m!=-1&&Rt(m,g,!0,!1)},Ue&&(Qe(sa,y,wi),Qe(pr,y,fi),Qe(ra,y,c=>{an(c),fo(!1)}),Qe(ia,y,Yc),Qe(aa,y,xi),Pr.add(
+o),o.syncRect=fo);let $o=o.hooks=t.hooks||{};function Ve(c,d,m){Bs?uo.push([c,d,m]):c in $o&&$o[c].forEach(g=>{g.call(null,o,d,m)})}(t.plugins||[]).forEach(c=>{
+for(let d in c.hooks)$o[d]=($o[d]||[]).concat(c.hooks[d])});let Si=(c,d,m)=>m,Le=Re({key:null,setSeries:!1,filters:{pub:ba,sub:ba},scales:[R,M[1]?M[1].scale:null],
+match:[wa,wa,Si],values:[null,null]},H.sync);Le.match.length==2&&Le.match.push(Si),H.sync=Le;let Mi=Le.key,Xs=ml(Mi);function mo(c,d,m,g,b,v,T){Le.filters.pub(c,
+d,m,g,b,v,T)&&Xs.pub(c,d,m,g,b,v,T)}Xs.sub(o);function Jc(c,d,m,g,b,v,T){Le.filters.sub(c,d,m,g,b,v,T)&&On[c](null,d,m,g,b,v,T)}o.pub=Jc;function Zc(){Xs.unsub(
 o),Pr.delete(o),tn.clear(),xr(os,Qn,ki),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=Zc;function er(){Ve("init",t,e),ei(e||t.data,!1),W[R]?js(R,W[R]):Ns(),Co=
 xe.show&&(xe.width>0||xe.height>0),rn=yt=!0,Rs(t.width,t.height)}return M.forEach(Qr),_.forEach(Cc),n?n instanceof HTMLElement?(n.appendChild(u),er()):n(o,er):er(),
 o}Oe.assign=Re;Oe.fmtNum=Rr;Oe.rangeNum=ss;Oe.rangeLog=as;Oe.rangeAsinh=Lr;Oe.orient=wn;Oe.pxRatio=pe;Oe.join=dd;Oe.fmtDate=Fr,Oe.tzDate=kd;Oe.sync=ml;{Oe.addGap=
@@ -541,23 +541,23 @@ sp,Oe.clipGaps=us;let t=Oe.paths={points:xl};t.linear=Sl,t.stepped=ap,t.bars=lp,
 max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),ms=(t,e)=>({font:or,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
 frame,width:1,size:4}});function _l(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:fs})).
 observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:fs}),s=n()),o)}function Cl(t,e){let{session:n}=t,o=x("div",{className:"\
-chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All sweeps"],["first",`First ${El}`]],()=>s,y=>{s=y,u=null,n.
-changed()}),i=0,a=-1/0,l=-1,u=null,p=_l(o,()=>{let y=kp(e()),S=Array.from({length:i},(k,P)=>({label:`chain ${P+1}`,stroke:y[P%y.length],width:1,points:{show:!1}}));
-return new Oe({width:100,height:fs,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,Mp,0,0],scales:{x:{time:!1,range:(k,P,M)=>[P,Math.max(M,P+1)]},y:{
-range:(k,P,M)=>Ep(Math.max(P,a),M)}},axes:[ms(e,26),ms(e,Sp)],series:[{label:"sweep"},...S],hooks:{draw:[k=>_p(k,l,e())]}},[[],...S.map(()=>[])],o)},e),m=x("spa\
-n",{className:"caption",textContent:"log joint by sweep"}),w=x("div",{className:"charted"},x("div",{className:"buttons"},r,m),o);return t.each(()=>{let y=n.shown,
-S=y?.traced?.length?y.trace.length/y.traced.length:0;if(L(w,"hidden",S===0),!y||!S)return;let k=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.sweeps/n.draws.count:
--1,P=p(S!==i&&(i=S,!0));P&&(u===y&&l===k&&P.data[0].length||([u,l]=[y,k],a=s==="all"?Pp(y,S):-1/0,P.setData(Tp(y,S,s))))}),w}function Tp({trace:t,traced:e},n,o){
-let s=o==="all"?e.length:e.filter(r=>r<=El).length;return[e.slice(0,s),...Array.from({length:n},(r,i)=>t.slice(i*e.length,i*e.length+s))]}function Pp({trace:t,traced:e},n){
-let o=e.length,s=e.findIndex(r=>r>=xp*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Ep(t,e){let n=Math.
-max(.06*(e-t),.5);return[t-n,e+n]}function _p(t,e,n){if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.
-ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Al(t,e){let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"Histogra\
-m of the particles' weights"}),s=x("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),r=x("div",{className:"charted"},s,o),
-a=_l(o,()=>new Oe({width:100,height:fs,legend:{show:!1},cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(u,h,p)=>[h,p]},y:{distr:3,range:(u,h,p)=>[
-.5,Math.max(10,2*p)]}},axes:[ms(e,26),{...ms(e,52),values:(u,h)=>h.map(p=>p>=1?String(p):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[
-.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.each(()=>{let u=n.shown;L(r,"hidden",!u?.weights);let h=u?.weights&&a(!1);if(!u?.weights||!h||
-l===u&&h.data[0].length)return;l=u;let p=[...u.weights],m=-(u.lowest??-1)/p.length,w=[...p.map((y,S)=>(u.lowest??-1)+S*m),0];h.setData([w,[...p.map(y=>y||null),
-null]])}),r}function Ll(t){let{session:e,hand:n}=t,{decisions:o}=e,s=x("p",{className:"said",role:"status"}),r=x("div",{className:"double"},t.numberInput("Robot's radius (m\
+chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All"],["first",`First ${El}`]],()=>s,y=>{s=y,u=null,n.changed()}),
+i=0,a=-1/0,l=-1,u=null,p=_l(o,()=>{let y=kp(e()),k=Array.from({length:i},(S,P)=>({label:`chain ${P+1}`,stroke:y[P%y.length],width:1,points:{show:!1}}));return new Oe(
+{width:100,height:fs,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,Mp,0,0],scales:{x:{time:!1,range:(S,P,M)=>[P,Math.max(M,P+1)]},y:{range:(S,P,M)=>Ep(
+Math.max(P,a),M)}},axes:[ms(e,26),ms(e,Sp)],series:[{label:"sweep"},...k],hooks:{draw:[S=>_p(S,l,e())]}},[[],...k.map(()=>[])],o)},e),f=x("span",{className:"cap\
+tion",textContent:"log joint by sweep"}),w=x("div",{className:"charted"},x("div",{className:"buttons"},r,f),o);return t.each(()=>{let y=n.shown,k=y?.traced?.length?
+y.trace.length/y.traced.length:0;if(L(w,"hidden",k===0),!y||!k)return;let S=n.document?.source.kind==="run"?"draw":"sweep";L(f,"textContent",`log joint by ${S}`);
+let P=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.traced[y.traced.length-1]/n.draws.count:-1,M=p(k!==i&&(i=k,!0));M&&(u===y&&l===P&&M.data[0].length||([u,l]=[y,
+P],a=s==="all"?Pp(y,k):-1/0,M.setData(Tp(y,k,s))))}),w}function Tp({trace:t,traced:e},n,o){let s=o==="all"?e.length:e.filter(r=>r<=El).length;return[e.slice(0,s),
+...Array.from({length:n},(r,i)=>t.slice(i*e.length,i*e.length+s))]}function Pp({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=xp*e[o-1]);return Math.min(
+...Array.from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Ep(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function _p(t,e,n){if(e<0)return;
+let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Al(t,e){
+let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"Histogram of the particles' weights"}),s=x("div",{className:"caption",textContent:"partic\
+les by weight, nats below the heaviest"}),r=x("div",{className:"charted"},s,o),a=_l(o,()=>new Oe({width:100,height:fs,legend:{show:!1},cursor:{show:!1},padding:[
+8,10,0,0],scales:{x:{time:!1,range:(u,h,p)=>[h,p]},y:{distr:3,range:(u,h,p)=>[.5,Math.max(10,2*p)]}},axes:[ms(e,26),{...ms(e,52),values:(u,h)=>h.map(p=>p>=1?String(
+p):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.each(()=>{let u=n.
+shown;L(r,"hidden",!u?.weights);let h=u?.weights&&a(!1);if(!u?.weights||!h||l===u&&h.data[0].length)return;l=u;let p=[...u.weights],f=-(u.lowest??-1)/p.length,w=[
+...p.map((y,k)=>(u.lowest??-1)+k*f),0];h.setData([w,[...p.map(y=>y||null),null]])}),r}function Ll(t){let{session:e,hand:n}=t,{decisions:o}=e,s=x("p",{className:"said",role:"status"}),r=x("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,u=>o.set({radius:u}),{min:.01,max:100,step:"any"}),t.numberInput("Highest risk",()=>o.risk,u=>o.set({risk:u}),{min:1e-4,max:.99,step:"any"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),l=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
 r,()=>n.tool==="path"),t.each(()=>{L(l,"textContent",i()),L(s,"textContent",n.tool==="path"?Cp(t):Ap(t))}),a}function Cp({session:t}){let{start:e,goal:n,path:o,
@@ -576,7 +576,7 @@ y say together.",Op="Mouse: the wheel zooms, the middle button pans.",Up="Shift 
 rs zoom and pan.";function Dl(t){let{session:e}=t,n=x("div"),o=Ui.map(([i,a,l])=>{let u=x("tr",{},x("th",{scope:"row"},x("kbd",{textContent:i})),x("td",{textContent:a}));
 return t.visible(u,()=>Wp[l??"all"](e)),u}),s=x("p"),r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?Np:Rp,l=e.editable?[`${Dp} ${a}`,
 Fp]:i==="log"?[a,$p]:i==="run"?[a,Ip]:[a];l.join()!==r&&n.replaceChildren(...l.map(u=>x("p",{textContent:u}))),r=l.join(),L(s,"textContent",[Op,...e.editable?[Up]:
-[],Gp].join(" "))}),t.dialog("Help",n,x("table",{},x("tbody",{},...o)),s)}var Wp={all:()=>!0,drawn:t=>t.editable,asked:t=>!t.recorded,inferred:t=>!t.recorded&&t.
+[],Gp].join(" "))}),t.dialog("Help",n,s,x("table",{},x("tbody",{},...o)))}var Wp={all:()=>!0,drawn:t=>t.editable,asked:t=>!t.recorded,inferred:t=>!t.recorded&&t.
 document?.source.kind!=="run"};function Rl(t){let e=()=>x("input",{type:"number",min:Se.cells[0],max:Se.cells[1],step:1,required:!0,value:"21"}),[n,o]=[e(),e()],
 s=x("select",{});for(let[i,a]of Lp)s.append(x("option",{value:i,textContent:a}));s.addEventListener("change",()=>{s.value==="building"&&Number(n.value)<60&&([n.
 value,o.value]=["120","80"])});let r=x("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("Height (cells)",o),x("div",{className:"buttons \
@@ -625,13 +625,13 @@ strokes.length),t.visible(r[ys.findIndex(([l])=>l==="trajectory")],()=>!!n.overl
 ()=>!!n.flicker.under),t.visible(i("ghost"),()=>n.ghost.held||n.reading.picked!==null),t.visible(i("belief"),()=>!!n.where.found),t.visible(i("place"),()=>!!n.where.
 found),t.visible(i("path"),()=>!!n.decisions.path),t.each(()=>i("path").firstElementChild?.classList.toggle("risky",n.decisions.path?.within_risk===!1));let a="";
 return t.each(()=>{let{layer:l}=n,{kind:u,mean:h,value:p}=n.quantity;L(s,"textContent",l==="entropy"?"entropy (bit)":l==="width"?"width of the 90 % interval":u===
-"binary"?"P(wall)":l==="draw"?p:h);let w=l==="entropy"||l==="width",y=`${w} ${e().ground}`;a!==y&&(a=y,o.style.background=ar(w?Wn:S=>ir(e(),S)))}),x("ul",{className:"\
+"binary"?"P(wall)":l==="draw"?p:h);let w=l==="entropy"||l==="width",y=`${w} ${e().ground}`;a!==y&&(a=y,o.style.background=ar(w?Wn:k=>ir(e(),k)))}),x("ul",{className:"\
 legend","aria-label":"Legend"},x("li",{},s,"0",o,"1"),qp(t),...r)}function qp(t){let{decisions:e}=t.session,n=x("span",{className:"ramp"});n.style.background=ar(
 Wn);let[o,s]=[x("span"),x("span")],r=x("li",{className:"views"},"one more scan tells",o,n,s);return t.visible(r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{
 let i=e.views?.nats;i?.length&&(L(o,"textContent",Me(Math.min(...i),1)),L(s,"textContent",`${Me(Math.max(...i),1)} nats`))}),r}var Yp=[.05,.1,.2,.4,.8],Jp=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function Ul(t){let{session:e}=t,n=x("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,u=Math.
-max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...Yp,r.resolution])].sort((p,m)=>p-m);if(o!==h.join()){o=h.join();let p=m=>x("option",{value:String(m),textContent:Jp(m),
-disabled:u/m>Se.side_of_log-1});n.replaceChildren(...h.map(p))}L(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
+max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...Yp,r.resolution])].sort((p,f)=>p-f);if(o!==h.join()){o=h.join();let p=f=>x("option",{value:String(f),textContent:Jp(f),
+disabled:u/f>Se.side_of_log-1});n.replaceChildren(...h.map(p))}L(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
 source.kind==="log"),s}function Gl(t){let{session:e}=t,n=x("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=x("output"),s=()=>e.document?.source.
 scans??0,r=a=>{let l=Number(n.value);t.scrub(l>=s()?null:l,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});let i=t.
 section("Log",x("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),l=e.document?.scans_used??
@@ -654,26 +654,26 @@ connection.connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));
 L(o,"hidden",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?Zp:a;L(n,"textContent",r?l:"The worker stopped an\
 d is being started again. The map is kept.")}),s}function Bl(t){let{session:e,hand:n}=t,o=x("div",{className:"readout",id:`${t.prefix}-readout`}),s=x("span",{role:"\
 status","aria-live":"polite"}),r=x("span",{className:"hidden","aria-live":"polite"});return n.announce=i=>L(r,"textContent",i),n.describe=i=>zl(e,i),t.each(()=>{
-let i=n.cursor??n.hover,l=e.editable&&!matchMedia("(pointer: coarse)").matches?"Point at a cell, or press ? for the keys":"Point at a cell";L(o,"textContent",i?
-zl(e,i):l);let u=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad";L(s,"textContent",u?"Ready, but the chains have not converged":e.status.text),L(s,"cla\
-ssName",u?"warning":e.status.level)}),{element:x("footer",{},s,o,r),readout:o}}function zl(t,e){let{document:n,shown:o}=t;if(!n)return"";let{resolution:s,shape:r}=n.
-grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+1),{x:l,y:u}=Un(e,n.grid),h=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${u.toFixed(a)} m`];if(o&&o.p.length===
-r[0]*r[1]){let p=o.p[i]/255,{kind:m,mean:w,value:y,interval:S}=t.quantity;o.layer==="width"?h.push(`90 % interval ${p.toFixed(2)} wide`):m!=="binary"&&o.layer===
-"draw"?h.push(`${y} ${p.toFixed(2)} in this draw`):m!=="binary"?h.push(`${w} ${p.toFixed(2)}`,...S?[]:[`entropy ${yo(p).toFixed(2)} bit`]):o.layer==="draw"?h.push(
-p>.5?"wall in this draw":"free in this draw"):h.push(`P(wall) ${p.toFixed(2)}`,`entropy ${yo(p).toFixed(2)} bit`);let k=t.cell?.x===e.x&&t.cell.y===e.y?t.cell:null,
-P=k?k.beams:null;o.observed[i]?P!==null&&h.push(P===1?"1 beam":`${P} beams`):h.push("unobserved"),o.observed[i]&&k?.nats_for!==void 0&&k.nats_against!==void 0&&
-P&&h.push(`for a wall ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.nats_against.toFixed(1)} nats`)}return h.join(" · ")}var Xp={logged:"as logged",odometry:"from raw odometry"},eh=180/Math.PI;function jl(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+let i=n.cursor??n.hover,l=matchMedia("(pointer: coarse)").matches?"Touch a cell":e.editable?"Point at a cell, or press ? for the keys":"Point at a cell";L(o,"te\
+xtContent",i?zl(e,i):l);let u=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad";L(s,"textContent",u?"Ready, but the chains have not converged":e.status.text),
+L(s,"className",u?"warning":e.status.level)}),{element:x("footer",{},s,o,r),readout:o}}function zl(t,e){let{document:n,shown:o}=t;if(!n)return"";let{resolution:s,
+shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+1),{x:l,y:u}=Un(e,n.grid),h=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${u.toFixed(a)} m`];if(o&&
+o.p.length===r[0]*r[1]){let p=o.p[i]/255,{kind:f,mean:w,value:y,interval:k}=t.quantity;o.layer==="width"?h.push(`90 % interval ${p.toFixed(2)} wide`):f!=="binar\
+y"&&o.layer==="draw"?h.push(`${y} ${p.toFixed(2)} in this draw`):f!=="binary"?h.push(`${w} ${p.toFixed(2)}`,...k?[]:[`entropy ${yo(p).toFixed(2)} bit`]):o.layer===
+"draw"?h.push(p>.5?"wall in this draw":"free in this draw"):h.push(`P(wall) ${p.toFixed(2)}`,`entropy ${yo(p).toFixed(2)} bit`);let S=t.cell?.x===e.x&&t.cell.y===
+e.y?t.cell:null,P=S?S.beams:null;o.observed[i]?P!==null&&h.push(P===1?"1 beam":`${P} beams`):h.push("unobserved"),o.observed[i]&&S?.nats_for!==void 0&&S.nats_against!==
+void 0&&P&&h.push(`for a wall ${S.beams_for}, ${S.nats_for.toFixed(1)} nats`,`against ${S.beams_against}, ${S.nats_against.toFixed(1)} nats`)}return h.join(" · ")}var Xp={logged:"as logged",odometry:"from raw odometry"},eh=180/Math.PI;function jl(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
 Xp,()=>e.document?.poses??"logged",p=>t.set({poses:p}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,l=[t.slider("po\
 se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:eh})];for(let p of l)
-t.visible(p,()=>e.editable);let u=x("p",{className:"caption"});t.each(()=>{let{pose_sigma:p=0,heading_sigma:m=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
-poses==="odometry"&&e.shown?.method==="counts"&&!e.running,S=e.editable&&(p>0||m>0)&&!/auto|gibbs|block/.test(w);L(u,"hidden",!S&&!y),L(u,"textContent",y?"Run i\
+t.visible(p,()=>e.editable);let u=x("p",{className:"caption"});t.each(()=>{let{pose_sigma:p=0,heading_sigma:f=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
+poses==="odometry"&&e.shown?.method==="counts"&&!e.running,k=e.editable&&(p>0||f>0)&&!/auto|gibbs|block/.test(w);L(u,"hidden",!k&&!y),L(u,"textContent",y?"Run i\
 nfers where the robot was.":"This method takes poses as known; Gibbs does not.")});let h=t.section("Where the robot was",o,...l,u);return t.visible(h,()=>e.editable||
 n()&&!e.recorded),h}var th=20,nh={importance:"particles",propagate:"rounds"};function Kl(t,...e){let{session:n}=t,o=x("progress",{max:1,value:0,"aria-label":"Progress"}),s=x("div",
 {className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=r?.generation!==n.generation&&(n.running||n.document?.source.kind==="log"),l=r?.method==="pi\
-lot"&&n.working,u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;L(o,"value",u);let h=n.remaining_s(),p=nh[r?.method??""]??"sweeps",m=r&&
+lot"&&n.working,u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;L(o,"value",u);let h=n.remaining_s(),p=nh[r?.method??""]??"sweeps",f=r&&
 !r.approximate&&r.total?`${r.sweeps} of ${r.total} ${p}`:"",w=h!==null?h<1?"less than 1 s left":`${Math.ceil(h)} s left`:n.running?"running":"",y=n.sampling||n.
 running||!r||r.sweeps>=r.total?"":"stopped";i?L(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>th?"scans":"rounds"}`):a?L(s,"textContent","Computing"):
-l?L(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):L(s,"textContent",vn([m,w,m&&y].filter(Boolean).join(", "))||oh(n))}),t.section("Post\
+l?L(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):L(s,"textContent",vn([f,w,f&&y].filter(Boolean).join(", "))||oh(n))}),t.section("Post\
 erior",sh(t),o,s,rh(t),ih(t),...e)}function oh({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped wh\
 ile the sensor was fitted":e?"Computing":"No chain yet"}function sh(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"\
 Run",title:"Run (R)"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||e.working&&
@@ -688,17 +688,17 @@ ssName",`verdict ${o.level}`)}),n}var bs=t=>Math.abs(t)<.995?`${Me(100*Math.abs(
 function ql(t){let{session:e}=t,n=x("p",{className:"words reading",role:"status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.
 document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i}=e.reading,a=s?`Beam ${s.beam+1} of scan ${s.scan+1}.`:ah;L(n,"textContent",i||
 (r?lh(r):a))}),o}function lh({scan:t,beam:e,reading:n,range:o,low:s,median:r,high:i,residual:a,no_return:l,wall:u}){let h=`Beam ${e+1} of scan ${t+1}`,p=(P,M)=>P===
-null?M:`${Me(P,2)} m`,m=`median ${p(r,"no return")}, 80 % between ${p(s,"too close")} and ${p(i,"no return")}`;if(n==="none")return`${h} came back from nothing,\
- which was predicted with probability ${Me(l??0,3)} (${m}).`;if(n!=="hit"||o===null)return`${h} read nothing that says how far (${m}).`;let w=a===null?"":`, ${bs(
-a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${h} read ${Me(o,2)} m${w} (${m}).`;if(!u)return y;let S=`${bs(u.across_m)} ${u.across_m<0?"behind":
-"in front of"} the wall, which is ${bs(u.thickness_m)} thick`,k=`${bs(u.along_m)} to the ${u.along_m<0?"right":"left"} along it from the middle of its surface`;
-return`${y} It ended ${S} (one standard deviation), and ${k}; the beam met it at ${Me(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var ch={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},uh={
+null?M:`${Me(P,2)} m`,f=`median ${p(r,"no return")}, 80 % between ${p(s,"too close")} and ${p(i,"no return")}`;if(n==="none")return`${h} came back from nothing,\
+ which was predicted with probability ${Me(l??0,3)} (${f}).`;if(n!=="hit"||o===null)return`${h} read nothing that says how far (${f}).`;let w=a===null?"":`, ${bs(
+a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${h} read ${Me(o,2)} m${w} (${f}).`;if(!u)return y;let k=`${bs(u.across_m)} ${u.across_m<0?"behind":
+"in front of"} the wall, which is ${bs(u.thickness_m)} thick`,S=`${bs(u.along_m)} to the ${u.along_m<0?"right":"left"} along it from the middle of its surface`;
+return`${y} It ended ${k} (one standard deviation), and ${S}; the beam met it at ${Me(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var ch={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},uh={
 binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},dh={noisy:"with noise",exact:"exact"},ph={auto:"as is best",prior:"draws of the prior",empty:"t\
 he empty map"},hh={raster:"raster",radial:"radial",random:"random"},ws=2*Math.PI,fh=t=>Math.round(t*1800/Math.PI)/10,mh={importance:"Particles",propagate:"Round\
 s"};function Yl(t){let{session:e,hand:n,editor:o}=t,s=x("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
-choose("sensor")});let r="";t.each(()=>{let p=e.document?.sensors??[],m=p.map(w=>w.id).join();m!==r&&s.replaceChildren(...p.map(({id:w})=>x("option",{value:String(
-w),textContent:`Sensor ${w}`}))),r=m,L(s,"value",String(n.sensor?.id??""))});let i=(p,m)=>t.numberInput(p,()=>Number((n.sensor?.[m]??0).toFixed(2)),w=>n.sensor&&
-o.moveSensor(n.sensor,{[m]:w}),{step:"any"}),a=t.numberInput("heading (°)",()=>Math.round((n.sensor?.yaw??0)*180/Math.PI),p=>n.sensor&&o.moveSensor(n.sensor,{yaw:p%
+choose("sensor")});let r="";t.each(()=>{let p=e.document?.sensors??[],f=p.map(w=>w.id).join();f!==r&&s.replaceChildren(...p.map(({id:w})=>x("option",{value:String(
+w),textContent:`Sensor ${w}`}))),r=f,L(s,"value",String(n.sensor?.id??""))});let i=(p,f)=>t.numberInput(p,()=>Number((n.sensor?.[f]??0).toFixed(2)),w=>n.sensor&&
+o.moveSensor(n.sensor,{[f]:w}),{step:"any"}),a=t.numberInput("heading (°)",()=>Math.round((n.sensor?.yaw??0)*180/Math.PI),p=>n.sensor&&o.moveSensor(n.sensor,{yaw:p%
 360*Math.PI/180}),{step:5}),l=t.button("plus","Add a sensor",()=>t.command("add"),{text:"Add"}),u=t.button("minus","Remove the sensor",()=>o.removeSensor(),{text:"\
 Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??ws)<ws);let h=x("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
 a);return t.section("Sensors",x("div",{className:"buttons"},s,l,u),h)}function Jl(t){let{session:e}=t,[n,o]=Se.max_range,[s,r]=Se.fov_deg,i=t.numberInput("Longe\
@@ -721,14 +721,14 @@ r!==n&&l.setAttribute("aria-label",n),i&&this.each(()=>L(l,"disabled",!i())),l}s
 segmented",role:"radiogroup","aria-label":e});for(let[l,u,h]of n){let p=x("input",{type:"radio",name:i,value:l,onchange:()=>s(l)});a.append(x("label",{title:u},
 p,h?en(h):null,x("span",{textContent:u}))),this.each(()=>{L(p,"checked",o()===l),r&&L(p,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
 /\W/g,"")}`;return x("section",{"aria-labelledby":o},x("h2",{id:o,textContent:e}),...n)}row(e,n){return n.id=`${this.prefix}-${e.replace(/\W/g,"")}`,x("div",{className:"\
-row"},x("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:l=1}){let u=`${this.prefix}-${e}`,h=k=>i?1e3*Math.log(k/o)/
-Math.log(s/o):k,p=k=>{if(!i)return k;let P=o*(s/o)**(k/1e3),M=P<100?1:10**(Math.floor(Math.log10(P))-1);return se(Math.round(P/M)*M,o,s)},m=()=>l===1?this.session.
+row"},x("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:l=1}){let u=`${this.prefix}-${e}`,h=S=>i?1e3*Math.log(S/o)/
+Math.log(s/o):S,p=S=>{if(!i)return S;let P=o*(s/o)**(S/1e3),M=P<100?1:10**(Math.floor(Math.log10(P))-1);return se(Math.round(P/M)*M,o,s)},f=()=>l===1?this.session.
 document?.[e]??o:Number(((this.session.document?.[e]??o/l)*l).toFixed(3)),w=x("label",{for:u}),y=x("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,
-max:s,step:r}}),S=x("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:p(Number(y.value))/l})),
-y.addEventListener("change",()=>this.endDrag()),S.addEventListener("change",()=>{let k=Number(S.value);S.value===""||!Number.isFinite(k)?S.value=String(m()):this.
-set({[e]:i?Math.round(se(k,o,s)):se(k,o,s)/l}),this.endDrag()}),this.each(()=>{let k=m();L(w,"textContent",n()),dt(S,"aria-label",`${n()}, number`),p(Number(y.value))!==
-k&&(y.value=String(h(k))),dt(y,"aria-valuetext",`${k}${a}`);let P=100*(h(k)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${se(P,0,
-100)}%`),hn(S)||L(S,"value",String(k))}),x("div",{className:"row slider"},w,y,S)}select(e,n,o,s,r){let i=x("select",{onchange:()=>s(i.value)});for(let[a,l]of Object.
+max:s,step:r}}),k=x("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:p(Number(y.value))/l})),
+y.addEventListener("change",()=>this.endDrag()),k.addEventListener("change",()=>{let S=Number(k.value);k.value===""||!Number.isFinite(S)?k.value=String(f()):this.
+set({[e]:i?Math.round(se(S,o,s)):se(S,o,s)/l}),this.endDrag()}),this.each(()=>{let S=f();L(w,"textContent",n()),dt(k,"aria-label",`${n()}, number`),p(Number(y.value))!==
+S&&(y.value=String(h(S))),dt(y,"aria-valuetext",`${S}${a}`);let P=100*(h(S)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${se(P,0,
+100)}%`),hn(k)||L(k,"value",String(S))}),x("div",{className:"row slider"},w,y,k)}select(e,n,o,s,r){let i=x("select",{onchange:()=>s(i.value)});for(let[a,l]of Object.
 entries(n))i.append(x("option",{value:a,textContent:l}));return this.each(()=>{L(i,"value",o()),r&&L(i,"disabled",!r())}),this.row(e,i)}numberInput(e,n,o,s={}){
 let r=x("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>{r.value!==""&&Number.isFinite(Number(r.value))&&o(se(Number(
 r.value),i,a))}),this.each(()=>{hn(r)||L(r,"value",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=x("input",{type:"checkbox",onchange:()=>o(r.checked)});
@@ -744,18 +744,18 @@ layer!=="draw"?this.showLayer("draw"):e&&n.wantsMean&&(this.afterMean=!0,this.se
 this.showDraw(0),this.playing=!0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||this.playing)&&e?.layer==="mean"&&!n.
 wantsMean)return this.afterMean=!1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.playing)return;let{draw:o,draws:s}=this.
 session;o+1>=s.count&&n.on?this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function Xl(t,e,n){let{session:o}=t,s=t.segmented(
-"Show",yh,()=>o.view.layer,m=>e.showLayer(m),m=>m!=="draw"||o.hasDraws),[,,r,i]=Array.from(s.children);L(i,"title","Width of each cell's 90 % interval"),t.visible(
-r,()=>!o.quantity.interval),t.visible(i,()=>o.quantity.interval);let a=(m,w)=>t.checkbox(m,()=>n[w],y=>{n[w]=y,o.changed()}),l=a("True walls","truth");t.visible(
+"Show",yh,()=>o.view.layer,f=>e.showLayer(f),f=>f!=="draw"||o.hasDraws),[,,r,i]=Array.from(s.children);L(i,"title","Width of each cell's 90 % interval"),t.visible(
+r,()=>!o.quantity.interval),t.visible(i,()=>o.quantity.interval);let a=(f,w)=>t.checkbox(f,()=>n[w],y=>{n[w]=y,o.changed()}),l=a("True walls","truth");t.visible(
 l,()=>!o.document||o.document.source.kind==="simulation");let[u,h]=[a("Surfaces","strokes"),a("Trajectory","trajectory")];t.visible(u,()=>!!o.overlay?.strokes.length),
 t.visible(h,()=>!!o.overlay?.trajectory.length);let p=x("div",{className:"checks",role:"group","aria-label":"Marks"},l,a("Rays","rays"),a("Readings","readings"),
 u,h);return t.section("View",s,wh(t,e),p)}function wh(t,e){let{session:n}=t,o=x("input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener(
 "input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=x("output"),i=x(
-"select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,Number(i.value))),t.each(()=>{let{chains:p,count:m}=n.draws;L(o,"max",String(
-Math.max(0,m-1))),L(o,"disabled",m===0),L(o,"value",String(n.draw));let w=m?`${n.draw+1} of ${m}`:"none kept";dt(o,"aria-valuetext",w),o.style.setProperty("--fi\
-ll",`${m>1?100*n.draw/(m-1):0}%`),L(r,"textContent",w),i.length!==Math.max(1,p)&&i.replaceChildren(...Array.from({length:Math.max(1,p)},(S,k)=>x("option",{value:String(
-k),textContent:`chain ${k+1}`}))),L(i,"value",String(n.view.chain)),L(i,"disabled",p<2),m<2&&e.playing&&e.play(!1);let y=n.flicker.still?"Next draw":e.playing?"\
+"select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,Number(i.value))),t.each(()=>{let{chains:p,count:f}=n.draws;L(o,"max",String(
+Math.max(0,f-1))),L(o,"disabled",f===0),L(o,"value",String(n.draw));let w=f?`${n.draw+1} of ${f}`:"none kept";dt(o,"aria-valuetext",w),o.style.setProperty("--fi\
+ll",`${f>1?100*n.draw/(f-1):0}%`),L(r,"textContent",w),i.length!==Math.max(1,p)&&i.replaceChildren(...Array.from({length:Math.max(1,p)},(k,S)=>x("option",{value:String(
+S),textContent:`chain ${S+1}`}))),L(i,"value",String(n.view.chain)),L(i,"disabled",p<2),f<2&&e.playing&&e.play(!1);let y=n.flicker.still?"Next draw":e.playing?"\
 Pause the draws":"Play the draws";s.getAttribute("aria-label")!==y&&(s.setAttribute("aria-label",y),s.replaceChildren(en(e.playing?"pause":"play")))});let a=x("\
-select",{"aria-label":"Speed"});for(let[p,m]of Object.entries(bh))a.append(x("option",{value:p,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener(
+select",{"aria-label":"Speed"});for(let[p,f]of Object.entries(bh))a.append(x("option",{value:p,textContent:f}));a.value=String(e.drawsPerSecond),a.addEventListener(
 "change",()=>e.drawsPerSecond=Number(a.value));let l=t.button(null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1});
 t.each(()=>L(a,"disabled",n.draws.count<2||n.flicker.still));let u=t.checkbox("Draws over the mean",()=>n.flicker.on,p=>e.over(p),"Each draw in its own colour o\
 ver the mean, as one of the maps that the scans leave possible");t.visible(u,()=>n.draws.count>1);let h=x("div",{className:"wide"},u);return x("div",{className:"\
@@ -807,8 +807,8 @@ e.recorded||!n||n.generation!==e.generation)return;!this.pose&&o?.pose.length&&(
 let r=performance.now();if(r-this.askedAt>Ah&&(this.waiting=0),this.waiting>=Dh)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
 a=e.sampling&&r-this.askedAt>Lh;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:l,
-near_hit:u}=n,h=e.near&&{...e.near,pose:a,ranges:l,hit:u},{x:p,y:m,yaw:w,generation:y,draws:S,coarse:k,milliseconds:P}=e;this.fan={x:p,y:m,yaw:w,generation:y,draws:S,
-coarse:k,milliseconds:P,angles:o,low:s,median:r,high:i,near:h},this.answers++}else this.fan=null;this.version++,this.ask()}};var Ts=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
+near_hit:u}=n,h=e.near&&{...e.near,pose:a,ranges:l,hit:u},{x:p,y:f,yaw:w,generation:y,draws:k,coarse:S,milliseconds:P}=e;this.fan={x:p,y:f,yaw:w,generation:y,draws:k,
+coarse:S,milliseconds:P,angles:o,low:s,median:r,high:i,near:h},this.answers++}else this.fan=null;this.version++,this.ask()}};var Ts=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
 n=>n.seq!==e)}confirmed(e,n){this.seqOfGeneration.set(e,n)}painted(e){let n=this.seqOfGeneration.get(e);if(n===void 0)return;let o=performance.now();for(let s of this.
 waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.filter(s=>s.seq>n);for(let s of this.seqOfGeneration.keys())s<e&&this.seqOfGeneration.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var Ps=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
@@ -818,8 +818,8 @@ e.generation,this.from={sweeps:e.sweeps,time:performance.now()}),this.last=e.swe
 this.found=null,this.trouble="",this.version++,clearTimeout(this.timer),r&&(this.timer=window.setTimeout(()=>o.act({type:"beam",scan:r.scan,beam:r.beam}),120)),
 o.changed())}forget(){this.picked&&(clearTimeout(this.timer),this.picked=this.found=null,this.version++)}receive(e){let n=e;e.type==="undecided"?this.trouble=e.
 text:n.beam===this.picked?.beam&&n.scan===this.picked.scan&&(this.found=n),this.version++}};function Rh({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)
-return null;let l={x:e[0],y:e[1]},[u,h]=[-1,1/0];for(let p=0;p<n.length;p++){let[m,w]=[Math.cos(e[2]+n[p]),Math.sin(e[2]+n[p])],[y,S]=[r.x-l.x,r.y-l.y],k=y*m+S*
-w,P=s[p]?o[p]:a,M=s[p]?Math.hypot(y-P*m,S-P*w):1/0,_=k>0&&k<P?Math.abs(y*w-S*m):1/0,E=Math.min(M,i/2+2*_);E<h&&([u,h]=[p,E])}return h<i?{scan:t,beam:u,from:l,angle:e[2]+
+return null;let l={x:e[0],y:e[1]},[u,h]=[-1,1/0];for(let p=0;p<n.length;p++){let[f,w]=[Math.cos(e[2]+n[p]),Math.sin(e[2]+n[p])],[y,k]=[r.x-l.x,r.y-l.y],S=y*f+k*
+w,P=s[p]?o[p]:a,M=s[p]?Math.hypot(y-P*f,k-P*w):1/0,_=S>0&&S<P?Math.abs(y*w-k*f):1/0,E=Math.min(M,i/2+2*_);E<h&&([u,h]=[p,E])}return h<i?{scan:t,beam:u,from:l,angle:e[2]+
 n[u]}:null}var _s=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;asked="";waitingSince=0;follow(e,n){this.sensor=n,e!==this.wanted&&
 (this.wanted=e,this.found=null,[this.trouble,this.asked,this.waitingSince]=["","",0],this.version++,this.session.changed()),e&&this.ask()}receive(e,n){if(this.waitingSince=
 0,!this.wanted)return;this.trouble=e.trouble??"";let{pose:o,weight:s}=n,{modes:r=[]}=e,i=r.filter(({probability:a},l)=>l===0||a>=.005);this.found=this.trouble?null:
@@ -857,8 +857,8 @@ receive(e,n)}receiveError(e){let n=e.refused?.seq??null;n!==null&&n===this.broug
 filter(Boolean).join("; "),"error",this.acted),this.pending=this.pending.filter(o=>o.seq!==n),n!==null&&this.latency.refused(n),this.rebuild()}receiveState(e){this.
 status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null),this.generation=Math.max(this.generation,e.generation),this.latency.
 confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;
-return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,a=n.observed,l=this.next??this.shown,h=l&&l.p.length===o.length&&l.bits.every((p,m)=>p===
-a[m])?{observed:l.observed,bits:l.bits}:{observed:go(a,o.length),bits:a};this.next={...e,p:o,trace:s,traced:r,weights:i,...h},this.progress.hear(this.next)}rebuild(){
+return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,a=n.observed,l=this.next??this.shown,h=l&&l.p.length===o.length&&l.bits.every((p,f)=>p===
+a[f])?{observed:l.observed,bits:l.bits}:{observed:go(a,o.length),bits:a};this.next={...e,p:o,trace:s,traced:r,weights:i,...h},this.progress.hear(this.next)}rebuild(){
 if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.
 walls,walls:go(Wt(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==s||this.wallsAhead)&&(this.walls=this.confirmedWalls.
 walls.slice(),this.wallsVersion++,this.wallsAhead=!1),this.state.view&&!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.
@@ -1066,6 +1066,7 @@ ck { min-height: 40px; } }
   .chips { flex-wrap: wrap; max-width: calc(100% - 12px); transform: translate(6px, 4px) !important; }
   aside { border-left: 0; border-top: 1px solid var(--line); }
   footer { flex-direction: column; padding: 4px 12px 5px; gap: 0; }
+  footer [role=status] { white-space: normal; }
   footer > * { max-width: 100%; min-height: 1.4em; }
 }
 @container (max-width: 640px) {
@@ -1092,6 +1093,7 @@ ck { min-height: 40px; } }
   .bar .segmented span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); }
   .legend { display: none; }
   footer { flex-direction: column; padding: 3px 12px 4px; gap: 0; border-left: 1px solid var(--line); }
+  footer [role=status] { white-space: normal; }
   footer > * { max-width: 100%; }
 }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
@@ -1099,13 +1101,13 @@ ck { min-height: 40px; } }
 `;var mc="bayesmap-theme",fc={auto:"light",light:"dark",dark:"auto"},As=class{constructor(e,n){this.app=e;this.dressed=n;let o=Ih();o&&o in fc&&(this.choice=o),this.
 media.addEventListener("change",this.listen)}theme=Yo.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?Yo.dark:Yo.light;this.app.dataset.theme=e?"dark":"light";let{truth:o,ray:s,noReturn:r,sensor:i,
-hatch:a,unobserved:l,draw:u,ghost:h,belief:p}=n;for(let[m,w]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:l,draw:u,ghost:h,belief:p}))this.
-app.style.setProperty(`--${m}`,w);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=fc[this.choice];try{localStorage.setItem(mc,this.
+hatch:a,unobserved:l,draw:u,ghost:h,belief:p}=n;for(let[f,w]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:l,draw:u,ghost:h,belief:p}))this.
+app.style.setProperty(`--${f}`,w);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=fc[this.choice];try{localStorage.setItem(mc,this.
 choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Ih(){try{return localStorage.getItem(mc)}catch{return null}}function Ls(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(pc+hc),r.adoptedStyleSheets=
-[i],t.toggleAttribute("data-embedded",n);let a=0,l=()=>{a||=requestAnimationFrame(Ue)},u=new Cs(e,l,o,s);e.open();let h=new Gn,p=new zo(u),m=new Wo(u,p),w=new xs(
-u),y=new vs(u,p,m,ae,Y=>w.showLayer(Y),n),S=[new Hn,new Bn,new qn,new Kn,new Qo,new jn,new zn,new Yn,new Vn,new Ko],k=S.map(({name:Y})=>x("canvas",{className:Y})),
-P=k[k.length-1];Object.assign(P,{tabIndex:0,role:"application"});let M=new Bo(S,k);new jo(P,u,h,p,m,n);let _=new Vo(P,u,h,p,m),E={truth:!0,rays:!0,readings:!0,strokes:!0,
-trajectory:!0},K=Il(y),R=ea(y),q={chip:Hl(y),banner:Vl(y)},V=x("main",{className:"stage"},...k,q.chip,q.banner),N=()=>ee.theme,G=Ol(y,N),A=Bl(y);P.setAttribute(
+[i],t.toggleAttribute("data-embedded",n);let a=0,l=()=>{a||=requestAnimationFrame(Ue)},u=new Cs(e,l,o,s);e.open();let h=new Gn,p=new zo(u),f=new Wo(u,p),w=new xs(
+u),y=new vs(u,p,f,ae,Y=>w.showLayer(Y),n),k=[new Hn,new Bn,new qn,new Kn,new Qo,new jn,new zn,new Yn,new Vn,new Ko],S=k.map(({name:Y})=>x("canvas",{className:Y})),
+P=S[S.length-1];Object.assign(P,{tabIndex:0,role:"application"});let M=new Bo(k,S);new jo(P,u,h,p,f,n);let _=new Vo(P,u,h,p,f),E={truth:!0,rays:!0,readings:!0,strokes:!0,
+trajectory:!0},K=Il(y),R=ea(y),q={chip:Hl(y),banner:Vl(y)},V=x("main",{className:"stage"},...S,q.chip,q.banner),N=()=>ee.theme,G=Ol(y,N),A=Bl(y);P.setAttribute(
 "aria-describedby",A.readout.id);let Z=Nl(y),I={help:Dl(y),new:Rl(y),share:Z.dialog},[j,W,Q,z]=[Yl(y),Jl(y),Zl(y),Ql(y)],Je=[Ll(y),oc(y),$l(y),Gl(y),Kl(y,Cl(y,N),
 Al(y,N)),ec(y),ql(y),Xl(y,w,E),j,W,jl(y),Q,z],me=x("aside",{"aria-label":"Controls"},...Je),re=()=>u.recorded||u.document?.source.kind==="run";y.visible(j,()=>u.
 editable),y.visible(W,()=>!re()),y.visible(Q,()=>!re()),y.visible(z,()=>!re()),y.each(()=>{L(R,"inert",!u.document),L(me,"inert",!u.document)});let ue=x("div",{
@@ -1126,20 +1128,20 @@ let Ne=P.getBoundingClientRect(),Ot=h.fromGrid({x:Y+.5,y:ne+.5},u.shape[1]);retu
 0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},s=4+e;for(let{name:r,dtype:i,shape:a}of n.buffers){let l=a.reduce((u,h)=>u*h,1)*Kr[i].BYTES_PER_ELEMENT;
 o[r]=new Kr[i](t.slice(s,s+l)),s+=Math.ceil(l/gc)*gc}return[n,o]}function bc(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{let{buffer:i,byteOffset:a,
 byteLength:l}=e[r];n[o]=new Kr[s](i.slice(a,a+l))}),n}function wc(t){let{document:e,scans:n,settings:o={},log_joint:s=[]}=t,r=e.grid.shape[0]*e.grid.shape[1],i=t.draws?.count??0,a=e.source.kind!=="simulation",l=Wt(
-t.mean),u=Wt(t.observed),h=null,p=0,m={layer:"mean",chain:0,draw:null},w=N=>a?[N[p]]:N,y=N=>Float32Array.from(w(N).flat(),G=>G??1/0),S=n.angles.length,k=go(Wt(n.
-hit),n.pose.length*S),P=()=>a?k.subarray(p*S,(p+1)*S):k,M=Float32Array.from(s.flat()),_=(o.sweeps??i)/Math.max(1,i),E=Float32Array.from(s[0]??[],(N,G)=>(G+1)*_),
+t.mean),u=Wt(t.observed),h=null,p=0,f={layer:"mean",chain:0,draw:null},w=N=>a?[N[p]]:N,y=N=>Float32Array.from(w(N).flat(),G=>G??1/0),k=n.angles.length,S=go(Wt(n.
+hit),n.pose.length*k),P=()=>a?S.subarray(p*k,(p+1)*k):S,M=Float32Array.from(s.flat()),_=(o.sweeps??i)/Math.max(1,i),E=Float32Array.from(s[0]??[],(N,G)=>(G+1)*_),
 K=N=>{let G={chains:t.draws?.chains??0,count:h?i:0},A={generation:1,can_undo:!1,can_redo:!1,live:!1,running:!1,working:!1};V.onmessage({type:"state",document:e,
-seq:N,...A,draws:G,view:m},{})},R=()=>{let N=Float64Array.from(w(n.pose).flat(),Number),G={type:"scan",generation:1,ids:a?[p]:n.ids,index:a?p:null},A=n.exact?.length?
-y(n.exact):new Float32Array(0);V.onmessage(G,{pose:N,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:A,hit:P()})},q=()=>{let N=m.layer==="draw"&&h?Oh(
-h,m.chain*i+(m.draw??i-1),r):null,G=s[m.chain]?.[(m.layer==="draw"?m.draw:null)??i-1]??null,A=N?{...m,draw:m.draw??i-1}:{layer:m.layer==="draw"?"mean":m.layer},
+seq:N,...A,draws:G,view:f},{})},R=()=>{let N=Float64Array.from(w(n.pose).flat(),Number),G={type:"scan",generation:1,ids:a?[p]:n.ids,index:a?p:null},A=n.exact?.length?
+y(n.exact):new Float32Array(0);V.onmessage(G,{pose:N,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:A,hit:P()})},q=()=>{let N=f.layer==="draw"&&h?Oh(
+h,f.chain*i+(f.draw??i-1),r):null,G=s[f.chain]?.[(f.layer==="draw"?f.draw:null)??i-1]??null,A=N?{...f,draw:f.draw??i-1}:{layer:f.layer==="draw"?"mean":f.layer},
 Z=o.sweeps??i,I={quantity:o.quantity,sweeps:Z,total:Z,ess:o.ess,rhat:o.rhat,verdict:o.verdict,log_joint:G},j=o.method??e.method,W={p:N??l,observed:u,trace:M,traced:E};
 V.onmessage({type:"field",generation:1,...A,method:j,approximate:!1,...I},W)},V={...io(),open:()=>V.onstatus({connected:!0}),send:N=>{if(N.type==="hello"){if(V.
-onmessage({type:"welcome",version:1,recorded:!0},{}),K(N.seq),R(),q(),!i||!t.draws)return;Oo(Wt(t.draws.data)).then(G=>{h=G,K(N.seq)})}else if(N.type==="view")m=
-{layer:N.layer,chain:N.chain??m.chain,draw:N.draw??null},K(N.seq),q();else if(N.type==="scan")p=N.index,K(N.seq),R();else if(N.type==="inspect"){let G=Uh(e,n.angles,
+onmessage({type:"welcome",version:1,recorded:!0},{}),K(N.seq),R(),q(),!i||!t.draws)return;Oo(Wt(t.draws.data)).then(G=>{h=G,K(N.seq)})}else if(N.type==="view")f=
+{layer:N.layer,chain:N.chain??f.chain,draw:N.draw??null},K(N.seq),q();else if(N.type==="scan")p=N.index,K(N.seq),R();else if(N.type==="inspect"){let G=Uh(e,n.angles,
 w(n.pose),w(n.ranges),N.x,N.y);V.onmessage({type:"cell",x:N.x,y:N.y,beams:G},{})}},close:()=>{}};return V}function Oh(t,e,n){let o=e*n;return Uint8Array.from({length:n},
-(s,r)=>t[o+r>>3]>>7-(o+r&7)&1?255:0)}function Uh({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,l=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((h,p)=>{let[m,w,y]=h.
-map(Number);e.forEach((S,k)=>{let[P,M]=[Math.cos(S+y),Math.sin(S+y)],_=[(l[0]-m)/P,(l[0]+a-m)/P,(l[1]-w)/M,(l[1]+a-w)/M],E=Math.max(0,Math.min(_[0],_[1]),Math.min(
-_[2],_[3])),K=Math.min(o[p][k]??1/0,Math.max(_[0],_[1]),Math.max(_[2],_[3]));E<K&&u++})}),u}var qr=250,Gh=8e3;function vc(t){let e=null,n=qr,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+(s,r)=>t[o+r>>3]>>7-(o+r&7)&1?255:0)}function Uh({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,l=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((h,p)=>{let[f,w,y]=h.
+map(Number);e.forEach((k,S)=>{let[P,M]=[Math.cos(k+y),Math.sin(k+y)],_=[(l[0]-f)/P,(l[0]+a-f)/P,(l[1]-w)/M,(l[1]+a-w)/M],E=Math.max(0,Math.min(_[0],_[1]),Math.min(
+_[2],_[3])),K=Math.min(o[p][S]??1/0,Math.max(_[0],_[1]),Math.max(_[2],_[3]));E<K&&u++})}),u}var qr=250,Gh=8e3;function vc(t){let e=null,n=qr,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),u=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{u=!0,n=qr,i.onstatus({connected:!0})},l.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...yc(h))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
 h),u||Wh(t()).then(p=>p&&e===l&&i.onstatus({...h,refused:p})),n=Math.min(Gh,2*n)}}let i={...io(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
