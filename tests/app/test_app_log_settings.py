@@ -140,7 +140,7 @@ def test_a_link_to_the_same_log_takes_both_along(acted, log):
     assert acted.session.document.grid == Grid.covering(log.scans, 0.2)
     strange = {**linked, "grid": {**linked["grid"], "origin": [0.0, 0.0]}}
     acted.act("hello", document={**strange, "walls": ""})
-    assert "the link shows" in acted.text
+    assert "this server shows" in acted.text
 
 
 @pytest.mark.parametrize("patch", [{"scans_used": 0}, {"scans_used": 1.5}, {"resolution": 0}, {"resolution": "fine"}])

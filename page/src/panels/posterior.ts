@@ -44,7 +44,7 @@ function idle({ shown, working }: Session) {
 
 function buttons(ui: Ui) {
   const { session } = ui;
-  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)" });
+  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)", when: () => session.connection.connected });
   const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
     text: "Cancel",
     title: "Cancel (Escape)",

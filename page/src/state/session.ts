@@ -78,11 +78,11 @@ export class Session {
     return !this.recorded && this.document?.source.kind === "simulation";
   }
   get running() {
-    return Boolean(this.state?.running);
+    return this.connection.connected && Boolean(this.state?.running);
   }
   /** Whether the picture is to change yet. */
   get working() {
-    return Boolean(this.state?.working);
+    return this.connection.connected && Boolean(this.state?.working);
   }
   /** What the colours on show are; before there are draws or intervals, the mean stands for them. */
   get layer(): Layer {
@@ -193,7 +193,6 @@ export class Session {
       if (this.everConnected) this.say("Connected again");
       else if (this.notice) this.say(this.notice.text, this.notice.level);
       this.everConnected = true;
-      forget();
     } else if (this.everConnected) {
       this.say("Connection lost", "error");
       keep(this.portableDocument());
@@ -268,12 +267,14 @@ export class Session {
 
   private receiveError(message: Message) {
     const seq: number | null = message.refused?.seq ?? null;
-    if (seq !== null && seq === this.broughtAt) {
+    const brought = seq !== null && seq === this.broughtAt;
+    if (brought) {
       // the document that this page brought is none: it takes the server's
       this.broughtAt = null;
       this.act({ type: "hello" });
     }
-    this.status.say([message.text, message.remedy].filter(Boolean).join("; "), "error", this.acted);
+    const why = [message.text, message.remedy].filter(Boolean).join("; ");
+    this.status.say(brought ? `The map that was brought along cannot be shown: ${why}` : why, "error", this.acted);
     this.pending = this.pending.filter((edit) => edit.seq !== seq);
     if (seq !== null) this.latency.refused(seq);
     this.rebuild();
@@ -282,7 +283,10 @@ export class Session {
   private receiveState(state: State) {
     this.status.confirmed(state.seq);
     this.state = state;
-    if (state.document.source.kind === "simulation") this.overlay = null; // of the file that was shown before
+    if (state.document.source.kind === "simulation") {
+      this.overlay = null; // of the file that was shown before
+      forget(); // the server has the map now; one that shows a file did not take it
+    }
     this.generation = Math.max(this.generation, state.generation);
     this.latency.confirmed(state.generation, state.seq);
     this.pending = this.pending.filter((edit) => edit.seq > state.seq);

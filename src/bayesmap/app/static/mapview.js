@@ -676,15 +676,15 @@ running||!r||r.sweeps>=r.total?"":"stopped";i?L(s,"textContent",`${i.text}: ${i.
 l?L(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):L(s,"textContent",vn([f,w,f&&y].filter(Boolean).join(", "))||oh(n))}),t.section("Post\
 erior",sh(t),o,s,rh(t),ih(t),...e)}function oh({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped wh\
 ile the sensor was fitted":e?"Computing":"No chain yet"}function sh(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"\
-Run",title:"Run (R)"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||e.working&&
-e.shown?.method==="pilot"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=x("div",{className:"bu\
-ttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function rh(t){let{session:e}=t,n=x("dl"),o=(s,r,i,a=!1)=>{let l=x("dd",{textContent:"\
-–"});n.append(x("div",{title:r},x("dt",{textContent:s}),l)),t.each(()=>{L(l,"textContent",e.shown?i(e.shown):"–"),a&&L(l,"className",e.shown?.verdict?.level??
-"")})};return o("ESS","Effective sample size of the log joint",s=>Me(s.ess,0),!0),o("R-hat","Agreement of the chains on the log joint; 1 is full",s=>Me(s.rhat,3),
-!0),o("log joint","Log of prior times likelihood at the last sweep",s=>Me(s.log_joint,Math.abs(s.log_joint??0)<1e5?1:0)),o("reply","From the hand's last move to\
- its picture",()=>Me(e.latency.eventToPaint_ms.at(-1),0," ms")),n}function ih(t){let{session:e}=t,n=x("div",{className:"verdict"});return t.each(()=>{let o=e.shown?.
-verdict;if(L(n,"hidden",!o),!o)return;let s={good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];L(n,"textContent",`${s}: ${o.why}`),L(n,"cla\
-ssName",`verdict ${o.level}`)}),n}var bs=t=>Math.abs(t)<.995?`${Me(100*Math.abs(t),1)} cm`:`${Me(Math.abs(t),2)} m`,ah="Point at a reading to compare it with what the posterior predicts of it.";
+Run",title:"Run (R)",when:()=>e.connection.connected}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.
+running||e.sampling||e.working&&e.shown?.method==="pilot"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the \
+chain"),r=x("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function rh(t){let{session:e}=t,n=x("dl"),
+o=(s,r,i,a=!1)=>{let l=x("dd",{textContent:"–"});n.append(x("div",{title:r},x("dt",{textContent:s}),l)),t.each(()=>{L(l,"textContent",e.shown?i(e.shown):"–"),
+a&&L(l,"className",e.shown?.verdict?.level??"")})};return o("ESS","Effective sample size of the log joint",s=>Me(s.ess,0),!0),o("R-hat","Agreement of the chains\
+ on the log joint; 1 is full",s=>Me(s.rhat,3),!0),o("log joint","Log of prior times likelihood at the last sweep",s=>Me(s.log_joint,Math.abs(s.log_joint??0)<1e5?
+1:0)),o("reply","From the hand's last move to its picture",()=>Me(e.latency.eventToPaint_ms.at(-1),0," ms")),n}function ih(t){let{session:e}=t,n=x("div",{className:"\
+verdict"});return t.each(()=>{let o=e.shown?.verdict;if(L(n,"hidden",!o),!o)return;let s={good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];
+L(n,"textContent",`${s}: ${o.why}`),L(n,"className",`verdict ${o.level}`)}),n}var bs=t=>Math.abs(t)<.995?`${Me(100*Math.abs(t),1)} cm`:`${Me(Math.abs(t),2)} m`,ah="Point at a reading to compare it with what the posterior predicts of it.";
 function ql(t){let{session:e}=t,n=x("p",{className:"words reading",role:"status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.
 document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i}=e.reading,a=s?`Beam ${s.beam+1} of scan ${s.scan+1}.`:ah;L(n,"textContent",i||
 (r?lh(r):a))}),o}function lh({scan:t,beam:e,reading:n,range:o,low:s,median:r,high:i,residual:a,no_return:l,wall:u}){let h=`Beam ${e+1} of scan ${t+1}`,p=(P,M)=>P===
@@ -831,39 +831,39 @@ s;e.onmessage=(r,i)=>this.receive(r,i),e.onstatus=r=>this.onstatus(r)}connection
 layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;cell=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new ks(
 this);where=new _s(this);ghost=new Ms(this);reading=new Es(this);flicker=new Ss(this);status=new gs;progress=new Ps;latency=new Ts;counts={paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];confirmedWalls={
 text:"",walls:this.walls};wallsAhead=!1;broughtAt=null;packed={version:-1,text:""};get shape(){return this.document?this.document.grid.shape:[1,1]}get editable(){
-return!this.recorded&&this.document?.source.kind==="simulation"}get running(){return!!this.state?.running}get working(){return!!this.state?.working}get layer(){
-let e=this.shown?.layer;return e==="draw"||e==="width"?e:this.view.layer==="entropy"?"entropy":"mean"}get stage(){return this.running&&this.shown?.method==="cou\
-nts"?this.lastStage:null}get halfway(){return this.lastStage?.generation===this.shown?.generation}get draws(){return this.state?.draws??{chains:0,count:0}}get sampling(){
-let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&this.working)}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.
-shown?.layer==="draw"?this.shown.draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="\
-info"){this.status.say(e,n,this.acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;let o={...e,seq:++this.seq};Nh.has(e.type)||(this.acted=
-this.seq),uc.has(e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&
-jr(this.portableDocument()),this.changed()}bring(e){this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.
-packed.version!==this.wallsVersion&&(this.packed={version:this.wallsVersion,text:Io(Pi(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){
-let e=this.effectiveDocument();return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.shown=this.next,this.
-next=null,this.flicker.take(this.shown),!0)}painted(){this.counts.paints++,this.shown&&this.latency.painted(this.shown.generation),this.decisions.ask(),this.ghost.
-ask()}get quantity(){return this.shown?.quantity??{kind:"binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.sampling?this.progress.
-remaining_s(this.shown):null}onstatus(e){if(this.connection=e,e.connected){let n=this.everConnected?this.portableDocument():this.adopt;this.pending=[],this.latency.
-forget(),this.bring(n),this.view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connected again"):this.notice&&
-this.say(this.notice.text,this.notice.level),this.everConnected=!0,ic()}else this.everConnected&&(this.say("Connection lost","error"),jr(this.portableDocument()));
-this.changed()}receive(e,n){switch(e.type){case"welcome":this.generation=-1,this.recorded=!!e.recorded,this.latency.forget(),this.next=null;break;case"state":this.
-receiveState(e);break;case"scan":if(e.generation>=this.generation){let{pose:o,angles:s,ranges:r,exact:i,hit:a}=n;this.scan?.index!==e.index&&this.reading.forget(),
-this.scan={ids:e.ids??[],index:e.index??null,pose:o,angles:s,ranges:r,exact:i,hit:a}}break;case"overlay":this.overlay=n;break;case"field":this.receiveField(e,n);
-break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.cell=e;break;case"path":case"views":case"ghost":case"beam":case"\
-undecided":this.receiveAnswer(e,n);break;case"status":this.status.say(e.text,e.level??"info",this.acted);break;case"error":this.receiveError(e);break;case"worke\
-r":this.worker=e.state,this.status.worker(e.state);break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,"info",this.acted);
-break}this.changed()}receiveAnswer(e,n){let o=e.type==="undecided"?e.of:e.type;o==="ghost"?this.ghost.receive(e,n):o==="beam"?this.reading.receive(e):this.decisions.
-receive(e,n)}receiveError(e){let n=e.refused?.seq??null;n!==null&&n===this.broughtAt&&(this.broughtAt=null,this.act({type:"hello"})),this.status.say([e.text,e.remedy].
-filter(Boolean).join("; "),"error",this.acted),this.pending=this.pending.filter(o=>o.seq!==n),n!==null&&this.latency.refused(n),this.rebuild()}receiveState(e){this.
-status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null),this.generation=Math.max(this.generation,e.generation),this.latency.
-confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;
-return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,a=n.observed,l=this.next??this.shown,h=l&&l.p.length===o.length&&l.bits.every((p,f)=>p===
-a[f])?{observed:l.observed,bits:l.bits}:{observed:go(a,o.length),bits:a};this.next={...e,p:o,trace:s,traced:r,weights:i,...h},this.progress.hear(this.next)}rebuild(){
-if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.
-walls,walls:go(Wt(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==s||this.wallsAhead)&&(this.walls=this.confirmedWalls.
-walls.slice(),this.wallsVersion++,this.wallsAhead=!1),this.state.view&&!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.
-view={layer:r??"mean",chain:i??0,draw:a??null}}for(let r of this.pending)this.foresee(r)}foresee(e){!this.document||!this.state||(dc(this,e),e.type==="walls"&&(this.
-wallsVersion++,this.wallsAhead=!0))}};var pc='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
+return!this.recorded&&this.document?.source.kind==="simulation"}get running(){return this.connection.connected&&!!this.state?.running}get working(){return this.
+connection.connected&&!!this.state?.working}get layer(){let e=this.shown?.layer;return e==="draw"||e==="width"?e:this.view.layer==="entropy"?"entropy":"mean"}get stage(){
+return this.running&&this.shown?.method==="counts"?this.lastStage:null}get halfway(){return this.lastStage?.generation===this.shown?.generation}get draws(){return this.
+state?.draws??{chains:0,count:0}}get sampling(){let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&this.working)}get draw(){let e=Math.max(0,this.draws.
+count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.shown.draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.
+test(this.document?.method??"")}say(e,n="info"){this.status.say(e,n,this.acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;let o={...e,seq:++this.
+seq};Nh.has(e.type)||(this.acted=this.seq),uc.has(e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.
+send(o):this.everConnected&&jr(this.portableDocument()),this.changed()}bring(e){this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){
+return this.packed.version!==this.wallsVersion&&(this.packed={version:this.wallsVersion,text:Io(Pi(this.walls))}),this.document&&{...this.document,walls:this.packed.
+text}}portableDocument(){let e=this.effectiveDocument();return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.
+shown=this.next,this.next=null,this.flicker.take(this.shown),!0)}painted(){this.counts.paints++,this.shown&&this.latency.painted(this.shown.generation),this.decisions.
+ask(),this.ghost.ask()}get quantity(){return this.shown?.quantity??{kind:"binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.
+sampling?this.progress.remaining_s(this.shown):null}onstatus(e){if(this.connection=e,e.connected){let n=this.everConnected?this.portableDocument():this.adopt;this.
+pending=[],this.latency.forget(),this.bring(n),this.view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connec\
+ted again"):this.notice&&this.say(this.notice.text,this.notice.level),this.everConnected=!0}else this.everConnected&&(this.say("Connection lost","error"),jr(this.
+portableDocument()));this.changed()}receive(e,n){switch(e.type){case"welcome":this.generation=-1,this.recorded=!!e.recorded,this.latency.forget(),this.next=null;
+break;case"state":this.receiveState(e);break;case"scan":if(e.generation>=this.generation){let{pose:o,angles:s,ranges:r,exact:i,hit:a}=n;this.scan?.index!==e.index&&
+this.reading.forget(),this.scan={ids:e.ids??[],index:e.index??null,pose:o,angles:s,ranges:r,exact:i,hit:a}}break;case"overlay":this.overlay=n;break;case"field":
+this.receiveField(e,n);break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.cell=e;break;case"path":case"views":case"\
+ghost":case"beam":case"undecided":this.receiveAnswer(e,n);break;case"status":this.status.say(e.text,e.level??"info",this.acted);break;case"error":this.receiveError(
+e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,
+"info",this.acted);break}this.changed()}receiveAnswer(e,n){let o=e.type==="undecided"?e.of:e.type;o==="ghost"?this.ghost.receive(e,n):o==="beam"?this.reading.receive(
+e):this.decisions.receive(e,n)}receiveError(e){let n=e.refused?.seq??null,o=n!==null&&n===this.broughtAt;o&&(this.broughtAt=null,this.act({type:"hello"}));let s=[
+e.text,e.remedy].filter(Boolean).join("; ");this.status.say(o?`The map that was brought along cannot be shown: ${s}`:s,"error",this.acted),this.pending=this.pending.
+filter(r=>r.seq!==n),n!==null&&this.latency.refused(n),this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simula\
+tion"&&(this.overlay=null,ic()),this.generation=Math.max(this.generation,e.generation),this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(
+n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,
+weights:i}=n,a=n.observed,l=this.next??this.shown,h=l&&l.p.length===o.length&&l.bits.every((p,f)=>p===a[f])?{observed:l.observed,bits:l.bits}:{observed:go(a,o.length),
+bits:a};this.next={...e,p:o,trace:s,traced:r,weights:i,...h},this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.
+shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:go(Wt(e.walls),n*o)}),this.document={...e,sensors:e.
+sensors.map(r=>({...r}))},(this.confirmedWalls!==s||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,this.wallsAhead=!1),this.
+state.view&&!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r??"mean",chain:i??0,draw:a??null}}for(let r of this.
+pending)this.foresee(r)}foresee(e){!this.document||!this.state||(dc(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var pc='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
 ca Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji";line-height: 1.5;width: min-content;}.u-t\
 itle {text-align: center;font-size: 18px;font-weight: bold;}.u-wrap {position: relative;user-select: none;}.u-over, .u-under {position: absolute;}.u-under {over\
 flow: hidden;}.uplot canvas {display: block;position: relative;width: 100%;height: 100%;}.u-axis {position: absolute;}.u-legend {font-size: 14px;margin: auto;te\
