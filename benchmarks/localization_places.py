@@ -19,13 +19,12 @@ import numpy as np
 
 import bayesmap as bm
 from bayesmap.cells.surface import Surface
-from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
-from bayesmap.localization.localize import Near, follow, localize
+from bayesmap.localization.localize import localize
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import wrapped
 from bayesmap.space.scans import Scans
-from benchmarks.suites.poses import DATA, MAX_RANGE_M, RESOLUTION_M, Floats, is_right, off_m
+from benchmarks.located import located
+from benchmarks.suites.poses import DATA, MAX_RANGE_M, RESOLUTION_M
 
 PLACES = range(0, 901, 10)
 WINDOWS, TRIALS = 3, 300
@@ -60,38 +59,6 @@ def map_without(scans: Scans, places: list[int], sensor: Any, prior: Surface, pa
                     draws=4, chains=2, seed=1)  # fmt: skip
     made.save(path.with_suffix(".part.nc"))
     path.with_suffix(".part.nc").rename(path)
-
-
-def judged(belief: PoseBelief, truth: Floats, seconds: float) -> dict[str, Any]:
-    """What is kept of an answer."""
-    error = belief.mean - truth
-    error[2] = wrapped(error[2])
-    return {
-        "right": is_right(belief.mean, truth),
-        "off_m": off_m(belief.mean, truth),
-        "square": float(error @ np.linalg.solve(belief.covariance, error)),
-        "modes": [(mode.probability, is_right(mode.mean, truth)) for mode in belief.modes[:12]],
-        "seconds": seconds,
-    }
-
-
-def located(known: KnownMap, scans: Scans, raw: Scans, place: int) -> dict[str, Any]:
-    """Five single scans, and ten with odometry, of one place."""
-    found: dict[str, Any] = {"place": place, "one": []}
-    for scan in range(place, place + 10, 2):
-        begin = time.process_time()
-        where = localize(known, scans.select([scan])).last
-        found["one"].append(judged(where, scans.poses[scan], time.process_time() - begin))
-    some = np.arange(place, place + 10)
-    moved = scans.select(some).moved_to(raw.poses[some])
-    begin = time.process_time()
-    last = list(follow(known, moved))[-1]
-    found["ten"] = judged(last, scans.poses[some[-1]], time.process_time() - begin)
-    tracked = follow(known, moved, Near(scans.poses[place], 0.1, 0.05))
-    next(tracked)
-    begin = time.process_time()
-    found["hz"] = len(list(tracked)) / (time.process_time() - begin)
-    return found
 
 
 def summary(found: list[dict[str, Any]]) -> str:

@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,6 @@ from numpy.typing import NDArray
 import bayesmap as bm
 from bayesmap.errors import BadInput
 from bayesmap.localization.known_map import KnownMap
-from bayesmap.localization.localize import Near, follow, localize
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.relations import read_relations, relation_errors
 from bayesmap.poses.slam import infer_trajectory
@@ -27,6 +27,7 @@ from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure
 from benchmarks.halves import difference_scales, every_other_beam
+from benchmarks.located import is_right, located, off_m
 from benchmarks.peers import mrpt_localization as mrpt
 from benchmarks.pose_cases import FAR_OFF_M, off, office, record
 
@@ -35,7 +36,7 @@ Floats = NDArray[np.float64]
 DATA = Path(os.environ.get("BAYESMAP_DATA", "../shared/data"))
 MAX_RANGE_M, RESOLUTION_M, EVERY = 20.0, 0.1, 10
 LEVELS = (0.5, 0.8, 0.95)
-NEAR_M, RIGHT_M, RIGHT_RAD = 4.0, 0.5, np.radians(10.0)
+NEAR_M = 4.0
 POSE_DRAWS = 24
 PLACES = tuple(range(40, 880, 60))
 """First scans of the places where scans are located."""
@@ -207,67 +208,41 @@ def localization(with_peers: bool = True, places: tuple[int, ...] = PLACES) -> I
     absent = mrpt.missing() if with_peers else None
     if absent is not None:
         print(absent.reason, flush=True)
-    found: dict[str, list[float]] = {}
-
-    def note(**values: float) -> None:
-        for name, value in values.items():
-            found.setdefault(name, []).append(float(value))
-
+    with_mrpt = with_peers and absent is None
+    answers: list[dict[str, Any]] = []
+    peers: list[tuple[Floats, Floats, float]] = []  # last pose, truth, seconds
     for place in places:
         train = scans.select(np.abs(np.arange(len(scans)) - (place + 5)) > 35)
         made = bm.infer(train, Grid.covering(scans, RESOLUTION_M), prior=bm.Surface(), sensor="fit", warmup=40, draws=8,
                         chains=2, seed=1)  # fmt: skip
-        known = KnownMap.of_run(made)
-        for scan in range(place, place + 10, 2):
-            begin = time.process_time()
-            where = localize(known, scans.select([scan]))
-            note(one_time=time.process_time() - begin, one=is_right(where.mean, scans.poses[scan]),
-                 says=where.modes[0].probability)  # fmt: skip
-        some = np.arange(place, place + 10)
-        moved = scans.select(some).moved_to(raw.poses[some])
-        begin = time.process_time()
-        beliefs = list(follow(known, moved))
-        note(ten_time=time.process_time() - begin, ten=is_right(beliefs[-1].mean, scans.poses[some[-1]]),
-             ten_off=off_m(beliefs[-1].mean, scans.poses[some[-1]]))  # fmt: skip
-        tracked = follow(known, moved, Near(scans.poses[place], 0.1, 0.05))
-        next(tracked)
-        begin = time.process_time()
-        note(rate=len(list(tracked)) / (time.process_time() - begin))
-        if with_peers and absent is None:
+        answers.append(located(KnownMap.of_run(made), scans, raw, place))
+        if with_mrpt:
+            some = np.arange(place, place + 10)
             with TemporaryDirectory() as folder:
-                peer = mrpt.locate(made.occupancy, made.observed, made.grid, moved, Path(folder))
-            note(mrpt_time=peer.seconds.sum(), mrpt=is_right(peer.poses[-1], scans.poses[some[-1]]),
-                 mrpt_off=off_m(peer.poses[-1], scans.poses[some[-1]]))  # fmt: skip
+                peer = mrpt.locate(made.occupancy, made.observed, made.grid,
+                                   scans.select(some).moved_to(raw.poses[some]), Path(folder))  # fmt: skip
+            peers.append((peer.poses[-1], scans.poses[some[-1]], float(peer.seconds.sum())))
+    one, ten = [answer for found in answers for answer in found["one"]], [found["ten"] for found in answers]
     at = f"{len(places)} places, maps without the 35 scans about each"
-    yield Figure("localize/one_scan", 100.0 * float(np.mean(found["one"])), "%", "higher", against=at)
-    yield Figure("localize/one_scan_says", 100.0 * float(np.mean(found["says"])), "%", "higher", gated=False,
-                 against="mean probability that it gives the likeliest place")  # fmt: skip
-    yield Figure(
-        "localize/ten_scans", 100.0 * float(np.mean(found["ten"])), "%", "higher", against="the tenth, with odometry"
-    )
-    yield Figure("localize/ten_scans_off", float(np.median(found["ten_off"])), "m", against="median")
-    yield Figure(
-        "localize/global_time", float(np.median(found["one_time"])), "s processor", gated=False, against="one scan"
-    )
-    yield Figure("localize/ten_scans_time", float(np.median(found["ten_time"])), "s processor", gated=False)
-    yield Figure("localize/tracking", float(np.median(found["rate"])), "Hz", "higher", gated=False,
-                 against="180 beams, of processor time")  # fmt: skip
-    if "mrpt" in found:
-        yield Figure("localize/mrpt_ten_scans", 100.0 * float(np.mean(found["mrpt"])), "%", "higher", gated=False,
-                     against="MRPT's pf-localization, 40 000 particles at first")  # fmt: skip
-        yield Figure(
-            "localize/mrpt_ten_scans_off", float(np.median(found["mrpt_off"])), "m", gated=False, against="median"
-        )
-        yield Figure("localize/mrpt_ten_scans_time", float(np.median(found["mrpt_time"])), "s", gated=False,
-                     against="of the filter's steps alone")  # fmt: skip
 
+    def figure(name: str, value: np.floating | float, unit: str, against: str = "", **how: Any) -> Figure:
+        return Figure(f"localize/{name}", float(value), unit, against=against, **how)
 
-def off_m(pose: Floats, truth: Floats) -> float:
-    """How far a position is from the truth."""
-    return float(np.hypot(*(pose - truth)[:2]))
-
-
-def is_right(pose: Floats, truth: Floats) -> bool:
-    """Within half a metre and ten degrees."""
-    error = between(truth, pose)
-    return bool(np.hypot(error[0], error[1]) < RIGHT_M and abs(wrapped(error[2])) < RIGHT_RAD)
+    unjudged: dict[str, Any] = {"gated": False}
+    yield figure("one_scan", 100.0 * np.mean([a["right"] for a in one]), "%", at, better="higher")
+    yield figure("one_scan_says", 100.0 * np.mean([a["modes"][0][0] for a in one]), "%",
+                 "mean probability that it gives the likeliest place", better="higher", **unjudged)  # fmt: skip
+    yield figure("ten_scans", 100.0 * np.mean([a["right"] for a in ten]), "%", "the tenth, with odometry",
+                 better="higher")  # fmt: skip
+    yield figure("ten_scans_off", np.median([a["off_m"] for a in ten]), "m", "median")
+    yield figure("global_time", np.median([a["seconds"] for a in one]), "s processor", "one scan", **unjudged)
+    yield figure("ten_scans_time", np.median([a["seconds"] for a in ten]), "s processor", **unjudged)
+    yield figure("tracking", np.median([found["hz"] for found in answers]), "Hz", "180 beams, of processor time",
+                 better="higher", **unjudged)  # fmt: skip
+    if peers:
+        yield figure("mrpt_ten_scans", 100.0 * np.mean([is_right(pose, truth) for pose, truth, _ in peers]), "%",
+                     "MRPT's pf-localization, 40 000 particles at first", better="higher", **unjudged)  # fmt: skip
+        yield figure("mrpt_ten_scans_off", np.median([off_m(pose, truth) for pose, truth, _ in peers]), "m", "median",
+                     **unjudged)  # fmt: skip
+        yield figure("mrpt_ten_scans_time", np.median([seconds for *_, seconds in peers]), "s",
+                     "of the filter's steps alone", **unjudged)  # fmt: skip

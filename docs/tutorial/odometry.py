@@ -265,7 +265,7 @@ off = [1e3 * np.hypot(*(belief.mean - pose)[:2]) for belief, pose in zip(tracked
 print("off by", ", ".join(f"{value:.0f}" for value in off), "mm")
 
 # %% tags=["hide-input"]
-assert np.mean(right) > 0.4
+assert np.mean(right) > 0.5
 assert off[-1] < 100
 figure, axes = panels("one scan", "twelve scans on the way", size_in=4.6, height_in=3.8)
 for ax in axes:

@@ -16,9 +16,10 @@ def mixture(z, d, *, sigma, dof=None, per_m=0.0, min_m, max_m, p_random, p_no_re
     law, shape = (stats.norm, ()) if dof is None else (stats.t, (dof,))
     at = (*shape, wall, sigma + per_m * wall)
     reaches = 1 - p_short * stats.expon.cdf(wall, scale=1 / rate)  # no object stands before the wall
+    lost = p_no_return if seen else 1.0  # nothing comes back from what the beam reaches
     echo = reaches * (1 - p_no_return) if seen else 0.0  # the wall is what is read
     if z == np.inf:
-        p = (1 - p_random) * (reaches - echo + echo * law.sf(max_m, *at))
+        p = (1 - p_random) * (reaches * lost + echo * law.sf(max_m, *at))
     elif z == -np.inf:
         blocked = p_short * stats.expon.cdf(min(wall, min_m), scale=1 / rate)
         p = (1 - p_random) * (blocked + echo * law.cdf(min_m, *at))

@@ -74,7 +74,6 @@ def test_the_mixture_is_the_story_that_its_docstring_tells(z, d, sigma, per_m, d
             p_no_return=lost, p_short=short, rate=rate,
         )  # fmt: skip
     if expected > -29:  # below, typed readings are floored at -30
-        # Small probabilities are differences of numbers near one: right to the last bit of those.
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 + 2e-16 * np.exp(-expected))
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
     else:
         assert -30.0 <= found < -28.99

@@ -131,21 +131,20 @@ def simulated_scene(document: Document) -> Scene:
 
     scans, exact = simulate_document(document)
     sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))
-    beams = Beams(partial(trace, scans, document.grid, sensor), partial(near_beams, scans, document.grid, sensor))
+    beams = Beams(
+        partial(trace, scans, document.grid, sensor),
+        partial(trace, scans, document.grid, sensor, reach_m=near_reach_m(scans, sensor)),
+    )
     ids = tuple(s.id for s in document.sensors)
     return Scene(scans, exact, ids, sensor, document.grid, beams, Independent(document.prior))
 
 
-def near_beams(scans: Scans, grid: Grid, sensor: Gaussian) -> BeamTable:
-    """The beam table of scans, but that each beam ends where a stop could no longer explain its reading.
+def near_reach_m(scans: Scans, sensor: Gaussian) -> NDArray[np.float64]:
+    """How far along each beam a stop could still explain its reading, metres, (B,).
 
-    Belief propagation makes the same of it as of the whole one: what is left out would send messages of 1.
+    Belief propagation makes the same of beams that end there: what is left out would send messages of 1.
     """
-    from bayesmap.kernels.rays import trace_rays
-    from bayesmap.kernels.trace import table_of
-
-    reach_m = scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
-    return table_of(trace_rays(scans, grid, reach_m=reach_m), sensor)
+    return scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
 
 
 def same_readings(before: Document, after: Document) -> bool:

@@ -102,7 +102,7 @@ class Ising(BinaryWalls):
             BadInput: so strong a coupling that exact draws take too long.
         """
         if self.pair_coupling == 0.0:
-            return np.asarray(rng.random((count, *grid.shape)) < self.probabilities(grid))
+            return super().sample_maps(rng, grid, count)
         return perfect_draws(rng, self._logit(grid), self.pair_coupling, count)
 
     def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:

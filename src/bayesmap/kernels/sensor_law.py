@@ -31,7 +31,7 @@ THIRD = wp.constant(wp.float64(1.0 / 3.0))
 def _law(name: str, real: Any) -> Any:
     """A struct of a sensor's numbers in a precision."""
     reals = (
-        "sigma_m", "sigma_per_m", "dof", "log_constant", "p_random", "p_known", "p_return", "p_short",
+        "sigma_m", "sigma_per_m", "dof", "log_constant", "p_random", "p_known", "p_return", "p_no_return", "p_short",
         "rate_short_per_m", "min_m", "max_m",
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
@@ -65,7 +65,8 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
         packed.log_constant = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
     else:
         packed.log_constant = -0.5 * math.log(2 * math.pi)
-    packed.p_random, packed.p_known, packed.p_return = model.p_random, 1.0 - model.p_random, 1.0 - model.p_no_return
+    packed.p_random, packed.p_known = model.p_random, 1.0 - model.p_random
+    packed.p_return, packed.p_no_return = 1.0 - model.p_no_return, model.p_no_return
     packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
     packed.uniform = model.p_random / (limits.max_m - limits.min_m)
     packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
@@ -73,10 +74,15 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
 
 
 @wp.func
+def blocked(law: Any, distance_m: Any):
+    """The chance that a passing object stands before the distance."""
+    return law.p_short * (type(distance_m)(1.0) - wp.exp(-law.rate_short_per_m * distance_m))
+
+
+@wp.func
 def unblocked(law: Any, distance_m: Any):
     """The chance that no passing object stands before the distance."""
-    one = type(distance_m)(1.0)
-    return one - law.p_short * (one - wp.exp(-law.rate_short_per_m * distance_m))
+    return type(distance_m)(1.0) - blocked(law, distance_m)
 
 
 @wp.func
@@ -143,15 +149,15 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
     if distance_m > law.max_m:
         if reading_m > type(reading_m)(0.0):
             return wp.max(law.p_known * free, type(one)(LEAST))
-        return wp.max(law.p_known * (one - unblocked(law, wp.min(wall, law.min_m))), type(one)(LEAST))
+        return wp.max(law.p_known * blocked(law, wp.min(wall, law.min_m)), type(one)(LEAST))
     returned = free * law.p_return
     scale = wp.sqrt(variance_at(law, wall, variance))
     if reading_m > type(reading_m)(0.0):  # no return
-        p_none = law.p_known * (free - returned * noise_below(law, (law.max_m - wall) / scale))
+        above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
+        p_none = law.p_known * (free * law.p_no_return + returned * above)
         return wp.max(p_none, type(one)(LEAST))
-    blocked = one - unblocked(law, wp.min(wall, law.min_m))
-    p_close = law.p_known * (blocked + returned * noise_below(law, (law.min_m - wall) / scale))
-    return wp.max(p_close, type(one)(LEAST))
+    below = noise_below(law, (law.min_m - wall) / scale)
+    return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + returned * below), type(one)(LEAST))
 
 
 @wp.func

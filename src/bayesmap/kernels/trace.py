@@ -18,7 +18,15 @@ from bayesmap.space.scans import Scans
 SLICE = 1 << 20  # entries handed to NumPy at a time, where a model has no compiled likelihood
 
 
-def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
+def trace(
+    scans: Scans,
+    grid: Grid,
+    sensor: SensorModel,
+    *,
+    hit_depth: float = 0.0,
+    reach_m: NDArray[np.float64] | None = None,
+    device: str = "cpu",
+) -> BeamTable:
     """Build the beam table of some scans.
 
     Args:
@@ -27,17 +35,19 @@ def trace(scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0
         sensor: fills in the likelihoods.
         hit_depth: where in a cell a beam is expected to stop, as a fraction of its chord: 0 is the edge where it
             enters (the tutorial's closed squares), 0.5 the middle.
+        reach_m: how far each beam is followed, (B,); by default as far as its reading depends on stops.
         device: where to trace; the table comes back in main memory.
 
     Raises:
         BadInput: more incidences than 32-bit indices can count.
     """
-    reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
+    if reach_m is None:
+        reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
     return table_of(trace_rays(scans, grid, reach_m=reach_m, device=device), sensor, hit_depth=hit_depth, device=device)
 
 
 def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
-    """The beam table of some rays, which reach as far as their readings depend on; arguments as of `trace`."""
+    """The beam table of some rays, arguments as of `trace`."""
     device = devices.resolve(device)
     if sensor.kernel_parameters() is None:
         loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))

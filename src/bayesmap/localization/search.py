@@ -101,7 +101,8 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     width = my + reach
     # Sums of a few levels a point fit in a byte, which is what adding them up takes its time by.
     levels = 255 // len(points)
-    flat = np.pad((field.coarse * levels + TOP // 2) // TOP, ((reach, reach + 1), (0, reach))).ravel().astype(np.uint8)
+    exact = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
+    flat = ((exact * levels + TOP // 2) // TOP).astype(np.uint8)
     span = (mx - 1) * width + my
     bx, by = -(-mx // BLOCK), -(-my // BLOCK)
     is_open = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint8)
@@ -129,7 +130,6 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     k = np.arange(BLOCK * BLOCK)
     cell_x, cell_y = x[:, None] * BLOCK + k // BLOCK, y[:, None] * BLOCK + k % BLOCK
     at = (cell_x * width + cell_y)[:, :, None] + shifts[turn][:, None, :]
-    exact = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
     sums = exact[np.minimum(at, len(flat) - 1)].sum(axis=2, dtype=np.int64) * is_open[cell_x, cell_y]
     within = sums.argmax(axis=1)
     cell = np.stack([cell_x, cell_y], axis=-1)[np.arange(len(chosen)), within]

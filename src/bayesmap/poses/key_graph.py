@@ -119,15 +119,13 @@ def close_loops(
     """
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
-    breaks, joined = track.broken[keys], np.ones(1, np.bool_)
-    path, rounds = key_path(geometry, keys, poses, breaks), ROUNDS
-    if breaks.any():
+    path, rounds, joined = key_path(geometry, keys, poses, track.broken[keys]), ROUNDS, np.ones(1, np.bool_)
+    if path.parts.any():
         # Loops within a part first: one that is bent by metres lies to another in several ways, each of them right.
-        bent = _rounds(path, chain_of(track, poses), breaks, ROUNDS[:2], half_width_m, threads, within_parts=True)
-        path = key_path(geometry, keys, bent.poses, breaks)
-        poses, joined = rejoin(path, half_width_m, threads)
-        path, rounds = key_path(geometry, keys, poses, breaks), ROUNDS[1:]
-    closed = _rounds(path, chain_of(track, poses), breaks, rounds, half_width_m, threads, on_progress)
+        bent = _rounds(path, chain_of(track, poses), ROUNDS[:2], half_width_m, threads, within_parts=True)
+        poses, joined = rejoin(path.at(bent.poses), half_width_m, threads)
+        path, rounds = path.at(poses), ROUNDS[1:]
+    closed = _rounds(path, chain_of(track, poses), rounds, half_width_m, threads, on_progress)
     guess, poses, closures, weights = path.poses, closed.poses, closed.closures, closed.weights
     # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
     for k in np.nonzero(~joined)[0]:
@@ -155,7 +153,6 @@ class _Closed:
 def _rounds(
     path: KeyPath,
     chain: Factors,
-    breaks: NDArray[np.bool_],
     rounds: tuple[Search, ...],
     half_width_m: float,
     threads: int | None,
@@ -168,8 +165,7 @@ def _rounds(
     for number, search in enumerate(rounds, start=1):
         parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
         _, precision = solve_step(len(poses), parts)
-        path = key_path(path.geometry, path.keys, poses, breaks)
-        closures = find_closures(path, precision, half_width_m, search, threads, within_parts=within_parts)
+        closures = find_closures(path.at(poses), precision, half_width_m, search, threads, within_parts=within_parts)
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)

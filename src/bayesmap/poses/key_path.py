@@ -44,6 +44,10 @@ class KeyPath:
     def __len__(self) -> int:
         return len(self.keys)
 
+    def at(self, poses: Floats) -> KeyPath:
+        """The same keys and parts at other poses, (K, 3)."""
+        return key_path(self.geometry, self.keys, poses, np.diff(self.parts, prepend=self.parts[0]) > 0)
+
     def scans(self, members: NDArray[np.intp]) -> NDArray[np.int32]:
         """The scans of some keys, as kernels take them, (N,)."""
         return self.keys[members].astype(np.int32)

@@ -49,7 +49,7 @@ SEEN = Agreement(near_m=0.2, clear_m=0.5, beams=90)
 MOST_AGAINST = 0.2
 """Of the points that tell, so many may contradict: people walk about."""
 
-LEAST_TOLD = 60
+LEAST_JUDGED = 60
 """Fewer points, over all key scans of the window, tell nothing."""
 
 
@@ -196,8 +196,8 @@ def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats,
     here = np.broadcast_to(pose, (count, 3))
     seen = between(window.poses, here)
     matched, against, _ = mutual_view_counts(geometry, keys, one, seen, SEEN, threads).sum(axis=0)
-    told = int(matched + against)
-    return told >= LEAST_TOLD and against > MOST_AGAINST * told
+    judged = int(matched + against)
+    return judged >= LEAST_JUDGED and against > MOST_AGAINST * judged
 
 
 def _refined(

@@ -98,6 +98,7 @@ class ReadingLaw(ExactDensity):
         finite = jnp.isfinite(z)
         reading = jnp.where(finite, z, limits.max_m)
         returned = jnp.where(seen, unblocked(wall) * (1.0 - s.p_no_return), 0.0)
+        lost = unblocked(wall) * jnp.where(seen, s.p_no_return, 1.0)
         passing = s.p_short * s.rate_short_per_m * jnp.exp(-s.rate_short_per_m * jnp.maximum(reading, 0.0))
         short = jnp.where(reading < wall, passing, 0.0)
         noise = jnp.exp(self._log_noise(reading, wall))
@@ -106,7 +107,7 @@ class ReadingLaw(ExactDensity):
         scale = self._scale(wall)
         above = self._tail((limits.max_m - wall) / scale)
         below = self._tail((wall - limits.min_m) / scale)  # the noise is symmetric
-        none = (1 - s.p_random) * (unblocked(wall) - returned + returned * above)
+        none = (1 - s.p_random) * (lost + returned * above)
         blocked = -s.p_short * jnp.expm1(-s.rate_short_per_m * jnp.minimum(wall, limits.min_m))
         close = (1 - s.p_random) * (blocked + returned * below)
         by_kind = jnp.where(finite, hit, jnp.where(z > 0, none, close))

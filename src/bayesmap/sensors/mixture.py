@@ -74,9 +74,13 @@ class BeamMixture(SensorModel):
         if not (math.isfinite(self.rate_short_per_m) and self.rate_short_per_m > 0):
             raise BadInput(f"BeamMixture: rate_short_per_m must be positive, got {self.rate_short_per_m!r}")
 
+    def blocked(self, distance_m: Floats) -> Floats:
+        """1 - q(d): the chance that a passing object stands before the distance."""
+        return np.asarray(self.p_short * -np.expm1(-self.rate_short_per_m * distance_m))
+
     def unblocked(self, distance_m: Floats) -> Floats:
         """q(d): the chance that no passing object stands before the distance."""
-        return np.asarray(1.0 - self.p_short * -np.expm1(-self.rate_short_per_m * distance_m))
+        return 1.0 - self.blocked(distance_m)
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
         """The logarithm of the three formulas above, by the kind of the reading."""
@@ -107,14 +111,16 @@ class BeamMixture(SensorModel):
         return np.asarray(uniform + (1 - self.p_random) * (short + self._returned(d, limits) * noise))
 
     def _no_return(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        # Sums of small terms, here and below: differences of numbers near one would lose the small ones.
         wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        lost = self.unblocked(wall_m) * np.where(d <= limits.max_m, self.p_no_return, 1.0)
         above = self.noise.tail((limits.max_m - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))
-        return np.asarray((1 - self.p_random) * (self.unblocked(wall_m) - returned * (1.0 - above)))
+        return np.asarray((1 - self.p_random) * (lost + returned * above))
 
     def _too_close(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
-        blocked = 1.0 - self.unblocked(np.minimum(wall_m, limits.min_m))
-        below = 1.0 - self.noise.tail((limits.min_m - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))
+        blocked = self.blocked(np.minimum(wall_m, limits.min_m))
+        below = self.noise.tail((wall_m - limits.min_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))  # symmetric
         return np.asarray((1 - self.p_random) * (blocked + returned * below))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
@@ -122,7 +128,7 @@ class BeamMixture(SensorModel):
         z, d = np.broadcast_arrays(range_m, distance_m)
         reading, wall_m = np.clip(z, limits.min_m, limits.max_m), np.minimum(d, limits.max_m)
         uniform = (reading - limits.min_m) / (limits.max_m - limits.min_m)
-        short = self.p_short * -np.expm1(-self.rate_short_per_m * np.minimum(reading, wall_m))
+        short = self.blocked(np.minimum(reading, wall_m))
         standard = (reading - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m)
         below = self._returned(d, limits) * self.noise.tail(-standard)  # the noise is symmetric
         p = self.p_random * uniform + (1 - self.p_random) * (short + below)
