@@ -97,6 +97,7 @@ def test_the_legend_is_of_what_is_on_show_until_there_are_intervals(open_page, l
     until(page, "s.view.layer === 'width' && s.seq.confirmed === s.seq.sent")
     assert "width" not in page.get_by_role("list", name="Legend").inner_text()
     act(page, lambda: scrubber.fill("12"))
+    page.get_by_role("checkbox", name="Live").check()  # the server keeps it
 
 
 def test_a_new_map_where_a_log_was_opened_is_its_own(open_page, log):
