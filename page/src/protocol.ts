@@ -56,6 +56,8 @@ export type State = {
   can_redo: boolean;
   live: boolean;
   running: boolean;
+  /** Whether the picture is to change yet. */
+  working: boolean;
   draws: { chains: number; count: number };
   view?: { layer?: Layer; chain?: number | null; draw?: number | null };
 };
@@ -114,7 +116,7 @@ export type Connection = { connected: boolean; retryIn_ms?: number; refused?: bo
 export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 
 /** How far the inference of a log's trajectory is. */
-export type Stage = { name: string; text: string; done: number; of: number };
+export type Stage = { generation: number; name: string; text: string; done: number; of: number };
 
 /** Beams through a cell; of walls how many speak for one there and against it, and how much in nats. */
 export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number };

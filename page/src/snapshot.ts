@@ -7,14 +7,12 @@ import type { Session } from "./state/session";
 /** What is known and shown. */
 export function snapshot(session: Session, view: Viewport, stack: Stack) {
   const { shown, status } = session;
-  const own = shown?.layer === "draw" || shown?.layer === "width";
-  const layer = own ? shown.layer : session.view.layer === "entropy" ? "entropy" : "mean";
   return {
     document: session.effectiveDocument(),
     generation: session.generation,
     painted: shown && {
       generation: shown.generation,
-      layer,
+      layer: session.layer,
       approximate: shown.approximate,
       sweeps: shown.sweeps,
       method: shown.method,
@@ -35,7 +33,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     scan: session.scan,
     status: { text: status.text, level: status.level },
     connected: session.connection.connected,
-    decisions: { path: session.decisions.path, views: session.decisions.views, trouble: session.decisions.trouble },
+    decisions: { path: session.decisions.path, views: session.decisions.views, trouble: session.decisions.trouble || session.decisions.viewTrouble },
     where: { found: session.where.found, trouble: session.where.trouble },
     stage: session.stage,
     ghost: ghostOf(session),

@@ -27,8 +27,8 @@ export class ThemeChoice {
     const dark = this.choice === "dark" || (this.choice === "auto" && this.media.matches);
     const theme = (this.theme = dark ? THEMES.dark : THEMES.light);
     this.app.dataset.theme = dark ? "dark" : "light";
-    const { truth, ray, noReturn: miss, sensor, hatch, unobserved, draw, ghost } = theme;
-    for (const [name, value] of Object.entries({ truth, ray, miss, sensor, hatch, unobserved, draw, ghost })) {
+    const { truth, ray, noReturn: miss, sensor, hatch, unobserved, draw, ghost, belief } = theme;
+    for (const [name, value] of Object.entries({ truth, ray, miss, sensor, hatch, unobserved, draw, ghost, belief })) {
       this.app.style.setProperty(`--${name}`, value);
     }
     this.dressed(this.choice === "auto" ? "automatic" : this.choice);

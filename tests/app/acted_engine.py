@@ -32,6 +32,10 @@ class Heard:
         found = [report for report in self.reports if report.header["type"] == kind][-1]
         return found.header, found.buffers
 
+    def every(self, kind):
+        """Headers and buffers of all reports of a kind."""
+        return [(report.header, report.buffers) for report in self.reports if report.header["type"] == kind]
+
     def all(self, kind):
         """All headers of a kind."""
         return [report.header for report in self.reports if report.header["type"] == kind]

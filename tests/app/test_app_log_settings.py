@@ -17,6 +17,7 @@ from bayesmap.app.opened_log import OpenedLog, first_beams
 from bayesmap.app.parsing import parse_document
 from bayesmap.app.scanning import hits
 from bayesmap.app.tasks import MoveGhost, ShowScan, View
+from bayesmap.app.worlds import new_document
 from bayesmap.cells.draws import Draws
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
 from bayesmap.samplers.sampler import Keep
@@ -36,6 +37,18 @@ def acted(log):
     return found
 
 
+def test_a_new_map_where_a_log_was_opened_has_its_own_readings(log):
+    """Not those of the log, on the new map's cells."""
+    new = replace(new_document("tutorial", (21, 21), log.document), sweeps=5)
+    here, elsewhere = Heard(log), Heard()
+    here.infer(replace(log.document, sweeps=2))
+    (_, found), (_, expected) = here.infer(new), elsewhere.infer(new)
+    assert here.last("scan")[1]["ranges"].shape == (1, len(ANGLES))
+    for name in ("p", "observed"):
+        assert np.array_equal(found[name], expected[name])
+    assert here.infer(replace(log.document, sweeps=2))[1]["p"].shape == log.document.grid.shape  # and back
+
+
 # The session
 
 
@@ -49,6 +62,18 @@ def test_another_size_of_cells_covers_the_same_place_and_can_be_undone(acted, lo
     acted.picture()
     acted.act("undo")
     assert acted.session.document.grid.resolution == 0.2
+
+
+def test_a_page_that_comes_after_the_log_was_left_is_sent_no_trajectory(acted):
+    def sent():
+        acted.session.join(2)
+        return {header["type"] for header in acted.act("hello", client=2)}
+
+    acted.hear("overlay", acted.session.generation)
+    assert "overlay" in sent()
+    acted.act("new", shape=[21, 21], world="tutorial")
+    acted.picture()
+    assert "overlay" not in sent()
 
 
 def test_cells_that_are_too_small_are_refused_with_the_least_size(acted, log):
@@ -115,7 +140,7 @@ def test_a_link_to_the_same_log_takes_both_along(acted, log):
     assert acted.session.document.grid == Grid.covering(log.scans, 0.2)
     strange = {**linked, "grid": {**linked["grid"], "origin": [0.0, 0.0]}}
     acted.act("hello", document={**strange, "walls": ""})
-    assert "the link shows" in acted.text
+    assert "this server shows" in acted.text
 
 
 @pytest.mark.parametrize("patch", [{"scans_used": 0}, {"scans_used": 1.5}, {"resolution": 0}, {"resolution": "fine"}])
@@ -205,6 +230,8 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     assert p[often].mean() > p[observed & ~often].mean() + 0.3
     heard.ask(View("draw", client=1))
     assert heard.last("field")[0]["layer"] == "mean"  # there are no draws
+    # surfaces that are on show are of other scans, and go
+    assert [buffers["strokes"].size for _, buffers in heard.every("overlay")] == [0] * (cells == "surface")
 
 
 def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log):

@@ -178,6 +178,21 @@ def test_run_keeps_draws_until_the_next_edit():
     assert acted.state["draws"] == {"chains": 0, "count": 0}
 
 
+def test_the_state_says_whether_the_picture_is_to_change_yet():
+    acted = Acted()
+    for kind, fields in (("run", {}), ("set", {"patch": {"prior": 0.1}})):  # live chains are no run
+        acted.act(kind, **fields)
+        acted.picture()
+        assert acted.session.working
+        acted.hear("finished", acted.session.generation, draws={"chains": 0, "count": 0})
+        assert not acted.state["working"]
+    acted.act("run")
+    acted.hear("failed", acted.session.generation, text="no")
+    assert not acted.state["working"]
+    acted.act("clear", what="inference")
+    assert not acted.state["working"]
+
+
 def test_cancel_lets_waiting_edits_go_on():
     acted = Acted()
     acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)

@@ -39,6 +39,23 @@ def test_two_clicks_give_a_path_and_its_probability(page):
     until(page, "s.layers.decisions > argument", before)
 
 
+def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
+    shown = settled(page)
+    x, y = next((x, y) for x, y in np.argwhere(shown["walls"]).tolist() if shown["probability"][x, y] == 255)
+    page.get_by_role("radio", name="Path").check(force=True)
+    click(page, x, y)
+    click(page, 10, 14)
+    until(page, "s.decisions.trouble")
+    said = page.locator(".said")
+    playwright.expect(said).to_contain_text(f"At the start ({x:.2f}, {y:.2f} m) the disc touches something")
+    page.get_by_role("radio", name="Look next").check(force=True)
+    until(page, "s.decisions.views")
+    act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.44") or page.keyboard.press("Tab"))
+    settled(page)  # both are asked for again
+    until(page, "s.decisions.views && s.decisions.trouble")
+    playwright.expect(said).to_contain_text("One more scan would tell")
+
+
 def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
     page = open_page(server, document(noise=0.1, prior=0.1))
     settled(page)

@@ -6,6 +6,7 @@ import signal
 
 import numpy as np
 import playwright.sync_api as playwright
+from building_log import write_room_log
 from page_driver import (
     NO_WALLS,
     WAIT_SECONDS,
@@ -145,6 +146,29 @@ def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
         other.goto("about:blank")
         other.goto(address)
         until(other, "s.painted && s.status.text === 'Ready'")  # and is kept no longer
+
+
+def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_there(open_page, browser, tmp_path):
+    with served() as (address, process):
+        page = open_page(address, document(walls=NO_WALLS, sweeps=100_000), quiet=False)
+        port = address.split(":")[2].split("/")[0]
+        until(page, "s.painted.sweeps > 20")
+        process.kill()
+        process.wait()
+        page.get_by_role("alert").get_by_text("Connection lost").wait_for()
+        page.get_by_text("sweeps, stopped").wait_for()  # and no time is foretold
+        assert page.get_by_role("button", name="Run", exact=True).is_disabled()
+        page.get_by_role("radio", name="Draw", exact=True).check()
+        press_and_drag(page, [(4, 8), (8, 8)])
+        other = page.context.new_page()
+        page.close()
+    with served("--port", port, write_room_log(tmp_path / "room.log")) as (address, _):
+        other.goto(address)
+        other.get_by_role("status").get_by_text("This server shows room.log, not a map that was drawn").wait_for()
+        other.goto("about:blank")
+    with served("--port", port) as (address, _):
+        other.goto(address)
+        until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
 
 
 def test_what_was_said_goes_with_the_next_action(page):

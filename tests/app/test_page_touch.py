@@ -1,6 +1,7 @@
 """A telephone: 390 x 844, fingers."""
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from page_driver import NO_WALLS, centre, document, settled, snapshot, until
 
@@ -97,6 +98,16 @@ def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, heig
         assert box["x"] + box["width"] <= width
         assert box["y"] + box["height"] <= height
     assert 21 * snapshot(page)["transform"]["scale"] > 0.7 * min(width, height)
+
+
+@SIZES
+def test_the_status_is_whole(open_page, room, width, height):
+    page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})
+    status = page.locator("footer").get_by_role("status")
+    playwright.expect(status).to_have_text("Ready, but the chains have not converged")
+    wide, room_for_it = status.evaluate("(status) => [status.scrollWidth, status.clientWidth]")
+    assert wide <= room_for_it + 1
+    playwright.expect(page.get_by_text("Touch a cell")).to_be_visible()
 
 
 @SIZES

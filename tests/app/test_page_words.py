@@ -91,4 +91,4 @@ def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, s
     for text in log_joint:
         assert trace.min() - 0.1 * spread - 1 <= number(text) <= trace.max() + 0.1 * spread + 1
     assert max(map(len, log_joint)) >= (8 if noise < 0.01 else 3)
-    assert max(labels(page, "All sweeps")[1]) == 1000
+    assert max(labels(page, "All")[1]) == 1000

@@ -222,3 +222,28 @@ def test_what_cannot_be_located():
         known(walls, grid, scans, sensor=bm.StudentT(0.1))
     with pytest.raises(bm.BadInput, match="no free cell"):
         known(np.ones_like(walls), grid, scans)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_a_dense_prior_says_of_the_unknown_does_not_hide_the_room(seed):
+    """Of a wide margin each draw has walls in one cell of five, as the prior says; the search must not find them.
+
+    A fifth of the readings are of things that are not on the map, so that even the right place does not fit in all.
+    """
+    inside, small = walls_of(5.0, 3.0)
+    laser = replace(LASER, p_random=0.1, p_short=0.1)
+    margin = 50
+    walls = np.pad(inside, margin)
+    grid = bm.Grid(walls.shape, small.resolution, (-margin * small.resolution,) * 2)
+    observed = np.pad(np.ones(inside.shape, dtype=bool), margin)
+    rng = np.random.default_rng(seed)
+    draws = np.where(observed, walls, rng.random((4, *walls.shape)) < 0.2)
+    truth = np.array([1.0 + rng.random(), 1.0 + rng.random(), 2 * np.pi * rng.random()])
+    scans = scan_from(inside, small, truth, laser, np.arange(90) * np.pi / 45, seed=seed)
+    here = KnownMap.of_draws(
+        draws.reshape(4, -1).astype(np.float32), grid, laser, scans, occupancy=draws.mean(axis=0), observed=observed,
+        hit_depth=0.0,
+    )  # fmt: skip
+    found = localize(here, scans, seed=seed)
+    assert offset(found.mean, truth)[0] < 0.1
+    assert found.p_lost < 0.01

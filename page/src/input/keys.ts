@@ -6,19 +6,24 @@ import type { Layer, Point } from "../protocol";
 import type { Session } from "../state/session";
 import type { Editor } from "./editor";
 import { READING, type Hand, type Tool } from "./hand";
+import { pick } from "./picking";
+
+/** Whom keys are for: where a map can be drawn, where the posterior can be asked, where there is something to infer. */
+export type KeysFor = "all" | "drawn" | "asked" | "inferred";
 
 /** What keys do, for the help. */
-export const KEYS = [
-  ["D, E, S, P", "draw, erase, sensor, pan"],
-  ["G, L", "path, look next"],
-  ["W, O", "where am I, ghost"],
-  ["arrows", "move the cursor, the sensor or the view; with Shift by five cells"],
-  ["Space", "draw or erase at the cursor; next sensor; start or goal of a path"],
-  ["[ and ]", "turn the sensor"],
-  ["A, Delete", "add, remove a sensor"],
-  ["R, Escape", "run, cancel"],
-  ["M, N, H", "show the mean, a draw, the entropy"],
-  ["Ctrl+Z, Ctrl+Y", "undo, redo"],
+export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
+  ["D, E, S", "draw, erase, sensor", "drawn"],
+  ["P, G, L", "pan, path, look next", "asked"],
+  ["W, O", "where am I, ghost", "asked"],
+  ["arrows", "move the cursor, the sensor, the ghost or the view; with Shift by five cells"],
+  ["Space", "draw or erase at the cursor; next sensor", "drawn"],
+  ["Space", "at the cursor: start or goal of a path, or where to look from", "asked"],
+  ["[ and ]", "turn the sensor or the ghost", "asked"],
+  ["A, Delete", "add, remove a sensor", "drawn"],
+  ["R, Escape", "run, cancel", "inferred"],
+  ["M, N, H", "show the mean, a draw, the entropy or the width"],
+  ["Ctrl+Z, Ctrl+Y", "undo, redo", "asked"],
   ["+, \u2212, 0", "zoom in, out, whole map"],
   ["?", "this help"],
 ];
@@ -101,18 +106,18 @@ export class MapKeys {
 
   private space(event: Event) {
     const { session, hand, editor } = this;
-    if (hand.tool === "path" && session.document) {
+    if ((hand.tool === "path" || hand.tool === "look") && session.document) {
       if (!hand.cursor) this.arrow(0, 0);
-      else session.decisions.point(centreOf(hand.cursor, session.document.grid));
+      else pick(session, hand, editor, centreOf(hand.cursor, session.document.grid));
       return;
     }
     if (!session.editable) return;
-    if (hand.tool === "sensor") {
+    if (hand.tool === "sensor" || hand.tool === "where") {
       const sensors = session.document?.sensors ?? [];
       const i = sensors.findIndex((sensor) => sensor.id === hand.sensor?.id);
       hand.select(sensors[(i + 1) % Math.max(1, sensors.length)]?.id ?? null);
       if (hand.selected !== null) hand.announce(`Sensor ${hand.selected}`);
-    } else if (hand.tool !== "pan") {
+    } else if (!READING.has(hand.tool)) {
       if (!hand.cursor) this.arrow(0, 0);
       const cell = hand.cursor as Point;
       const wall = hand.tool === "draw" && !editor.isWall(cell);
@@ -143,10 +148,10 @@ export function pageKey(
   }
   if (typing || event.altKey) return;
   if (TOOLS[letter] && (session.editable || (READING.has(TOOLS[letter]) && !session.recorded))) chosen.tool(TOOLS[letter]);
-  else if (LAYERS[letter]) chosen.layer(LAYERS[letter]);
+  else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });
-  else if (event.key === "Escape" && (session.running || session.sampling)) session.act({ type: "cancel" });
+  else if (event.key === "Escape" && (session.running || session.working)) session.act({ type: "cancel" });
   else return;
   event.preventDefault();
 }

@@ -8,6 +8,7 @@ import type { Session } from "../state/session";
 import type { Editor } from "./editor";
 import { dragGhost, takeGhost, type GhostGesture } from "./ghosting";
 import { READING, type Hand } from "./hand";
+import { pick } from "./picking";
 
 const REACH = { touch: 24, other: 11 };
 /** A hand that moves no further has clicked. */
@@ -195,7 +196,9 @@ export class Pointer {
     if (event.type === "pointerup" && this.gesture?.kind === "stroke" && this.gesture.onWall) {
       this.editor.setWalls([this.gesture.last], false, this.gesture.id, event);
     }
-    if (event.type === "pointerup" && this.gesture?.kind === "pick") this.pick(this.gesture.first);
+    if (event.type === "pointerup" && this.gesture?.kind === "pick" && this.session.document) {
+      pick(this.session, this.hand, this.editor, this.metres(this.gesture.first, this.session.document));
+    }
     this.fingers.delete(event.pointerId);
     if (this.fingers.size === 0) {
       this.gesture = null;
@@ -225,21 +228,6 @@ export class Pointer {
     this.hand.point(null);
     const point = this.at(event);
     dragGhost(session.ghost, gesture, this.metres({ x: point.x + gesture.grip.x, y: point.y + gesture.grip.y }, session.document));
-  }
-
-  /** A point of a path, or the place for another sensor. */
-  private pick(point: Point) {
-    const { session, hand, editor } = this;
-    if (!session.document) return;
-    const place = this.metres(point, session.document);
-    if (hand.tool === "path") return session.decisions.point(place);
-    const found = session.decisions.nearest(place);
-    const { views } = session.decisions;
-    if (found === null || !views) return;
-    const [x, y, yaw] = views.pose.subarray(3 * found, 3 * found + 3);
-    const nats = `${views.nats[found].toFixed(1)} nats`;
-    if (session.editable) editor.addSensor({ world: { x, y }, yaw });
-    else session.say(`A scan from ${x.toFixed(2)}, ${y.toFixed(2)} m would tell ${nats}`);
   }
 
   private spread() {

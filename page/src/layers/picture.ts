@@ -31,9 +31,11 @@ export function picture({ session, look }: Scene): Promise<Blob | null> {
     new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new WhereLayer(),
     new GhostLayer(),
   ];
+  const still: Scene = { session, view, look: { ...look, hover: null, cursor: null, selected: null } };
   for (const layer of layers) {
+    if (!(layer.shows?.(still) ?? true)) continue;
     context.save();
-    layer.paint(context, { session, view, look: { ...look, hover: null, cursor: null, selected: null } });
+    layer.paint(context, still);
     context.restore();
   }
   return new Promise((done) => canvas.toBlob(done));

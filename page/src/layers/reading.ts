@@ -10,8 +10,8 @@ export class ReadingLayer implements Layer {
     return [session.reading.version, session.document?.grid.resolution];
   }
 
-  shows({ session: { reading, document, scan } }: Scene) {
-    return Boolean(reading.picked && document && scan?.index === reading.picked.scan);
+  shows({ session: { reading, document, scan, ghost } }: Scene) {
+    return Boolean(!ghost.held && reading.picked && document && scan?.index === reading.picked.scan);
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {

@@ -53,7 +53,7 @@ export function traceChart(ui: Ui, theme: () => Theme) {
   const choice = ui.segmented<Range>(
     "Trace",
     [
-      ["all", "All sweeps"],
+      ["all", "All"],
       ["first", `First ${FIRST_SWEEPS}`],
     ],
     () => range,
@@ -94,7 +94,9 @@ export function traceChart(ui: Ui, theme: () => Theme) {
     const count = field?.traced?.length ? field.trace.length / field.traced.length : 0;
     put(element, "hidden", count === 0);
     if (!field || !count) return;
-    const sweep = field.layer === "draw" && session.draws.count ? ((session.draw + 1) * field.sweeps) / session.draws.count : -1;
+    const of = session.document?.source.kind === "run" ? "draw" : "sweep"; // a saved run has no more
+    put(caption, "textContent", `log joint by ${of}`);
+    const sweep = field.layer === "draw" && session.draws.count ? ((session.draw + 1) * field.traced[field.traced.length - 1]) / session.draws.count : -1;
     const chart = chartOf(count !== chains && ((chains = count), true));
     if (!chart) return;
     if (drawn === field && marked === sweep && chart.data[0].length) return;

@@ -39,8 +39,8 @@ function pathWords({ session }: Ui) {
 }
 
 function viewWords({ session }: Ui) {
-  const { views, trouble } = session.decisions;
-  if (trouble) return trouble;
+  const { views, viewTrouble } = session.decisions;
+  if (viewTrouble) return viewTrouble;
   if (!views) return "Working out how much a scan would tell.";
   const best = Math.max(...views.nats);
   const placed = session.editable ? " Click to place another sensor." : "";

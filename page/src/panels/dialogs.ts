@@ -1,8 +1,9 @@
 // Help, new map, share.
 
-import { KEYS } from "../input/keys";
+import { KEYS, type KeysFor } from "../input/keys";
 import { LIMITS } from "../protocol";
-import { h } from "./dom";
+import type { Session } from "../state/session";
+import { h, put } from "./dom";
 import type { Ui } from "./ui";
 
 const WORLDS = [
@@ -10,17 +11,46 @@ const WORLDS = [
   ["building", "a building"],
   ["blank", "blank"],
 ];
-const EXPLAINED = [
-  "Draw walls, and drag the robot: a beam reads the first wall that it hits, with noise. Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (draw), and where doubt remains (entropy). No beam has been where it is hatched.",
-  "While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",
-];
-const MOUSE = "Mouse: the wheel zooms, the middle button pans, Shift or the right button erases, and so does a click on a wall. Touch: two fingers zoom and pan.";
+const DRAWN = "Draw walls, and drag the robot: a beam reads the first wall that it hits, with noise.";
+const WALLS =
+  "Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt remains (entropy). No beam has been where it is hatched.";
+const NUMBERS =
+  "Shown is what the readings tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (width). No beam has been where it is hatched.";
+const EDITED = "While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.";
+const LOG = "The map is made from the scans of this log. Where its poses are raw odometry, Run first infers where the robot was; then it samples maps, and keeps them as draws.";
+const RUN = "This is a saved run: its draws, and what they say together.";
+const MOUSE = "Mouse: the wheel zooms, the middle button pans.";
+const MOUSE_DRAWS = "Shift or the right button erases, and so does a click on a wall.";
+const TOUCH = "Touch: two fingers zoom and pan.";
 
 export function helpDialog(ui: Ui) {
-  const rows = KEYS.map(([key, text]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", { textContent: key })), h("td", { textContent: text })));
-  const paragraphs = EXPLAINED.map((text) => h("p", { textContent: text }));
-  return ui.dialog("Help", ...paragraphs, h("table", {}, h("tbody", {}, ...rows)), h("p", { textContent: MOUSE }));
+  const { session } = ui;
+  const said = h("div");
+  const rows = KEYS.map(([key, text, when]) => {
+    const row = h("tr", {}, h("th", { scope: "row" }, h("kbd", { textContent: key })), h("td", { textContent: text }));
+    ui.visible(row, () => KEYS_OF[when ?? "all"](session));
+    return row;
+  });
+  const mouse = h("p");
+  let known = "";
+  ui.each(() => {
+    const kind = session.document?.source.kind;
+    const shown = session.quantity.interval ? NUMBERS : WALLS;
+    const texts = session.editable ? [`${DRAWN} ${shown}`, EDITED] : kind === "log" ? [shown, LOG] : kind === "run" ? [shown, RUN] : [shown];
+    if (texts.join() !== known) said.replaceChildren(...texts.map((text) => h("p", { textContent: text })));
+    known = texts.join();
+    put(mouse, "textContent", [MOUSE, ...(session.editable ? [MOUSE_DRAWS] : []), TOUCH].join(" "));
+  });
+  return ui.dialog("Help", said, mouse, h("table", {}, h("tbody", {}, ...rows)));
 }
+
+/** Which keys there are for whom. */
+const KEYS_OF: Record<KeysFor, (session: Session) => boolean> = {
+  all: () => true,
+  drawn: (session) => session.editable,
+  asked: (session) => !session.recorded,
+  inferred: (session) => !session.recorded && session.document?.source.kind !== "run",
+};
 
 export function newDialog(ui: Ui) {
   const size = () => h("input", { type: "number", min: LIMITS.cells[0], max: LIMITS.cells[1], step: 1, required: true, value: "21" });
@@ -45,6 +75,11 @@ export function newDialog(ui: Ui) {
   return ui.dialog("New map", form);
 }
 
+const OF_DRAWN =
+  "The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while the server runs; the part from # on can be put after the address of any bayesmap page.";
+const OF_FILE =
+  "The link holds the file's name and all settings after its #, but no scans and no token. It opens in this browser while the server shows this file; the part from # on can be put after the address of any bayesmap page that shows it.";
+
 export function shareDialog(ui: Ui) {
   const link = h("input", { type: "text", readOnly: true, "aria-label": "Link" });
   const copied = h("span", { role: "status", className: "copied" });
@@ -59,9 +94,9 @@ export function shareDialog(ui: Ui) {
     setTimeout(() => (copied.textContent = ""), 2000);
   };
   const button = ui.button(null, "Copy the link", copy, { className: "primary", text: "Copy" });
-  const explained =
-    "The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while the server runs; the part from # on can be put after the address of any bayesmap page.";
-  const dialog = ui.dialog("Share", h("p", { textContent: explained }), h("div", { className: "buttons" }, link, button), copied);
+  const explained = h("p");
+  ui.each(() => put(explained, "textContent", ui.session.document?.source.kind === "simulation" ? OF_DRAWN : OF_FILE));
+  const dialog = ui.dialog("Share", explained, h("div", { className: "buttons" }, link, button), copied);
   return {
     dialog,
     show(address: string) {

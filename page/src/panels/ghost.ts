@@ -1,5 +1,6 @@
 // The ghost in words and numbers.
 
+import { sentence } from "../state/status";
 import { figure, h, put } from "./dom";
 import type { Ui } from "./ui";
 
@@ -21,8 +22,8 @@ export function ghostPanel(ui: Ui) {
 
 function ghostWords({ session }: Ui) {
   const { ghost } = session;
-  if (ghost.trouble) return ghost.trouble;
-  if (!ghost.fan) return "Drag the ghost to see what its laser would read.";
+  if (ghost.trouble) return sentence(`${ghost.trouble}.`);
+  if (!ghost.fan) return ghost.pose ? "Working out what its laser would read." : "Drag the ghost to see what its laser would read.";
   const { draws, low, high, near } = ghost.fan;
   const finite = Array.from(high, (end, i) => end - low[i]).filter(Number.isFinite).sort((a, b) => a - b);
   const width = finite.length ? `${figure(100 * finite[finite.length >> 1], 0)} cm wide at the median beam` : "as wide as the laser's range";

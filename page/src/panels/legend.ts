@@ -1,7 +1,7 @@
 // What colours and marks mean.
 
 import { entropyRgb, gradient, probabilityRgb, type Theme } from "../colour";
-import { h, put } from "./dom";
+import { figure, h, put } from "./dom";
 import { icon } from "./icons";
 import type { Ui } from "./ui";
 
@@ -15,6 +15,9 @@ const ENTRIES = [
   ["trajectory", "trajectory"],
   ["draw", "this draw"],
   ["ghost", "predicted reading"],
+  ["belief", "possible pose"],
+  ["place", "95 % of a place"],
+  ["path", "path, as wide as the robot"],
   ["unobserved", "unobserved"],
 ];
 
@@ -33,9 +36,13 @@ export function legend(ui: Ui, theme: () => Theme) {
   const entry = (wanted: string) => entries[ENTRIES.findIndex(([name]) => name === wanted)];
   ui.visible(entry("draw"), () => Boolean(session.flicker.under));
   ui.visible(entry("ghost"), () => session.ghost.held || session.reading.picked !== null);
+  ui.visible(entry("belief"), () => Boolean(session.where.found));
+  ui.visible(entry("place"), () => Boolean(session.where.found));
+  ui.visible(entry("path"), () => Boolean(session.decisions.path));
+  ui.each(() => entry("path").firstElementChild?.classList.toggle("risky", session.decisions.path?.within_risk === false));
   let painted = "";
   ui.each(() => {
-    const layer = session.shown?.layer === "width" ? "width" : session.view.layer;
+    const { layer } = session;
     const { kind, mean, value } = session.quantity;
     const chance = kind === "binary" ? "P(wall)" : layer === "draw" ? value : mean;
     put(name, "textContent", layer === "entropy" ? "entropy (bit)" : layer === "width" ? "width of the 90 % interval" : chance);
@@ -45,5 +52,22 @@ export function legend(ui: Ui, theme: () => Theme) {
     painted = key;
     ramp.style.background = gradient(doubt ? entropyRgb : (t) => probabilityRgb(theme(), t));
   });
-  return h("ul", { className: "legend", "aria-label": "Legend" }, h("li", {}, name, "0", ramp, "1"), ...entries);
+  return h("ul", { className: "legend", "aria-label": "Legend" }, h("li", {}, name, "0", ramp, "1"), views(ui), ...entries);
+}
+
+/** What the dots say that show where to look next. */
+function views(ui: Ui) {
+  const { decisions } = ui.session;
+  const ramp = h("span", { className: "ramp" });
+  ramp.style.background = gradient(entropyRgb);
+  const [least, most] = [h("span"), h("span")];
+  const element = h("li", { className: "views" }, "one more scan tells", least, ramp, most);
+  ui.visible(element, () => decisions.looking && Boolean(decisions.views?.nats.length));
+  ui.each(() => {
+    const nats = decisions.views?.nats;
+    if (!nats?.length) return;
+    put(least, "textContent", figure(Math.min(...nats), 1));
+    put(most, "textContent", `${figure(Math.max(...nats), 1)} nats`);
+  });
+  return element;
 }

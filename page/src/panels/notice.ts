@@ -29,11 +29,12 @@ export function chip(ui: Ui) {
     const kind = field.layer === "draw" ? numbered + (session.flicker.under ? " over the mean" : "") : field.layer === "width" ? "width of the 90 % interval" : session.view.layer === "entropy" ? "entropy" : "mean";
     if (field.method === "counts") {
       put(element, "hidden", false);
-      put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : "poses as far as they are known"}`);
+      const along = session.halfway ? "along poses found so far" : "along raw odometry";
+      put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : along}`);
       return put(what, "className", "chip approximate");
     }
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
-    const by = field.approximate ? `approximate, ${quick(field)}` : (other ?? `${field.sweeps} sweeps`);
+    const by = field.approximate ? `approximate, ${quick(field, session.working)}` : (other ?? `${field.sweeps} sweeps`);
     put(element, "hidden", false);
     put(what, "textContent", `${kind} \u00b7 ${by}`);
     put(what, "className", field.approximate ? "chip approximate" : "chip");
@@ -42,10 +43,11 @@ export function chip(ui: Ui) {
 }
 
 /** What a quick answer is made of. */
-function quick({ method, sweeps, total, averaged }: Field) {
+function quick({ method, sweeps, total, averaged }: Field, working: boolean) {
   if (method === "hits") return "counts of hits";
   if (method !== "pilot") return "belief propagation";
-  return `${averaged} draws of one chain, sensor being fitted: sweep ${sweeps} of ${total}`;
+  const draws = averaged === 1 ? "1 draw" : `${averaged} draws`;
+  return `${draws} of one chain, sensor ${working ? "being" : "half"} fitted: sweep ${sweeps} of ${total}`;
 }
 
 /** What to do where the result on show is bad; null where it is not, or nothing can be done here. */
@@ -89,8 +91,8 @@ export function foot(ui: Ui) {
   hand.describe = (cell) => describeCell(session, cell);
   ui.each(() => {
     const cell = hand.cursor ?? hand.hover;
-    const keys = session.editable && !matchMedia("(pointer: coarse)").matches;
-    const idle = keys ? "Point at a cell, or press ? for the keys" : "Point at a cell";
+    const fingers = matchMedia("(pointer: coarse)").matches;
+    const idle = fingers ? "Touch a cell" : session.editable ? "Point at a cell, or press ? for the keys" : "Point at a cell";
     put(readout, "textContent", cell ? describeCell(session, cell) : idle);
     const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
     put(status, "textContent", doubt ? "Ready, but the chains have not converged" : session.status.text);
@@ -120,7 +122,7 @@ function describeCell(session: Session, cell: Point) {
     const beams = facts ? facts.beams : null;
     if (!shown.observed[i]) parts.push("unobserved");
     else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
-    if (facts?.nats_for !== undefined && facts.nats_against !== undefined && beams) {
+    if (shown.observed[i] && facts?.nats_for !== undefined && facts.nats_against !== undefined && beams) {
       parts.push(`for a wall ${facts.beams_for}, ${facts.nats_for.toFixed(1)} nats`, `against ${facts.beams_against}, ${facts.nats_against.toFixed(1)} nats`);
     }
   }

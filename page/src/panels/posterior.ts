@@ -1,6 +1,7 @@
 // Run, cancel, how far it is, and how good it is.
 
 import type { Field } from "../protocol";
+import type { Session } from "../state/session";
 import { sentence } from "../state/status";
 import { figure, h, put } from "./dom";
 import type { Ui } from "./ui";
@@ -16,25 +17,38 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
   ui.each(() => {
     const field = session.shown;
     const { stage } = session;
-    const share = stage ? stage.done / stage.of : field && field.total > 0 && !field.approximate ? field.sweeps / field.total : 0;
+    // what is on show may be the answer to the last question
+    const old = field?.generation !== session.generation && (session.running || session.document?.source.kind === "log");
+    const fitting = field?.method === "pilot" && session.working;
+    const share = stage ? stage.done / stage.of : field && !old && field.total > 0 && (fitting || !field.approximate) ? field.sweeps / field.total : 0;
     put(progress, "value", share);
     const left = session.remaining_s();
     const unit = UNITS[field?.method ?? ""] ?? "sweeps";
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
+    const count = session.sampling || session.running || !field || field.sweeps >= field.total ? "" : "stopped";
     if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.of} ${stage.of > ROUNDS ? "scans" : "rounds"}`);
-    else put(doing, "textContent", sentence([done, state].filter(Boolean).join(", ")) || "No chain yet");
+    else if (old) put(doing, "textContent", "Computing");
+    else if (fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
+    else put(doing, "textContent", sentence([done, state, done && count].filter(Boolean).join(", ")) || idle(session));
   });
   return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts);
 }
 
+/** Where there are no sweeps to count. */
+function idle({ shown, working }: Session) {
+  if (shown?.method === "counts") return "Run infers where the robot was";
+  if (shown?.method === "pilot") return "Stopped while the sensor was fitted";
+  return working ? "Computing" : "No chain yet";
+}
+
 function buttons(ui: Ui) {
   const { session } = ui;
-  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)" });
+  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)", when: () => session.connection.connected });
   const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
     text: "Cancel",
     title: "Cancel (Escape)",
-    when: () => session.running || session.sampling,
+    when: () => session.running || session.sampling || (session.working && session.shown?.method === "pilot"),
   });
   const live = ui.checkbox(
     "Live",

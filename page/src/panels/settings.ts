@@ -109,5 +109,6 @@ export function clearPanel(ui: Ui) {
   const { session } = ui;
   const walls = ui.button(null, "Clear walls", () => session.act({ type: "clear", what: "walls" }), { text: "Clear walls", when: () => session.editable });
   const inference = ui.button(null, "Clear inference", () => session.act({ type: "clear", what: "inference" }), { text: "Clear inference" });
+  ui.visible(walls, () => session.editable); // a file has none
   return ui.section("Clear", h("div", { className: "buttons" }, walls, inference));
 }

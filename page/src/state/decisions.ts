@@ -2,6 +2,7 @@
 
 import type { Buffers, Message, Pair, Point } from "../protocol";
 import type { Session } from "./session";
+import { sentence } from "./status";
 
 /** A path for a disc, and how probable it is that it touches nothing. */
 export type Path = {
@@ -17,6 +18,9 @@ export type Path = {
 /** Poses (n, 3) and the nats that one more scan from each is expected to tell. */
 export type Views = { pose: Float32Array; nats: Float32Array; spacing: number };
 
+/** What the library says, without the name of its command. */
+const said = (text: string) => sentence(`${text.replace(/^(plan|path|explore): /, "")}.`);
+
 export class Decisions {
   start: Point | null = null;
   goal: Point | null = null;
@@ -24,8 +28,9 @@ export class Decisions {
   risk = 0.01;
   path: Path | null = null;
   views: Views | null = null;
-  /** Why there is no answer. */
+  /** Why there is no path, and no map of where to look next. */
   trouble = "";
+  viewTrouble = "";
   /** Counts what there is to paint anew. */
   version = 0;
   /** Whether the map of where to look next is wanted. */
@@ -54,7 +59,7 @@ export class Decisions {
   look(on: boolean) {
     if (this.looking === on) return;
     this.looking = on;
-    this.trouble = "";
+    this.viewTrouble = "";
     if (!on) [this.views, this.askedViews] = [null, ""];
     this.version++;
     this.ask();
@@ -85,12 +90,14 @@ export class Decisions {
   }
 
   receive(message: Message, buffers: Buffers) {
-    this.trouble = message.type === "undecided" ? message.text : "";
+    const text = message.type === "undecided" ? said(message.text) : "";
+    if (message.of === "views" || message.type === "views") this.viewTrouble = text;
+    else this.trouble = text;
     if (message.type === "path") this.path = message as unknown as Path;
     if (message.type === "views" && this.looking) {
       this.views = { pose: buffers.pose as Float32Array, nats: buffers.nats as Float32Array, spacing: message.spacing };
     }
-    if (message.type === "undecided") this.path = null;
+    if (message.type === "undecided" && message.of === "path") this.path = null;
     this.version++;
   }
 

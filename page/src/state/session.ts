@@ -1,7 +1,7 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, CellFacts, Connection, Field, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
+import type { Buffers, CellFacts, Connection, Field, Layer, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
@@ -78,11 +78,24 @@ export class Session {
     return !this.recorded && this.document?.source.kind === "simulation";
   }
   get running() {
-    return Boolean(this.state?.running);
+    return this.connection.connected && Boolean(this.state?.running);
+  }
+  /** Whether the picture is to change yet. */
+  get working() {
+    return this.connection.connected && Boolean(this.state?.working);
+  }
+  /** What the colours on show are; before there are draws or intervals, the mean stands for them. */
+  get layer(): Layer {
+    const own = this.shown?.layer;
+    return own === "draw" || own === "width" ? own : this.view.layer === "entropy" ? "entropy" : "mean";
   }
   /** How far the trajectory is that is being inferred. */
   get stage() {
     return this.running && this.shown?.method === "counts" ? this.lastStage : null;
+  }
+  /** Whether the poses on show are somewhere between odometry and the trajectory: it was cancelled on the way. */
+  get halfway() {
+    return this.lastStage?.generation === this.shown?.generation;
   }
   get draws() {
     return this.state?.draws ?? { chains: 0, count: 0 };
@@ -90,7 +103,7 @@ export class Session {
   /** Whether there is a chain on show, and it goes on. */
   get sampling() {
     const field = this.shown;
-    return Boolean(field && !field.approximate && field.sweeps < field.total && (this.running || this.state?.live));
+    return Boolean(field && !field.approximate && field.sweeps < field.total && this.working);
   }
   /** The draw on show, from 0. */
   get draw() {
@@ -180,7 +193,6 @@ export class Session {
       if (this.everConnected) this.say("Connected again");
       else if (this.notice) this.say(this.notice.text, this.notice.level);
       this.everConnected = true;
-      forget();
     } else if (this.everConnected) {
       this.say("Connection lost", "error");
       keep(this.portableDocument());
@@ -255,12 +267,14 @@ export class Session {
 
   private receiveError(message: Message) {
     const seq: number | null = message.refused?.seq ?? null;
-    if (seq !== null && seq === this.broughtAt) {
+    const brought = seq !== null && seq === this.broughtAt;
+    if (brought) {
       // the document that this page brought is none: it takes the server's
       this.broughtAt = null;
       this.act({ type: "hello" });
     }
-    this.status.say([message.text, message.remedy].filter(Boolean).join("; "), "error", this.acted);
+    const why = [message.text, message.remedy].filter(Boolean).join("; ");
+    this.status.say(brought ? `The map that was brought along cannot be shown: ${why}` : why, "error", this.acted);
     this.pending = this.pending.filter((edit) => edit.seq !== seq);
     if (seq !== null) this.latency.refused(seq);
     this.rebuild();
@@ -269,6 +283,10 @@ export class Session {
   private receiveState(state: State) {
     this.status.confirmed(state.seq);
     this.state = state;
+    if (state.document.source.kind === "simulation") {
+      this.overlay = null; // of the file that was shown before
+      forget(); // the server has the map now; one that shows a file did not take it
+    }
     this.generation = Math.max(this.generation, state.generation);
     this.latency.confirmed(state.generation, state.seq);
     this.pending = this.pending.filter((edit) => edit.seq > state.seq);

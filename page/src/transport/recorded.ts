@@ -39,7 +39,7 @@ export function recordedTransport(recording: Recording): Transport {
 
   const state = (seq: number) => {
     const held = { chains: recording.draws?.chains ?? 0, count: draws ? count : 0 };
-    const fixed = { generation: 1, can_undo: false, can_redo: false, live: false, running: false };
+    const fixed = { generation: 1, can_undo: false, can_redo: false, live: false, running: false, working: false };
     transport.onmessage({ type: "state", document, seq, ...fixed, draws: held, view }, {});
   };
   const scan = () => {

@@ -26,7 +26,7 @@ def adopted(present: Document, brought: Document) -> Document:
             settings = {name: getattr(brought, name) for name in settings_of(present.source.kind)}
             used = settings.pop(SCANS_USED, None)
             return replace(shown if used is None else with_scans_used(shown, used), **settings)
-    raise Refused(f"the link shows {_named(brought)}, and this server {_named(present)}", _remedy(brought))
+    raise Refused(f"this server shows {_named(present)}, not {_named(brought)}", _remedy(brought))
 
 
 def _named(document: Document) -> str:

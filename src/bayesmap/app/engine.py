@@ -212,7 +212,8 @@ class Engine:
 
     def _readings(self, document: Document) -> tuple[Scene, Document]:
         """The scene of a document, and the document on the scene's grid; what did not change is not made again."""
-        log = None if self._locating is None else self._locating.log_of(document)
+        new = document.simulated  # a map may be begun where a log was opened
+        log = None if new or self._locating is None else self._locating.log_of(document)
         if log is not None:
             document = log.on_cells(document)
         self._showing.on_grid(document.grid)
@@ -228,6 +229,8 @@ class Engine:
         """Show what counts of hits and passes say of a log, at once."""
         assert self._locating is not None
         self._result = self._locating.log_of(document).coarse(document)
+        if self._result.prior.has_surfaces:  # those on show may be of other scans
+            self._showing.overlay(self._result)
         self._showing.frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:

@@ -52,6 +52,7 @@ class Session:
         generation: of the present picture; see docs/app.md.
         live: whether edits restart Gibbs.
         running: whether a run is under way.
+        working: whether the picture is to change yet: chains go on, or are about to begin.
         draws: {"chains", "count"} of the present result.
     """
 
@@ -59,7 +60,7 @@ class Session:
         self.history = History(document)
         self.generation = 0
         self.live = True
-        self.running = False
+        self.running = self.working = False
         self.draws = {"chains": 0, "count": 0}
         self._views: dict[int, View] = {}  # of pages that are shown something else than the mean
         self.scan = 0
@@ -237,11 +238,11 @@ class Session:
         if header.get("generation", self.generation) != self.generation:
             return []
         if kind == "finished":
-            self.running = False
+            self.running = self.working = False
             self.draws = header["draws"]
             return [self._state(), *self._picture_is_out()]
         if kind == "failed":
-            self.running = False
+            self.running = self.working = False
             return [self._status(header["text"], "error"), self._state(), *self._picture_is_out()]
         if kind == "grid":
             self.history = replace(self.history, present=self.document.on_grid(header["grid"]))
@@ -291,10 +292,12 @@ class Session:
         """A new generation."""
         self.generation += 1
         self._mode = mode if mode is not None else self._usual()
-        self.running = self._mode == "run"
+        self.running, self.working = self._mode == "run", self._mode != "clear"
         self.draws = {"chains": 0, "count": 0}
         self._in_flight = True
         self._last.pop("field", None)
+        if self.document.simulated:
+            self._last.pop("overlay", None)  # of the file that was shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = Infer(self.generation, self.document, self._mode, self.scan)
         # The state first: a page must know of a generation before it sees the picture.
@@ -308,6 +311,7 @@ class Session:
             "generation": self.generation,
             "live": self.live,
             "running": self.running,
+            "working": self.working,
             "draws": self.draws,
             "scan": self.scan,
             "pages": {

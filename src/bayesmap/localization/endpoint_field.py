@@ -72,7 +72,7 @@ def endpoint_field(
     parts = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
     fine = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
-    means, covariances, strengths = _surfaces(states, grid)
+    means, covariances, strengths = _surfaces(states, grid, ~unknown.ravel())
     # A fine cell stands for all points within it, so that no surface is narrower than half of one.
     round_ = np.array([1.0, 0.0, 1.0])
     covariances = (covariances + round_ * noise_m**2) / fine.resolution**2 + 0.25 * round_
@@ -84,10 +84,14 @@ def endpoint_field(
     return EndpointField(fine, np.round(TOP * logs).astype(np.uint8))
 
 
-def _surfaces(states: NDArray[np.float32], grid: Grid) -> tuple[Floats, Floats, Floats]:
-    """Means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), in metres, and strengths, of all draws."""
+def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats]:
+    """Means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), in metres, and strengths, of all draws.
+
+    Of known cells only: what a few draws have elsewhere tells of the prior, and all of them together have it almost
+    everywhere.
+    """
     chances = states[..., 0] if states.ndim == 3 else states
-    which = np.nonzero(chances > FAINT)
+    which = np.nonzero((chances > FAINT) & known)
     strengths = np.asarray(np.minimum(chances[which].astype(np.float64) / SOLID, 1.0))
     if states.ndim == 3:
         own = states[which].astype(np.float64)

@@ -54,7 +54,8 @@ class KnownMap:
         field: for the search.
         free: cells in which a robot may be, (nx, ny).
         unknown: cells of which nothing is known, (nx, ny).
-        unknown_chance: that such a cell stops a beam, on average.
+        unknown_chance: that such a cell stops a beam, for the search: as often as its draws and the known cells do at
+            most.
         elsewhere: log density of a reading, per metre, in each of `BINS` bins up to the largest range, and log
             probability of no return: of scans taken anywhere, for the chance of being lost.
         max_range_m: of those scans.
@@ -141,7 +142,8 @@ class KnownMap:
             raise BadInput("localize: the map has no free cell in which a robot could be")
         unknown = np.logical_not(observed)
         chances = (states[..., 0] if states.ndim == 3 else states)[:, unknown.ravel()]
-        chance = float(chances.mean()) if chances.size else 0.0
+        # a prior may have far more walls than the building: a search would then find scans all over what is unknown
+        chance = min(float(chances.mean()), float(known[observed].mean())) if chances.size else 0.0
         return cls(
             grid=grid,
             packed=pack_map(states, grid, hit_depth, device),

@@ -146,13 +146,11 @@ def plan_route(
 
 def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     cell = np.floor(grid.to_cells(point)).astype(int)
+    at = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
     if not ((cell >= 0) & (cell < grid.shape)).all():
-        raise BadInput(f"plan: {name} {point.tolist()} lies outside the map")
+        raise BadInput(f"plan: the {at} lies outside the map")
     if blocked[tuple(cell)] > SURE:
-        raise BadInput(
-            f"plan: at the {name} {point.tolist()} the disc touches something in every draw; move it, or take a "
-            "smaller radius"
-        )
+        raise BadInput(f"plan: at the {at} the disc touches something in every draw; move it, or take a smaller radius")
     return int(cell[0] * grid.shape[1] + cell[1])
 
 
