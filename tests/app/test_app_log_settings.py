@@ -292,6 +292,16 @@ def test_surfaces_of_finished_chains_lie_over_their_log(log):
     np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[shown], atol=1e-5)
 
 
+def test_a_cleared_inference_shows_the_prior_of_the_chosen_cells(log):
+    for cells, mean in (("binary", log.document.prior), ("surface", bm.Surface().mean)):
+        heard = Heard(log)
+        document = replace(log.document, cells=cells, grid=Grid.covering(log.scans, 0.2))
+        _, cleared = heard.infer(document, "clear")
+        assert heard.all("field")[-1]["quantity"]["kind"] == cells
+        assert heard.all("field")[-1]["method"] == "none"
+        np.testing.assert_allclose(cleared["p"] / 255, mean, atol=0.5 / 255 + 1e-9)
+
+
 def test_the_same_readings_are_fitted_once(log):
     document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)

@@ -20,6 +20,7 @@ from bayesmap.app.stream import Stream
 from bayesmap.app.tasks import OWN_LAYERS, View
 from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.posterior.diagnostics import bulk_ess
 from bayesmap.posterior.diagnostics import rhat as split_rhat
 from bayesmap.result import Run
@@ -86,7 +87,7 @@ class Result:
             return self.pilot.mean
         if self.counted is not None:
             return self.counted.p_wall
-        return self.scene.prior.probabilities(self.scene.grid)
+        return self.prior.mean_stop(self.scene.grid)
 
     def observed(self) -> NDArray[np.bool_]:
         """Cells that a beam reaches, (nx, ny)."""
@@ -130,7 +131,11 @@ class Result:
             return self.pilot.model.cells
         if self.counted is not None and self.counted.prior is not None:
             return self.counted.prior
-        return self.scene.prior if self.run is None else self.run.posterior.prior
+        if self.run is not None:
+            return self.run.posterior.prior
+        if self.method == "none" and self.document.cells != self.scene.prior.words.kind:
+            return BUILT_IN[self.document.cells]()  # fitted once there are chains
+        return self.scene.prior
 
     @cached_property
     def width(self) -> NDArray[np.float64] | None:
