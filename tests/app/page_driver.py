@@ -206,3 +206,8 @@ def pid_of_worker(process):
             return int(found[1])
         time.sleep(0.1)
     raise AssertionError("the server has no worker")
+
+
+def show_layer(page, name):
+    """Choose what is shown, by the keyboard: while figures come in the panel grows, and moves from under a click."""
+    page.get_by_role("radio", name=name).press("Space")

@@ -21,7 +21,7 @@ def found_path(page):
 
 def test_two_clicks_give_a_path_and_its_probability(page):
     settled(page)
-    page.get_by_role("radio", name="Path").check(force=True)
+    page.get_by_role("radio", name="Path").check()
     said = page.locator(".said")
     playwright.expect(said).to_contain_text("Click where the robot is")
     click(page, 6, 15)
@@ -42,13 +42,13 @@ def test_two_clicks_give_a_path_and_its_probability(page):
 def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
     shown = settled(page)
     x, y = next((x, y) for x, y in np.argwhere(shown["walls"]).tolist() if shown["probability"][x, y] == 255)
-    page.get_by_role("radio", name="Path").check(force=True)
+    page.get_by_role("radio", name="Path").check()
     click(page, x, y)
     click(page, 10, 14)
     until(page, "s.decisions.trouble")
     said = page.locator(".said")
     playwright.expect(said).to_contain_text(f"At the start ({x:.2f}, {y:.2f} m) the disc touches something")
-    page.get_by_role("radio", name="Look next").check(force=True)
+    page.get_by_role("radio", name="Look next").check()
     until(page, "s.decisions.views")
     act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.44") or page.keyboard.press("Tab"))
     settled(page)  # both are asked for again
@@ -59,12 +59,12 @@ def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
 def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
     page = open_page(server, document(noise=0.1, prior=0.1))
     settled(page)
-    page.get_by_role("radio", name="Path").check(force=True)
+    page.get_by_role("radio", name="Path").check()
     click(page, 6, 15)
     click(page, 10, 14)
     until(page, "s.decisions.path")
     first = snapshot(page)["generation"]
-    page.get_by_role("radio", name="Draw", exact=True).check(force=True)
+    page.get_by_role("radio", name="Draw", exact=True).check()
     act(page, lambda: press_and_drag(page, [(8, 13), (8, 17)], steps=4))
     settled(page)
     until(page, "s.decisions.path?.generation > argument || s.decisions.trouble", first)
@@ -72,7 +72,7 @@ def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
 
 def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
     """Look, infer, choose the next view, look again: the map is known better, and less is left to learn there."""
-    page.get_by_role("radio", name="Look next").check(force=True)
+    page.get_by_role("radio", name="Look next").check()
     settled(page)
     until(page, "s.decisions.views && s.decisions.views.nats.length > 5")
     views = page.evaluate(
@@ -106,11 +106,11 @@ def test_a_saved_run_of_surfaces_has_paths_and_views(open_page, tmp_path, scheme
     bm.infer(scans, grid, prior=bm.Surface(), sensor=sensor, chains=2, warmup=10, draws=20).save(tmp_path / "run.nc")
     with served(tmp_path / "run.nc") as (address, _):
         page = open_page(address, color_scheme=scheme)
-        page.get_by_role("radio", name="Path").check(force=True)
+        page.get_by_role("radio", name="Path").check()
         click(page, 7, 12)
         click(page, 12, 22)
         assert found_path(page)["draws"] == 40
-        page.get_by_role("radio", name="Look next").check(force=True)
+        page.get_by_role("radio", name="Look next").check()
         until(page, "s.decisions.views")
         click(page, 12, 20)
         playwright.expect(page.get_by_role("status").first).to_be_visible()

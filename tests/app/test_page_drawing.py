@@ -13,6 +13,7 @@ from page_driver import (
     document,
     press_and_drag,
     settled,
+    show_layer,
     snapshot,
     still,
     until,
@@ -209,7 +210,7 @@ def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     paints(lambda: page.get_by_role("checkbox", name="Rays").uncheck(), "rays")
     paints(lambda: page.get_by_role("checkbox", name="True walls").uncheck(), "marks")
     paints(lambda: page.get_by_role("radio", name="Entropy").check(), "field")
-    page.get_by_role("radio", name="Mean").check()
+    show_layer(page, "Mean")
     # sheets with nothing on them are hidden, and not painted
     hidden = page.locator(".stage canvas").evaluate_all(
         "(all) => all.filter((one) => getComputedStyle(one).visibility === 'hidden').map((one) => one.className)"

@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from page_driver import act, document, fragment, served, snapshot, until
+from page_driver import act, document, fragment, served, show_layer, snapshot, until
 
 import bayesmap as bm
 
@@ -64,7 +64,7 @@ def test_a_saved_run_shows_its_mean_and_its_draws(open_page, tmp_path):
         until(page, "s.draws.count === 15")
         shown = snapshot(page)
         assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
-        page.get_by_role("radio", name="One draw").check()
+        show_layer(page, "One draw")
         page.get_by_label("Chain", exact=True).select_option("1")
         page.get_by_role("slider", name="Draw number").fill("14")
         until(page, "s.painted.layer === 'draw' && s.painted.draw === 14 && s.painted.chain === 1")

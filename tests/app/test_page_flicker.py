@@ -2,7 +2,7 @@
 
 import numpy as np
 import playwright.sync_api as playwright
-from page_driver import act, settled, snapshot, still, until, watch
+from page_driver import act, settled, show_layer, snapshot, still, until, watch
 
 OVER = "s.over && s.painted.layer === 'draw'"
 
@@ -83,7 +83,7 @@ def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, room):
 
 def test_a_page_that_begins_at_a_draw_fetches_the_mean(open_page, room):
     page = open_page(room[1])
-    page.get_by_role("radio", name="One draw").check(force=True)
+    show_layer(page, "One draw")
     until(page, "s.painted.layer === 'draw'")
     over(page)
     assert snapshot(page)["view"]["layer"] == "draw"
@@ -98,5 +98,5 @@ def test_it_works_on_a_live_posterior_with_kept_draws(page):
     page.get_by_role("button", name="Play the draws").click()
     first = snapshot(page)["painted"]["draw"]
     until(page, "s.over && s.painted.draw !== argument", first)
-    page.get_by_role("radio", name="Mean").check(force=True)
+    show_layer(page, "Mean")
     until(page, "!s.over && s.painted.layer === 'mean'")

@@ -32,7 +32,7 @@ def fan(page):
 
 
 def take(page):
-    page.get_by_role("radio", name="Ghost").check(force=True)
+    page.get_by_role("radio", name="Ghost").check()
 
 
 def test_the_ghost_begins_where_the_scan_on_show_was_taken(open_page, room):
@@ -103,7 +103,7 @@ def test_another_tool_puts_the_ghost_away(open_page, room):
     take(page)
     fan(page)
     playwright.expect(page.locator("canvas.ghost")).to_be_visible()
-    page.get_by_role("radio", name="Pan").check(force=True)
+    page.get_by_role("radio", name="Pan").check()
     until(page, "!s.ghost.held")
     playwright.expect(page.locator("canvas.ghost")).to_be_hidden()
     playwright.expect(page.locator(".ghosted")).to_be_hidden()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from page_driver import NO_WALLS, act, centre, document, settled, snapshot, until, watch
+from page_driver import NO_WALLS, act, centre, document, settled, show_layer, snapshot, until, watch
 
 import bayesmap as bm
 
@@ -20,7 +20,7 @@ def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, ser
     shown = snapshot(page)
     mean = shown["probability"] / 255
     chains = shown["draws"]["chains"]
-    page.get_by_role("radio", name="One draw").check()
+    show_layer(page, "One draw")
     slider = page.get_by_role("slider", name="Draw number")
     total = np.zeros((21, 21))
     for chain in range(chains):
@@ -33,7 +33,7 @@ def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, ser
             total += one / 255
     assert slider.get_attribute("max") == "19"
     assert np.abs(total / (20 * chains) - mean).max() <= 0.5 / 255 + 1e-9
-    page.get_by_role("radio", name="Mean").check()
+    show_layer(page, "Mean")
     until(page, "s.painted.layer === 'mean'")
 
 
@@ -45,7 +45,7 @@ def test_draws_are_played_one_after_another(open_page, server):
     page.get_by_role("button", name="Play the draws").click()
     until(page, "s.painted.layer === 'draw' && s.painted.draw === 5 && window.seen.includes(2)")
     page.get_by_role("button", name="Play the draws").wait_for()  # it stops at the last
-    page.get_by_role("radio", name="Mean").check()
+    show_layer(page, "Mean")
 
 
 def test_cancel_keeps_the_partial_chain(open_page, server):
@@ -122,7 +122,7 @@ def test_entropy_is_highest_where_nothing_is_known(page):
     until(page, "s.painted.layer === 'entropy'")
     assert np.array_equal(snapshot(page)["probability"], shown["probability"])
     assert page.get_by_text("entropy (bit)").is_visible()
-    page.get_by_role("radio", name="Mean").check()
+    show_layer(page, "Mean")
     until(page, "s.painted.layer === 'mean'")
 
 

@@ -8,7 +8,7 @@ import notebook_driver
 import numpy as np
 import page_driver
 import pytest
-from page_driver import DESKTOP, act, brightness_at, pid_of_worker, press_and_drag, settled, snapshot, until
+from page_driver import DESKTOP, act, brightness_at, pid_of_worker, press_and_drag, settled, show_layer, snapshot, until
 
 import bayesmap as bm
 
@@ -94,7 +94,7 @@ def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
     until(page, "s.draws.count === 20 && s.draws.chains === 2")
     shown = snapshot(page)
     assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
-    page.get_by_role("radio", name="One draw").check()
+    show_layer(page, "One draw")
     page.get_by_label("Chain").select_option("1")
     page.get_by_role("slider", name="Draw number").fill("7")
     until(page, "s.painted.layer === 'draw' && s.painted.draw === 7 && s.painted.chain === 1")

@@ -5,7 +5,7 @@ import re
 import playwright.sync_api as playwright
 import pytest
 from building_log import write_room_log
-from page_driver import act, centre, document, served, settled, snapshot, until
+from page_driver import act, centre, document, served, settled, show_layer, snapshot, until
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +93,7 @@ def test_the_legend_is_of_what_is_on_show_until_there_are_intervals(open_page, l
     scrubber = page.get_by_role("slider", name="Scans used")
     scrubber.evaluate("(slider) => { slider.value = 6; slider.dispatchEvent(new Event('input')); }")  # still held
     until(page, "s.painted.generation === s.generation && s.painted.method === 'hits'")
-    page.get_by_role("radio", name="Width").check(force=True)
+    show_layer(page, "Width")
     until(page, "s.view.layer === 'width' && s.seq.confirmed === s.seq.sent")
     assert "width" not in page.get_by_role("list", name="Legend").inner_text()
     act(page, lambda: scrubber.fill("12"))

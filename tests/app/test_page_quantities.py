@@ -3,7 +3,7 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, centre, served, snapshot, until
+from page_driver import act, centre, served, show_layer, snapshot, until
 
 import bayesmap as bm
 
@@ -41,7 +41,7 @@ def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, surfaces):
     mean = f"{bm.Surface.words.mean} {np.rint(255 * run.occupancy[20, 10]) / 255:.2f}"
     playwright.expect(readout).to_contain_text(mean)
     playwright.expect(readout).not_to_contain_text("entropy")
-    page.get_by_role("radio", name="One draw").check(force=True)
+    show_layer(page, "One draw")
     until(page, "s.painted.layer === 'draw'")
     page.mouse.move(*centre(page, 20, 9))
     playwright.expect(readout).to_contain_text("in this draw")
@@ -53,7 +53,7 @@ def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, su
     run, address = surfaces
     page = open_page(address)
     playwright.expect(page.get_by_role("radio", name="Entropy")).to_be_hidden()
-    page.get_by_role("radio", name="Width").check(force=True)
+    show_layer(page, "Width")
     until(page, "s.painted.layer === 'width'")
     lower, upper = run.interval(0.9)
     np.testing.assert_allclose(snapshot(page)["probability"], 255 * (upper - lower), atol=1.0)
@@ -117,7 +117,7 @@ def test_a_log_is_inferred_as_surfaces_where_they_are_chosen(open_page, tmp_path
         for name in ("Method", "Order", "Start"):
             playwright.expect(page.get_by_role("combobox", name=name)).to_be_hidden()
         playwright.expect(page.get_by_role("slider", name="Prior")).to_be_hidden()
-        page.get_by_role("radio", name="Width").check(force=True)
+        show_layer(page, "Width")
         until(page, "s.painted.layer === 'width'")
         act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("binary"))
         until(page, "s.painted.quantity.kind === 'binary'")

@@ -6,7 +6,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from page_driver import act, document, fragment, press_and_drag, settled, snapshot, until
+from page_driver import act, document, fragment, press_and_drag, settled, show_layer, snapshot, until
 from PIL import Image
 
 import bayesmap as bm
@@ -104,7 +104,7 @@ def test_the_html_file_opens_from_disk_with_all_its_draws(drawn, open_page, tmp_
     assert np.array_equal(there["observed"], here["observed"])
     assert there["scan"]["ranges"] == pytest.approx(here["scan"]["ranges"], abs=1e-3)
     assert there["draws"]["chains"] * there["draws"]["count"] >= 1000
-    page.get_by_role("radio", name="One draw").check()
+    show_layer(page, "One draw")
     last = there["draws"]["count"] - 1
     page.get_by_role("slider", name="Draw number").fill(str(last))
     until(page, f"s.painted.layer === 'draw' && s.painted.draw === {last}")

@@ -114,7 +114,7 @@ def test_the_status_is_whole(open_page, room, width, height):
 def test_a_finger_drags_the_ghost_through_a_building(open_page, room, width, height):
     page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    page.get_by_role("radio", name="Ghost").check(force=True)
+    page.get_by_role("radio", name="Ghost").check()
     until(page, "s.ghost.fan")
     fingers = page.context.new_cdp_session(page)
     for kind, cell in (("touchStart", (6, 20)), ("touchMove", (10, 20)), ("touchMove", (12, 12)), ("touchEnd", None)):

@@ -5,7 +5,7 @@ import base64
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import NEXT_FRAME, act, document, settled, snapshot, until, watch
+from page_driver import NEXT_FRAME, act, document, settled, show_layer, snapshot, until, watch
 
 import bayesmap as bm
 from bayesmap.posterior.diagnostics import bulk_ess
@@ -118,7 +118,7 @@ def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page, server):
         return int(((snapshot(page)["probability"] > 128) != mean)[observed].sum())
 
     assert wrong(29) <= wrong(0)
-    page.get_by_role("radio", name="Mean").check()
+    show_layer(page, "Mean")
 
 
 def test_importance_sampling_shows_its_weights(open_page, server):

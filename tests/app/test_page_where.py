@@ -24,7 +24,7 @@ def square():
 
 
 def ask(page):
-    page.get_by_role("radio", name="Where am I").check(force=True)
+    page.get_by_role("radio", name="Where am I").check()
 
 
 def found(page):
@@ -43,7 +43,7 @@ def test_the_robot_of_the_tutorial_has_one_place(page):
     playwright.expect(said).to_contain_text("One place: ")
     playwright.expect(said).to_contain_text("The robot stands")
     assert len(answer["cloud"]) == 3 * len(answer["weight"])
-    page.get_by_role("radio", name="Pan").check(force=True)
+    page.get_by_role("radio", name="Pan").check()
     until(page, "!s.where.found")
 
 
@@ -93,7 +93,7 @@ def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page, server):
 def test_a_room_that_loses_its_symmetry_loses_places(open_page, server):
     page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
     settled(page)
-    page.get_by_role("radio", name="Draw", exact=True).check(force=True)
+    page.get_by_role("radio", name="Draw", exact=True).check()
     page.mouse.click(*centre(page, 13, 6))
     settled(page)
     ask(page)

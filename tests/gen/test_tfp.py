@@ -46,6 +46,7 @@ def test_a_named_distribution_has_the_textbooks_density(name):
     np.testing.assert_allclose(trace.get_score(), model.assess(trace.get_choices(), ())[0], rtol=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore:jax:DeprecationWarning")  # the library's own, where this test imports it first
 def test_any_distribution_of_the_library_becomes_a_generative_function():
     pytest.importorskip("tensorflow_probability")
     from tensorflow_probability.substrates.jax.distributions import Normal
