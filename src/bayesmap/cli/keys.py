@@ -180,7 +180,13 @@ SCORE = (
 )
 
 LOCALIZE = (
-    Key("beam_weight", float, None, "How much of an independent reading a beam is.", "5.4 / beams; which of several places: 2.7"),
+    Key(
+        "beam_weight",
+        float,
+        None,
+        "How much of an independent reading a beam is.",
+        "5.4 / beams; which of several places: 2.7",
+    ),
     *READING,
     SEED,
 )
