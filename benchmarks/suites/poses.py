@@ -228,21 +228,20 @@ def localization(with_peers: bool = True, places: tuple[int, ...] = PLACES) -> I
     def figure(name: str, value: np.floating | float, unit: str, against: str = "", **how: Any) -> Figure:
         return Figure(f"localize/{name}", float(value), unit, against=against, **how)
 
-    unjudged: dict[str, Any] = {"gated": False}
     yield figure("one_scan", 100.0 * np.mean([a["right"] for a in one]), "%", at, better="higher")
     yield figure("one_scan_says", 100.0 * np.mean([a["modes"][0][0] for a in one]), "%",
-                 "mean probability that it gives the likeliest place", better="higher", **unjudged)  # fmt: skip
+                 "mean probability that it gives the likeliest place", better="higher", gated=False)  # fmt: skip
     yield figure("ten_scans", 100.0 * np.mean([a["right"] for a in ten]), "%", "the tenth, with odometry",
                  better="higher")  # fmt: skip
     yield figure("ten_scans_off", np.median([a["off_m"] for a in ten]), "m", "median")
-    yield figure("global_time", np.median([a["seconds"] for a in one]), "s processor", "one scan", **unjudged)
-    yield figure("ten_scans_time", np.median([a["seconds"] for a in ten]), "s processor", **unjudged)
+    yield figure("global_time", np.median([a["seconds"] for a in one]), "s processor", "one scan", gated=False)
+    yield figure("ten_scans_time", np.median([a["seconds"] for a in ten]), "s processor", gated=False)
     yield figure("tracking", np.median([found["hz"] for found in answers]), "Hz", "180 beams, of processor time",
-                 better="higher", **unjudged)  # fmt: skip
+                 better="higher", gated=False)  # fmt: skip
     if peers:
         yield figure("mrpt_ten_scans", 100.0 * np.mean([is_right(pose, truth) for pose, truth, _ in peers]), "%",
-                     "MRPT's pf-localization, 40 000 particles at first", better="higher", **unjudged)  # fmt: skip
+                     "MRPT's pf-localization, 40 000 particles at first", better="higher", gated=False)  # fmt: skip
         yield figure("mrpt_ten_scans_off", np.median([off_m(pose, truth) for pose, truth, _ in peers]), "m", "median",
-                     **unjudged)  # fmt: skip
+                     gated=False)  # fmt: skip
         yield figure("mrpt_ten_scans_time", np.median([seconds for *_, seconds in peers]), "s",
-                     "of the filter's steps alone", **unjudged)  # fmt: skip
+                     "of the filter's steps alone", gated=False)  # fmt: skip
