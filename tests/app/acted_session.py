@@ -41,6 +41,11 @@ class Acted:
         """The worker answers the present generation's first picture."""
         return self.hear("field", self.session.generation)
 
+    def painted(self, client=1, generation=None):
+        """A page has painted the first picture of a generation, by default of the present one."""
+        of = self.session.generation if generation is None else generation
+        return self.do(self.session.receive(client, check({"type": "painted", "generation": of})))
+
     @property
     def inferred(self):
         """What the worker was asked to infer, in order."""

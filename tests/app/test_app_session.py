@@ -149,6 +149,66 @@ def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged():
     assert acted.state["seq"] == acted.seq
 
 
+def moved(acted, count, start=0):
+    for i in range(start, start + count):
+        acted.act("sensor", op="move", id=1, x=10 + 0.01 * (i + 1), y=10, drag=1)
+
+
+def test_a_page_that_paints_slowly_is_shown_fewer_pictures_and_the_newest():
+    acted = Acted()
+    acted.picture()
+    acted.painted()
+    for i in range(8):  # the worker is done with each picture before the next edit, and the page paints none
+        moved(acted, 1, start=i)
+        acted.picture()
+    assert len(acted.inferred) == 1 + 2
+    acted.painted()
+    assert acted.inferred[-1].document.sensors[0].x == 10.08
+    assert acted.state["seq"] == acted.seq
+
+
+def test_a_page_that_paints_in_time_is_shown_every_picture():
+    acted = Acted()
+    acted.picture()
+    acted.painted()
+    for i in range(8):
+        moved(acted, 1, start=i)
+        acted.picture()
+        acted.painted()
+    assert len(acted.inferred) == 1 + 8
+
+
+def test_nobody_waits_for_a_page_that_never_says_what_it_painted():
+    acted = Acted()
+    acted.picture()
+    for i in range(8):
+        moved(acted, 1, start=i)
+        acted.picture()
+    assert len(acted.inferred) == 1 + 8
+
+
+def test_one_slow_page_does_not_hold_up_another():
+    acted = Acted()
+    acted.session.join(2)
+    acted.picture()
+    acted.painted(client=2)
+    for i in range(4):
+        moved(acted, 1, start=i)
+        acted.picture()
+    assert len(acted.inferred) == 1 + 4
+
+
+def test_what_waited_for_a_page_that_goes_is_applied():
+    acted = Acted()
+    acted.picture()
+    acted.painted()
+    for i in range(4):
+        moved(acted, 1, start=i)
+        acted.picture()
+    acted.session.leave(1)
+    assert acted.session.document.sensors[0].x == 10.04
+
+
 def test_strokes_that_wait_lose_no_cell():
     acted = Acted()
     for y in range(20):
@@ -301,6 +361,7 @@ EVENTS = st.lists(
         st.tuples(st.just("set"), st.sampled_from([0.1, 0.2, 0.3])),
         st.tuples(st.just("other"), st.sampled_from(["undo", "redo", "run", "cancel"])),
         st.tuples(st.just("worker"), st.integers(0, 3)),
+        st.tuples(st.just("painted"), st.integers(0, 3)),
     ),
     max_size=50,
 )
@@ -308,7 +369,10 @@ EVENTS = st.lists(
 
 @given(EVENTS)
 def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
-    """Whatever the order of actions and of the worker's answers, late ones of any earlier generation included."""
+    """Whatever the order of actions, of the worker's answers and of what the page says that it painted.
+
+    Late ones of any earlier generation are among them.
+    """
     acted, at, drawn = Acted(), None, set()
     for kind, value in events:
         if kind == "move":
@@ -324,10 +388,15 @@ def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
             if value in ("undo", "redo"):
                 at, drawn = None, set()
         else:
-            tasks = acted.inferred[-1 - min(value, len(acted.inferred) - 1)]
-            acted.hear("field", tasks.generation)
-    while acted.session._waiting is not None:
+            generation = acted.inferred[-1 - min(value, len(acted.inferred) - 1)].generation
+            if kind == "worker":
+                acted.hear("field", generation)
+            else:
+                acted.painted(generation=generation)
+    for _ in range(2):  # an edit waits for a picture or for the page, and what waits is one edit
         acted.picture()
+        acted.painted()
+    assert acted.seq == 0 or acted.state["seq"] == acted.seq
     newest = 0
     for header in acted.sent:
         if header["type"] in ("state", "field"):

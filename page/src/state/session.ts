@@ -54,6 +54,8 @@ export class Session {
   private seq = 0;
   private next: Field | null = null;
   private pending: Message[] = [];
+  /** The last generation whose painting was reported. */
+  private reported = -1;
   private confirmedWalls = { text: "", walls: this.walls };
   private wallsAhead = false;
   /** Number of the last hello that brought a document. */
@@ -166,7 +168,10 @@ export class Session {
   /** The field on show is on the canvas now. */
   painted() {
     this.counts.paints++;
-    if (this.shown) this.latency.painted(this.shown.generation);
+    const { generation } = this.shown ?? this;
+    this.latency.painted(generation);
+    if (generation > this.reported && !this.recorded) this.transport.send({ type: "painted", generation });
+    this.reported = generation;
     this.decisions.ask();
     this.ghost.ask();
   }
@@ -203,7 +208,7 @@ export class Session {
   private receive(message: Message, buffers: Buffers) {
     switch (message.type) {
       case "welcome":
-        this.generation = -1;
+        this.generation = this.reported = -1;
         this.recorded = Boolean(message.recorded);
         this.latency.forget();
         this.next = null;

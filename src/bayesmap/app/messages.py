@@ -200,6 +200,7 @@ FIELDS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "cancel": lambda value: {},
     "live": lambda value: {"on": _flag("on", value.get("on"))},
     "view": _view,
+    "painted": lambda value: {"generation": _whole("generation", value.get("generation"))},
     "scan": lambda value: {"index": _whole("index", value.get("index"))},
     "inspect": lambda value: {name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("x", "y")},
     "path": _path,

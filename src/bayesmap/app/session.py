@@ -1,7 +1,7 @@
 """The session: applies what pages ask for, decides what the worker does and what pages are sent. No sockets, no clocks.
 
-While the first picture of a generation is being computed, edits of a gesture that arrive are merged and wait; so a fast
-hand sees every picture that there is time for, and never starves.
+Edits of a gesture that arrive faster than pictures can be computed and painted are merged (`pacing.py`): so a fast hand
+sees every picture that there is time for, never starves, and never falls behind.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from bayesmap.app.adopting import adopted
 from bayesmap.app.document import LIMITS, SCANS_USED, VERSION, Document, Refused
-from bayesmap.app.edits import EDITS, edit, gesture_of, merged
+from bayesmap.app.edits import EDITS, edit, gesture_of
 from bayesmap.app.history import History
+from bayesmap.app.pacing import From, Pace
 from bayesmap.app.questions import QUESTIONS, question
 from bayesmap.app.tasks import OWN_LAYERS, Cancel, Export, Infer, Mode, Remember, Report, ShowScan, Task, View
 
@@ -66,8 +67,7 @@ class Session:
         self.scan = 0
         self.worker_ready = False
         self._mode: Mode = "live"
-        self._in_flight = False  # the first picture of this generation is not there yet
-        self._waiting: tuple[int, Message] | None = None
+        self._pace = Pace()
         self._seqs: dict[int, int] = {}
         self._last: dict[str, ToPage] = {}
         self._trajectory: Remember | None = None  # of a log, inferred; the next worker shall know it
@@ -88,22 +88,15 @@ class Session:
         kind = message["type"]
         if kind in QUESTIONS:
             return self._asked(client, message)
-        if self._in_flight and gesture_of(message, client) is not None and kind in EDITS:
-            if self._waiting is None:
-                self._waiting = client, message
-                return []
-            one = merged(self._waiting[1], message) if self._waiting[0] == client else None
-            if one is not None:
-                self._waiting = client, one
-                return []
-            effects = self._flush()
-            self._waiting = client, message
-            return effects
-        return [*self._flush(), *self._apply(client, message)]
+        if kind == "painted":
+            self._pace.painted(client, message["generation"])
+            return self._apply(self._pace.due())
+        return self._apply(self._pace.take(client, message))
 
     def join(self, client: int) -> Effects:
         """A page has connected; it answers with hello."""
         self._seqs[client] = 0
+        self._pace.forget(client)
         mean: Effects = [ToWorker(View("mean", client=client))] if self._views.pop(client, None) is not None else []
         welcome = {"type": "welcome", "version": VERSION, "limits": LIMITS, "base": ""}
         worker = {"type": "worker", "state": "ready" if self.worker_ready else "starting"}
@@ -111,18 +104,17 @@ class Session:
 
     def leave(self, client: int) -> Effects:
         """A page has gone: the worker need not draw for it any more, and anybody may undo its steps."""
+        self._pace.forget(client)
+        last = self._apply(self._pace.due())
         self._seqs.pop(client, None)
         view = self._views.pop(client, None)
-        return [*([ToWorker(View("mean", client=client))] if view is not None else []), self._state()]
+        mean: Effects = [ToWorker(View("mean", client=client))] if view is not None else []
+        return [*last, *mean, self._state()]
 
-    def _flush(self) -> Effects:
-        if self._waiting is None:
-            return []
-        client, message = self._waiting
-        self._waiting = None
-        return self._apply(client, message)
+    def _apply(self, messages: list[From]) -> Effects:
+        return [effect for client, message in messages for effect in self._apply_one(client, message)]
 
-    def _apply(self, client: int, message: Message) -> Effects:
+    def _apply_one(self, client: int, message: Message) -> Effects:
         kind = message["type"]
         self._seqs[client] = message["seq"]
         try:
@@ -258,9 +250,11 @@ class Session:
     def _shown(self, field: ToPage) -> Effects:
         """A field goes to the page that asked for it, or to all but those that are shown a draw."""
         drawing = {client for client, view in self._views.items() if view.layer in OWN_LAYERS}
-        if field.client is not None or not drawing:
-            return [field]
-        return [replace(field, client=client) for client in self._seqs if client not in drawing]
+        as_it_is = field.client is not None or not drawing
+        pages = [field.client] if as_it_is else [client for client in self._seqs if client not in drawing]
+        for client in pages:
+            self._pace.sent(client, self.generation)
+        return [replace(field, client=client) for client in pages]
 
     def worker_lost(self) -> Effects:
         """The worker died; another is being started."""
@@ -280,8 +274,8 @@ class Session:
         return [*ready, *self._restart(again)]
 
     def _picture_is_out(self) -> Effects:
-        self._in_flight = False
-        return self._flush()
+        self._pace.computing = False
+        return self._apply(self._pace.due())
 
     # What follows from both
 
@@ -294,7 +288,7 @@ class Session:
         self._mode = mode if mode is not None else self._usual()
         self.running, self.working = self._mode == "run", self._mode != "clear"
         self.draws = {"chains": 0, "count": 0}
-        self._in_flight = True
+        self._pace.computing = True
         self._last.pop("field", None)
         if self.document.simulated:
             self._last.pop("overlay", None)  # of the file that was shown before

@@ -829,7 +829,7 @@ asked||this.waitingSince&&i-this.waitingSince<5e3||([this.asked,this.waitingSinc
 {type:"where"}))}};var Nh=new Set(["inspect","path","views","where","ghost","beam"]),Cs=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
 s;e.onmessage=(r,i)=>this.receive(r,i),e.onstatus=r=>this.onstatus(r)}connection={connected:!1};everConnected=!1;document=null;walls=new Uint8Array(0);wallsVersion=0;view={
 layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;cell=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new ks(
-this);where=new _s(this);ghost=new Ms(this);reading=new Es(this);flicker=new Ss(this);status=new gs;progress=new Ps;latency=new Ts;counts={paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];confirmedWalls={
+this);where=new _s(this);ghost=new Ms(this);reading=new Es(this);flicker=new Ss(this);status=new gs;progress=new Ps;latency=new Ts;counts={paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];reported=-1;confirmedWalls={
 text:"",walls:this.walls};wallsAhead=!1;broughtAt=null;packed={version:-1,text:""};get shape(){return this.document?this.document.grid.shape:[1,1]}get editable(){
 return!this.recorded&&this.document?.source.kind==="simulation"}get running(){return this.connection.connected&&!!this.state?.running}get working(){return this.
 connection.connected&&!!this.state?.working}get layer(){let e=this.shown?.layer;return e==="draw"||e==="width"?e:this.view.layer==="entropy"?"entropy":"mean"}get stage(){
@@ -841,29 +841,30 @@ seq};Nh.has(e.type)||(this.acted=this.seq),uc.has(e.type)&&(this.pending.push(o)
 send(o):this.everConnected&&jr(this.portableDocument()),this.changed()}bring(e){this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){
 return this.packed.version!==this.wallsVersion&&(this.packed={version:this.wallsVersion,text:Io(Pi(this.walls))}),this.document&&{...this.document,walls:this.packed.
 text}}portableDocument(){let e=this.effectiveDocument();return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.
-shown=this.next,this.next=null,this.flicker.take(this.shown),!0)}painted(){this.counts.paints++,this.shown&&this.latency.painted(this.shown.generation),this.decisions.
-ask(),this.ghost.ask()}get quantity(){return this.shown?.quantity??{kind:"binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.
-sampling?this.progress.remaining_s(this.shown):null}onstatus(e){if(this.connection=e,e.connected){let n=this.everConnected?this.portableDocument():this.adopt;this.
-pending=[],this.latency.forget(),this.bring(n),this.view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connec\
-ted again"):this.notice&&this.say(this.notice.text,this.notice.level),this.everConnected=!0}else this.everConnected&&(this.say("Connection lost","error"),jr(this.
-portableDocument()));this.changed()}receive(e,n){switch(e.type){case"welcome":this.generation=-1,this.recorded=!!e.recorded,this.latency.forget(),this.next=null;
-break;case"state":this.receiveState(e);break;case"scan":if(e.generation>=this.generation){let{pose:o,angles:s,ranges:r,exact:i,hit:a}=n;this.scan?.index!==e.index&&
-this.reading.forget(),this.scan={ids:e.ids??[],index:e.index??null,pose:o,angles:s,ranges:r,exact:i,hit:a}}break;case"overlay":this.overlay=n;break;case"field":
-this.receiveField(e,n);break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.cell=e;break;case"path":case"views":case"\
-ghost":case"beam":case"undecided":this.receiveAnswer(e,n);break;case"status":this.status.say(e.text,e.level??"info",this.acted);break;case"error":this.receiveError(
-e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,
-"info",this.acted);break}this.changed()}receiveAnswer(e,n){let o=e.type==="undecided"?e.of:e.type;o==="ghost"?this.ghost.receive(e,n):o==="beam"?this.reading.receive(
-e):this.decisions.receive(e,n)}receiveError(e){let n=e.refused?.seq??null,o=n!==null&&n===this.broughtAt;o&&(this.broughtAt=null,this.act({type:"hello"}));let s=[
-e.text,e.remedy].filter(Boolean).join("; ");this.status.say(o?`The map that was brought along cannot be shown: ${s}`:s,"error",this.acted),this.pending=this.pending.
-filter(r=>r.seq!==n),n!==null&&this.latency.refused(n),this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simula\
-tion"&&(this.overlay=null,ic()),this.generation=Math.max(this.generation,e.generation),this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(
-n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,
-weights:i}=n,a=n.observed,l=this.next??this.shown,h=l&&l.p.length===o.length&&l.bits.every((p,f)=>p===a[f])?{observed:l.observed,bits:l.bits}:{observed:go(a,o.length),
-bits:a};this.next={...e,p:o,trace:s,traced:r,weights:i,...h},this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.
-shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:go(Wt(e.walls),n*o)}),this.document={...e,sensors:e.
-sensors.map(r=>({...r}))},(this.confirmedWalls!==s||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,this.wallsAhead=!1),this.
-state.view&&!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r??"mean",chain:i??0,draw:a??null}}for(let r of this.
-pending)this.foresee(r)}foresee(e){!this.document||!this.state||(dc(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var pc='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
+shown=this.next,this.next=null,this.flicker.take(this.shown),!0)}painted(){this.counts.paints++;let{generation:e}=this.shown??this;this.latency.painted(e),e>this.
+reported&&!this.recorded&&this.transport.send({type:"painted",generation:e}),this.reported=e,this.decisions.ask(),this.ghost.ask()}get quantity(){return this.shown?.
+quantity??{kind:"binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.sampling?this.progress.remaining_s(this.shown):null}onstatus(e){
+if(this.connection=e,e.connected){let n=this.everConnected?this.portableDocument():this.adopt;this.pending=[],this.latency.forget(),this.bring(n),this.view.layer!==
+"mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connected again"):this.notice&&this.say(this.notice.text,this.notice.level),
+this.everConnected=!0}else this.everConnected&&(this.say("Connection lost","error"),jr(this.portableDocument()));this.changed()}receive(e,n){switch(e.type){case"\
+welcome":this.generation=this.reported=-1,this.recorded=!!e.recorded,this.latency.forget(),this.next=null;break;case"state":this.receiveState(e);break;case"scan":
+if(e.generation>=this.generation){let{pose:o,angles:s,ranges:r,exact:i,hit:a}=n;this.scan?.index!==e.index&&this.reading.forget(),this.scan={ids:e.ids??[],index:e.
+index??null,pose:o,angles:s,ranges:r,exact:i,hit:a}}break;case"overlay":this.overlay=n;break;case"field":this.receiveField(e,n);break;case"stage":this.lastStage=
+e;break;case"where":this.where.receive(e,n);break;case"cell":this.cell=e;break;case"path":case"views":case"ghost":case"beam":case"undecided":this.receiveAnswer(
+e,n);break;case"status":this.status.say(e.text,e.level??"info",this.acted);break;case"error":this.receiveError(e);break;case"worker":this.worker=e.state,this.status.
+worker(e.state);break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,"info",this.acted);break}this.changed()}receiveAnswer(e,n){
+let o=e.type==="undecided"?e.of:e.type;o==="ghost"?this.ghost.receive(e,n):o==="beam"?this.reading.receive(e):this.decisions.receive(e,n)}receiveError(e){let n=e.
+refused?.seq??null,o=n!==null&&n===this.broughtAt;o&&(this.broughtAt=null,this.act({type:"hello"}));let s=[e.text,e.remedy].filter(Boolean).join("; ");this.status.
+say(o?`The map that was brought along cannot be shown: ${s}`:s,"error",this.acted),this.pending=this.pending.filter(r=>r.seq!==n),n!==null&&this.latency.refused(
+n),this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null,ic()),this.generation=Math.
+max(this.generation,e.generation),this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.
+generation<this.generation){this.counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,a=n.observed,l=this.next??this.shown,
+h=l&&l.p.length===o.length&&l.bits.every((p,f)=>p===a[f])?{observed:l.observed,bits:l.bits}:{observed:go(a,o.length),bits:a};this.next={...e,p:o,trace:s,traced:r,
+weights:i,...h},this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.shape,s=this.confirmedWalls;if((e.walls!==
+s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:go(Wt(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==
+s||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,this.wallsAhead=!1),this.state.view&&!this.pending.some(r=>r.type==="view")){
+let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r??"mean",chain:i??0,draw:a??null}}for(let r of this.pending)this.foresee(r)}foresee(e){!this.document||
+!this.state||(dc(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var pc='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
 ca Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji";line-height: 1.5;width: min-content;}.u-t\
 itle {text-align: center;font-size: 18px;font-weight: bold;}.u-wrap {position: relative;user-select: none;}.u-over, .u-under {position: absolute;}.u-under {over\
 flow: hidden;}.uplot canvas {display: block;position: relative;width: 100%;height: 100%;}.u-axis {position: absolute;}.u-legend {font-size: 14px;margin: auto;te\
