@@ -29,11 +29,14 @@ SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
 ROUNDS: tuple[Search, ...] = (
-    Search(5.0, np.radians(45.0), passes=2, spacing_m=2.0),
+    Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),
     Search(4.0, np.radians(30.0)),
     Search(2.0, np.radians(20.0)),
 )
-"""After each round windows shrink with the covariance; these are their limits."""
+"""After each round windows shrink with the covariance; these are their limits. In the first one the graph is the chain
+alone, whose covariance is wide and honest: what it rules out is another place that looks alike. Later ones believe the
+closures of those before to centimetres, some of them wrongly. On logs and simulated robots right closures lay up to
+2.1 standard deviations off in the first round, and up to 3.2 later."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,8 @@
 """Loop closures: places that the robot came back to, found by matching submaps, and kept where they agree.
 
 Where to look follows from how uncertain the relative pose is: the window is three standard deviations of the graph's
-own relative covariance, so that a long way round is searched widely and a short one narrowly.
+own relative covariance, so that a long way round is searched widely and a short one narrowly. Windows are as wide
+across as along; what is found far outside the covariance's ellipsoid is another place that looks alike.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ OLD_M = 8.0
 
 SIGMAS = 3.0
 
+BENT = np.array([0.3, 0.3, np.radians(5.0)])
+"""What a path is bent by that nobody has modelled, as standard deviations beside those of the graph."""
+
 
 @dataclass(frozen=True)
 class Search:
@@ -32,6 +36,7 @@ class Search:
     Attributes:
         most_m, most_rad: windows are no larger.
         least_score: closures below are not kept.
+        most_off: closures more standard deviations off what the graph says are not kept.
         passes: earlier visits of a place that are tried for each submap, nearest first.
         spacing_m: closures are sought from key scans that lie so far apart along the path.
     """
@@ -39,6 +44,7 @@ class Search:
     most_m: float = 4.0
     most_rad: float = np.radians(45.0)
     least_score: float = 0.5
+    most_off: float = 5.0
     passes: int = 4
     spacing_m: float = 1.2
 
@@ -69,7 +75,18 @@ def find_closures(
     half_rad = np.clip(SIGMAS * sigma[:, 2], np.radians(4.0), search.most_rad)
     centres = between(path.poses[first], path.poses[second])
     closures = match_submaps(path, first, second, centres, half_m, half_rad, half_width_m, search.least_score, threads)
-    return supported(closures, path)
+    return supported(closures.select(_possible(closures, path, precision, search.most_off)), path)
+
+
+def _possible(closures: Closures, path: KeyPath, precision: Precision, most_off: float) -> NDArray[np.bool_]:
+    """Which closures the graph without them does not rule out, (M,)."""
+    if not len(closures):
+        return np.zeros(0, np.bool_)
+    off = closures.relative - between(path.poses[closures.first], path.poses[closures.second])
+    off[:, 2] = wrapped(off[:, 2])
+    covariance = relative_covariances(precision, path.poses, closures.first, closures.second) + np.diag(BENT**2)
+    squares = np.einsum("mi,mij,mj->m", off, np.linalg.inv(covariance), off)
+    return np.asarray(squares < most_off**2)
 
 
 def _candidates(
