@@ -1,7 +1,8 @@
 """Two trajectories of one log, from every other beam each: how far apart they should be.
 
 They share odometry and no beam. So what odometry has wrong moves both alike, and their difference has the covariance of
-the laser's noise alone: with H the precision of a trajectory and L the laser's part of it, H^-1 L H^-1.
+the laser's errors alone: with H the precision of a trajectory and L the laser's part of it, H^-1 L H^-1, and of what
+pairs of scans have wrong in common.
 """
 
 from dataclasses import dataclass, replace
@@ -45,9 +46,16 @@ class _Dense:
 
 @dataclass(frozen=True, eq=False)
 class _LaserAlone(PoseGaussian):
-    """A Gaussian of which the first so many parts are the laser's; covariances are what their noise makes."""
+    """A Gaussian of which the first so many parts are the laser's; covariances are what their errors make."""
 
     laser: int = 0
+    of_all: PoseGaussian | None = None
+
+    @cached_property
+    def bends(self) -> Floats:
+        """What the laser's parts have wrong in common, as in the whole."""
+        assert self.of_all is not None
+        return self.of_all.bends
 
     @cached_property
     def precision(self) -> Any:
@@ -66,5 +74,5 @@ class _LaserAlone(PoseGaussian):
 def _laser_alone(found: Trajectory) -> Trajectory:
     gaussian = found.gaussian
     laser = len(gaussian.first) - (0 if found.odometry is None else len(found.odometry))
-    fields = {name: getattr(gaussian, name) for name in ("poses", "first", "second", "relative", "curvature")}
-    return replace(found, gaussian=_LaserAlone(**fields, laser=laser))
+    fields = {name: getattr(gaussian, name) for name in ("poses", "first", "second", "relative", "curvature", "force")}
+    return replace(found, gaussian=_LaserAlone(**fields, laser=laser, of_all=gaussian))

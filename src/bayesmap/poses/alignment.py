@@ -187,7 +187,8 @@ def align(
 def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussian:
     first, second = np.concatenate([laser.first, wheels.first]), np.concatenate([laser.second, wheels.second])
     curvature = np.concatenate([laser.curvature, wheels.curvature])
-    return PoseGaussian(poses, first, second, between(poses[first], poses[second]), curvature)
+    force = np.concatenate([laser.gradient, np.zeros_like(wheels.gradient)])
+    return PoseGaussian(poses, first, second, between(poses[first], poses[second]), curvature, force)
 
 
 def _laser(

@@ -118,6 +118,15 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
     return matrix, gradient.ravel()
 
 
+def gradient_of(count: int, part: Quadratic, gradient: Floats) -> Floats:
+    """The gradient by steps of the poses, (N, 3), of a part that has other gradients by its relative poses, (M, 3)."""
+    by_first, by_second = between_jacobians(part.relative)
+    result = np.zeros((count, 3))
+    _add(result, part.first, np.einsum("mji,mj->mi", by_first, gradient))
+    _add(result, part.second, np.einsum("mji,mj->mi", by_second, gradient))
+    return result
+
+
 def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precision]:
     """The Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
     matrix, gradient = normal_equations(count, parts)

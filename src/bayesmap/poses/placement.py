@@ -21,6 +21,11 @@ PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])
 """Standard deviations of where a scan lies between the key scans around it, before its own beams are looked at."""
 
 
+CAUTION, LEAST_SIGMA_M = 2.0, 0.005
+"""Points count as if they scattered so many times as widely beside what lies between the key scans: the rough first
+steps then stay near it. What the beams tell in the end is counted with their own scatter, of at least so much."""
+
+
 @dataclass(frozen=True, eq=False)
 class Placement:
     """Poses of all scans.
@@ -85,12 +90,12 @@ def place_scans(
     turn = rotation(poses[scans, 2])
     found, laser_information, totals = refine_scans(
         geometry, None, scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans],
-        poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), max(2.0 * sigma_m, 0.01), 10, (0.2, 0.08), (0.1, 0.03),
-        ALIKE, threads=threads,
+        poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), CAUTION * max(sigma_m, LEAST_SIGMA_M), 10, (0.2, 0.08),
+        (0.1, 0.03), ALIKE, threads=threads,
     )  # fmt: skip
     back = rotation(found[:, 2])
     result[scans] = found
-    information[scans] = np.swapaxes(back, 1, 2) @ laser_information @ back
+    information[scans] = CAUTION**2 * np.swapaxes(back, 1, 2) @ laser_information @ back
     matched[scans] = totals[:, 2] / np.maximum(totals[:, 3], 1.0)
     return Placement(result, information, matched)
 

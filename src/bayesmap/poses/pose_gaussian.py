@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.graph import ANCHOR, RIDGE, Quadratic, normal_equations
 from bayesmap.poses.precision import Precision, relative_covariances
-from bayesmap.poses.se2 import retract
+from bayesmap.poses.se2 import between_jacobians, retract
+from bayesmap.poses.shared_errors import bend_covariances, bends
 
 Floats = NDArray[np.float64]
 
@@ -28,7 +29,9 @@ class PoseGaussian:
         first, second: indices of the poses that a part of the cost ties together, (M,).
         relative: the second's pose in the frame of the first, (M, 3).
         curvature: second derivatives of the cost by it, (M, 3, 3).
-        dof: degrees of freedom of Student's t, of which the inverse of the curvature is the scale matrix.
+        force: first derivatives of the cost by it, (M, 3); all together they cancel. Zero where parts err one by one.
+        dof: degrees of freedom of Student's t, of which the inverse of the curvature, and what parts have wrong in
+            common (`shared_errors`), are the scale matrix.
     """
 
     poses: Floats
@@ -36,6 +39,7 @@ class PoseGaussian:
     second: NDArray[np.intp]
     relative: Floats
     curvature: Floats
+    force: Floats
     dof: float = DEGREES_OF_FREEDOM
 
     @cached_property
@@ -43,22 +47,27 @@ class PoseGaussian:
         """The factorised precision matrix of steps in the poses' own frames, (3 K, 3 K)."""
         return Precision(normal_equations(len(self.poses), [self._part])[0])
 
+    @cached_property
+    def bends(self) -> Floats:
+        """Steps of the poses by what parts of the cost have wrong in common, (N, K, 3)."""
+        return bends(self.poses, self._part, self.precision)
+
     @property
     def _part(self) -> Quadratic:
-        return Quadratic(self.first, self.second, self.relative, self.curvature, np.zeros_like(self.relative))
+        return Quadratic(self.first, self.second, self.relative, self.curvature, self.force)
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
         """Covariance (scale matrix of Student's t) of between(first, second), in the first's frame, (N, 3, 3)."""
-        return relative_covariances(self.precision, self.poses, np.asarray(first), np.asarray(second))
+        first, second = np.asarray(first), np.asarray(second)
+        shared = bend_covariances(self.bends, self.poses, first, second)
+        return relative_covariances(self.precision, self.poses, first, second) + shared
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t.
 
         Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, C_k C_k^T the curvature of
-        part k and e_k standard normal: then x has covariance H^-1.
+        part k and e_k standard normal: then x has covariance H^-1. A normal sum of the bends is added.
         """
-        from bayesmap.poses.se2 import between_jacobians
-
         values, vectors = np.linalg.eigh(self.curvature)
         root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
         by_first, by_second = between_jacobians(self.relative)
@@ -75,5 +84,6 @@ class PoseGaussian:
                 for axis in range(3):
                     own[:, axis] += np.bincount(ends, force[:, axis], poses)
             stretch = np.sqrt(self.dof / rng.chisquare(self.dof))
-            draws[n] = retract(self.poses, stretch * self.precision.solve(own.ravel()).reshape(poses, 3))
+            bend = np.tensordot(rng.standard_normal(len(self.bends)), self.bends, 1) / np.sqrt(len(self.bends))
+            draws[n] = retract(self.poses, stretch * (self.precision.solve(own.ravel()).reshape(poses, 3) + bend))
         return draws

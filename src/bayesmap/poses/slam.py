@@ -21,6 +21,7 @@ from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
 from bayesmap.poses.odometry_motion import stated_motions, variances
 from bayesmap.poses.placement import place_scans
+from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
@@ -231,7 +232,7 @@ class _Run:
         if self.no_odometry:
             return None, chain_factors(track, aligned.poses)
         order = np.arange(len(track.keys) - 1)
-        covariance = aligned.gaussian.relative_covariances(order, order + 1)
+        covariance = relative_covariances(aligned.gaussian.precision, aligned.poses, order, order + 1)
         variance = np.diagonal(covariance, axis1=1, axis2=2)
         fit = fit_odometry(self.stated, self.scans.stamps_s, aligned.poses, track.keys, variance)
         return fit, self.corrected(track, aligned.poses, fit.slope, fit.noise.variances, fit.lag_s)

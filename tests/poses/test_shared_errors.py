@@ -1,0 +1,95 @@
+"""What pairs of scans have wrong in common bends the way, and covariances say how far."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bayesmap.poses.graph import Quadratic, solve_step
+from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.poses.se2 import retract
+from bayesmap.poses.shared_errors import STRETCH_M, bend_covariances
+from bayesmap.space.planar import between
+
+LAPS, ON_A_LAP, NEAR_M, STEP_M = 6, 24, 2.0, 0.5
+POSES = LAPS * ON_A_LAP
+SIGMA = np.array([0.01, 0.01, 0.01])
+
+
+def way():
+    """Round and round, each pose paired with all near it: only where there are many pairs do errors in common show."""
+    angle = 2 * np.pi * np.arange(POSES) / ON_A_LAP
+    radius = STEP_M * ON_A_LAP / (2 * np.pi)
+    truth = np.column_stack([radius * np.sin(angle), -radius * np.cos(angle), angle])
+    apart = np.hypot(*np.moveaxis(truth[:, None, :2] - truth[None, :, :2], -1, 0))
+    return truth, *np.nonzero(np.triu(apart < NEAR_M, 1))
+
+
+def aligned(seed, *, in_common):
+    """Poses aligned to relative poses that err, all pairs of two stretches alike or each by itself."""
+    truth, first, second = way()
+    rng = np.random.default_rng(seed)
+    stretch = (STEP_M * np.arange(POSES) / STRETCH_M).astype(int)
+    _, cluster = np.unique(np.stack([stretch[first], stretch[second]]), axis=1, return_inverse=True)
+    cluster = cluster.ravel() if in_common else np.arange(len(first))
+    errors = SIGMA * rng.standard_normal((cluster.max() + 1, 3))[cluster]
+    measured, curvature = (
+        between(truth[first], truth[second]) + errors,
+        np.tile(np.diag(SIGMA**-2.0), (len(first), 1, 1)),
+    )
+    poses = truth
+    for _ in range(4):
+        relative = between(poses[first], poses[second])
+        part = Quadratic(first, second, relative, curvature, np.einsum("mij,mj->mi", curvature, relative - measured))
+        poses = retract(poses, solve_step(POSES, [part])[0])
+    relative = between(poses[first], poses[second])
+    force = np.einsum("mij,mj->mi", curvature, relative - measured)
+    return truth, PoseGaussian(poses, first, second, relative, curvature, force)
+
+
+def squares(truth, gaussian):
+    """Squared errors of relative poses over metres by their scale matrices, as multiples of what is expected."""
+    first, second = np.arange(0, POSES - 32, 7), np.arange(32, POSES, 7)
+    off = between(gaussian.poses[first], gaussian.poses[second]) - between(truth[first], truth[second])
+    scale = gaussian.relative_covariances(first, second)
+    return np.einsum("mi,mij,mj->m", off, np.linalg.inv(scale), off) / 3.0
+
+
+@pytest.mark.parametrize(
+    ("in_common", "low", "high"), [(True, 0.5, 2.0), (False, 0.5, 1.2)], ids=["in common", "one by one"]
+)
+def test_covariances_have_the_size_of_errors(in_common, low, high):
+    """Means over 40 alignments; by their spread over seeds a false alarm has a chance under 1 in 10 000."""
+    means = [squares(*aligned(seed, in_common=in_common)).mean() for seed in range(40)]
+    assert low < np.mean(means) < high
+
+
+def test_without_what_is_in_common_errors_are_many_times_what_is_claimed():
+    found = [aligned(seed, in_common=True) for seed in range(10)]
+    alone = [squares(truth, replace(g, force=np.zeros_like(g.force))).mean() for truth, g in found]
+    assert np.mean(alone) > 4.0
+
+
+def test_where_nothing_pulls_nothing_bends():
+    _, gaussian = aligned(0, in_common=True)
+    assert not replace(gaussian, force=np.zeros_like(gaussian.force)).bends.any()
+
+
+def test_draws_have_the_spread_of_the_covariances():
+    """8000 draws have variances within 7 % (over four standard deviations, tails of Student's t included)."""
+    _, gaussian = aligned(1, in_common=True)
+    gaussian = replace(gaussian, dof=1e6)
+    draws = gaussian.draw(8000, seed=2)
+    off = between(draws[:, 20], draws[:, 60]) - between(gaussian.poses[20], gaussian.poses[60])
+    expected = gaussian.relative_covariances(np.array([20]), np.array([60]))[0]
+    np.testing.assert_allclose(off.var(axis=0), np.diag(expected), rtol=0.07)
+
+
+def test_bends_move_relative_poses_as_they_move_poses():
+    _, gaussian = aligned(2, in_common=True)
+    first, second, small = np.array([3, 40]), np.array([70, 12]), 1e-4
+    moved = [retract(gaussian.poses, small * bend) for bend in gaussian.bends]
+    now = between(gaussian.poses[first], gaussian.poses[second])
+    off = np.stack([between(poses[first], poses[second]) - now for poses in moved]) / small
+    brute = np.einsum("nmi,nmj->mij", off, off) / len(off)
+    np.testing.assert_allclose(bend_covariances(gaussian.bends, gaussian.poses, first, second), brute, rtol=2e-3)
