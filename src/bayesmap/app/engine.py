@@ -44,7 +44,7 @@ from bayesmap.app.tasks import (
 from bayesmap.app.weighing import Weighing
 from bayesmap.errors import BadInput
 
-PREVIEW_SECONDS = 0.020
+PREVIEW_SECONDS = 0.015
 FEWEST_ROUNDS = 3
 PAUSE_SECONDS = 0.03
 """After a preview that took long, before the chains are set up: a moving hand will have sent the next edit by then."""
