@@ -170,6 +170,7 @@ def summary(run: Run) -> dict[str, Any]:
         "loop_closures": int((found.closures.weights > 0.5).sum()),
         "flagged": np.nonzero(found.flagged)[0].tolist(),
         "breaks": found.breaks.tolist(),
+        "leaps": found.leaps.tolist(),
         "sigma_m": {"median": float(np.median(sigma_m)), "max": float(sigma_m.max())},
         "angle_step_ratio": found.calibration.angle_step_ratio,
         "odometry": None if fit is None else {"lag_s": fit.lag_s, "slope": fit.slope.tolist()},
@@ -201,6 +202,12 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
     if trajectory["breaks"]:
         some = ", ".join(str(scan) for scan in trajectory["breaks"][:10])
         call.console.warn(f"before these scans the robot seems to have been carried, or data are missing: {some}")
+    if trajectory["leaps"]:
+        some = ", ".join(str(scan) for scan in trajectory["leaps"][:10])
+        call.console.warn(
+            "before these scans the trajectory leaps as neither odometry nor matching did: places that look alike may "
+            f"have been taken for one; look at loops.png there: {some}"
+        )
 
 
 command.help = (command.help or "").format(sensors=sensors.HELP)

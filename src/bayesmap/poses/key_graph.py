@@ -28,6 +28,9 @@ LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
+LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
+"""A step that differs so much from the front end's, and by so many of its standard deviations, is a leap."""
+
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),
     Search(4.0, np.radians(30.0)),
@@ -36,7 +39,7 @@ ROUNDS: tuple[Search, ...] = (
 """After each round windows shrink with the covariance; these are their limits. In the first one the graph is the chain
 alone, whose covariance is wide and honest: what it rules out is another place that looks alike. Later ones believe the
 closures of those before to centimetres, some of them wrongly. On logs and simulated robots right closures lay up to
-2.1 standard deviations off in the first round, and up to 3.2 later."""
+2.1 standard deviations off in the first round, and up to 3.2 later; wrong ones that bent the way 3.3 and 3.8."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +80,18 @@ def chain_of(track: Track, poses: Floats) -> Factors:
     covariance = turn @ covariance @ np.swapaxes(turn, 1, 2) + np.diag(LINK_FLOOR**2)
     order = np.arange(len(keys) - 1)
     return Factors(order, order + 1, relative, np.linalg.inv(covariance))
+
+
+def contradicted_links(track: Track, poses: Floats) -> NDArray[np.bool_]:
+    """Where poses of the keys, (K, 3), move from one to the next as neither odometry nor the front end did, (K - 1,).
+
+    Where the front end was sure of a step and the poses leap, loops or pairs of scans pull at the two sides that cannot
+    all be right.
+    """
+    chain = chain_of(track, track.poses[track.keys])
+    off = chain.errors(poses)
+    leaps = (np.hypot(off[:, 0], off[:, 1]) > LEAP_M) | (np.abs(off[:, 2]) > LEAP_RAD)
+    return np.asarray(leaps & (chain.squares(poses) > LEAP_SIGMAS**2) & ~track.broken[track.keys[1:]])
 
 
 def poses_between_keys(

@@ -44,7 +44,7 @@ class Search:
     most_m: float = 4.0
     most_rad: float = np.radians(45.0)
     least_score: float = 0.5
-    most_off: float = 5.0
+    most_off: float = 3.5
     passes: int = 4
     spacing_m: float = 1.2
 

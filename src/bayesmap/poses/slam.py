@@ -16,7 +16,7 @@ from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
 from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.key_graph import close_loops, poses_between_keys
+from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
 from bayesmap.poses.odometry_motion import stated_motions, variances
@@ -170,12 +170,14 @@ class _Run:
         explained[keys] = scores
         nearest = _nearest(keys, len(scans))
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
+        leaps = keys[1:][contradicted_links(track, final.poses)]
         gaussian = replace(final.gaussian, poses=compose(self.origin, final.poses))
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
             compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys),
             explained, flag_unexplained(explained, keys), breaks, closures,
             Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors,
+            leaps,
         )  # fmt: skip
 
     def front_end(self, geometry: ScanGeometry) -> Track:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +75,8 @@ class Trajectory:
         flagged: scans that stay badly explained: their poses are not to be trusted, (S,).
         breaks: scans before which the motion is unlike any that odometry or the laser can confirm: the robot was
             carried, or data are missing; indices.
+        leaps: scans before which the poses move as neither odometry nor the matches of one scan after the other did:
+            loops hold the ways before and after where they cannot both be; indices.
         closures: loop closures.
         calibration: of laser and odometry.
         order: for each scan its index in the log, where that was not in order of time.
@@ -94,6 +96,7 @@ class Trajectory:
     calibration: Calibration
     order: NDArray[np.intp]
     odometry: Factors | None = None
+    leaps: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, np.intp))
 
     def __len__(self) -> int:
         return len(self.poses)
