@@ -205,8 +205,8 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
     if trajectory["leaps"]:
         some = ", ".join(str(scan) for scan in trajectory["leaps"][:10])
         call.console.warn(
-            "before these scans the trajectory leaps as neither odometry nor matching did: places that look alike may "
-            f"have been taken for one; look at loops.png there: {some}"
+            "before these scans the trajectory leaps as neither odometry nor matching did, and what lies before and "
+            f"after may be shifted against each other: {some}"
         )
 
 

@@ -135,6 +135,7 @@ def align(
     rounds: int = 10,
     reach_m: tuple[float, float] = REACH_M,
     scale_m: tuple[float, float] = SCALE_M,
+    firm: NDArray[np.bool_] | None = None,
     reselect: Callable[[Floats], Pairs] | None = None,
     on_progress: Callable[[int, Floats], None] | None = None,
     threads: int | None = None,
@@ -149,6 +150,7 @@ def align(
         rounds: of Gauss-Newton.
         reach_m: how far paired points lie apart, at the first round, and from the middle one on.
         scale_m: Geman and McClure's c, likewise.
+        firm: of the relative poses by odometry those over which no wheel can have slipped, (M,); by default none.
         reselect: chooses pairs anew from the poses in the middle of the rounds.
         on_progress: called with the number of rounds that are done and the poses, (S, 3).
         threads: to compute with; by default all cores.
@@ -168,7 +170,8 @@ def align(
             weights = (0.5 / (1.0 + counts)).astype(np.float32)
         laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, threads)
         squares = odometry.squares(poses)
-        wheels = quadratic(odometry, poses, 1.0 / (1.0 + squares / SLIP))
+        slipping = 1.0 / (1.0 + squares / SLIP)
+        wheels = quadratic(odometry, poses, slipping if firm is None else np.where(firm, 1.0, slipping))
         step, _ = solve_step(count, [laser, wheels])
         poses = retract(poses, step)
         gaussian = _gaussian(poses, laser, wheels)

@@ -44,6 +44,9 @@ LOOKS = 60
 IMPROVEMENTS = 2
 """How often scans are matched anew without themselves."""
 
+CONFIRMED = 11.3
+"""Squared Mahalanobis distance within which the front end's step confirms odometry's: 99 % of chi-squared."""
+
 MATCH_REACH = 0.8
 """Scans are compared if their sensors are no further apart than this share of the grids' half width."""
 
@@ -154,6 +157,8 @@ class _Run:
         fit, factors = self.odometry(first, track)
         second = self.align("aligned-again", key_geometry, poses, factors, reach_m, 8, wide=ratio != 1.0)
         final, scores = self.improve(key_geometry, second, factors, reach_m, min(half_width_m, 14.0))
+        if not self.no_odometry:
+            final, scores = self.without_leaps(key_geometry, final, scores, factors, reach_m)
         start = poses_between_keys(track.poses, keys, final.poses, track.broken)
         placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, threads=threads)
         self.progress("placing", len(scans), len(scans))
@@ -258,6 +263,7 @@ class _Run:
         rounds: int,
         *,
         wide: bool,
+        firm: NDArray[np.bool_] | None = None,
     ) -> Alignment:
         threads = self.threads
         pairs = overlapping_pairs(geometry, poses, reach_m, threads)
@@ -267,9 +273,25 @@ class _Run:
 
         spans = {} if wide else {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
         return align(
-            geometry, poses, factors, pairs, rounds=rounds, reselect=again, threads=threads,
+            geometry, poses, factors, pairs, rounds=rounds, firm=firm, reselect=again, threads=threads,
             on_progress=lambda done, at: self.report(name, done, rounds, at), **spans,
         )  # fmt: skip
+
+    def without_leaps(
+        self, geometry: ScanGeometry, aligned: Alignment, scores: Floats, factors: Factors, reach_m: float
+    ) -> tuple[Alignment, Floats]:
+        """Where poses leap over a step on which odometry and front end agree, no wheel has slipped: align once more."""
+        assert self.track is not None
+        leaps = contradicted_links(self.track, aligned.poses)
+        firm = leaps & (factors.squares(self.track.poses[self.track.keys]) < CONFIRMED)
+        if not firm.any():
+            return aligned, scores
+        held = self.align("aligned-rematched", geometry, aligned.poses, factors, reach_m, 8, wide=True, firm=firm)
+        if contradicted_links(self.track, held.poses).sum() >= leaps.sum():
+            return aligned, scores
+        return held, rematch(
+            geometry, held.poses, held.pairs, min(grid_half_width(geometry), 14.0), search=False, threads=self.threads
+        ).scores
 
     def improve(
         self, geometry: ScanGeometry, aligned: Alignment, factors: Factors, reach_m: float, half_width_m: float
