@@ -149,18 +149,20 @@ def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged():
     assert acted.state["seq"] == acted.seq
 
 
-def moved(acted, count, start=0):
-    for i in range(start, start + count):
+def dragged(acted, moves, paints=False):
+    """A sensor is moved so often; the worker is done with each picture before the next move."""
+    for i in range(moves):
         acted.act("sensor", op="move", id=1, x=10 + 0.01 * (i + 1), y=10, drag=1)
+        acted.picture()
+        if paints:
+            acted.painted()
 
 
 def test_a_page_that_paints_slowly_is_shown_fewer_pictures_and_the_newest():
     acted = Acted()
     acted.picture()
     acted.painted()
-    for i in range(8):  # the worker is done with each picture before the next edit, and the page paints none
-        moved(acted, 1, start=i)
-        acted.picture()
+    dragged(acted, 8)
     assert len(acted.inferred) == 1 + 2
     acted.painted()
     assert acted.inferred[-1].document.sensors[0].x == 10.08
@@ -171,19 +173,14 @@ def test_a_page_that_paints_in_time_is_shown_every_picture():
     acted = Acted()
     acted.picture()
     acted.painted()
-    for i in range(8):
-        moved(acted, 1, start=i)
-        acted.picture()
-        acted.painted()
+    dragged(acted, 8, paints=True)
     assert len(acted.inferred) == 1 + 8
 
 
 def test_nobody_waits_for_a_page_that_never_says_what_it_painted():
     acted = Acted()
     acted.picture()
-    for i in range(8):
-        moved(acted, 1, start=i)
-        acted.picture()
+    dragged(acted, 8)
     assert len(acted.inferred) == 1 + 8
 
 
@@ -192,9 +189,7 @@ def test_one_slow_page_does_not_hold_up_another():
     acted.session.join(2)
     acted.picture()
     acted.painted(client=2)
-    for i in range(4):
-        moved(acted, 1, start=i)
-        acted.picture()
+    dragged(acted, 4)
     assert len(acted.inferred) == 1 + 4
 
 
@@ -202,9 +197,7 @@ def test_what_waited_for_a_page_that_goes_is_applied():
     acted = Acted()
     acted.picture()
     acted.painted()
-    for i in range(4):
-        moved(acted, 1, start=i)
-        acted.picture()
+    dragged(acted, 4)
     acted.session.leave(1)
     assert acted.session.document.sensors[0].x == 10.04
 

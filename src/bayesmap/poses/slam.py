@@ -15,7 +15,7 @@ from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odomet
 from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
 from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
-from bayesmap.poses.graph import Factors
+from bayesmap.poses.graph import FAR, Factors
 from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
@@ -43,9 +43,6 @@ LOOKS = 60
 
 IMPROVEMENTS = 2
 """How often scans are matched anew without themselves."""
-
-CONFIRMED = 11.3
-"""Squared Mahalanobis distance within which the front end's step confirms odometry's: 99 % of chi-squared."""
 
 MATCH_REACH = 0.8
 """Scans are compared if their sensors are no further apart than this share of the grids' half width."""
@@ -283,7 +280,7 @@ class _Run:
         """Where poses leap over a step on which odometry and front end agree, no wheel has slipped: align once more."""
         assert self.track is not None
         leaps = contradicted_links(self.track, aligned.poses)
-        firm = leaps & (factors.squares(self.track.poses[self.track.keys]) < CONFIRMED)
+        firm = leaps & (factors.squares(self.track.poses[self.track.keys]) < FAR)
         if not firm.any():
             return aligned, scores
         held = self.align("aligned-rematched", geometry, aligned.poses, factors, reach_m, 8, wide=True, firm=firm)
