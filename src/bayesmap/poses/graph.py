@@ -118,12 +118,17 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
     return matrix, gradient.ravel()
 
 
-def gradient_of(count: int, part: Quadratic, gradient: Floats) -> Floats:
-    """The gradient by steps of the poses, (N, 3), of a part that has other gradients by its relative poses, (M, 3)."""
+def pulls(part: Quadratic) -> tuple[Floats, Floats]:
+    """With what gradient each relative pose of a part pulls at steps of its first and its second pose, (M, 3) each."""
     by_first, by_second = between_jacobians(part.relative)
+    return np.einsum("mji,mj->mi", by_first, part.gradient), np.einsum("mji,mj->mi", by_second, part.gradient)
+
+
+def summed(count: int, part: Quadratic, on_first: Floats, on_second: Floats) -> Floats:
+    """The sums of such pulls at each pose, (N, 3)."""
     result = np.zeros((count, 3))
-    _add(result, part.first, np.einsum("mji,mj->mi", by_first, gradient))
-    _add(result, part.second, np.einsum("mji,mj->mi", by_second, gradient))
+    _add(result, part.first, on_first)
+    _add(result, part.second, on_second)
     return result
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import Quadratic, gradient_of
+from bayesmap.poses.graph import Quadratic, pulls, summed
 from bayesmap.poses.precision import Precision
 from bayesmap.poses.se2 import between_jacobians
 from bayesmap.space.planar import between, wrapped
@@ -42,10 +42,11 @@ def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
     pairs = np.sort(np.stack([stretch[laser.first], stretch[laser.second]], axis=1), axis=1)
     clusters, cluster = np.unique(pairs, axis=0, return_inverse=True)
     signs = np.random.default_rng(SEED).choice([-1.0, 1.0], (DRAWS, len(clusters)))
+    on_first, on_second = pulls(laser)
     found = np.empty((DRAWS, len(poses), 3))
     for n in range(DRAWS):
-        force = laser.gradient * signs[n][cluster.ravel()][:, None]
-        found[n] = precision.solve(gradient_of(len(poses), laser, force).ravel()).reshape(-1, 3)
+        sign = signs[n][cluster.ravel()][:, None]
+        found[n] = precision.solve(summed(len(poses), laser, sign * on_first, sign * on_second).ravel()).reshape(-1, 3)
     return found
 
 
