@@ -194,20 +194,24 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
         f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
     )
     if trajectory["flagged"]:
-        some = ", ".join(str(scan) for scan in trajectory["flagged"][:10])
         call.console.warn(
             f"{len(trajectory['flagged'])} scans are badly explained by all others, their poses are not to be trusted: "
-            f"{some}{', ...' if len(trajectory['flagged']) > 10 else ''}"
+            f"{_first_of(trajectory['flagged'])}"
         )
     if trajectory["breaks"]:
-        some = ", ".join(str(scan) for scan in trajectory["breaks"][:10])
-        call.console.warn(f"before these scans the robot seems to have been carried, or data are missing: {some}")
+        call.console.warn(
+            "before these scans the robot seems to have been carried, or data are missing: "
+            f"{_first_of(trajectory['breaks'])}"
+        )
     if trajectory["leaps"]:
-        some = ", ".join(str(scan) for scan in trajectory["leaps"][:10])
         call.console.warn(
             "before these scans the trajectory leaps as neither odometry nor matching did, and what lies before and "
-            f"after may be shifted against each other: {some}"
+            f"after may be shifted against each other: {_first_of(trajectory['leaps'])}"
         )
+
+
+def _first_of(scans: list[int]) -> str:
+    return ", ".join(map(str, scans[:10])) + (", ..." if len(scans) > 10 else "")
 
 
 command.help = (command.help or "").format(sensors=sensors.HELP)

@@ -153,9 +153,10 @@ class _Run:
                 key_geometry = geometry.select(keys)
         fit, factors = self.odometry(first, track)
         second = self.align("aligned-again", key_geometry, poses, factors, reach_m, 8, wide=ratio != 1.0)
-        final, scores = self.improve(key_geometry, second, factors, reach_m, min(half_width_m, 14.0))
+        rematch_m = min(half_width_m, 14.0)
+        final, scores = self.improve(key_geometry, second, factors, reach_m, rematch_m)
         if not self.no_odometry:
-            final, scores = self.without_leaps(key_geometry, final, scores, factors, reach_m)
+            final, scores = self.without_leaps(key_geometry, final, scores, factors, reach_m, rematch_m)
         start = poses_between_keys(track.poses, keys, final.poses, track.broken)
         placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, threads=threads)
         self.progress("placing", len(scans), len(scans))
@@ -275,7 +276,13 @@ class _Run:
         )  # fmt: skip
 
     def without_leaps(
-        self, geometry: ScanGeometry, aligned: Alignment, scores: Floats, factors: Factors, reach_m: float
+        self,
+        geometry: ScanGeometry,
+        aligned: Alignment,
+        scores: Floats,
+        factors: Factors,
+        reach_m: float,
+        half_width_m: float,
     ) -> tuple[Alignment, Floats]:
         """Where poses leap over a step on which odometry and front end agree, no wheel has slipped: align once more."""
         assert self.track is not None
@@ -286,9 +293,8 @@ class _Run:
         held = self.align("aligned-rematched", geometry, aligned.poses, factors, reach_m, 8, wide=True, firm=firm)
         if contradicted_links(self.track, held.poses).sum() >= leaps.sum():
             return aligned, scores
-        return held, rematch(
-            geometry, held.poses, held.pairs, min(grid_half_width(geometry), 14.0), search=False, threads=self.threads
-        ).scores
+        again = rematch(geometry, held.poses, held.pairs, half_width_m, search=False, threads=self.threads)
+        return held, again.scores
 
     def improve(
         self, geometry: ScanGeometry, aligned: Alignment, factors: Factors, reach_m: float, half_width_m: float
