@@ -2,6 +2,7 @@
 
 import ast
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -240,3 +241,17 @@ def test_asking_for_help_loads_nothing_heavy():
 def test_what_is_loaded_on_demand_would_be_noticed():
     """Power of the two tests above."""
     assert "warp" in loaded_after("import bayesmap.kernels.walk")
+
+
+def test_modules_that_docstrings_name_are_there():
+    """A name in backquotes is a module, or something in one: `bayesmap.space.grid`, `bayesmap.space.grid.Grid`."""
+    modules = {".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in FILES}
+    folders = {name.removesuffix(".__init__") for name in modules if name.endswith(".__init__")} - {"gen", "viz"}
+    stale = []
+    for path in FILES:
+        for name in re.findall(r"`bayesmap\.([\w.]*\w)`", path.read_text(encoding="utf-8")):
+            parts = name.split(".")
+            rooms = [".".join(parts[:n]) for n in range(1, len(parts) + 1)]
+            if rooms[0] in folders and len(parts) > 1 and not modules.intersection(rooms):
+                stale.append(f"{path.relative_to(SOURCE)}: {name}")
+    assert stale == []

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from oracle.field_law import log_likelihoods, paths_of
-from oracle.field_worlds import beam_rays, scans_of_all_kinds
+from oracle.stop_law import log_likelihoods, paths_of
+from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 from scipy import stats
 
 import bayesmap as bm
@@ -54,6 +54,25 @@ def test_reflectivities_and_surfaces_have_the_likelihood_of_the_definition(prior
         expected = log_likelihoods(paths_of(rays, far=False, hit_depth=DEPTH), stops, SENSOR, not prior.has_surfaces)
         np.testing.assert_allclose(model.beam_log_likelihoods(state), expected, atol=1e-5)
         assert model.log_joint(state) == pytest.approx(prior.log_prob(cells, GRID) + expected.sum(), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    "prior",
+    [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0), bm.Beta(coupling=1.0), bm.Surface(coupling=1.0)],
+    ids=lambda prior: f"{type(prior).__name__} {getattr(prior, 'coupling', 0)}",
+)
+def test_a_run_s_draw_is_a_state(prior):
+    """Draws keep some cells only, in half precision; the others are as the prior has them."""
+    run = bm.infer(scans(2), GRID, prior=prior, sensor=SENSOR, chains=1, warmup=10, draws=3, hit_depth=DEPTH)
+    model, draws = Model(scans(2), GRID, prior, SENSOR, hit_depth=DEPTH), run.posterior.draws
+    for number in range(3):
+        cells = draws.cells(0, number)
+        assert {values.shape for values in cells.values()} == {GRID.shape}
+        state = model.state(cells)
+        assert np.isfinite(model.log_joint(state))
+        reported = run.posterior.log_likelihood[0, number]
+        slack = 1e-3 if not prior.has_surfaces else 0.05 * abs(reported)  # where no reading ends surfaces are others
+        assert model.log_likelihood(state) == pytest.approx(reported, abs=max(slack, 1e-3 * model.scans.n_beams))
 
 
 def test_readings_integrate_to_one_under_any_map():

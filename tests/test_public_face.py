@@ -108,6 +108,8 @@ BAD = {
     "no rounds": ({"method": "propagate", "rounds": 0}, "rounds must be a whole number of 1 or more, got 0"),
     "hits behind cells": ({"hit_depth": 1.5}, r"hit_depth must lie in \[0, 1\], got 1.5"),
     "no such device": ({"device": "tpu:7"}, "'tpu:7' is not on this machine; there is: cpu"),
+    "poses in a word": ({"poses": "odometry"}, r"poses must say what is believed of them, such as .*got 'odometry'"),
+    "a kind of poses": ({"poses": bm.Odometry}, "poses must say what is believed of them"),
     "a prior of another shape": (
         {"prior": bm.Independent(np.full((2, 2), 0.5))}, r"p_wall has shape \(2, 2\), but the grid is \(3, 3\)",
     ),

@@ -90,7 +90,8 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const onMap = { chip: chip(ui), banner: banner(ui) };
   const stage = h("main", { className: "stage" }, ...canvases, onMap.chip, onMap.banner);
   const dressed = () => themes.theme;
-  const legendOfMap = legend(ui, dressed);
+  const scale = () => view.transform.scale;
+  const legendOfMap = legend(ui, dressed, scale);
   const bottom = foot(ui);
   canvas.setAttribute("aria-describedby", bottom.readout.id);
   const share = shareDialog(ui);
@@ -98,7 +99,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
   const panels = [
     decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
-    scanPanel(ui), readingPanel(ui), viewPanel(ui, player, shown), sensors, model, posesPanel(ui), inference, clear,
+    scanPanel(ui), readingPanel(ui), viewPanel(ui, player, shown, scale), sensors, model, posesPanel(ui), inference, clear,
   ];
   const panel = h("aside", { "aria-label": "Controls" }, ...panels);
   const isRun = () => session.recorded || session.document?.source.kind === "run";

@@ -118,7 +118,7 @@ export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 /** How far the inference of a log's trajectory is. */
 export type Stage = { generation: number; name: string; text: string; done: number; of: number };
 
-/** Beams through a cell; of walls how many speak for one there and against it, and how much in nats. */
+/** Beams through a cell; how many speak for a wall, or for what is there, and against it, and how much in nats. */
 export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number };
 
 /** A way to the session. `onmessage` and `onstatus` are set by the page before it calls `open`. */

@@ -118,6 +118,21 @@ def infer(
     Raises:
         BadInput: arguments that do not make sense, or a run to resume that was made with others.
     """
+    if not isinstance(prior, CellPrior):
+        raise BadInput(
+            f"infer: prior must say what cells are, such as bm.Independent(0.2) or bm.Surface(), got {prior!r}"
+        )
+    if not isinstance(sensor, str | SensorModel):
+        raise BadInput(f"infer: sensor must be a sensor model or {FIT!r}, got {sensor!r}")
+    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "run", None))):
+        raise BadInput(
+            f"infer: executor must be one such as bm.RayExecutor(), or None for this process, got {executor!r}"
+        )
+    if poses is not None and not isinstance(poses, PosePrior):
+        raise BadInput(
+            "infer: poses must say what is believed of them, such as bm.Uncertain(0.1, 0.05) or bm.Odometry(), "
+            f"got {poses!r}"
+        )
     kind = type(prior).__name__
     method = next(iter(prior.methods)) if method is None else method
     if method not in prior.methods:

@@ -77,8 +77,13 @@ class Model:
         return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:
-        """A state with these cells, the model's sensor, and the poses that the log states."""
-        return State(cells, self.sensor, self.scans.poses)
+        """A state with these cells, the model's sensor, and the poses that the log states.
+
+        Args:
+            cells: arrays over the whole grid, such as those of a run's draw (`bayesmap.cells.draws.Draws.cells`); where
+                it says nothing of a cell, the cell has a state of the prior.
+        """
+        return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 
     def log_joint(self, state: State) -> float:
         """Log density of a state and the readings, in nats, up to a constant of the priors.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +37,8 @@ class Run(Deciding):
 
     Attributes:
         posterior: everything that a saved run holds.
-        trajectory: after `bayesmap.slam`, the approximation of all scans' poses; not part of the saved run.
+        trajectory: after `bayesmap.slam`, the approximation of all scans' poses; None where poses were not inferred
+            so, and in runs that were saved before format 7.
     """
 
     posterior: Posterior
@@ -117,13 +118,20 @@ class Run(Deciding):
     def pose_summary(self) -> PoseSummary:
         """Mean, covariance and R-hat of each scan's pose.
 
+        Where chains that started from an approximation have not mixed, mean and covariance are the approximation's.
+
         Raises:
             BadInput: a run that was stopped before its first draw.
         """
         from bayesmap.posterior.pose_summary import summarise_poses
 
         self._need_marginals()
-        return summarise_poses(self.poses)
+        found = summarise_poses(self.poses)
+        if self.trajectory is None or found.mixed or len(self.trajectory.keys) != len(found.mean):
+            return found
+        keys = self.trajectory.keys
+        mean, covariance = self.trajectory.poses[keys], self.trajectory.covariances()[keys]
+        return replace(found, mean=mean, covariance=covariance, by_approximation=True)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
         """Central credible interval of each cell's chance to stop a beam: lower and upper end, (nx, ny) each.
@@ -175,6 +183,7 @@ class Run(Deciding):
         heldout_scans: Scans,
         sensor: SensorModel | None = None,
         on_progress: Callable[[int, int], None] = lambda done, total: None,
+        device: str = "cpu",
     ) -> float:
         """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
 
@@ -182,11 +191,12 @@ class Run(Deciding):
             heldout_scans: scans that had no part in the run.
             sensor: another law of the readings; needed only for a loaded run whose sensor model is of your own making.
             on_progress: called with how many of how many draws have been looked at.
+            device: "cpu" or a CUDA device such as "cuda:0".
 
         Raises:
-            BadInput: no draws, no valid reading, or a sensor that cannot score this run.
+            BadInput: no draws, no valid reading, a sensor that cannot score this run, or no such device.
         """
-        return log_score(self.posterior, heldout_scans, sensor, on_progress)
+        return log_score(self.posterior, heldout_scans, sensor, on_progress, device)
 
     def dataset(self) -> xarray.Dataset:
         """The draws as an xarray dataset: the arrays of the kind of cells, log densities and marginals, by named
@@ -210,7 +220,7 @@ class Run(Deciding):
         """Write everything to one netCDF file, whole or not at all; ``on_progress`` gets the part in hand."""
         from bayesmap.io.saved import save
 
-        save(self.posterior, path, on_progress)
+        save(self.posterior, path, on_progress, self.trajectory)
 
     def plot(self, **options: Any) -> Figure:
         """A figure of the mean map, how sure it is, the readings and one draw, with surfaces where they can be seen.
@@ -287,9 +297,9 @@ def load(path: str | os.PathLike[str]) -> Run:
     Raises:
         BadInput: no such file, or one that is damaged or not a run of bayesmap's.
     """
-    from bayesmap.io.saved import load_posterior
+    from bayesmap.io.saved import load_saved
 
-    return Run(load_posterior(path))
+    return Run(*load_saved(path))
 
 
 def score(
@@ -298,6 +308,7 @@ def score(
     sensor: SensorModel | None = None,
     *,
     seed: int = 0,
+    device: str = "cpu",
     on_progress: Callable[[float], None] = lambda share: None,
 ) -> Score:
     """How well a run predicts scans that it has not seen, and how well calibrated it is.
@@ -307,9 +318,10 @@ def score(
         heldout_scans: scans that had no part in it.
         sensor: another law of the readings than the run's.
         seed: of the randomised transform of typed readings, and of the bootstrap.
+        device: "cpu" or a CUDA device such as "cuda:0".
         on_progress: called with which share is done, from 0 to 1.
 
     Raises:
-        BadInput: no valid reading, no draws, or a sensor model without compiled form.
+        BadInput: no valid reading, no draws, no such device, or a sensor whose probabilities do not add up to one.
     """
-    return score_posterior(run.posterior, heldout_scans, sensor, seed=seed, on_progress=on_progress)
+    return score_posterior(run.posterior, heldout_scans, sensor, seed=seed, device=device, on_progress=on_progress)

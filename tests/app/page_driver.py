@@ -62,6 +62,16 @@ STILL = """
 })
 """
 
+END = """(beam) => {
+  const { scan, document } = bayesmap.snapshot();
+  const { resolution, origin } = document.grid;
+  const angle = scan.pose[2] + scan.angles[beam];
+  const half = (v, axis) => (v - origin[axis]) / resolution - 0.5;
+  const end = [Math.cos, Math.sin].map((f, axis) => half(scan.pose[axis] + scan.ranges[beam] * f(angle), axis));
+  return bayesmap.cellToClient(...end);
+}"""
+"""Where a beam of the scan on show ended, on the page."""
+
 WATCH = """
 () => {
   window.seen = [];

@@ -10,6 +10,7 @@ from acted_engine import Heard
 
 import bayesmap as bm
 from bayesmap.app.document import Document, Sensor, WallMap
+from bayesmap.app.judging import FEWEST_SWEEPS
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import simulate_document, simulated_scene
 from bayesmap.app.tasks import Cancel, Inspect, View
@@ -160,6 +161,27 @@ def test_cancel_keeps_the_partial_chain():
     assert 0 < count < 100_000
     assert heard.ask(View("draw", 0, count - 1))[0].header["draw"] == count - 1
     assert heard.ask(Cancel()) == []
+
+
+def test_few_sweeps_are_judged_once_they_are_over():
+    heard = Heard()
+    heard.infer(replace(tutorial_document(), sweeps=10), "run")
+    *before, last = [field for field in heard.all("field") if not field["approximate"]]
+    assert all(field["verdict"] is None for field in before)
+    assert last["sweeps"] == 10
+    assert last["verdict"]["level"] == "bad"
+
+
+def test_chains_that_are_cancelled_are_judged():
+    heard = Heard()
+    large = new_document("building", (120, 80), tutorial_document())
+    heard.infer(replace(large, sweeps=100_000), "run", steps=3)
+    assert heard.last("field")[0]["verdict"] is None
+    heard.ask(Cancel())
+    field = heard.last("field")[0]
+    assert 0 < field["sweeps"] < FEWEST_SWEEPS
+    assert field["verdict"]["level"] == "bad"
+    assert heard.ask(View("mean"))[0].header["verdict"] == field["verdict"]
 
 
 @pytest.mark.parametrize(("mode", "method"), [("run", "gibbs"), ("live", "gibbs"), ("run", "importance")])

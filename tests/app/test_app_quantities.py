@@ -40,6 +40,7 @@ def test_a_field_names_its_quantity(prior, kind, mean):
     assert header["quantity"]["interval"] == (kind != "binary")
     if mean:
         assert header["quantity"]["mean"] == mean
+    assert heard.engine._opened.document.cells == kind  # a share link and an exported document say so, too
 
 
 def test_the_width_is_that_of_the_interval_and_walls_have_none():

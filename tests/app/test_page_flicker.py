@@ -2,6 +2,7 @@
 
 import numpy as np
 import playwright.sync_api as playwright
+import pytest
 from page_driver import act, settled, show_layer, snapshot, still, until, watch
 
 OVER = "s.over && s.painted.layer === 'draw'"
@@ -50,6 +51,32 @@ def test_a_draw_lies_over_the_mean(open_page, room):
     page.get_by_role("checkbox", name="Draws over the mean").uncheck()
     until(page, "!s.over")
     playwright.expect(page.locator("canvas.hypothesis")).to_be_hidden()
+
+
+@pytest.mark.parametrize("layer", ["Mean", "Width", "One draw"])
+def test_without_them_the_layer_before_is_back_and_nothing_moves(open_page, room, layer):
+    page = open_page(room[1])
+    show_layer(page, layer)
+    still(page)
+    before = snapshot(page)["view"]["layer"]
+    over(page)
+    page.get_by_role("combobox", name="Speed").select_option("30")
+    if layer != "One draw":
+        page.get_by_role("button", name="Play the draws").click()
+    page.get_by_role("checkbox", name="Draws over the mean").uncheck()
+    until(page, f"!s.over && s.view.layer === '{before}' && s.painted.layer === '{before}'")
+    playwright.expect(page.get_by_role("button", name="Play the draws")).to_be_visible()
+    still(page)
+
+
+def test_a_layer_that_was_chosen_since_stays(open_page, room):
+    page = open_page(room[1])
+    over(page)
+    show_layer(page, "Width")
+    until(page, "s.painted.layer === 'width'")
+    page.get_by_role("checkbox", name="Draws over the mean").uncheck()
+    still(page)
+    assert snapshot(page)["painted"]["layer"] == "width"
 
 
 def test_they_are_played_without_end(open_page, room):

@@ -121,7 +121,7 @@ def test_entropy_is_highest_where_nothing_is_known(page):
     page.get_by_role("radio", name="Entropy").check()
     until(page, "s.painted.layer === 'entropy'")
     assert np.array_equal(snapshot(page)["probability"], shown["probability"])
-    assert page.get_by_text("entropy (bit)").is_visible()
+    assert page.get_by_role("list", name="Legend").get_by_text("entropy (bit)").is_visible()
     show_layer(page, "Mean")
     until(page, "s.painted.layer === 'mean'")
 

@@ -126,11 +126,14 @@ def test_surfaces_of_a_log_are_painted_while_their_sensor_is_fitted(open_page, t
         page = open_page(address)
         page.get_by_role("checkbox", name="Live").uncheck()
         act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("surface"))
-        chip = "document.querySelector('[data-bayesmap]').shadowRoot.querySelector('.chip').textContent"
-        watch(page, f"[s.painted.method, {chip}]")
+        inside = "document.querySelector('[data-bayesmap]').shadowRoot"
+        chip, status = (f"{inside}.querySelector('{part}').textContent" for part in (".chip", "footer [role=status]"))
+        watch(page, f"[s.painted.method, {chip}, {status}]")
         page.get_by_role("button", name="Run", exact=True).click()
         until(page, "s.painted.method === 'gibbs' && s.painted.sweeps > 2")
         page.get_by_role("button", name="Cancel").click()
         until(page, "!s.running && s.overlay.strokes > 10")
-        chips = [chip for method, chip in page.evaluate("window.seen") if method == "pilot"]
-        assert any("draws of one chain, sensor being fitted" in chip for chip in chips)
+        said = [words for method, *words in page.evaluate("window.seen") if method == "pilot"]
+        assert any("draws of one chain, sensor being fitted" in chip for chip, _ in said)
+        assert any(status == "Fitting the sensor" for _, status in said)
+        playwright.expect(page.locator("footer").get_by_role("status")).not_to_contain_text("Fitting")

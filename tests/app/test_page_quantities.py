@@ -1,5 +1,7 @@
 """A run's own quantity is what the page names and shows: reflectivities, their intervals, surfaces, the trajectory."""
 
+import re
+
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
@@ -47,6 +49,18 @@ def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, surfaces):
     playwright.expect(readout).to_contain_text("in this draw")
     playwright.expect(readout).not_to_contain_text("free in this draw")
     playwright.expect(legend).to_contain_text(bm.Surface.words.value)
+
+
+def test_the_beams_of_a_cell_are_said_to_speak_for_what_is_there(open_page, surfaces):
+    run, address = surfaces
+    page = open_page(address)
+    cell = np.unravel_index(np.argmax(np.where(run.observed, run.occupancy, 0)), run.grid.shape)
+    page.mouse.move(*centre(page, *map(int, cell)))
+    readout = page.locator(".readout")
+    playwright.expect(readout).to_contain_text(
+        re.compile(r"\d+ beams . for its surface \d+, [\d.]+ nats . against \d+")
+    )
+    assert "emptied" in readout.get_attribute("title")
 
 
 def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, surfaces):

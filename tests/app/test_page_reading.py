@@ -1,21 +1,16 @@
 """The reading under the pointer, in words: along its beam, and across and along the wall."""
 
+import os
 import re
+import signal
 
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from building_log import ANGLES, write_room_log
-from page_driver import served, snapshot, until
+from building_log import ANGLES, room_run, write_room_log
+from page_driver import END, pid_of_worker, served, snapshot, until
 
-END = """(beam) => {
-  const { scan, document } = bayesmap.snapshot();
-  const { resolution, origin } = document.grid;
-  const angle = scan.pose[2] + scan.angles[beam];
-  const half = (v, axis) => (v - origin[axis]) / resolution - 0.5;
-  const end = [Math.cos, Math.sin].map((f, axis) => half(scan.pose[axis] + scan.ranges[beam] * f(angle), axis));
-  return bayesmap.cellToClient(...end);
-}"""
+import bayesmap as bm
 
 
 def point_at(page, beam):
@@ -42,6 +37,21 @@ def test_a_reading_is_told_along_its_beam_and_across_and_along_the_wall(open_pag
     assert f"{100 * abs(wall['across_m']):.1f} cm {where} the wall" in words
     assert re.search(rf"{100 * abs(wall['along_m']):.1f} cm to the (left|right) along it", words)
     assert f"{np.degrees(wall['incidence_rad']):.0f}\u00b0 from its normal" in words
+
+
+def test_an_answer_that_is_long_in_coming_is_said_to_be_prepared(open_page, tmp_path):
+    path = tmp_path / "run.nc"
+    room_run(bm.Beta(), draws=4).save(path)
+    with served(path) as (address, process):
+        page = open_page(address)
+        worker = pid_of_worker(process)
+        os.kill(worker, signal.SIGSTOP)  # as one that compiles
+        place = page.evaluate(END, 30)
+        page.mouse.move(place["x"], place["y"])
+        said = page.locator(".words.reading")
+        playwright.expect(said).to_contain_text("Beam 31 of scan 1: preparing the comparison")
+        os.kill(worker, signal.SIGCONT)
+        playwright.expect(said).to_contain_text("than the predicted median")
 
 
 def test_it_is_marked_on_the_map_and_forgotten_with_the_scan(open_page, room):

@@ -77,6 +77,11 @@ def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_mea
     assert not snapshot(page)["connected"]
     press_and_drag(page, [(8, 8), (8, 12)])
     assert snapshot(page)["walls"][8, 8:13].all()
+    status = page.locator("footer").get_by_role("status")
+    playwright.expect(status).to_have_text("Connection lost")
+    for press in ("Control+z", "r", "a"):
+        page.keyboard.press(press)
+        playwright.expect(status).to_have_text("Not while the connection is lost: this needs the server")
     # In one go: the page tries again by itself, too, and then there is nothing left to click.
     page.evaluate("mend()")
     with contextlib.suppress(playwright.TimeoutError):

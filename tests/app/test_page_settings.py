@@ -1,6 +1,7 @@
 """Every control changes what it says, and nothing else."""
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from page_driver import act, settled, snapshot, until
 
@@ -114,7 +115,26 @@ def test_live_off_stays_with_the_approximate_answer(page):
     assert not settled(page)["painted"]["approximate"]
 
 
-def test_out_of_range_numbers_are_brought_into_range(page):
+def test_out_of_range_numbers_are_brought_into_range_and_the_limit_is_said(page):
     settled(page)
+    status = page.locator("footer").get_by_role("status")
     act(page, lambda: by_number(page, "Noise", 99))
     assert settled(page)["document"]["noise"] == 5
+    playwright.expect(status).to_have_text("Noise (m) is at most 5")
+    act(page, lambda: by_number(page, "Field of view", 1))
+    assert settled(page)["document"]["fov"] == pytest.approx(np.radians(5))
+    playwright.expect(status).to_have_text("Field of view (\u00b0) is at least 5")
+    act(page, lambda: by_number(page, "Field of view", 90))
+    settled(page)
+    playwright.expect(status).to_have_text("Ready")
+
+
+@pytest.mark.parametrize("name", ["Longest range", "Field of view", "Seed", "x (m)", "Noise"])
+def test_a_field_that_was_emptied_shows_its_number_again(page, name):
+    before = settled(page)["document"]
+    field = page.get_by_role("spinbutton", name=name)
+    number = field.input_value()
+    assert number != ""
+    by_number(page, name, "")
+    playwright.expect(field).to_have_value(number)
+    assert snapshot(page)["document"] == before

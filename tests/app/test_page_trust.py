@@ -41,6 +41,16 @@ def test_chains_that_disagree_are_called_so_and_a_click_mends_it(open_page, serv
     page.get_by_role("status").get_by_text("Ready", exact=True).wait_for()
 
 
+def test_a_finished_run_of_few_sweeps_is_judged_and_a_click_makes_more(open_page, server):
+    page = open_page(server, document(sweeps=10))
+    page.get_by_role("button", name="Run", exact=True).click()
+    until(page, "!s.running && s.draws.count === 10 && s.painted.generation === s.generation && s.painted.verdict")
+    page.get_by_role("status").get_by_text("have not converged").wait_for()
+    assert page.locator("dd.bad").count() == 2
+    act(page, lambda: page.get_by_role("button", name="Not converged: try 200 sweeps").click())
+    assert settled(page)["painted"]["sweeps"] == 200
+
+
 def test_where_walls_are_rare_blocks_are_the_default(open_page, server):
     page = open_page(server, document(**{**CLOSE, "method": "auto"}))
     shown = settled(page)
@@ -71,6 +81,10 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
     assert np.array_equal(sweeps[:100], np.arange(1, 101))
     assert np.isfinite(trace).all()
     assert not np.array_equal(trace[0], trace[1])
+    drawn = page.locator(".chart").first
+    apart = np.diff([int(sweep) for sweep in drawn.get_attribute("data-sweeps").split(",")])
+    assert apart[:-1].max() < 2 * apart[:-1].min()  # the first sweeps no denser than the rest
+    assert len(apart) > 200
     canvas = page.locator(".chart canvas").first
     box = canvas.bounding_box()
     assert box["width"] > 200
@@ -84,6 +98,7 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
     assert min(canvas.evaluate(inked)) > 20  # a line a chain
     page.get_by_role("radio", name="First 50").check()
     page.evaluate(NEXT_FRAME)
+    assert drawn.get_attribute("data-sweeps") == ",".join(map(str, range(1, 51)))
     assert min(page.locator(".chart canvas").first.evaluate(inked)) > 20
 
 

@@ -71,8 +71,9 @@ def test_drawn_stops_are_the_draws_themselves_and_not_what_they_expect(run):
     known = posterior.draws.index.get("cell", np.arange(run.grid.n_cells))
     for number, (chain, draw) in enumerate(posterior.draws.numbers()):
         drawn = posterior.draws.cells(chain, draw)
-        state = drawn["walls"].ravel() if "walls" in drawn else drawn["reflectivity"]
-        np.testing.assert_array_equal(chance[number, known], state.astype(np.float32))
+        state = (drawn["walls"] if "walls" in drawn else drawn["reflectivity"]).ravel().astype(np.float32)
+        np.testing.assert_array_equal(chance[number, known], state[known])
+        assert np.isnan(np.delete(state, known)).all()
     some = np.array([3, 17, 40], dtype=np.int32)
     np.testing.assert_array_equal(
         np.concatenate(list(posterior.prior.drawn_stops(posterior.draws, some))), stops[:, some]

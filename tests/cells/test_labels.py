@@ -10,7 +10,7 @@ import pytest
 import warp as wp
 from oracle.enumeration import all_maps, log_prior_of_all, number_of
 from oracle.verdict import ALPHA, least_p_value
-from samplers.field_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
+from samplers.stop_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
 from scipy import special, stats
 
 import bayesmap as bm

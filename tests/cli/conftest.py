@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from shell import call
 
+from bayesmap.io.logs import read_log
+
 SHORT = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8", "--no-progress")
 """Options of a run that takes a moment."""
 
@@ -18,6 +20,13 @@ def office(tmp_path_factory):
     result = call("simulate", "--world", "building", *size, "-o", log, "--set", "fov=180")
     assert result.exit_code == 0, result.stderr
     return log
+
+
+@pytest.fixture(scope="session")
+def prior(office):
+    """The first pose of that log, roughly: a map of 12 scans is not enough to be found on from anywhere."""
+    x, y, yaw = read_log(office).poses[0]
+    return "--prior", f"{x + 0.2},{y - 0.1},{np.degrees(yaw)},0.3,10"
 
 
 @pytest.fixture(scope="session")

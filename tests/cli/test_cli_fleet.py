@@ -1,14 +1,20 @@
 """Several logs at once: each into a folder of its own, one after the other, or on a Ray cluster."""
 
+import contextlib
 import json
+import os
+import re
+import shlex
 import shutil
+import signal
 
 import numpy as np
 import pytest
 from shell import call
 
 import bayesmap as bm
-from bayesmap.cli import fleet
+from bayesmap.cli import fleet_entry, inferring, ray_fleet
+from bayesmap.cli.folder import Folder
 
 pytestmark = [
     pytest.mark.xdist_group("ray"),
@@ -71,15 +77,15 @@ def test_on_a_cluster_too(logs, tmp_path, alone, short, cluster):
 
 def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, cluster, monkeypatch):
     cluster.complete()
-    keep, killed = fleet._RayFleet._keep, []
+    keep, killed = ray_fleet.RayFleet._keep, []
 
     def keep_and_kill(self, entry, sent):
         keep(self, entry, sent)
-        if not killed:
+        if sent.files and not killed:
             cluster.kill()
             killed.append(entry)
 
-    monkeypatch.setattr(fleet._RayFleet, "_keep", keep_and_kill)
+    monkeypatch.setattr(ray_fleet.RayFleet, "_keep", keep_and_kill)
     output = tmp_path / "runs"
     every = ("--executor", "ray", "--checkpoint-every", 0)
     check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
@@ -95,6 +101,53 @@ def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, sho
         np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
 
 
+def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, tmp_path, short, cluster, monkeypatch):
+    """There is a checkpoint at the end of warm-up, and none after it that time would bring."""
+    shown, at = [], []
+
+    def show(name, share):
+        shown.append((name, share))
+        found = re.search(r"(east|west) drawing ([\d,]+)/4,005", name)
+        if found and not at:
+            at.append((found[1], int(found[2].replace(",", ""))))
+            os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(ray_fleet, "described_share", lambda console, begin: contextlib.nullcontext(show))
+    monkeypatch.setattr(ray_fleet, "STOP_S", 120.0)
+    pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
+    result = call("infer", *pair, "-o", tmp_path / "runs", *options, "--draws", 4000)
+    assert result.exit_code == 130, result.stderr
+    assert "stopping: what the workers have is fetched" in result.stderr
+    ((name, done),) = at
+    run = bm.load(tmp_path / "runs" / name / "run.nc")
+    assert 5 < done <= run.posterior.sweep < 4005
+    assert not run.finished
+    assert all(name.startswith("0 of 2 logs") and 0 <= share < 1 for name, share in shown)
+    assert shown[-1][1] > 0
+
+
+@pytest.mark.parametrize("several", [True, False])
+def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, short, cluster, monkeypatch, several):
+    """A node that died is reported some time later, on what Python takes for standard output then."""
+
+    def and_print(made):
+        def wrapped(*given):
+            print("(raylet) Raylet is terminated.")
+            return made(*given)
+
+        return wrapped
+
+    if several:
+        monkeypatch.setattr(fleet_entry.Entry, "as_json", and_print(fleet_entry.Entry.as_json))
+    else:
+        monkeypatch.setattr(inferring, "report", and_print(inferring.report))
+    given = (logs / "east.log", logs / "west.log")[: 2 if several else 1]
+    result = call("infer", *given, "-o", tmp_path / "runs", "--json", *short, "--executor", "ray")
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["schema_version"] == 1
+    assert "(raylet) Raylet is terminated." in result.stderr
+
+
 def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
     (logs / "broken.log").unlink()
     result = call("infer", logs / "*.log", "-o", tmp_path / "runs", *short)
@@ -107,6 +160,69 @@ def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
     assert again.stderr.count("there is a run already") == 2
     resumed = call("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", "--resume", *short)
     assert resumed.exit_code == 0, resumed.stderr
+
+
+def interrupt_the_first(monkeypatch, on_ray):
+    """Press Ctrl-C at the first checkpoint, when the other log has not begun."""
+    keeper, name = (ray_fleet.RayFleet, "_keep") if on_ray else (Folder, "checkpoint")
+    keep, pressed = getattr(keeper, name), []
+
+    def keep_and_press(self, *given):
+        keep(self, *given)
+        if not pressed and not (on_ray and not given[1].files):
+            pressed.append(True)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(keeper, name, keep_and_press)
+    monkeypatch.setattr(ray_fleet.RayFleet, "_most_at_once", lambda self, entry: 1)
+
+
+WHERE = pytest.mark.parametrize("executor", ["threads", "ray"])
+
+
+@WHERE
+def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
+    logs, tmp_path, alone, short, monkeypatch, request, executor
+):
+    if executor == "ray":
+        request.getfixturevalue("cluster")
+    output, pair = tmp_path / "runs", (logs / "east.log", logs / "west.log")
+    options = ("--holdout", 4, *short, "--executor", executor, "--checkpoint-every", 0)
+    with monkeypatch.context() as patch:
+        interrupt_the_first(patch, executor == "ray")
+        stopped = call("infer", *pair, "-o", output, *options)
+    assert stopped.exit_code == 130, stopped.stderr
+    again = f"bayesmap infer {pair[0]} {pair[1]} -o {output} --resume"
+    assert again in stopped.stderr
+    assert not (output / "west").exists()
+    assert inferring.settings_in(output / "fleet.toml")["infer"]["executor"] == executor
+    resumed = call(*shlex.split(again)[1:])
+    assert resumed.exit_code == 0, resumed.stderr
+    expected = bm.load(alone / "run.nc")
+    for name in ("east", "west"):
+        run = bm.load(output / name / "run.nc")
+        assert run.posterior.settings["chains"] == 2
+        for array, values in expected.posterior.draws.arrays.items():
+            np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
+
+
+def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_path, short, monkeypatch):
+    output, pair = tmp_path / "runs", (logs / "east.log", logs / "west.log")
+    assert call("infer", *pair, "-o", output, *short, "--seed", 1).exit_code == 0
+    with monkeypatch.context() as patch:
+        interrupt_the_first(patch, on_ray=False)
+        assert call("infer", *pair, "-o", output, *short, "--seed", 2, "--force").exit_code == 130
+    assert bm.load(output / "west" / "run.nc").posterior.settings["seed"] == 1, (
+        "it goes when its log begins, not before"
+    )
+    # The settings need not be said again, of a log alone neither.
+    assert call("infer", pair[1], "-o", output / "west", "--resume").exit_code == 0
+    assert call("infer", *pair, "-o", output, "--resume").exit_code == 0
+    for name in ("east", "west"):
+        run = bm.load(output / name / "run.nc")
+        assert run.finished
+        assert (run.posterior.settings["seed"], run.posterior.settings["chains"]) == (2, 2)
+        assert not (output / name / "outdated").exists()
 
 
 @pytest.mark.parametrize(

@@ -6,20 +6,14 @@ import numpy as np
 import pytest
 from shell import call
 
+from bayesmap.cli.localize import _per_cent
 from bayesmap.io.logs import read_log
 from bayesmap.io.tum import read_trajectory
 
 
 @pytest.fixture(scope="module")
-def start(office):
-    """The first pose, roughly: a map of 12 scans is not enough to be found on from anywhere."""
-    x, y, yaw = read_log(office).poses[0]
-    return "--prior", f"{x + 0.2},{y - 0.1},{np.degrees(yaw)},0.3,10"
-
-
-@pytest.fixture(scope="module")
-def answers(office, office_run, start):
-    result = call("localize", office_run / "run.nc", office, "--follow", "--no-progress", *start)
+def answers(office, office_run, prior):
+    result = call("localize", office_run / "run.nc", office, "--follow", "--for", "0", "--no-progress", *prior)
     assert result.exit_code == 0, result.stderr
     return [json.loads(line) for line in result.stdout.splitlines()]
 
@@ -35,10 +29,10 @@ def test_a_line_for_each_scan_as_it_is_known(office, answers):
 
 
 @pytest.mark.parametrize("ending", [".tum", ".mcap", ".jsonl"])
-def test_trajectories_are_written(office, office_run, answers, start, tmp_path, ending):
+def test_trajectories_are_written(office, office_run, answers, prior, tmp_path, ending):
     target = tmp_path / f"where{ending}"
     area = ("--area", "-100,100,-100,100")
-    result = call("localize", office_run / "run.nc", office, *start, "-o", target, "--json", *area)
+    result = call("localize", office_run / "run.nc", office, *prior, "-o", target, "--json", *area)
     assert result.exit_code == 0, result.stderr
     document = json.loads(result.stdout)
     assert document["scans"] == 12
@@ -62,6 +56,11 @@ def test_a_single_scan_with_a_prior(office, office_run):
     assert result.stdout.splitlines()[-1].startswith("lost, or the map outdated:")
 
 
+def test_chances_are_written_as_people_write_them():
+    told = {0.0: "0", 1e-9: "under 0.01", 0.00123: "0.12", 0.0314: "3.1", 0.314: "31.4", 0.9999: "100.0", 1.0: "100.0"}
+    assert {chance: _per_cent(chance) for chance in told} == told
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
@@ -69,7 +68,10 @@ def test_a_single_scan_with_a_prior(office, office_run):
         (["--scans", "five"], 2, "is not FIRST:LAST"),
         (["--prior", "1,2"], 2, "is not X,Y,DEGREES"),
         (["--area", "1,2,3"], 2, "is not X0,X1,Y0,Y1"),
+        (["--area", "3,1,0,1"], 3, "--area 3,1,0,1: give X0 below X1, and Y0 below Y1"),
+        (["--prior", "500,0,0"], 3, "prior: (500, 0) +- 0.5 m lies outside the map"),
         (["-o", "where.txt"], 2, "end its name in one of .tum, .mcap"),
+        (["--device", "tpu:7"], 3, "device: 'tpu:7' is not on this machine"),
         (["--beam-weight", "2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
     ],
 )

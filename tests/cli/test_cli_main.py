@@ -154,6 +154,18 @@ def test_a_terminal_gets_a_bar_and_can_refuse_it(office, tmp_path, short):
     assert "ETA" not in on_terminal("--no-progress")
 
 
+def test_what_a_library_says_while_the_process_ends_is_no_result():
+    code = (
+        "import atexit\nfrom bayesmap.cli.main import main\n"
+        "atexit.register(lambda: print('nodes are dead'))\nmain(['config'])\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    assert "[demo]" in done.stdout
+    assert "nodes are dead" not in done.stdout
+    assert "nodes are dead" in done.stderr
+
+
 def test_choices_are_those_of_the_library():
     from typing import get_args
 
@@ -175,14 +187,14 @@ def test_choices_are_those_of_the_library():
     assert set(STARTS) == set(get_args(Start))
     defaults = {key.name: key.default for key in INFER}
     assert defaults["rounds"] == ROUNDS
-    binary = cells.settled({**defaults, "cells": "binary"})
+    binary = cells.with_defaults({**defaults, "cells": "binary"})
     assert cells.prior_of(binary).describe() == Independent(P_WALL).describe()
     coupled = cells.prior_of({**binary, "coupling": 0.5, "prior": 0.1})
     assert coupled.describe() == Ising(0.1, 0.5).describe()
     assert binary["hit_depth"] == Independent.hit_depth
-    kinds = {name: type(cells.prior_of(cells.settled({**defaults, "cells": name}))) for name in CELLS}
+    kinds = {name: type(cells.prior_of(cells.with_defaults({**defaults, "cells": name}))) for name in CELLS}
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
-    labelled = cells.prior_of(cells.settled({**defaults, "cells": "surface", "coupling": 0.5}))
+    labelled = cells.prior_of(cells.with_defaults({**defaults, "cells": "surface", "coupling": 0.5}))
     assert labelled.describe() == Surface(coupling=0.5).describe()
     # The help says what settings are where the user sets none.
     unset = {key.name: key.unset for key in INFER}

@@ -123,6 +123,7 @@ def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
         (("RUN", "LOG", "--holdout", "0"), 3, "--holdout 0 leaves nothing to score"),
         (("RUN", "LOG", "--holdout", "1"), 3, "--holdout must be 2 or more, for every n-th scan, or 0, got 1"),
         (("RUN", "LOG", "--picture", "scores.txt"), 3, "end its name in one of .png, .pdf, .svg"),
+        (("RUN", "LOG", "--holdout", "4", "--device", "tpu:7"), 3, "device: 'tpu:7' is not on this machine"),
         (("RUN",), 2, "give LOG, whose held-out scans score the run"),
     ],
 )

@@ -48,8 +48,31 @@ def test_a_run_is_scored_by_relations_alone(raw, raw_run, tmp_path):
     assert picture.stat().st_size > 1000
     text = call("score", raw_run, "--relations", raw / "office.relations")
     assert text.exit_code == 0, text.stderr
-    assert [line.split()[0] for line in text.stdout.splitlines()] == ["relations", "translation", "rotation"]
+    assert [line.split()[0] for line in text.stdout.splitlines()] == ["relations", "translation", "rotation", "regions"]
+    assert "regions      unknown: the run takes its poses as known" in text.stdout
+    assert "slam saves them" in text.stdout
     assert "of the laser" in text.stdout
+
+
+def test_relations_in_gaps_of_the_trajectory_are_left_out_and_all_pictures_named(raw, tmp_path):
+    truth = read_trajectory(raw / "office-truth.tum")
+    picture = tmp_path / "both.png"
+    known = (raw / "office-truth.yaml", raw / "office.log", "--relations", raw / "office.relations")
+    whole = document_of(*known, "--picture", picture)
+    # Beams and poses have a picture each, and the document names both.
+    assert whole["outputs"] == {name: str(tmp_path / name) for name in ("both.png", "both-poses.png")}
+    assert all((tmp_path / name).stat().st_size > 1000 for name in whole["outputs"])
+    few = np.r_[:10, 10 : len(truth) : 7]
+    sparse = write_trajectory(tmp_path / "sparse.tum", truth.poses[few], truth.stamps_s[few])
+    log = (raw / "office-truth.yaml", raw / "office.log", "--holdout", "4", "--trajectory", sparse)
+    found = document_of(*log, "--relations", raw / "office.relations")["relations"]
+    assert whole["relations"]["in_gaps"] == whole["relations"]["not_covered"] == 0
+    assert 0 < found["in_gaps"] <= found["not_covered"]
+    assert found["relations"] + found["not_covered"] == whole["relations"]["relations"]
+    assert found["translation_m_mean"] < 1e-4
+    text = call("score", *log, "--relations", raw / "office.relations", "--no-progress")
+    assert f"{found['in_gaps']} more are between poses over 0.3 s apart, and left out" in text.stdout
+    assert "regions      unknown: the poses come without covariances; --trajectory FILE.tum with" in text.stdout
 
 
 def test_the_true_map_and_trajectory_predict_better_than_raw_odometry(raw):
@@ -59,6 +82,7 @@ def test_the_true_map_and_trajectory_predict_better_than_raw_odometry(raw):
     assert good["score"]["map"] == "office-truth.yaml"
     assert good["heldout"]["scans"] == bad["heldout"]["scans"] == 10
     assert good["score"]["nats_per_beam"] > bad["score"]["nats_per_beam"] + 0.5
+    assert good["score"]["nats_per_beam"] > 0.5
     # The log says where the laser sits, so relations are taken for the base's, as they are.
     assert good["relations"]["frame"] == "base"
     assert good["relations"]["translation_m_mean"] < 1e-4

@@ -8,7 +8,6 @@ import pytest
 from shell import call, start, wait_for
 
 import bayesmap as bm
-from bayesmap.cli.slam import STAGES
 from bayesmap.poses.slam import infer_trajectory
 
 SHORT = ("--chains", "2", "--warmup", "4", "--draws", "6", "--resolution", "0.2", "--threads", "2")
@@ -49,6 +48,38 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
     assert len(np.loadtxt(folder / "trajectory.tum")) == found["scans"]
 
 
+def test_its_poses_are_scored_beside_its_log_which_says_where_the_laser_sits(whole, log):
+    """The log's scans are found by stamps and readings, since slam has moved their poses."""
+    run, relations = whole[0] / "run.nc", ("--relations", log.with_name("office.relations"))
+    found = call("score", run, log, *relations, "--json")
+    assert found.exit_code == 0, found.stderr
+    document = json.loads(found.stdout)
+    assert document["relations"]["frame"] == "base"
+    assert document["relations"]["translation_m_mean"] < 0.05
+    assert "score" not in document
+    assert "only the poses are scored, not the map" in found.stderr
+    alone = call("score", run, log)
+    assert alone.exit_code == 3
+    assert "the run has its scans elsewhere than this log" in alone.stderr
+
+
+def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(whole, log):
+    """Six draws of two chains: score and summary go by the approximation, which the saved run holds."""
+    folder, document = whole
+    assert document["trajectory"]["sampled"]["by_approximation"]
+    run = bm.load(folder / "run.nc")
+    assert run.trajectory is not None
+    assert run.pose_summary().by_approximation
+    result = call(
+        "score", folder / "run.nc", "--relations", log.with_suffix(".relations"), "--laser", "0,0,0", "--json"
+    )
+    assert result.exit_code == 0, result.stderr
+    relations = json.loads(result.stdout)["relations"]
+    assert relations["known_by"].startswith("the Student-t approximation")
+    assert "have not mixed" in relations["known_by"]
+    assert relations["nees"]["median"] > 0
+
+
 def test_the_trajectory_is_nearer_to_the_truth_than_odometry(whole, log):
     truth = np.loadtxt(log.with_name("office-truth.tum"))[:, 1:3]
     found = np.loadtxt(whole[0] / "trajectory.tum")[:, 1:3]
@@ -83,7 +114,8 @@ def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(log, tmp_
     result = call("slam", log, "-o", folder, "--fast", *SHORT, "--json", "-v")
     assert result.exit_code == 0, result.stderr
     assert "sampled" not in json.loads(result.stdout)["trajectory"]
-    assert STAGES[0] not in result.stderr
+    assert "front end" not in result.stderr
+    assert bm.load(folder / "run.nc").trajectory is not None
 
 
 def test_what_cannot_be_inferred_is_refused(log, tmp_path):
@@ -92,3 +124,44 @@ def test_what_cannot_be_inferred_is_refused(log, tmp_path):
     assert "5 Hz" in slow.stderr
     both = call("slam", log, "--resume", "--force")
     assert both.exit_code == 2
+
+
+def rewritten(log, target, change):
+    """The log's scans, with other poses or stamps, as a table."""
+    scans = bm.read_log(log)
+    poses, stamps = scans.poses.copy(), scans.stamps_s.copy()
+    change(poses, stamps)
+    angles = scans.angles_rad
+    head = ["stamp", "x", "y", "yaw", *(f"r_{i}" for i in range(len(angles)))]
+    rows = [f"# angle_min: {angles[0]}", f"# angle_increment: {angles[1] - angles[0]}", ",".join(head)]
+    rows += [
+        ",".join(repr(float(v)) for v in (stamp, *pose, *ranges))
+        for stamp, pose, ranges in zip(stamps, poses, scans.ranges_m, strict=True)
+    ]
+    target.write_text("\n".join(rows))
+    return target
+
+
+def test_constant_odometry_is_refused_before_anything_is_written(log, tmp_path):
+    def constant(poses, stamps):
+        poses[:] = 0.0
+
+    refused = call("slam", rewritten(log, tmp_path / "constant.csv", constant), "-o", tmp_path / "run")
+    assert refused.exit_code == 3
+    assert "odometry is constant, one pose for all scans" in refused.stderr
+    assert "--no-odometry" in refused.stderr
+    assert not (tmp_path / "run").exists()
+
+
+def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
+    def worse(poses, stamps):
+        poses[20:40] = poses[20]
+        stamps[:] = 0.2 * np.arange(len(stamps))
+        stamps[50:] -= 3.0
+
+    result = call("slam", rewritten(log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", *SHORT)
+    assert result.exit_code == 0, result.stderr
+    assert "warning: odometry stands still from scan 20 to 39" in result.stderr
+    assert "the clock goes back by 2.8 s at scan 50 (at 7.000 s) and stays so" in result.stderr
+    stamps = np.loadtxt(tmp_path / "run" / "trajectory.tum")[:, 0]
+    assert (np.diff(stamps) > 0).all()

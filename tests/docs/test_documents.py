@@ -19,6 +19,15 @@ def test_links_between_documents_lead_somewhere():
     assert broken == []
 
 
+def test_no_page_has_a_place_that_somebody_meant_to_fill():
+    found = [
+        f"{page.relative_to(ROOT)}: {word}"
+        for page in PAGES
+        for word in re.findall(r"\b(?:FIGURES?|TODO|TBD|FIXME|XXX+)\b", page.read_text(encoding="utf-8"))
+    ]
+    assert found == []
+
+
 def test_the_sensor_model_of_contributing_infers_what_enumeration_does():
     """The example says: three methods, and every sampler, score and simulation works."""
     page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")

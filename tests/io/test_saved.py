@@ -270,7 +270,7 @@ def test_a_failed_save_leaves_the_old_file_and_nothing_else(saved, tmp_path, mon
     run.save(path)
     before = path.read_bytes()
 
-    def fail(posterior, file, on_progress):
+    def fail(*arguments):
         raise OSError("disk full")
 
     monkeypatch.setattr(module, "_write", fail)

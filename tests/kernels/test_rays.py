@@ -6,8 +6,8 @@ import dataclasses
 
 import numpy as np
 import pytest
-from oracle.field_worlds import beam_rays
 from oracle.formula import beams, touches
+from oracle.stop_worlds import beam_rays
 
 import bayesmap as bm
 from bayesmap.beams.rays import Rays, around_readings

@@ -6,8 +6,8 @@ Many copies of one little world in a known state, swept once, are independent dr
 
 import numpy as np
 import pytest
-from oracle.field_law import joint, paths_of, reading_law, stops
-from oracle.field_worlds import centres_of, copies
+from oracle.stop_law import joint, paths_of, reading_law, stops
+from oracle.stop_worlds import centres_of, copies
 from oracle.verdict import ALPHA
 from scipy import stats
 

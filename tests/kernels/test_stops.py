@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from oracle.field_law import joint, paths_of, reading_law, stop_probabilities, stops
-from oracle.field_worlds import centres_of, copies, draw_worlds
+from oracle.stop_law import joint, paths_of, reading_law, stop_probabilities, stops
+from oracle.stop_worlds import centres_of, copies, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, two_sided
 
 import bayesmap as bm

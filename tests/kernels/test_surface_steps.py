@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 import warp as wp
 from oracle import weighted
-from oracle.field_law import draw_states, paths_of, reading_law, stops
-from oracle.field_worlds import build_worlds, centres_of, copies
+from oracle.stop_law import draw_states, paths_of, reading_law, stops
+from oracle.stop_worlds import build_worlds, centres_of, copies
 from oracle.verdict import ALPHA
 from scipy import stats
 

@@ -6,7 +6,7 @@ False alarms: `ALPHA` = 1e-4 over this module.
 import numpy as np
 import pytest
 import warp as wp
-from oracle.field_law import draw_covariances
+from oracle.stop_law import draw_covariances
 from oracle.verdict import ALPHA
 from scipy import stats
 

@@ -7,6 +7,7 @@ import pytest
 from rooms import ANGLES, LASER, known, offset, scan_from, walls_of
 
 import bayesmap as bm
+from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.field import likelihood_field
 from bayesmap.localization.filter import shared_by_places
 from bayesmap.localization.known_map import KnownMap
@@ -222,6 +223,39 @@ def test_what_cannot_be_located():
         known(walls, grid, scans, sensor=bm.StudentT(0.1))
     with pytest.raises(bm.BadInput, match="no free cell"):
         known(np.ones_like(walls), grid, scans)
+    sensor = bm.BeamMixture(bm.Gaussian(0.02))
+    run = bm.infer(scans, grid, prior=bm.Independent(0.2), sensor=sensor, chains=1, warmup=2, draws=2)
+    with pytest.raises(bm.BadInput, match="device: 'tpu:7' is not on this machine"):
+        bm.localize(run, scans, device="tpu:7")
+    here = known(walls, grid, scans)
+    for arguments, message in (
+        (("x", scans), "give a run, such as bm.load gives"),
+        ((run, "x"), "scans must be those that bm.read_log gives, got 'x'"),
+        ((run, str), "scans must be those that bm.read_log gives"),
+    ):
+        with pytest.raises(bm.BadInput, match=message):
+            bm.localize(*arguments)
+    for options, message in (
+        ({"prior": (0, 0, 0)}, r"prior must be such as bm.Near\(\(x, y, yaw\)\)"),
+        ({"odometry": bm.Odometry}, r"odometry must be such as bm.Odometry\(\)"),
+        ({"prior": Near((40.0, 1.0, 0.0), 0.5)}, r"prior: \(40, 1\) \+- 0.5 m lies outside the map, which is from"),
+    ):
+        with pytest.raises(bm.BadInput, match=message):
+            localize(here, scans, **options)
+    # One that reaches into the map is none.
+    assert len(localize(here, scans, prior=Near((-1.0, 1.0, 0.0), 1.0))) == 1
+
+
+def test_no_probability_exceeds_one_and_a_rectangle_has_an_inside():
+    """Ten weights of 0.1 add up to 0.9999999999999999, these to a hair more than 1."""
+    weights = np.full(6, 1.0 / 6) * (1 + 4e-16)
+    assert weights.sum() > 1.0
+    belief = PoseBelief(np.zeros((6, 3)), weights, 0.0, 0.0)
+    assert belief.modes[0].probability == 1.0
+    assert belief.probability_in([-1.0, 1.0, -1.0, 1.0]) == 1.0
+    for area in ([1.0, -1.0, -1.0, 1.0], [-1.0, 1.0, 1.0, -1.0], [-1.0, np.nan, -1.0, 1.0]):
+        with pytest.raises(bm.BadInput, match="give x_min below x_max and y_min below y_max"):
+            belief.probability_in(area)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -74,10 +74,10 @@ def odometry_of(poses, seed=1, noise=1.0, turn_bias=0.0, scale=1.0):
     return np.array(result)
 
 
-def recording(laps=1.2, hz=5.0, **kwargs):
+def recording(laps=1.2, hz=5.0, laser_noise_m=0.01, **kwargs):
     """Scans with raw odometry, and the true poses."""
     truth = path_around(laps)
-    angles, ranges = scans_of(ring(), truth)
+    angles, ranges = scans_of(ring(), truth, noise_m=laser_noise_m)
     stamps = 1000.0 + np.arange(len(truth)) / hz
     return Scans(odometry_of(truth, **kwargs), angles, ranges, max_range_m=12.0, stamps_s=stamps), truth
 

@@ -35,7 +35,7 @@ def test_rooms_in_a_row_that_look_alike_are_told_apart(seed):
 def test_where_they_are_not_told_apart_it_is_said(monkeypatch):
     """Closures that the way rules out are taken all the same."""
     monkeypatch.setattr(loops, "_possible", lambda closures, path, precision, most_off: np.ones(len(closures), bool))
-    scans, truth = recorded(3)
+    scans, truth = recorded(15)
     found = infer_trajectory(scans)
     assert farthest_m(found, truth) > 1.0
     leaps = between(found.poses[found.leaps - 1], found.poses[found.leaps])

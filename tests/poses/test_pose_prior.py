@@ -5,15 +5,28 @@ import pytest
 from scipy import integrate, stats
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.prior import Known, Odometry, Uncertain
+from bayesmap.poses.prior import FREE, Known, Motions, Odometry, Uncertain
 from bayesmap.space.planar import between, compose, wrapped
-
-PRIORS = {"uncertain": Uncertain(0.1, 0.05), "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01)}
 
 
 def trajectory(seed, scans=6):
     rng = np.random.default_rng(seed)
     return np.column_stack([rng.normal(0, 2, (scans, 2)), rng.uniform(-np.pi, np.pi, scans)])
+
+
+class Slipping:
+    """Odometry that says nothing of every fifth motion."""
+
+    def law(self, log):
+        motions = between(log[:-1], log[1:])
+        return Motions(motions, np.full(motions.shape, 0.05), p_slip=0.2).law(log)
+
+
+PRIORS = {
+    "uncertain": Uncertain(0.1, 0.05),
+    "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01),
+    "slipping": Slipping(),
+}
 
 
 def test_composing_undoes_seeing_from():
@@ -48,7 +61,7 @@ def test_scans_of_one_colour_are_independent_given_the_others(name):
         together[colour] = proposed[colour]
         alone = law.log_change(poses, proposed)[colour].sum()
         assert law.log_prob(together) - law.log_prob(poses) == pytest.approx(alone, abs=1e-8)
-    if name == "odometry":
+    if name != "uncertain":
         rest = np.arange(1, len(poses))
         together = poses.copy()
         together[rest] = proposed[rest]
@@ -107,6 +120,33 @@ def test_samples_of_odometry_have_its_errors():
         assert stats.kstest(1.15 * standard[:, axis], "norm").pvalue < 1e-4 / 3  # a wrong twin
 
 
+def test_samples_of_slipping_odometry_have_its_errors():
+    """Kolmogorov-Smirnov against the mixture; false-alarm rate 1e-4 over both axes."""
+    log = trajectory(12, 4000)
+    poses = PRIORS["slipping"].law(log).sample(np.random.default_rng(13))
+    error = between(poses[:-1], poses[1:]) - between(log[:-1], log[1:])
+
+    def mixture(p_slip):
+        return lambda e: (1 - p_slip) * stats.norm.cdf(e, scale=0.05) + p_slip * stats.norm.cdf(e)
+
+    for axis in range(2):  # headings wrap
+        assert stats.kstest(error[:, axis], mixture(0.2)).pvalue > 1e-4 / 2
+        assert stats.kstest(error[:, axis], mixture(0.3)).pvalue < 1e-4 / 2  # a wrong twin
+
+
+def test_a_motion_that_odometry_missed_pulls_at_no_pose():
+    """Intel's log states a pose twice while the robot turns by half a radian: 300 standard deviations."""
+    stood, turned = np.zeros((2, 3)), np.array([[0.0, 0.0, 0.0], [0.0, 0.05, 0.5]])
+    sigmas = np.array([[0.0025, 0.0013, 0.0017]])
+    back = turned.copy()
+    back[1, 2] -= 0.002
+    changes = {p: Motions(stood[1:], sigmas, p).law(stood).log_change(turned, back)[1] for p in (0.0, 0.01)}
+    assert changes[0.0] > 100  # what turned scans against the walls
+    assert 0 < changes[0.01] < 0.01
+    precision = Motions(stood[1:], sigmas, 0.01).law(stood).precision(turned)[1]
+    np.testing.assert_allclose(precision, np.diag(FREE**-2.0), atol=0.01)  # steps as long as the walls allow
+
+
 def test_known_poses_do_not_move():
     log = trajectory(10)
     law = Known().law(log)
@@ -124,8 +164,13 @@ def test_the_first_pose_of_odometry_is_the_frame():
 
 @pytest.mark.parametrize(
     "make",
-    [lambda: Uncertain(0.0, 0.1), lambda: Uncertain(0.1, float("nan")), lambda: Odometry(m_per_m=-1.0)],
+    [
+        lambda: Uncertain(0.0, 0.1),
+        lambda: Uncertain(0.1, float("nan")),
+        lambda: Odometry(m_per_m=-1.0),
+        lambda: Motions(np.zeros((1, 3)), np.ones((1, 3)), 1.0),
+    ],
 )
 def test_senseless_numbers_are_refused(make):
-    with pytest.raises(BadInput, match=r"sigma|m_per_m"):
+    with pytest.raises(BadInput, match=r"sigma|m_per_m|p_slip"):
         make()

@@ -46,10 +46,36 @@ def test_relations_of_the_base_are_met_by_the_laser_ahead_of_it_only_where_its_p
 
 def test_times_between_poses_are_interpolated_and_times_outside_do_not_count():
     relations = Relations(np.array([0.5, -3.0]), np.array([2.0, 1.0]), np.zeros((2, 3)))
-    result = relation_errors(STAMPS, np.column_stack([STAMPS, STAMPS * 0, STAMPS * 0]), relations)
+    straight = np.column_stack([STAMPS, STAMPS * 0, STAMPS * 0])
+    result = relation_errors(STAMPS, straight, relations, longest_gap_s=1.0)
     np.testing.assert_allclose(result.errors, [[1.5, 0.0, 0.0]])
     np.testing.assert_array_equal(result.covered, [True, False])
     assert result.summary()["not_covered"] == 1
+
+
+def test_nothing_is_interpolated_across_a_gap():
+    """The robot turns back and forth: between poses a second apart, nobody knows where it was."""
+    fine_s = np.concatenate([np.arange(0.0, 3.0, 0.3), np.arange(3.0, 10.0)])  # 0.3 s apart, then 1 s
+    path = np.column_stack([fine_s, 0 * fine_s, np.sin(2 * np.pi * fine_s)])
+    first, second = np.array([0.15, 0.3, 0.3, 3.5, 12.0]), np.array([2.85, 4.0, 4.5, 5.0, 13.0])
+    relations = Relations(first, second, np.column_stack([second - first, np.zeros((5, 2))]))
+    result = relation_errors(fine_s, path, relations)
+    np.testing.assert_array_equal(result.covered, [True, True, False, False, False])
+    np.testing.assert_array_equal(result.in_gap, [False, False, True, True, False])
+    summary = result.summary()
+    assert (summary["relations"], summary["not_covered"], summary["in_gaps"]) == (2, 3, 2)
+    exact = relation_errors(fine_s, path, relations, exact=True)
+    np.testing.assert_array_equal(exact.covered, [False, True, False, False, False])
+    np.testing.assert_array_equal(exact.in_gap, [True, False, True, True, False])
+
+
+@pytest.mark.parametrize(
+    ("exact", "where"), [(False, "at a pose, or between two at most 0.3 s apart"), (True, "pose;")]
+)
+def test_relations_of_which_none_is_near_a_pose_are_refused(exact, where):
+    off = Relations(FIRST + 0.4, SECOND - 0.4, TRUTH.relative)
+    with pytest.raises(BadInput, match=f"none of the 3 relations within .* {where}.*its poses are 1 s apart"):
+        relation_errors(STAMPS, POSES, off, exact=exact)
 
 
 def test_only_stamps_of_poses_count_where_asked():

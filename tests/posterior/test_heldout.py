@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.posterior.heldout import seen_by, unseen_scans
+from bayesmap.posterior.heldout import NoneHeldOut, moved_by, seen_by, unseen_scans
 
 
 @pytest.fixture
@@ -17,12 +17,44 @@ def log():
     return bm.Scans(rng.uniform(0, 5, (20, 3)), np.linspace(0, 1, 8), readings, max_range_m=6.0)
 
 
+@pytest.fixture
+def stamped(log):
+    """The same with stamps; two scans read alike."""
+    readings = log.ranges_m.copy()
+    readings[8] = readings[7]
+    return dataclasses.replace(log, ranges_m=readings, stamps_s=np.arange(20.0))
+
+
 def test_a_scan_is_known_by_its_pose_and_readings(log):
     seen = seen_by(log.select(slice(2, 5)), log)
     np.testing.assert_array_equal(np.flatnonzero(seen), [2, 3, 4])
     moved = dataclasses.replace(log, poses=log.poses + 1.0)
     assert not seen_by(log, moved).any()
     assert not seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
+
+
+def test_where_scans_have_stamps_their_poses_may_be_inferred(stamped):
+    run = dataclasses.replace(stamped, poses=stamped.poses + 1.0).select(slice(2, 8))
+    np.testing.assert_array_equal(np.flatnonzero(seen_by(run, stamped)), np.arange(2, 8))
+    assert moved_by(run, stamped)
+    assert not moved_by(stamped.select(slice(2, 8)), stamped)
+    assert not seen_by(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
+    assert not seen_by(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
+
+
+def test_a_scan_without_a_hit_is_that_of_a_run_only_where_it_stands(stamped):
+    """Two recordings whose clocks both begin at 0 have such scans in common, but not their poses."""
+    blind = dataclasses.replace(stamped, ranges_m=np.full(stamped.ranges_m.shape, np.inf))
+    assert seen_by(blind, blind).all()
+    assert not seen_by(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
+
+
+def test_scans_that_a_run_has_moved_cannot_judge_it(stamped):
+    moved = dataclasses.replace(stamped, poses=stamped.poses + 1.0)
+    with pytest.raises(NoneHeldOut, match=r"a.log: the run has its scans elsewhere than this log"):
+        unseen_scans(moved.holdout(5)[0], stamped, 5, "a.log")
+    with pytest.raises(bm.BadInput, match="the run was made from 20 of its 20 scans"):
+        unseen_scans(moved, stamped, 0, "a.log")
 
 
 def test_the_held_out_scans_are_those_of_the_protocol(log):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from oracle.field_worlds import scans_of_all_kinds
+from oracle.stop_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.posterior.predictor import predictor_of

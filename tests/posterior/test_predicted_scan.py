@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from oracle.field_law import cross_surface
+from oracle.stop_law import cross_surface
 
 import bayesmap as bm
 from bayesmap.errors import BadInput

@@ -1,10 +1,12 @@
 """What a run says about itself: occupancy, entropy, held-out scores, summary."""
 
 import dataclasses
+import functools
 import json
 
 import numpy as np
 import pytest
+import warp as wp
 from oracle.formula import beams, distances
 from oracle.worlds import make_case
 from scipy import special
@@ -93,6 +95,18 @@ def test_scores_that_cannot_be_are_refused(case, run):
         bm.Run(unknown).log_score(case.scans)
     with pytest.raises(bm.BadInput, match="none of the scans has a valid reading"):
         run.log_score(dataclasses.replace(case.scans, ranges_m=np.full(case.scans.ranges_m.shape, np.nan)))
+
+
+def test_the_device_is_the_caller_s_choice(case, run):
+    """Where there is no such device it is refused; where there is a GPU it gives what the CPU does."""
+    assert run.log_score(case.scans, device="cpu") == run.log_score(case.scans)
+    for made in (run.log_score, functools.partial(bm.score, run)):
+        with pytest.raises(bm.BadInput, match="device: 'tpu:7' is not on this machine"):
+            made(case.scans, device="tpu:7")
+        if wp.is_cuda_available():
+            on_gpu, here = made(case.scans, device="cuda"), made(case.scans)
+            nats = [getattr(one, "nats_per_beam", one) for one in (on_gpu, here)]
+            assert nats[0] == pytest.approx(nats[1], rel=1e-6)
 
 
 def test_observed_cells_are_those_that_beams_reach_in_half_of_the_draws():

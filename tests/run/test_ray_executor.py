@@ -11,6 +11,7 @@ import pytest
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.poses.prior import Uncertain
+from bayesmap.run import ray_executor, ray_worker
 from bayesmap.run.executor import ThreadExecutor
 from bayesmap.run.runner import Job
 from bayesmap.run.schedule import Schedule
@@ -188,6 +189,24 @@ def test_checkpoints_are_of_all_chains_at_one_sweep(cluster, scans):
     assert sweeps == sorted(sweeps)
     assert sweeps[-1] == 150
     assert_same(bm.infer(scans, GRID, executor=quick(), resume=seen[0], **arguments), run)
+
+
+@pytest.mark.parametrize("kind", ["walls", "surfaces and a fitted sensor"])
+def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeypatch):
+    """Workers say which cells are observed: they need eight maps of walls for it, and of surfaces no draw at all."""
+    sent, remote = [], ray_executor._RayRun.remote
+
+    def spied(self, function, **options):
+        submit = remote(self, function, **options)
+        if function is not ray_worker.observed_counts:
+            return submit
+        return lambda *given: (sent.append(given[-1]), submit(*given))[1]
+
+    monkeypatch.setattr(ray_executor._RayRun, "remote", spied)
+    bm.infer(scans, GRID, executor=quick(), **{**SHORT, **KINDS[kind]})
+    assert sent
+    counts = {array.shape[1] for draws in sent for array in draws.values()}
+    assert counts == ({8} if kind == "walls" else {0})
 
 
 def test_what_a_sampler_refuses_is_refused_here_too(cluster, scans):

@@ -10,12 +10,12 @@ from functools import cache
 
 import numpy as np
 import pytest
-from field_rooms import PRIORS, infer, scans
-from oracle.field_exact import exact_reflectivities
-from oracle.field_law import draw_states, log_likelihoods, paths_of
-from oracle.field_worlds import beam_rays, build_worlds, copies, touching
+from oracle.stop_exact import exact_reflectivities
+from oracle.stop_law import draw_states, log_likelihoods, paths_of
+from oracle.stop_worlds import beam_rays, build_worlds, copies, touching
 from oracle.verdict import ALPHA
 from scipy import stats
+from stop_rooms import PRIORS, infer, scans
 
 import bayesmap as bm
 from bayesmap.cells.surface import PARTS

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from field_rooms import GRID, TRUTH, assert_same, infer, scans
-from oracle.field_law import draw_readings, draw_states, paths_of
-from oracle.field_worlds import beam_rays, centres_of, touching
+from oracle.stop_law import draw_readings, draw_states, paths_of
+from oracle.stop_worlds import beam_rays, centres_of, touching
 from oracle.worlds import bm_limits
+from stop_rooms import GRID, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
 from bayesmap.model import Model

@@ -230,3 +230,19 @@ def test_a_sensor_model_of_one_s_own_works_and_equals_the_built_in_one(case, met
     np.testing.assert_allclose(own.occupancy, built_in.occupancy, atol=0.02)
     simulated = bm.simulate(np.zeros((4, 4)), case.grid, [0, 3, 0], [0.0] * 99, sensor=Sonar(), max_range_m=3.0)
     assert np.isfinite(simulated.ranges_m).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"prior": None}, r"prior must say what cells are, such as bm.Independent\(0.2\) or bm.Surface\(\), got None"),
+        ({"prior": 0.2}, "prior must say what cells are, .* got 0.2"),
+        ({"prior": bm.Independent}, "prior must say what cells are, .* got <class"),
+        ({"sensor": None}, "sensor must be a sensor model or 'fit', got None"),
+        ({"executor": "ray"}, r"executor must be one such as bm.RayExecutor\(\), or None for this process, got 'ray'"),
+        ({"executor": bm.RayExecutor}, r"executor must be one such as bm.RayExecutor\(\).* got <class"),
+    ],
+)
+def test_what_is_no_prior_no_sensor_or_no_executor_is_refused(case, change, message):
+    with pytest.raises(bm.BadInput, match=f"infer: {message}"):
+        infer(case, draws=2, warmup=2, **change)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from oracle.field_worlds import beam_rays, scans_of_all_kinds
+from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 from scipy import stats
 
 import bayesmap as bm

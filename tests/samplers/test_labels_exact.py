@@ -11,9 +11,9 @@ from functools import cache
 import numpy as np
 import pytest
 from oracle.enumeration import all_maps, log_prior_of_all
-from oracle.field_exact import exact_labels
-from oracle.field_law import draw_states, log_likelihoods, paths_of
-from oracle.field_worlds import build_worlds
+from oracle.stop_exact import exact_labels
+from oracle.stop_law import draw_states, log_likelihoods, paths_of
+from oracle.stop_worlds import build_worlds
 from oracle.verdict import ALPHA, least_p_value
 from oracle.weighted import p_values as weighted_p_values
 from oracle.weighted import surface_coordinates, weighted

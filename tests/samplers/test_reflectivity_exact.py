@@ -6,9 +6,9 @@ independent draws. False alarms: `ALPHA` = 1e-4 over this module.
 
 import numpy as np
 import pytest
-from oracle.field_exact import exact_reflectivities
-from oracle.field_law import Paths, paths_of
-from oracle.field_worlds import build_worlds, copies
+from oracle.stop_exact import exact_reflectivities
+from oracle.stop_law import Paths, paths_of
+from oracle.stop_worlds import build_worlds, copies
 from oracle.verdict import ALPHA
 from scipy import stats
 

@@ -10,8 +10,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from oracle.field_law import draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import build_worlds, centres_of, copies
+from oracle.stop_law import draw_states, log_likelihoods, log_prior, paths_of
+from oracle.stop_worlds import build_worlds, centres_of, copies
 from oracle.verdict import ALPHA
 from oracle.weighted import p_values, surface_coordinates, weighted
 

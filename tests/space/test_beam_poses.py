@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.io.saved import load_posterior, save
+from bayesmap.io.saved import load_saved, save
 from bayesmap.kernels.trace import trace
 
 GRID = bm.Grid(shape=(20, 20), resolution=0.5)
@@ -65,4 +65,4 @@ def test_beam_poses_that_do_not_fit_are_refused(beam_poses, message):
 def test_a_saved_run_keeps_its_beam_poses(tmp_path):
     run = bm.infer(moving_scans(), GRID, prior=bm.Independent(0.2), sensor=SENSOR, chains=1, warmup=1, draws=2)
     save(run.posterior, tmp_path / "run.nc")
-    np.testing.assert_array_equal(load_posterior(tmp_path / "run.nc").scans.beam_poses, moving_scans().beam_poses)
+    np.testing.assert_array_equal(load_saved(tmp_path / "run.nc")[0].scans.beam_poses, moving_scans().beam_poses)

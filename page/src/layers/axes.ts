@@ -5,6 +5,8 @@ import { write } from "./text";
 import { GUTTER } from "./viewport";
 
 const PIXELS_A_TICK = 46;
+/** From the left edge to the unit's right: half of a number that stands under the edge, and a gap. */
+const UNIT_AWAY = 22;
 
 /** 1, 2 or 5 times a power of ten, at least `least`. */
 function niceStep(least: number) {
@@ -46,5 +48,5 @@ export function paintAxes(context: CanvasRenderingContext2D, { session, view, lo
     write(context, m.toFixed(digits), left - 7, at, theme, "right");
   }
   context.stroke();
-  write(context, "m", left - 7, bottom + 12, theme, "right");
+  write(context, "m", left - UNIT_AWAY, bottom + 12, theme, "right");
 }

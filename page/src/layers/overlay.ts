@@ -4,8 +4,9 @@ import { clamp, toCells } from "../geometry/cells";
 import { clipToMap, type Layer, type Scene } from "./layer";
 import { UNUSED } from "./rays";
 
-/** Strokes are drawn where cells are at least so large, as in bayesmap.viz.figure. */
+/** Strokes are drawn where cells are at least so large, in CSS pixels, as in bayesmap.viz.figure. */
 const STROKES_FROM_SCALE = 2.5;
+export const strokesShowAt = (scale: number) => scale >= STROKES_FROM_SCALE;
 
 export class OverlayLayer implements Layer {
   readonly name = "overlay";
@@ -24,7 +25,7 @@ export class OverlayLayer implements Layer {
     if (!overlay || !document) return;
     clipToMap(context, scene);
     if (look.trajectory) this.trajectory(context, scene, overlay.trajectory);
-    if (look.strokes && scene.view.transform.scale >= STROKES_FROM_SCALE) this.strokes(context, scene, overlay.strokes);
+    if (look.strokes && strokesShowAt(scene.view.transform.scale)) this.strokes(context, scene, overlay.strokes);
   }
 
   private trajectory(context: CanvasRenderingContext2D, { session, view, look }: Scene, places: Float32Array) {

@@ -37,6 +37,7 @@ export class Viewport {
     this.corner = { x: GUTTER.left + (room.x - scale * nx) / 2, y: GUTTER.top + (room.y - scale * ny) / 2 };
     this.fitted = true;
     this.settle([nx, ny]);
+    this.corner = { x: this.transform.x, y: this.transform.y }; // zooming begins with what is seen, not half a pixel beside it
   }
 
   /** Zooms about a point of the canvas. */

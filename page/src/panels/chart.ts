@@ -102,15 +102,30 @@ export function traceChart(ui: Ui, theme: () => Theme) {
     if (drawn === field && marked === sweep && chart.data[0].length) return;
     [drawn, marked] = [field, sweep];
     settled = range === "all" ? lowestSettled(field, count) : -Infinity;
-    chart.setData(shownPart(field, count, range) as uPlot.AlignedData);
+    const part = shownPart(field, count, range);
+    chart.setData(part as uPlot.AlignedData);
+    place.setAttribute("data-sweeps", part[0].join());
   });
   return element;
 }
 
-/** [sweeps, log joint of each chain] of the first sweeps or of all. */
+/** [sweeps, log joint of each chain] of the first sweeps, or of evenly many over all. */
 function shownPart({ trace, traced }: Field, chains: number, range: Range) {
-  const n = range === "all" ? traced.length : traced.filter((sweep) => sweep <= FIRST_SWEEPS).length;
-  return [traced.slice(0, n), ...Array.from({ length: chains }, (_, c) => trace.slice(c * traced.length, c * traced.length + n))];
+  const some = range === "all" ? even(traced) : [...traced.keys()].filter((i) => traced[i] <= FIRST_SWEEPS);
+  const at = (values: Float32Array) => Float32Array.from(some, (i) => values[i]);
+  return [at(traced), ...Array.from({ length: chains }, (_, c) => at(trace.subarray(c * traced.length, (c + 1) * traced.length)))];
+}
+
+/** Where sweeps stand that are evenly far apart: the first ones are all there, and would look more restless than the rest. */
+function even(traced: Float32Array) {
+  const n = traced.length;
+  const step = n > 2 ? Math.min(traced[n - 1] - traced[n - 2], traced[n - 2] - traced[n - 3]) : 1;
+  let next = -Infinity;
+  return [...traced.keys()].filter((i) => {
+    if (traced[i] < next && i < n - 1) return false;
+    next = traced[i] + step;
+    return true;
+  });
 }
 
 /** The lowest log joint of any chain in the later part. */

@@ -1,58 +1,117 @@
-// What colours and marks mean.
+// What colours and marks mean. Room is kept for whatever the hand may call forth, so that the map never moves under it.
 
 import { entropyRgb, gradient, probabilityRgb, type Theme } from "../colour";
+import { strokesShowAt } from "../layers/overlay";
+import type { Layer } from "../protocol";
+import type { Session } from "../state/session";
 import { figure, h, put } from "./dom";
 import { icon } from "./icons";
 import type { Ui } from "./ui";
 
-const ENTRIES = [
-  ["truth", "true wall"],
-  ["ray", "ray"],
-  ["miss", "no return"],
-  ["dot", "reading"],
-  ["sensor", "sensor"],
-  ["stroke", "surface"],
-  ["trajectory", "trajectory"],
-  ["draw", "this draw"],
-  ["ghost", "predicted reading"],
-  ["belief", "possible pose"],
-  ["place", "95 % of a place"],
-  ["path", "path, as wide as the robot"],
-  ["unobserved", "unobserved"],
+/** Scale of the map on show, in CSS pixels a cell. */
+type Scale = () => number;
+type Entry = {
+  mark: string;
+  text: string;
+  /** Whether it is there, and whether it may come to be with what is open. */
+  when?: (session: Session) => boolean;
+  may?: (session: Session) => boolean;
+};
+
+const simulated = ({ document }: Session) => !document || document.source.kind === "simulation";
+const asked = ({ recorded }: Session) => !recorded;
+/** Where strokes would be too small to tell apart, none are drawn. */
+const FAR = "surface (zoom in)";
+
+const ENTRIES: Entry[] = [
+  { mark: "truth", text: "true wall", when: simulated, may: simulated },
+  { mark: "ray", text: "ray" },
+  { mark: "miss", text: "no return" },
+  { mark: "dot", text: "reading" },
+  { mark: "sensor", text: "sensor" },
+  { mark: "stroke", text: "surface", when: ({ overlay }) => Boolean(overlay?.strokes.length), may: (session) => !simulated(session) },
+  { mark: "trajectory", text: "trajectory", when: ({ overlay }) => Boolean(overlay?.trajectory.length), may: (session) => !simulated(session) },
+  { mark: "unobserved", text: "unobserved" },
+  { mark: "draw", text: "this draw", when: ({ flicker }) => Boolean(flicker.under) },
+  { mark: "ghost", text: "predicted reading", when: ({ ghost, reading }) => ghost.held || reading.picked !== null, may: asked },
+  { mark: "path", text: "path, as wide as the robot", when: ({ decisions }) => Boolean(decisions.path), may: asked },
+];
+/** Of the tool Where am I? alone: the dots of Look next are never seen beside them. */
+const PLACES: Entry[] = [
+  { mark: "belief", text: "possible pose" },
+  { mark: "place", text: "95 % of a place" },
 ];
 
-export function legend(ui: Ui, theme: () => Theme) {
+export function legend(ui: Ui, theme: () => Theme, scale: Scale) {
+  return h("div", { className: "legend" }, list(ui, theme, scale), room(ui));
+}
+
+/** What is seen. */
+function list(ui: Ui, theme: () => Theme, scale: Scale) {
   const { session } = ui;
   const ramp = h("span", { className: "ramp" });
-  const name = h("span");
-  const entries = ENTRIES.map(([className, text]) => {
-    const sample = h("i", { className });
-    if (className === "sensor") sample.append(icon("sensor"));
-    return h("li", {}, sample, text);
+  const name = h("span", { className: "name" });
+  const entries = ENTRIES.map((entry) => {
+    const [element, text] = item(entry);
+    const { mark, when } = entry;
+    if (when) ui.visible(element, () => when(session));
+    if (mark === "stroke") ui.each(() => put(text, "textContent", strokesShowAt(scale()) ? entry.text : FAR));
+    if (mark === "path") ui.each(() => element.firstElementChild?.classList.toggle("risky", session.decisions.path?.within_risk === false));
+    return element;
   });
-  ui.visible(entries[0], () => !session.document || session.document.source.kind === "simulation");
-  ui.visible(entries[ENTRIES.findIndex(([name]) => name === "stroke")], () => Boolean(session.overlay?.strokes.length));
-  ui.visible(entries[ENTRIES.findIndex(([name]) => name === "trajectory")], () => Boolean(session.overlay?.trajectory.length));
-  const entry = (wanted: string) => entries[ENTRIES.findIndex(([name]) => name === wanted)];
-  ui.visible(entry("draw"), () => Boolean(session.flicker.under));
-  ui.visible(entry("ghost"), () => session.ghost.held || session.reading.picked !== null);
-  ui.visible(entry("belief"), () => Boolean(session.where.found));
-  ui.visible(entry("place"), () => Boolean(session.where.found));
-  ui.visible(entry("path"), () => Boolean(session.decisions.path));
-  ui.each(() => entry("path").firstElementChild?.classList.toggle("risky", session.decisions.path?.within_risk === false));
+  const places = PLACES.map((entry) => item(entry)[0]);
+  for (const place of places) ui.visible(place, () => Boolean(session.where.found));
   let painted = "";
   ui.each(() => {
     const { layer } = session;
-    const { kind, mean, value } = session.quantity;
-    const chance = kind === "binary" ? "P(wall)" : layer === "draw" ? value : mean;
-    put(name, "textContent", layer === "entropy" ? "entropy (bit)" : layer === "width" ? "width of the 90 % interval" : chance);
+    put(name, "textContent", nameOf(session, layer));
     const doubt = layer === "entropy" || layer === "width";
     const key = `${doubt} ${theme().ground}`;
     if (painted === key) return;
     painted = key;
     ramp.style.background = gradient(doubt ? entropyRgb : (t) => probabilityRgb(theme(), t));
   });
-  return h("ul", { className: "legend", "aria-label": "Legend" }, h("li", {}, name, "0", ramp, "1"), views(ui), ...entries);
+  return h("ul", { "aria-label": "Legend" }, h("li", {}, name, h("span", { className: "scale" }, "0", ramp, "1")), ...entries, views(ui), ...places);
+}
+
+/** As much as may ever be seen with what is open, without being seen: it keeps the height. */
+function room(ui: Ui) {
+  const { session } = ui;
+  const names = (["mean", "draw", "entropy", "width"] as const).map((layer) => {
+    const name = h("span");
+    ui.each(() => put(name, "textContent", nameOf(session, layer)));
+    if (layer === "width") ui.visible(name, () => session.quantity.interval); // walls have none
+    return name;
+  });
+  const entries = ENTRIES.map((entry) => {
+    const [element, text] = item(entry);
+    if (entry.mark === "stroke") text.textContent = FAR;
+    const { may } = entry;
+    if (may) ui.visible(element, () => may(session));
+    return element;
+  });
+  const numbers = h("span", { className: "scale" }, "00.0", h("span", { className: "ramp" }), "000.0 nats");
+  const either = [h("ul", {}, h("li", {}, "one more scan tells", numbers)), h("ul", {}, ...PLACES.map((entry) => item(entry)[0]))];
+  const tool = h("li", { className: "either" }, ...either);
+  ui.visible(tool, () => asked(session));
+  const scale = h("span", { className: "scale" }, "0", h("span", { className: "ramp" }), "1");
+  return h("ul", { className: "room", "aria-hidden": "true" }, h("li", {}, h("span", { className: "name either" }, ...names), scale), ...entries, tool);
+}
+
+/** An entry, and the element of its words. */
+function item({ mark, text }: Entry): [HTMLElement, HTMLElement] {
+  const sample = h("i", { className: mark });
+  if (mark === "sensor") sample.append(icon("sensor"));
+  const words = h("span", { textContent: text });
+  return [h("li", {}, sample, words), words];
+}
+
+/** What the colours of a layer are. */
+function nameOf({ quantity }: Session, layer: Layer) {
+  const { kind, mean, value } = quantity;
+  if (layer === "entropy") return "entropy (bit)";
+  if (layer === "width") return "width of the 90 % interval";
+  return kind === "binary" ? "P(wall)" : layer === "draw" ? value : mean;
 }
 
 /** What the dots say that show where to look next. */
@@ -61,7 +120,7 @@ function views(ui: Ui) {
   const ramp = h("span", { className: "ramp" });
   ramp.style.background = gradient(entropyRgb);
   const [least, most] = [h("span"), h("span")];
-  const element = h("li", { className: "views" }, "one more scan tells", least, ramp, most);
+  const element = h("li", { className: "views" }, "one more scan tells", h("span", { className: "scale" }, least, ramp, most));
   ui.visible(element, () => decisions.looking && Boolean(decisions.views?.nats.length));
   ui.each(() => {
     const nats = decisions.views?.nats;

@@ -4,10 +4,20 @@ import { centreOf, entropyBits } from "../geometry/cells";
 import { LIMITS, type Field, type MapDocument, type Point } from "../protocol";
 import type { Session } from "../state/session";
 import { h, mark, put } from "./dom";
+import { isFitting } from "./posterior";
 import type { Ui } from "./ui";
 
 const REFUSED =
   "The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.";
+
+/** Of fewer sweeps more are the remedy, whatever the method. */
+const FEWEST_SWEEPS = 200;
+
+/** What beams are said to speak for and against. */
+const OF_WALLS = "For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less likely";
+const OF_STOPS =
+  "For and against what is there: how much likelier each beam's reading is under the draws of the map than under the same draws with this cell emptied (log ratio), summed over the beams that it makes likelier, and less likely";
+const NEIGHBOURS = "Emptied means without the surface that the cell owns: where a neighbour's surface explains the same readings, they say little of this one.";
 
 /** Says on the map itself what is shown, that the quick answer is approximate, and that chains have not converged. */
 export function chip(ui: Ui) {
@@ -55,10 +65,11 @@ function tryRemedy(session: Session): { text: string; apply: () => void } | null
   const { shown, document } = session;
   if (shown?.verdict?.level !== "bad" || !document || session.recorded || document.source.kind === "run") return null;
   const set = (patch: Partial<MapDocument>) => () => session.act({ type: "set", patch });
-  if (shown.method === "gibbs" && document.source.kind === "simulation") return { text: "try blocks", apply: set({ method: "block" }) };
+  const few = shown.sweeps < FEWEST_SWEEPS;
+  if (shown.method === "gibbs" && document.source.kind === "simulation" && !few) return { text: "try blocks", apply: set({ method: "block" }) };
   if (shown.method === "importance") return { text: "try Gibbs", apply: set({ method: "auto" }) };
-  if (session.sampling) return null;
-  const sweeps = Math.min(LIMITS.sweeps[1], 4 * document.sweeps);
+  if (shown.sweeps < shown.total) return null; // it goes on, or was cancelled
+  const sweeps = Math.min(LIMITS.sweeps[1], Math.max(FEWEST_SWEEPS, 4 * document.sweeps));
   return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : null;
 }
 
@@ -90,13 +101,16 @@ export function foot(ui: Ui) {
   hand.announce = (text) => put(spoken, "textContent", text);
   hand.describe = (cell) => describeCell(session, cell);
   ui.each(() => {
+    const { kind } = session.quantity;
+    put(readout, "title", kind === "binary" ? OF_WALLS : kind === "surface" ? `${OF_STOPS}. ${NEIGHBOURS}` : OF_STOPS);
     const cell = hand.cursor ?? hand.hover;
     const fingers = matchMedia("(pointer: coarse)").matches;
     const idle = fingers ? "Touch a cell" : session.editable ? "Point at a cell, or press ? for the keys" : "Point at a cell";
     put(readout, "textContent", cell ? describeCell(session, cell) : idle);
     const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
-    put(status, "textContent", doubt ? "Ready, but the chains have not converged" : session.status.text);
-    put(status, "className", doubt ? "warning" : session.status.level);
+    const fitting = session.status.text === "Ready" && isFitting(session);
+    put(status, "textContent", doubt ? "Ready, but the chains have not converged" : fitting ? "Fitting the sensor" : session.status.text);
+    put(status, "className", doubt ? "warning" : fitting ? "busy" : session.status.level);
   });
   return { element: h("footer", {}, status, readout, spoken), readout };
 }
@@ -123,7 +137,8 @@ function describeCell(session: Session, cell: Point) {
     if (!shown.observed[i]) parts.push("unobserved");
     else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
     if (shown.observed[i] && facts?.nats_for !== undefined && facts.nats_against !== undefined && beams) {
-      parts.push(`for a wall ${facts.beams_for}, ${facts.nats_for.toFixed(1)} nats`, `against ${facts.beams_against}, ${facts.nats_against.toFixed(1)} nats`);
+      const what = { binary: "a wall", surface: "its surface" }[session.quantity.kind] ?? "what is there";
+      parts.push(`for ${what} ${facts.beams_for}, ${facts.nats_for.toFixed(1)} nats`, `against ${facts.beams_against}, ${facts.nats_against.toFixed(1)} nats`);
     }
   }
   return parts.join(" \u00b7 ");

@@ -10,6 +10,9 @@ import type { Ui } from "./ui";
 const ROUNDS = 20;
 const UNITS: { [method: string]: string } = { importance: "particles", propagate: "rounds" };
 
+/** Whether the sensor is being fitted, before there are chains. */
+export const isFitting = ({ working, shown }: Session) => working && shown?.method === "pilot";
+
 export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
   const { session } = ui;
   const progress = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
@@ -19,7 +22,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     const { stage } = session;
     // what is on show may be the answer to the last question
     const old = field?.generation !== session.generation && (session.running || session.document?.source.kind === "log");
-    const fitting = field?.method === "pilot" && session.working;
+    const fitting = isFitting(session);
     const share = stage ? stage.done / stage.of : field && !old && field.total > 0 && (fitting || !field.approximate) ? field.sweeps / field.total : 0;
     put(progress, "value", share);
     const left = session.remaining_s();
@@ -29,7 +32,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     const count = session.sampling || session.running || !field || field.sweeps >= field.total ? "" : "stopped";
     if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.of} ${stage.of > ROUNDS ? "scans" : "rounds"}`);
     else if (old) put(doing, "textContent", "Computing");
-    else if (fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
+    else if (field && fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
     else put(doing, "textContent", sentence([done, state, done && count].filter(Boolean).join(", ")) || idle(session));
   });
   return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts);
@@ -48,7 +51,7 @@ function buttons(ui: Ui) {
   const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
     text: "Cancel",
     title: "Cancel (Escape)",
-    when: () => session.running || session.sampling || (session.working && session.shown?.method === "pilot"),
+    when: () => session.running || session.sampling || isFitting(session),
   });
   const live = ui.checkbox(
     "Live",

@@ -7,6 +7,7 @@ import type { Ui } from "./ui";
 /** A length in words: centimetres up to a metre. */
 const length = (metres: number) => (Math.abs(metres) < 0.995 ? `${figure(100 * Math.abs(metres), 1)} cm` : `${figure(Math.abs(metres), 2)} m`);
 const IDLE = "Point at a reading to compare it with what the posterior predicts of it.";
+const PREPARING = ": preparing the comparison. The first one after an installation takes some seconds.";
 
 export function readingPanel(ui: Ui) {
   const { session } = ui;
@@ -14,8 +15,8 @@ export function readingPanel(ui: Ui) {
   const section = ui.section("Reading", said);
   ui.visible(section, () => !session.recorded && Boolean(session.document) && session.document?.source.kind !== "simulation");
   ui.each(() => {
-    const { picked, found, trouble } = session.reading;
-    const waiting = picked ? `Beam ${picked.beam + 1} of scan ${picked.scan + 1}.` : IDLE;
+    const { picked, found, trouble, slow } = session.reading;
+    const waiting = picked ? `Beam ${picked.beam + 1} of scan ${picked.scan + 1}${slow ? PREPARING : "."}` : IDLE;
     put(said, "textContent", trouble || (found ? readingWords(found) : waiting));
   });
   return section;

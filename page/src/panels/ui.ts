@@ -3,7 +3,7 @@
 import { clamp } from "../geometry/cells";
 import type { Editor } from "../input/editor";
 import type { Hand } from "../input/hand";
-import type { Layer, MapDocument } from "../protocol";
+import type { Layer, MapDocument, Pair } from "../protocol";
 import type { Session } from "../state/session";
 import { focused, h, mark, put } from "./dom";
 import { icon, type IconName } from "./icons";
@@ -117,9 +117,7 @@ export class Ui {
     range.addEventListener("input", () => this.set({ [key]: toValue(Number(range.value)) / scale }));
     range.addEventListener("change", () => this.endDrag());
     exact.addEventListener("change", () => {
-      const value = Number(exact.value);
-      if (exact.value === "" || !Number.isFinite(value)) exact.value = String(shown());
-      else this.set({ [key]: log ? Math.round(clamp(value, low, high)) : clamp(value, low, high) / scale });
+      this.typed(exact, label(), [low, high], shown, (value) => this.set({ [key]: log ? Math.round(value) : value / scale }));
       this.endDrag();
     });
     this.each(() => {
@@ -145,13 +143,20 @@ export class Ui {
     return this.row(label, element);
   }
 
+  /** Takes what was typed, brought into its limits, and says these where it was outside; what is no number gives way to the present one. */
+  private typed(field: HTMLInputElement, label: string, [low, high]: Pair, current: () => number, choose: (value: number) => void) {
+    const value = field.value === "" ? NaN : Number(field.value);
+    if (Number.isFinite(value)) choose(clamp(value, low, high));
+    field.value = String(current());
+    if (value < low) this.session.say(`${label} is at least ${low}`, "warning");
+    else if (value > high) this.session.say(`${label} is at most ${high}`, "warning");
+  }
+
   /** A number that is brought into its limits, `min` and `max` of the properties. */
   numberInput(label: string, current: () => number, choose: (value: number) => void, properties: { [name: string]: any } = {}) {
     const element = h("input", { type: "number", ...properties });
     const { min = -Infinity, max = Infinity } = properties;
-    element.addEventListener("change", () => {
-      if (element.value !== "" && Number.isFinite(Number(element.value))) choose(clamp(Number(element.value), min, max));
-    });
+    element.addEventListener("change", () => this.typed(element, label, [min, max], current, choose));
     this.each(() => {
       if (!focused(element)) put(element, "value", String(current()));
     });

@@ -1,5 +1,6 @@
 // Which field is shown, the draws one by one, the marks, and the scans of a file.
 
+import { strokesShowAt } from "../layers/overlay";
 import type { Layer } from "../protocol";
 import type { Session } from "../state/session";
 import { focused, h, mark, put } from "./dom";
@@ -21,12 +22,15 @@ export class Player {
   drawsPerSecond = 10;
   /** Whether a draw is to follow the mean that was asked for. */
   private afterMean = false;
+  /** What was shown before draws were laid over the mean, unless something else was chosen since. */
+  private before: Layer | null = null;
 
   constructor(private readonly session: Session) {}
 
   showLayer(layer: Layer) {
     if (layer !== "draw") this.play(false);
     else if (!this.session.hasDraws) return;
+    this.before = null;
     this.session.act({ type: "view", layer, chain: this.session.view.chain });
   }
 
@@ -43,15 +47,18 @@ export class Player {
     this.session.changed();
   }
 
-  /** Draws over the mean, or in its place. */
+  /** Draws over the mean; without them what was shown before is shown again. */
   over(on: boolean) {
     const { flicker, view } = this.session;
     flicker.on = on;
-    if (on && !flicker.wantsMean && view.layer !== "draw") this.showLayer("draw");
-    else if (on && flicker.wantsMean) {
+    if (!on) {
+      this.afterMean = false;
+      if (this.before && this.before !== view.layer) this.showLayer(this.before);
+    } else if (flicker.wantsMean) {
       this.afterMean = true;
       this.session.act({ type: "view", layer: "mean", chain: view.chain });
-    }
+    } else if (view.layer !== "draw") this.showLayer("draw");
+    this.before = on ? view.layer : null;
     this.session.changed();
   }
 
@@ -83,7 +90,7 @@ export class Player {
 /** Marks that can be switched off. */
 export type Shown = { truth: boolean; rays: boolean; readings: boolean; strokes: boolean; trajectory: boolean };
 
-export function viewPanel(ui: Ui, player: Player, shown: Shown) {
+export function viewPanel(ui: Ui, player: Player, shown: Shown, scale: () => number) {
   const { session } = ui;
   const layers = ui.segmented<Layer>("Show", LAYERS, () => session.view.layer, (layer) => player.showLayer(layer), (layer) => layer !== "draw" || session.hasDraws);
   // walls have no interval, and the entropy of a reflectivity is none of the map's
@@ -100,6 +107,7 @@ export function viewPanel(ui: Ui, player: Player, shown: Shown) {
   ui.visible(truth, () => !session.document || session.document.source.kind === "simulation");
   const [strokes, trajectory] = [box("Surfaces", "strokes"), box("Trajectory", "trajectory")];
   ui.visible(strokes, () => Boolean(session.overlay?.strokes.length));
+  ui.each(() => put(strokes.lastElementChild as HTMLElement, "textContent", strokesShowAt(scale()) ? "Surfaces" : "Surfaces (zoom in)"));
   ui.visible(trajectory, () => Boolean(session.overlay?.trajectory.length));
   const marks = h("div", { className: "checks", role: "group", "aria-label": "Marks" }, truth, box("Rays", "rays"), box("Readings", "readings"), strokes, trajectory);
   return ui.section("View", layers, playerControls(ui, player), marks);

@@ -5,6 +5,10 @@ import type { MapDocument, Message, State, View } from "../protocol";
 /** Messages whose effect the page shows before they are confirmed. */
 export const FORESEEN = new Set(["walls", "sensor", "set", "view", "live"]);
 
+/** Whether an action comes to nothing without a server: where it cannot be foreseen, and no reconnection brings it along. */
+export const needsServer = ({ type, op }: Message) => (type === "sensor" ? op !== "move" : !FORESEEN.has(type));
+export const NO_SERVER = "Not while the connection is lost: this needs the server";
+
 /** What an edit may change; walls are (nx, ny), one byte a cell. */
 export type Foreseen = { document: MapDocument; walls: Uint8Array; view: View; state: State };
 

@@ -20,6 +20,8 @@ export type Comparison = {
 };
 
 const REST_MS = 120;
+/** An answer that takes longer is being prepared: the first one after an installation is compiled. */
+const SLOW_MS = 1000;
 
 /** A beam of a file's scan: its number, where it starts and where its reading ends, metres. */
 export type Picked = { scan: number; beam: number; from: Point; angle: number };
@@ -28,6 +30,8 @@ export class Reading {
   picked: Picked | null = null;
   found: Comparison | null = null;
   trouble = "";
+  /** Whether the answer is long in coming. */
+  slow = false;
   /** Counts what there is to paint anew. */
   version = 0;
   private timer = 0;
@@ -43,10 +47,19 @@ export class Reading {
     this.picked = picked;
     this.found = null;
     this.trouble = "";
+    this.slow = false;
     this.version++;
     clearTimeout(this.timer);
-    if (picked) this.timer = window.setTimeout(() => session.act({ type: "beam", scan: picked.scan, beam: picked.beam }), REST_MS);
+    if (picked) this.timer = window.setTimeout(() => this.ask(picked), REST_MS);
     session.changed();
+  }
+
+  private ask({ scan, beam }: Picked) {
+    this.session.act({ type: "beam", scan, beam });
+    this.timer = window.setTimeout(() => {
+      this.slow = true;
+      this.session.changed();
+    }, SLOW_MS);
   }
 
   /** Another scan is on show. */
@@ -54,6 +67,7 @@ export class Reading {
     if (!this.picked) return;
     clearTimeout(this.timer);
     this.picked = this.found = null;
+    this.slow = false;
     this.version++;
   }
 

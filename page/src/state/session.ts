@@ -3,7 +3,7 @@
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
 import type { Buffers, CellFacts, Connection, Field, Layer, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
-import { FORESEEN, foresee, type Foreseen } from "./foreseen";
+import { FORESEEN, foresee, needsServer, NO_SERVER, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
 import { Flicker } from "./flicker";
 import { Ghost } from "./ghost";
@@ -124,6 +124,7 @@ export class Session {
   /** Sends an action; its effect shows at once. The pointer event that it came from is timed until its picture. */
   act(message: Message, event?: Event) {
     if (!this.document && message.type !== "hello") return;
+    if (!this.connection.connected && this.everConnected && !QUESTIONS.has(message.type) && needsServer(message)) return this.say(NO_SERVER, "warning");
     const sent = { ...message, seq: ++this.seq };
     if (!QUESTIONS.has(message.type)) this.acted = this.seq; // a question changes nothing, and no state confirms it
     if (FORESEEN.has(message.type)) {

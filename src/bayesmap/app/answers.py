@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.evidence import evidence
+from bayesmap.app.evidence import Evidence, evidence
 from bayesmap.app.ghost import Ghost
 from bayesmap.app.residual import beam_message
 from bayesmap.app.result import Result
@@ -25,6 +25,7 @@ from bayesmap.app.tasks import (
     WhereAmI,
 )
 from bayesmap.app.whereabouts import Whereabouts
+from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
 
 OfPosterior = FindPath | FindViews | MoveGhost | CompareBeam
@@ -94,7 +95,7 @@ class Answers:
 
 
 def cell_message(scene: Scene | None, result: Result | None, task: Inspect) -> dict[str, Any]:
-    """The message `cell`: how many beams touch it, and what they say of a wall there."""
+    """The message `cell`: how many beams touch it, and what they say of a wall, or of what stands there."""
     found: dict[str, Any] = {"beams": 0}
     if scene is not None:
         table = scene.problem.table
@@ -102,9 +103,21 @@ def cell_message(scene: Scene | None, result: Result | None, task: Inspect) -> d
         if task.x < nx and task.y < ny:
             cell = task.x * ny + task.y
             found = {"beams": int(np.count_nonzero(table.cells == cell))}
-            if result is not None and result.prior.words.kind == "binary":
-                found = asdict(evidence(table, result.mean().ravel(), cell))
+            said = None if result is None else _said_of(result, table, cell)
+            found |= {} if said is None else asdict(said)
     return {"type": "cell", "x": task.x, "y": task.y, **found}
+
+
+def _said_of(result: Result, table: BeamTable, cell: int) -> Evidence | None:
+    """What beams say of a cell; None where nothing can be said."""
+    from bayesmap.app.stop_evidence import stop_evidence
+
+    if result.prior.words.kind == "binary":
+        return evidence(table, result.mean().ravel(), cell)
+    try:
+        return stop_evidence(result, table, cell)
+    except BadInput:
+        return None
 
 
 def exported(task: Export, result: Result | None) -> Report:

@@ -306,6 +306,7 @@ class Engine:
             self._job = self._work(replace(self._task, mode="preview"))
             return
         self._job = None
+        self._result = replace(self._result, over=True)
         self._showing.frame(self._result)
         self._showing.finished(self._result)
 

@@ -22,7 +22,7 @@ class Evidence:
 
     Attributes:
         beams: that touch it.
-        beams_for: beams that are likelier with a wall there than without.
+        beams_for: beams whose readings are likelier with what may stand there than without.
         nats_for: the sum of their log ratios.
         beams_against: those that are less likely.
         nats_against: likewise, not negative.
@@ -53,11 +53,16 @@ def evidence(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Eviden
         [_log_ratio(table, p_wall, int(b), int(k)) for b, k in zip(beams, places[::every], strict=True)],
         dtype=np.float64,
     )
+    return summed(nats, len(places), every)
+
+
+def summed(nats: NDArray[np.float64], beams: int, every: int) -> Evidence:
+    """The evidence of some beams' log ratios; ``every`` is how many beams each of them counts for."""
     speaks_for, speaks_against = nats > SILENT_NATS, nats < -SILENT_NATS
     return Evidence(
-        len(places),
+        beams,
         every * int(speaks_for.sum()), every * float(nats[speaks_for].sum()),
-        every * int(speaks_against.sum()), -every * float(nats[speaks_against].sum()),
+        every * int(speaks_against.sum()), every * abs(float(nats[speaks_against].sum())),
     )  # fmt: skip
 
 

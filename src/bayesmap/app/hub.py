@@ -51,11 +51,11 @@ class Hub:
         pictured: set when the first field is there.
     """
 
-    def __init__(self, document: Document, path: str | None = None) -> None:
+    def __init__(self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None) -> None:
         self.session = Session(document)
         self.pictured = asyncio.Event()
         self._loop = asyncio.get_running_loop()
-        self._supervisor = Supervisor(self._on_thread, self._lost_on_thread, path)
+        self._supervisor = Supervisor(self._on_thread, self._lost_on_thread, path, reading=reading)
         self._pages: dict[int, Outbox] = {}
         self._numbers = itertools.count(1)
         self._unusable: str | None = None

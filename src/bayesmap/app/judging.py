@@ -18,7 +18,10 @@ GOOD_ESS = 400.0
 
 BAD_ESS = 50.0
 FEWEST_SWEEPS = 200
-"""Before so many, nothing is said of chains that go on."""
+"""Before so many, nothing is said of chains that go on, nor of cells on which chains differ."""
+
+FEWEST_DIAGNOSED = 4
+"""R-hat needs two draws in each half of a chain."""
 
 BAD_DIFFERENCE = 0.25
 """Of P(wall) between two chains: five standard errors for two means of 200 independent draws with p = 1/2."""
@@ -59,13 +62,17 @@ def judge_chains(
 ) -> Verdict | None:
     """The verdict on chains, or None where it is too early, or where the log joint never changed.
 
-    It is never too early for chains that are over: a saved run of few sweeps is to be judged, too.
+    It is never too early for chains that are over, finished, cancelled or saved: few sweeps are to be judged, too.
+    Means of few differ by chance, so that then the log joint alone speaks.
     """
-    if sweeps < FEWEST_SWEEPS and not over:
+    few = sweeps < FEWEST_SWEEPS
+    if few and not over:
         return None
-    if apart is not None and apart.by > BAD_DIFFERENCE:
+    if apart is not None and apart.by > BAD_DIFFERENCE and not few:
         x, y = apart.cell
         return Verdict("bad", f"P(wall) of cell ({x}, {y}) differs by {apart.by:.2f} between the chains")
+    if 0 < sweeps < FEWEST_DIAGNOSED:
+        return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
     if not (np.isfinite(rhat) and np.isfinite(ess)):
         return None
     if rhat > RHAT_LIMIT:
@@ -82,5 +89,7 @@ def judge_chains(
 def judge_particles(ess: float) -> Verdict:
     """The verdict on weighted particles."""
     if ess < BAD_ESS:
-        return Verdict("bad", f"{ess:.1f} particles carry all the weight")
+        number = f"{ess:.1f}"
+        carry = "one particle carries" if number == "1.0" else f"{number} particles carry"
+        return Verdict("bad", f"{carry} all the weight")
     return Verdict("good" if ess >= GOOD_ESS else "fair", f"{ess:.0f} effective particles")

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -90,8 +90,12 @@ def read_document(path: str) -> Document:
         raise BadInput(f"{path}: {why}; give a document that the page has exported") from None
 
 
-def open_file(path: str) -> Opened:
+def open_file(path: str, **reading: Any) -> Opened:
     """Open a saved run (``.nc``) or a log.
+
+    Args:
+        path: of the file.
+        reading: how a log is read, as `bayesmap.read_log` calls it.
 
     Raises:
         BadInput: no such file, or one that cannot be read as either.
@@ -102,7 +106,7 @@ def open_file(path: str) -> Opened:
         return opened_run(load(path), Path(path).name)
     from bayesmap.io.logs import read_log
 
-    return opened_log(read_log(path), Path(path).name)
+    return opened_log(read_log(path, **reading), Path(path).name)
 
 
 def opened_run(run: Run, name: str) -> OpenedRun:
@@ -119,6 +123,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
         document,
         method=method if method in METHODS else "gibbs",
         order=settings.get("order") or "radial",  # cells of numbers have none
+        cells=run.posterior.prior.words.kind,
         sweeps=max(1, min(100_000, int(run.posterior.sweep))),
         seed=min(2**31 - 1, int(settings.get("seed", 0))),
     )

@@ -63,5 +63,5 @@ class Preview:
         return seen.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> Marginals:
-        """What the rounds found, for `bayesmap.samplers.start.start_maps` and for a saved run."""
+        """What the rounds found, for `bayesmap.samplers.start` and for a saved run."""
         return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)

@@ -60,6 +60,7 @@ class Result:
         total: of particles, those that are still to be weighed included.
         counted: a map of hits and passes.
         pilot: where the chain stands that fits the sensor.
+        over: whether chains were cancelled, and will not go on.
     """
 
     scene: Scene
@@ -72,6 +73,7 @@ class Result:
     run: Run | None = None
     counted: Counted | None = None
     pilot: Pilot | None = None
+    over: bool = False
 
     def mean(self) -> NDArray[np.float64]:
         """Posterior wall probability, (nx, ny)."""
@@ -228,7 +230,7 @@ class Result:
             mixing = self.stream.mixing()
             ess, rhat, joint = mixing.ess, mixing.rhat, mixing.log_joint
             apart = difference(self.stream.means(), self.stream.observed())
-            verdict = judge_chains(rhat, ess, sweeps, apart)
+            verdict = judge_chains(rhat, ess, sweeps, apart, over=self.over or self.stream.done)
         elif self.preview is not None:
             sweeps = self.preview.rounds
         elif self.pilot is not None:

@@ -8,7 +8,8 @@ import secrets
 import signal
 import socket
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 import uvicorn
 from starlette.applications import Starlette
@@ -142,12 +143,10 @@ class _Server(uvicorn.Server):
             yield
 
 
-async def _serve(
-    document: Document, path: str | None, found: socket.socket, host: str, announce: Callable[[str], None]
-) -> None:
+async def _serve(hub_of: Callable[[], Hub], found: socket.socket, host: str, announce: Callable[[str], None]) -> None:
     port = found.getsockname()[1]
     token = secrets.token_urlsafe(24)
-    hub = Hub(document, path)
+    hub = hub_of()
     name = f"[{host}]" if ":" in host else host
     shown = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)
     try:
@@ -172,6 +171,7 @@ def serve(
     document: Document,
     *,
     path: str | None = None,
+    reading: Mapping[str, Any] | None = None,
     host: str = "127.0.0.1",
     port: int = 0,
     on_ready: Callable[[str], None],
@@ -181,6 +181,7 @@ def serve(
     Args:
         document: what is shown first, where no file is.
         path: a saved run or a log to show.
+        reading: how a log is read, as `bayesmap.read_log` calls it.
         host: to listen on.
         port: the same; 0 takes any that is free.
         on_ready: given the address of the page when the server answers and the first picture is there.
@@ -198,7 +199,7 @@ def serve(
             on_ready(address)
 
         try:
-            asyncio.run(_serve(document, path, found, host, announce))
+            asyncio.run(_serve(lambda: Hub(document, path, reading), found, host, announce))
         except KeyboardInterrupt:
             if not ready:
                 raise

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import queue
 import socket
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from multiprocessing.connection import Connection
+from typing import Any
 
 from bayesmap.app.tasks import ALIVE_SECONDS, Infer, Report, Task
 
@@ -33,6 +35,7 @@ class Supervisor:
         on_lost: called when a worker has died, before another starts.
         path: the file that the worker opens.
         silence_s: how long a worker may give no sign of life.
+        reading: how the worker reads a log, as `bayesmap.read_log` calls it.
     """
 
     def __init__(
@@ -41,9 +44,10 @@ class Supervisor:
         on_lost: Callable[[], None],
         path: str | None = None,
         silence_s: float = SILENT_SECONDS,
+        reading: Mapping[str, Any] | None = None,
     ) -> None:
         self._on_report, self._on_lost, self._path = on_report, on_lost, path
-        self._silence_s = silence_s
+        self._silence_s, self._reading = silence_s, dict(reading or {})
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         self._lock = threading.Lock()
@@ -85,7 +89,7 @@ class Supervisor:
             ours, theirs = socket.socketpair()
             with theirs:
                 command = [sys.executable, "-m", "bayesmap.app.worker", str(theirs.fileno())]
-                command += [self._path] if self._path is not None else []
+                command += [self._path, json.dumps(self._reading)] if self._path is not None else []
                 self._process = subprocess.Popen(
                     command, pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
                 )

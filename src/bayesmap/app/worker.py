@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import signal
 import sys
@@ -37,8 +38,10 @@ class Reporter:
                 time.sleep(ALIVE_SECONDS)
 
 
-def serve(pipe: Connection, path: str | None) -> None:
+def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
     """Take tasks and answer them until the other end is closed.
+
+    A log is read by the settings ``reading``, as `bayesmap.read_log` calls them.
 
     The first report is `ready`, with the document of the file where one is shown, after a small map has been inferred,
     so that all kernels are loaded; or `unusable` where the file cannot be opened.
@@ -48,7 +51,7 @@ def serve(pipe: Connection, path: str | None) -> None:
 
     report = Reporter(pipe)
     try:
-        opened = open_file(path) if path is not None else None
+        opened = open_file(path, **reading) if path is not None else None
     except (BadInput, OSError) as error:
         report(Report({"type": "unusable", "text": str(error)}))
         return
@@ -83,13 +86,14 @@ def _warm() -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """``descriptor [path]``: the descriptor of the inherited end of the pipe, and the file to show."""
+    """``descriptor [path reading]``: the inherited end of the pipe, the file to show, and how to read it, as JSON."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
     with contextlib.suppress(AttributeError, OSError):
         os.nice(NICE)
     pipe: Any = Connection(int(arguments[0]))
+    path, reading = (arguments[1], json.loads(arguments[2])) if len(arguments) > 1 else (None, {})
     try:
-        serve(pipe, arguments[1] if len(arguments) > 1 else None)
+        serve(pipe, path, reading)
     except (EOFError, BrokenPipeError, ConnectionResetError):
         os._exit(0)  # nobody is there any more
 

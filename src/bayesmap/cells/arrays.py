@@ -9,6 +9,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+OF_CELLS = ("cell", "surface_cell")
+"""Dimensions that count some of the grid's cells."""
+
 
 @dataclass(frozen=True)
 class ArraySpec:
@@ -32,8 +35,8 @@ class ArraySpec:
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values (..., *dims) as they are kept."""
         if self.storage == "bits":
-            lead, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
-            flat = np.asarray(values, dtype=np.bool_).reshape(*lead, math.prod(rest))
+            leading, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
+            flat = np.asarray(values, dtype=np.bool_).reshape(*leading, math.prod(rest))
             return np.packbits(flat, axis=-1)
         return np.asarray(values, dtype=np.float16 if self.storage == "half" else self.dtype)
 

@@ -44,6 +44,7 @@ class BinaryWalls(CellPrior):
     }  # fmt: skip
     hit_depth: ClassVar[float] = 0.25
     has_interval: ClassVar[bool] = False
+    has_walls: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         name = type(self).__name__

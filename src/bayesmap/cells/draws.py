@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.arrays import ArraySpec
+from bayesmap.cells.arrays import OF_CELLS, ArraySpec
 from bayesmap.space.grid import Grid
 
 
@@ -61,8 +61,17 @@ class Draws:
         return tuple(sizes[dim] if dim in sizes else len(self.index[dim]) for dim in spec.dims)
 
     def cells(self, chain: int, draw: int) -> dict[str, NDArray[Any]]:
-        """The arrays of one draw as values, (nx, ny) each where they cover the grid."""
-        return {spec.name: spec.values(self.arrays[spec.name][chain, draw], self.shape_of(spec)) for spec in self.specs}
+        """The arrays of one draw as values; those of cells are (nx, ny), NaN in cells of which the draw says nothing.
+
+        `bayesmap.cells.kind.CellPrior.completed` puts a state of the prior there.
+        """
+        found = {
+            spec.name: spec.values(self.arrays[spec.name][chain, draw], self.shape_of(spec)) for spec in self.specs
+        }
+        for spec in self.specs:
+            if spec.dims[0] in OF_CELLS:
+                found[spec.name] = self.to_grid(found[spec.name], spec.dims[0], np.nan)
+        return found
 
     def values(self, name: str) -> NDArray[Any]:
         """One array of all draws as values, (chains, draws, *dims)."""

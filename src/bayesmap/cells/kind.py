@@ -62,6 +62,8 @@ class CellPrior(ABC):
         sensor_is_fitted: whether the command line fits the sensor unless one is given.
         has_interval: whether a cell's state is a number with an interval.
         has_surfaces: whether cells have surfaces.
+        has_walls: whether a cell is a wall or free: there are a wall probability, a start and an order of cells to
+            choose, and a coupling that can be fitted.
         thresholds: mean stop probabilities above and below which a robot's map of occupied, free and unknown cells
             calls a cell so; None leaves it to the format.
     """
@@ -73,6 +75,7 @@ class CellPrior(ABC):
     sensor_is_fitted: ClassVar[bool] = False
     has_interval: ClassVar[bool] = True
     has_surfaces: ClassVar[bool] = False
+    has_walls: ClassVar[bool] = False
     thresholds: ClassVar[tuple[float, float] | None] = None
 
     @property
@@ -132,6 +135,13 @@ class CellPrior(ABC):
     def _chance(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         stops = self.stops(cells, grid)
         return (stops if stops.ndim == 1 else stops[:, 0]).reshape(grid.shape)
+
+    def completed(self, cells: Cells, grid: Grid) -> Cells:
+        """A map in which cells that are NaN, since their draw says nothing of them, have a state of the prior.
+
+        By default as it is, which is right where a draw holds all cells of the grid.
+        """
+        return cells
 
     # What is asked of draws
 

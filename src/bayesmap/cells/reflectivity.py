@@ -166,6 +166,12 @@ class Reflective(CellPrior):
             log_ratio += self.coupling * change * labels.less_unlike(solid, site)
         return fresh, log_ratio
 
+    def completed(self, cells: Cells, grid: Grid) -> Cells:
+        """The map with the prior's mean reflectivity in cells that no beam came to, given the label if there is one."""
+        m = np.asarray(cells["reflectivity"], dtype=np.float64)
+        mean = self.mean_given(np.asarray(cells["solid"]) != 0) if self.has_labels else np.asarray(self.mean)
+        return {**cells, "reflectivity": np.where(np.isnan(m), mean, m)}
+
     def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
         """Place-holders, (count, 5): these cells have no surfaces."""
         return np.zeros((count, 5))

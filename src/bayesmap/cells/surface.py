@@ -204,6 +204,14 @@ class Surface(Reflective):
         out[:, 1:3] += grid.cell_centres_m(np.arange(grid.n_cells))
         return out
 
+    def completed(self, cells: Cells, grid: Grid) -> Cells:
+        """The same, with surfaces drawn from the prior in cells in which no reading ends: always the same ones."""
+        fresh = self.sample_surfaces(np.random.default_rng(0), grid.n_cells).reshape(*grid.shape, len(PARTS))
+        names = [f"surface_{part}" for part in PARTS]
+        parts = {name: np.asarray(cells[name], dtype=np.float64) for name in names}
+        drawn = {name: np.where(np.isnan(parts[name]), fresh[..., i], parts[name]) for i, name in enumerate(names)}
+        return {**super().completed(cells, grid), **drawn}
+
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """The prior as kernels take it."""
         return KernelNumbers(

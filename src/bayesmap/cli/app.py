@@ -7,9 +7,10 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import write_out
 from bayesmap.cli.input_files import LOG, need_file
+from bayesmap.cli.reading import options_of
 
 
-@takes(None)
+@takes("app")
 @click.argument("file", metavar="[RUN.nc | LOG | DOCUMENT.json]", required=False)
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
@@ -26,9 +27,10 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
     \b
     bayesmap app
     bayesmap app runs/office/run.nc --no-browser --port 8000
-    bayesmap app office.log.gz
+    bayesmap app office.log.gz --skip-bad-lines
     bayesmap app document.json
     """
+    reading = options_of(call.values())
     if file is not None:
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
@@ -53,4 +55,4 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
 
             webbrowser.open(address)
 
-    serve(first, path=file, host=host, port=port, on_ready=ready)
+    serve(first, path=file, reading=reading, host=host, port=port, on_ready=ready)

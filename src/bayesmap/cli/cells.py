@@ -14,7 +14,7 @@ BINARY_DRAWS = 100
 """Draws of a chain over binary walls unless the user says otherwise."""
 
 
-def settled(values: dict[str, Any]) -> dict[str, Any]:
+def with_defaults(values: dict[str, Any]) -> dict[str, Any]:
     """The settings with what follows from the kind of cells filled in.
 
     Raises:
@@ -22,13 +22,13 @@ def settled(values: dict[str, Any]) -> dict[str, Any]:
     """
     from bayesmap.cells.kinds import BUILT_IN
 
-    cells = values["cells"]
+    kind = BUILT_IN[values["cells"]]
     out = {**values}
     if out["hit_depth"] is None:
-        out["hit_depth"] = BUILT_IN[cells].hit_depth
+        out["hit_depth"] = kind.hit_depth
     if out["draws"] is not None and out["draws"] < 1:  # the library allows none, where marginals are all that is wanted
         raise BadInput(f"draws: give 1 or more, got {out['draws']}; the picture and the map are made from them")
-    if cells != "binary":
+    if not kind.has_walls:
         if values["coupling"] == "fit":
             raise BadInput("coupling: 'fit' is for binary walls; add --cells binary, or give a number")
         plain_values = {"prior": None, "start": None, "method": "gibbs", "order": "radial"}
@@ -44,9 +44,8 @@ def draws_for(values: dict[str, Any], beams: int, cells: int) -> int:
 
     if values["draws"] is not None:
         return int(values["draws"])
-    if values["cells"] == "binary":
-        return BINARY_DRAWS
-    return BUILT_IN[values["cells"]]().default_draws(beams, cells, values["chains"])
+    kind = BUILT_IN[values["cells"]]
+    return BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, values["chains"])
 
 
 def prior_of(values: dict[str, Any]) -> CellPrior:
@@ -56,10 +55,11 @@ def prior_of(values: dict[str, Any]) -> CellPrior:
     from bayesmap.cells.ising import Ising
     from bayesmap.cells.kinds import BUILT_IN
 
-    if values["cells"] == "binary":
+    kind = BUILT_IN[values["cells"]]
+    if kind.has_walls:
         p_wall, coupling = P_WALL if values["prior"] is None else values["prior"], values["coupling"]
         return Independent(p_wall) if coupling is None else Ising(p_wall, coupling)
-    return BUILT_IN[values["cells"]](coupling=values["coupling"] or 0.0)  # type: ignore[call-arg]
+    return kind(coupling=values["coupling"] or 0.0)  # type: ignore[call-arg]
 
 
 def sensor_for(values: dict[str, Any], chosen: SensorModel | str | None, resolution_m: float) -> SensorModel | str:

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import click
 
@@ -67,14 +67,44 @@ def as_json(document: dict[str, Any]) -> str:
     return json.dumps({"schema_version": SCHEMA_VERSION, **document}, indent=2, allow_nan=False) + "\n"
 
 
-def write_out(text: str) -> None:
-    """Write to standard output; a reader that has left, such as ``head``, is no error."""
+RESULTS = "bayesmap.results"
+"""Key of the click context under which standard output is kept while others' prints go to standard error."""
+
+
+def reserve_stdout() -> None:
+    """From here to the command's end only `write_out` writes to standard output; what libraries print goes to stderr.
+
+    Ray prints on standard output what happens to its nodes, whenever it hears of it: also long after the chains.
+    """
+    context = click.get_current_context()
+    if RESULTS in context.meta:
+        return
+    results = context.meta[RESULTS] = sys.stdout
+    sys.stdout = sys.stderr
+
+    def give_back() -> None:
+        sys.stdout = results
+
+    context.call_on_close(give_back)
+
+
+def write_out(text: str) -> bool:
+    """Write to standard output; a reader that has left, such as ``head``, is no error.
+
+    Returns:
+        Whether there was still a reader.
+    """
+    context = click.get_current_context(silent=True)
+    reserved = {} if context is None else context.meta
+    results: TextIO = reserved.get(RESULTS) or sys.stdout
     try:
-        click.echo(text, nl=False)
-        sys.stdout.flush()
+        click.echo(text, file=results, nl=False)
+        results.flush()
     except BrokenPipeError:
         # What Python would flush at exit must not complain again.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), results.fileno())
+        return False
+    return True
 
 
 def complain(text: str) -> None:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import sys
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from bayesmap.errors import BadInput
@@ -38,10 +35,3 @@ def executor_of(executor: str) -> Executor | None:
     from bayesmap.run.ray_executor import RayExecutor
 
     return RayExecutor(address)
-
-
-@contextlib.contextmanager
-def stdout_for_results() -> Iterator[None]:
-    """While chains run on a cluster: Ray prints what happens to its nodes on standard output, which is for results."""
-    with contextlib.redirect_stdout(sys.stderr):
-        yield

@@ -15,7 +15,10 @@ from bayesmap.errors import BadInput
 if TYPE_CHECKING:
     from bayesmap.result import Run
 
-DERIVED = ("posterior.png", "map.yaml", "map.pgm", "summary.json")
+DERIVED = (
+    "posterior.png", "map.yaml", "map.pgm", "summary.json", "trajectory.tum", "trajectory-covariances.txt",
+    "trajectory.png", "odometry.png", "loops.png",
+)  # fmt: skip
 """Made from the run: outdated as soon as another run takes its place."""
 
 
@@ -26,13 +29,16 @@ class Folder:
     Attributes:
         path: the folder.
         console: for details and warnings.
-        resuming: whether the run in it is to go on.
+        resuming: whether the run in it is to go on; not if it is outdated.
     """
 
     path: Path
     console: Console
     resuming: bool = False
     begun: bool = field(default=False, init=False)
+
+    def __post_init__(self) -> None:
+        self.resuming = self.resuming and not self.outdated.exists()
 
     @property
     def run(self) -> Path:
@@ -44,13 +50,18 @@ class Folder:
         """The settings that the run was started with."""
         return self.path / "config.toml"
 
+    @property
+    def outdated(self) -> Path:
+        """Stands beside a run that is to be replaced and has not been: a fleet was stopped before its turn came."""
+        return self.path / "outdated"
+
     def check(self, *, force: bool) -> None:
         """Refuse to touch a run that nobody said to replace.
 
         Raises:
             BadInput: there is a run already, or something that is no folder.
         """
-        if self.run.exists() and not (force or self.resuming):
+        if self.run.exists() and not (force or self.resuming or self.outdated.exists()):
             raise BadInput(
                 f"{self.run}: there is a run already; --resume goes on with it, --force replaces it, "
                 "-o takes another folder"
@@ -63,21 +74,37 @@ class Folder:
                     raise BadInput(f"{place}: no permission to write there; choose another folder with -o")
                 break
 
+    def wait(self) -> None:
+        """The run in the folder, if there is one, is to be replaced later, even if that is by another process."""
+        if self.run.exists() and not self.resuming:
+            self.outdated.touch()
+
     def begin(self, toml: str) -> None:
         """The run has started: keep its settings, so that it can be resumed without saying them again.
 
-        Unless resuming, an older run goes, with all that was made from it.
+        Unless resuming, an older run goes, with all that was made from it. Only when its settings are kept the run has
+        begun: before, there is nothing that could be resumed.
+
+        Raises:
+            BadInput: the folder cannot be written.
         """
         from bayesmap.io.atomic import write_whole
 
         if self.begun:
             return
-        self.begun = True
-        self.path.mkdir(parents=True, exist_ok=True)
-        for name in DERIVED if self.resuming else (self.run.name, *DERIVED):
-            (self.path / name).unlink(missing_ok=True)
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            for name in DERIVED if self.resuming else (self.run.name, self.config.name, *DERIVED):
+                (self.path / name).unlink(missing_ok=True)
+            self.outdated.unlink(missing_ok=True)
+        except OSError as error:
+            raise BadInput(
+                f"{error.filename or self.path}: cannot be written: {error.strerror or error}; "
+                "choose another folder with -o"
+            ) from None
         with write_whole(self.config) as partial:
             partial.write_text(toml, encoding="utf-8")
+        self.begun = True
 
     def checkpoint(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run so far; a full disk is no reason to lose the hours to come."""

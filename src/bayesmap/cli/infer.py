@@ -10,6 +10,7 @@ import click
 
 from bayesmap.cli import cells, executors, inferring, sensors
 from bayesmap.cli.command import PROBLEMS, Call, takes
+from bayesmap.cli.console import reserve_stdout
 from bayesmap.cli.fleet import infer_fleet
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.input_files import LOG, logs_of, need_file
@@ -60,7 +61,7 @@ def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool,
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.console, resuming=resume)
     values = call.values(inferring.settings_of(folder) if resume else None)
-    values = cells.settled(values)
+    values = cells.with_defaults(values)
     sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
     folder.check(force=force)
 
@@ -80,8 +81,9 @@ def _run(
     reading = inferring.read(call.console, log, values)
     train, heldout = inferring.split(reading.scans, values["holdout"])
     saved = inferring.saved(folder) if folder.resuming else None
-    with executors.stdout_for_results():
-        run = inferring.sample(folder, reading.scans, train, values, sensor, saved, executor)
+    if executor is not None:
+        reserve_stdout()
+    run = inferring.sample(folder, reading.scans, train, values, sensor, saved, executor)
     if not run.finished:
         inferring.leave(folder, run, reading, go_on)
 

@@ -20,6 +20,7 @@ from bayesmap.cli.settings import Settings, as_toml, read_file
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from bayesmap.api import Event
     from bayesmap.io.log_reading import LogReading
     from bayesmap.result import Run
     from bayesmap.run.executor import Executor
@@ -32,6 +33,8 @@ PASSED_ON = (
 )  # fmt: skip
 """Settings that `bayesmap.infer` has under the same name."""
 
+FLEET_SETTINGS = "fleet.toml"
+"""In the folder of several runs' folders: the settings of those that have not begun."""
 
 DEFAULTS = {key.name: key.default for key in SECTIONS["infer"]}
 
@@ -50,8 +53,15 @@ def stem(log: str) -> str:
 
 
 def settings_of(folder: Folder, section: str = "infer") -> Settings:
-    """What the run in the folder was started with."""
-    return {k: v for k, v in read_file(folder.config).items() if k == section} if folder.config.exists() else {}
+    """What the run in the folder was started with; where it had not begun, what its fleet was."""
+    fleet = folder.path.parent / FLEET_SETTINGS
+    config = fleet if folder.outdated.exists() or not folder.config.exists() else folder.config
+    return settings_in(config, section)
+
+
+def settings_in(config: Path, section: str = "infer") -> Settings:
+    """A command's settings in a file; none if there is no file."""
+    return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
 
 
 def saved(folder: Folder) -> Run | None:
@@ -103,6 +113,7 @@ def sample(
     saved: Run | None,
     executor: Executor | None = None,
     on_saved: Callable[[], None] = lambda: None,
+    on_event: Callable[[Event], None] = lambda event: None,
 ) -> Run:
     """Infer from the scans that are not held out, with checkpoints in the folder.
 
@@ -115,6 +126,7 @@ def sample(
         saved: the run to go on with.
         executor: where chains run.
         on_saved: called after each checkpoint.
+        on_event: called with how far it is, as the bar is.
     """
     from bayesmap.api import Event, infer
     from bayesmap.io.map_server import read_map
@@ -134,6 +146,7 @@ def sample(
             if event.stage not in SETTING_UP:
                 folder.begin(toml)
             report(event)
+            on_event(event)
 
         def on_checkpoint(run: Run) -> None:
             folder.begin(toml)  # a short warm-up may be over before anything was reported

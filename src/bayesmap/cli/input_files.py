@@ -13,17 +13,20 @@ RECORDED = (".db3", ".mcap", ".zstd")
 LOG = "a log or a recording of range scans"
 
 
-def need_file(file: str, wanted: str, *, runs: bool) -> None:
+def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> None:
     """Refuse what cannot be opened before anything is loaded to open it.
 
     Args:
         file: as typed; the folder of a ROS 2 bag will do.
         wanted: what to give instead.
         runs: whether a saved run would do.
+        pipes: whether a pipe would do.
 
     Raises:
-        BadInput: nothing is there, or it is the folder that a run left behind.
+        BadInput: nothing is there, it is the folder that a run left behind, or a pipe.
     """
+    if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
+        raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
     if not Path(file).exists():
         raise BadInput(f"{file}: no such file; give {wanted}")
     if (Path(file) / "run.nc").is_file():

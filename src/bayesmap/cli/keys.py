@@ -60,6 +60,7 @@ class Key:
 
 
 SEED = Key("seed", int, 0, "Of all random numbers.")
+DEVICE = Key("device", str, "cpu", "cpu, or a CUDA device such as cuda:0.", metavar="NAME")
 
 READING = (
     Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
@@ -103,7 +104,7 @@ INFER = (
     Key("start", click.Choice(STARTS), None, "Where chains start.", "propagate over 10 000 cells, else prior"),
     Key("holdout", int, 0, "Hold out every n-th scan, and score it; 0: none.", metavar="N"),
     Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
-    Key("device", str, "cpu", "cpu, or a CUDA device such as cuda:0.", metavar="NAME"),
+    DEVICE,
     Key("executor", str, "threads", "threads, or ray[://HOST:PORT]: on a Ray cluster.", metavar="WHERE"),
     Key("checkpoint_every", float, 30.0, "Seconds from one checkpoint to the next.", metavar="SECONDS"),
     Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
@@ -177,6 +178,7 @@ SCORE = (
     Key("resolution", float, 0.1, "Of the map that is inferred for a trajectory without one, metres."),
     *READING,
     SEED,
+    DEVICE,
 )
 
 LOCALIZE = (
@@ -189,7 +191,10 @@ LOCALIZE = (
     ),
     *READING,
     SEED,
+    DEVICE,
 )
+
+APP = READING
 
 PLAN = (
     Key("radius", float, 0.25, "Of the robot, a disc, in metres."),
@@ -213,6 +218,7 @@ SECTIONS: Mapping[str, tuple[Key, ...]] = {
     "export": EXPORT,
     "score": SCORE,
     "localize": LOCALIZE,
+    "app": APP,
     "plan": PLAN,
     "explore": EXPLORE,
 }

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli import following
+from bayesmap.cli.command import INTERRUPTED, Call, takes
 from bayesmap.cli.console import write_out
 from bayesmap.cli.input_files import need_file
 from bayesmap.cli.progress import share
@@ -29,7 +30,10 @@ ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 @click.argument("run_file", metavar="RUN.nc")
 @click.argument("log")
 @click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")
-@click.option("--follow", is_flag=True, help="A JSON line on standard output for each scan, as soon as it is known.")
+@click.option("--follow", is_flag=True, help="A JSON line on standard output for each scan, as it comes; see below.")
+@click.option(
+    "--for", "idle_s", type=click.FloatRange(min=0), metavar="SECONDS", help="With --follow: the longest wait."
+)
 @click.option("--prior", metavar="X,Y,DEGREES[,M,DEGREES]", help="First pose, and its standard deviations.")
 @click.option("--independent", is_flag=True, help="Locate each scan by itself; without the log's poses.")
 @click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is left out.")
@@ -41,6 +45,7 @@ def command(
     log: str,
     output: str | None,
     follow: bool,
+    idle_s: float | None,
     prior: str | None,
     independent: bool,
     span: str | None,
@@ -51,8 +56,12 @@ def command(
 
     \b
     bayesmap localize runs/office/run.nc today.bag -o today.tum
-    bayesmap localize runs/office/run.nc today.bag --follow | jq .mean
+    bayesmap localize runs/office/run.nc now.log --follow | jq .mean
     bayesmap localize runs/office/run.nc today.bag --scans 0:1
+
+    With --follow LOG may be a CARMEN log or a CSV table that is being written: new lines are waited for until Ctrl-C,
+    or for as long as --for says. A pipe, or - for standard input, ends when its writer does. Other formats end where
+    the file ends.
 
     The first scan may be anywhere on the map, unless --prior says where. From scan to scan the log's poses are taken
     for odometry: only motions count. Answers: the likeliest place with its covariance, all places with their
@@ -61,28 +70,51 @@ def command(
     values = call.values()
     from bayesmap.io.logs import read_log
     from bayesmap.localization.known_map import KnownMap
-    from bayesmap.localization.localize import localize
+    from bayesmap.localization.localize import Localization, follow_live, localize
     from bayesmap.result import load
 
+    if idle_s is not None and not follow:
+        raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _target(output, force)
     near, corners = _near(prior), _area(area)
-    need_file(log, "the log whose scans are to be located", runs=False)
+    live = follow and following.can_follow(call.console, log)
+    if not live:
+        need_file(log, "the log whose scans are to be located", runs=False)
     run = load(run_file)
-    scans = read_log(log, max_range_m=run.posterior.scans.max_range_m, **options_of(values))
-    scans = scans.select(_slice(span, len(scans)))
-    known = KnownMap.of_run(run, beam_weight=values["beam_weight"])
-    with share(call.console, "locating scans") as report:
+    max_range_m, seed = run.posterior.scans.max_range_m, values["seed"]
 
-        def on_belief(number: int, belief: PoseBelief) -> None:
-            report((number + 1) / len(scans))
-            if follow:
-                write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
+    def tell(number: int, belief: PoseBelief) -> bool:
+        return write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
 
-        found = localize(known, scans, prior=near, independent=independent, seed=values["seed"], on_belief=on_belief)
+    interrupted = False
+    if live:
+        to_come = following.scans_to_come(call.console, log, values, max_range_m, span, idle_s)
+        known = KnownMap.of_run(run, beam_weight=values["beam_weight"], device=values["device"])
+        call.console.detail(f"{log}: waiting for scans")
+        beliefs, interrupted = following.located(
+            follow_live(known, to_come, near, independent=independent, seed=seed), tell
+        )
+        if not beliefs:
+            raise BadInput(f"{log}: it ended without a scan")
+        found = Localization(tuple(beliefs))
+    else:
+        scans = read_log(log, max_range_m=max_range_m, **options_of(values))
+        scans = scans.select(_slice(span, len(scans)))
+        known = KnownMap.of_run(run, beam_weight=values["beam_weight"], device=values["device"])
+        with share(call.console, "locating scans") as report:
+
+            def on_belief(number: int, belief: PoseBelief) -> None:
+                report((number + 1) / len(scans))
+                if follow:
+                    tell(number, belief)
+
+            found = localize(known, scans, prior=near, independent=independent, seed=seed, on_belief=on_belief)
     outputs = [] if target is None else _write(target, found)
     lost = sum(belief.p_lost > 0.5 for belief in found.beliefs)
     if lost:
         call.console.warn(f"{lost:,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated")
+    if interrupted:
+        click.get_current_context().exit(INTERRUPTED)
     if follow:
         return
     if call.console.as_json:
@@ -115,10 +147,17 @@ def _lines(found: Localization, corners: list[float] | None) -> list[str]:
             f"{100 * mode.probability:5.1f} %  x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m  "
             f"yaw {math.degrees(yaw):.2f} +- {math.degrees(sd[2]):.2f} degrees"
         )
-    lines.append(f"lost, or the map outdated: {100 * found.p_lost:.2g} %")
+    lines.append(f"lost, or the map outdated: {_per_cent(found.p_lost)} %")
     if corners is not None:
         lines.append(f"in the area: {100 * found.probability_in(corners):.1f} %")
     return lines
+
+
+def _per_cent(probability: float) -> str:
+    """Two digits of what is small, a tenth of a per cent of what is not."""
+    if 0.0 < probability < 1e-4:
+        return "under 0.01"
+    return f"{100 * probability:.2g}" if probability < 0.1 else f"{100 * probability:.1f}"
 
 
 def _write(target: Path, found: Localization) -> list[Path]:
@@ -155,7 +194,12 @@ def _near(text: str | None) -> Near | None:
 
 
 def _area(text: str | None) -> list[float] | None:
-    return None if text is None else numbers_of(text, "--area", "X0,X1,Y0,Y1", (4,))
+    if text is None:
+        return None
+    x0, x1, y0, y1 = corners = numbers_of(text, "--area", "X0,X1,Y0,Y1", (4,))
+    if not (x0 < x1 and y0 < y1):
+        raise BadInput(f"--area {text}: give X0 below X1, and Y0 below Y1")
+    return corners
 
 
 def _slice(text: str | None, count: int) -> slice:

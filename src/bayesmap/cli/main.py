@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 
@@ -21,6 +22,9 @@ def main(arguments: list[str] | None = None) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
     except SystemExit as done:
+        with contextlib.suppress(OSError):
+            sys.stdout.flush()
+        sys.stdout = sys.stderr  # what a library says while the process ends is no result
         if done.code == startup_interrupt.INTERRUPTED:
             _leave_interrupted()
         raise
@@ -28,8 +32,6 @@ def main(arguments: list[str] | None = None) -> None:
 
 def _leave_interrupted() -> None:
     """Exit with 130 whatever was interrupted: after some imports Python would end the process by the signal itself."""
-    import contextlib
-
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError):  # nobody may be reading
             stream.flush()

@@ -57,8 +57,15 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
 @contextlib.contextmanager
 def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
     """The same for work that tells which share of it is done, from 0 to 1."""
-    with _bar(console, name) as show:
-        yield lambda done: show(name, "%", round(1000 * done), 1000, None)
+    with described_share(console, name) as show:
+        yield lambda done: show(name, done)
+
+
+@contextlib.contextmanager
+def described_share(console: Console, begin: str) -> Iterator[Callable[[str, float], None]]:
+    """The same for work that also says what it is at."""
+    with _bar(console, begin) as show:
+        yield lambda name, done: show(name, "%", round(1000 * done), 1000, None)
 
 
 @contextlib.contextmanager

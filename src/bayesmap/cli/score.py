@@ -43,7 +43,7 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 @click.option(
     "--frame", type=click.Choice(FRAMES), help="Whose relations are known. [default: base, if LOG says where]"
 )
-@click.option("--exact", is_flag=True, help="Only relations whose times are those of poses; others interpolate.")
+@click.option("--exact", is_flag=True, help="Only relations at times of poses; else also between close ones.")
 @click.option("--trajectory-frame", type=click.Choice(FRAMES), default="laser", show_default=True, help="Of FILE.tum.")
 @click.option("--laser", metavar="X,Y,DEGREES", help="Where the laser sits on the robot. [default: as LOG says]")
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
@@ -98,7 +98,7 @@ def command(
     if _is_run(run_file):
         if trajectory is not None:
             raise click.UsageError("--trajectory goes with a map or a log; a run has poses of its own")
-        found = _score_run(call, run_file, log, values, whole=whole, compare=compare, beams=log is not None)
+        found = _score_run(call, run_file, log, values, whole=whole, compare=compare, poses_too=relations is not None)
         if log is None and relations is None:
             raise click.UsageError("give LOG, whose held-out scans score the run, or --relations, or both")
     else:
@@ -111,10 +111,9 @@ def command(
     poses = None
     if relations is not None:
         poses = score_poses(found.trajectory, relations, shift, exact=exact)
-    outputs = {}
+    outputs: dict[str, str] = {}
     if picture is not None:
-        _draw(picture, found.rows, poses)
-        outputs[Path(picture).name] = picture
+        outputs = {path.name: str(path) for path in _draw(picture, found.rows, poses)}
     of = "laser" if shift is None else "base"
     about = None if poses is None else {"file": relations, "frame": of, **poses.as_json()}
     if call.console.as_json:
@@ -123,7 +122,7 @@ def command(
     if found.rows:
         _print_table(found.rows)
     if poses is not None:
-        write_out("".join(f"{line}\n" for line in lines_of(poses, of)))
+        write_out("".join(f"{line}\n" for line in lines_of(poses, of, exact=exact, of_run=_is_run(run_file))))
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,9 +142,10 @@ def _is_run(path: str) -> bool:
 
 
 def _score_run(
-    call: Call, path: str, log: str | None, values: dict[str, Any], *, whole: bool, compare: bool, beams: bool
+    call: Call, path: str, log: str | None, values: dict[str, Any], *, whole: bool, compare: bool, poses_too: bool
 ) -> _Found:
     from bayesmap.io.exports import trajectory_of
+    from bayesmap.posterior.heldout import NoneHeldOut
     from bayesmap.result import load, score
 
     run = load(path)
@@ -155,13 +155,19 @@ def _score_run(
     every = 0 if whole else values["holdout"]
     if every == 0 and not whole:
         raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
-    heldout = heldout_scans(run, log, values, every)
+    try:
+        heldout = heldout_scans(run, log, values, every)
+    except NoneHeldOut as error:
+        if not poses_too:
+            raise
+        call.console.say(f"only the poses are scored, not the map: {error}")
+        return _Found([], [], 0, there)
     call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
     with share(call.console, f"scoring the {_name(run)}") as report:
-        rows = [(_name(run), score(run, heldout, seed=values["seed"], on_progress=report))]
+        rows = [(_name(run), score(run, heldout, **_how(values), on_progress=report))]
     fits: list[Fitted] = []
     if compare:
-        for fit, found in _baselines(call, run.posterior.scans, run.grid, heldout, values["seed"]):
+        for fit, found in _baselines(call, run.posterior.scans, run.grid, heldout, _how(values)):
             fits.append(fit)
             rows.append((fit.name, found))
     return _Found(rows, fits, every, there)
@@ -184,7 +190,7 @@ def _score_others(
             raise click.UsageError(f"give the LOG whose scans score {path}")
         placed = placed_scans(log, values, trajectory, mount)
         call.console.say(f"scoring every {values['holdout']}-th scan of {log}: {len(placed.heldout):,}")
-        fit, own = score_map(call, path, placed, values["seed"])
+        fit, own = score_map(call, path, placed, _how(values))
         rows, grid = [(fit.name, own)], fit.predictor.grid
     else:
         if log is not None:
@@ -194,26 +200,35 @@ def _score_others(
         placed = placed_scans(path, values, trajectory, mount)
         run = infer_map(call, placed, values)
         with share(call.console, f"scoring the {_name(run)}") as report:
-            rows = [(_name(run), score(run, placed.heldout, seed=values["seed"], on_progress=report))]
+            rows = [(_name(run), score(run, placed.heldout, **_how(values), on_progress=report))]
         grid = run.grid
     fits: list[Fitted] = []
     if compare:
-        for fit, scored in _baselines(call, placed.train, grid, placed.heldout, values["seed"]):
+        for fit, scored in _baselines(call, placed.train, grid, placed.heldout, _how(values)):
             fits.append(fit)
             rows.append((fit.name, scored))
     return _Found(rows, fits, values["holdout"], placed.trajectory)
 
 
-def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> None:
+def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
+    """Draw what there is, and say where: errors of poses beside NAME.png in NAME-poses.png if it is taken."""
     from bayesmap.viz.calibration import calibration_figure
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.trajectory_errors import errors_figure
 
+    target, written = Path(picture), []
     if rows:
-        write_figure(calibration_figure(rows), picture)
+        write_figure(calibration_figure(rows), target)
+        written.append(target)
     if poses is not None:
-        target = Path(picture)
-        write_figure(errors_figure(poses), target.with_stem(f"{target.stem}-poses") if rows else target)
+        written.append(target.with_stem(f"{target.stem}-poses") if rows else target)
+        write_figure(errors_figure(poses), written[-1])
+    return written
+
+
+def _how(values: dict[str, Any]) -> dict[str, Any]:
+    """The settings that a score has under the same name."""
+    return {name: values[name] for name in ("seed", "device")}
 
 
 def _name(run: Run) -> str:
@@ -221,7 +236,7 @@ def _name(run: Run) -> str:
     return f"{run.posterior.kind} posterior"
 
 
-def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, seed: int) -> list[tuple[Fitted, Score]]:
+def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, how: dict[str, Any]) -> list[tuple[Fitted, Score]]:
     from bayesmap.posterior.baselines import BASELINES, fit_baseline, make_folds
     from bayesmap.posterior.scoring import score_prediction
 
@@ -233,7 +248,7 @@ def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, seed: int) 
         with share(call.console, f"fitting {baseline.name}") as report:
             fit = fit_baseline(baseline, train, grid, folds, report)
         with share(call.console, f"scoring {baseline.name}") as report:
-            found.append((fit, score_prediction(fit.predictor, heldout, seed=seed, on_progress=report)))
+            found.append((fit, score_prediction(fit.predictor, heldout, **how, on_progress=report)))
     return found
 
 

@@ -78,8 +78,15 @@ def placed_scans(log: str, values: dict[str, Any], trajectory: str | None, mount
     return Placed(train, heldout, found)
 
 
-def score_map(call: Call, path: str, placed: Placed, seed: int) -> tuple[Fitted, Score]:
-    """Fit a sensor to a map on the training scans, and score it on the others."""
+def score_map(call: Call, path: str, placed: Placed, how: dict[str, Any]) -> tuple[Fitted, Score]:
+    """Fit a sensor to a map on the training scans, and score it on the others.
+
+    Args:
+        call: of the command.
+        path: of the map.
+        placed: the scans.
+        how: seed and device of the score.
+    """
     from bayesmap.io.map_server import read_map
     from bayesmap.posterior.others_maps import fit_map
     from bayesmap.posterior.scoring import score_prediction
@@ -89,7 +96,7 @@ def score_map(call: Call, path: str, placed: Placed, seed: int) -> tuple[Fitted,
     with share(call.console, f"fitting a sensor to {name}") as report:
         fit = fit_map(name, occupancy, grid, placed.train, report)
     with share(call.console, f"scoring {name}") as report:
-        return fit, score_prediction(fit.predictor, placed.heldout, seed=seed, on_progress=report)
+        return fit, score_prediction(fit.predictor, placed.heldout, **how, on_progress=report)
 
 
 def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
@@ -103,7 +110,7 @@ def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
     with progress(call.console, "tracing beams") as on_progress:
         return infer(
             placed.train, grid, prior=Surface(), sensor="fit", warmup=50, hit_depth=0.5, seed=values["seed"],
-            on_progress=on_progress,
+            device=values["device"], on_progress=on_progress,
         )  # fmt: skip
 
 

@@ -85,10 +85,24 @@ def score_poses(
     return score_trajectory(trajectory, read_relations(path), base_in_laser, exact=exact)
 
 
-def lines_of(found: TrajectoryScore, frame: str) -> list[str]:
-    """The score as lines of text."""
+def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
+    """The score as lines of text.
+
+    Args:
+        found: the score.
+        frame: whose relations they are.
+        exact: whether only times of poses count.
+        of_run: whether the poses are those of a saved run, for advice where nothing is known of how sure they are.
+    """
+    from bayesmap.poses.relations import LONGEST_GAP_S
+
     figures = found.as_json()
-    missing = f"; {figures['not_covered']:,} more are of other times" if figures["not_covered"] else ""
+    missing = ""
+    if figures["in_gaps"]:
+        where = "not at times of poses" if exact else f"between poses over {LONGEST_GAP_S:g} s apart"
+        missing = f"; {figures['in_gaps']:,} more are {where}, and left out"
+    if outside := figures["not_covered"] - figures["in_gaps"]:
+        missing += f"; {outside:,} more are of other times"
     lines = [
         f"relations    {figures['relations']:,}, of the {frame}{missing}",
         f"translation  {figures['translation_m_mean']:.4f} +- {figures['translation_m_std']:.4f} m, "
@@ -100,4 +114,15 @@ def lines_of(found: TrajectoryScore, frame: str) -> list[str]:
         held = ", ".join(f"{100 * c['share']:.1f} of {100 * c['level']:g}" for c in figures["coverage"])
         nees = figures["nees"]
         lines.append(f"regions      hold {held} %; NEES {nees['mean']:.2f}, median {nees['median']:.2f} (3 is right)")
+        lines += [f"by           {found.known_by}"] if found.known_by else []
+    elif of_run:
+        lines.append(
+            "regions      unknown: the run takes its poses as known, or was saved by an earlier version, and has no "
+            "covariances of them; slam saves them"
+        )
+    else:
+        lines.append(
+            "regions      unknown: the poses come without covariances; "
+            "--trajectory FILE.tum with FILE-covariances.txt beside it has them"
+        )
     return lines

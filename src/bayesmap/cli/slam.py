@@ -10,9 +10,10 @@ import click
 
 from bayesmap.cli import cells, inferring, sensors
 from bayesmap.cli.command import PROBLEMS, Call, takes
+from bayesmap.cli.console import Console
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.input_files import LOG, need_file
-from bayesmap.cli.progress import SETTING_UP, progress
+from bayesmap.cli.progress import progress
 from bayesmap.cli.settings import as_toml
 from bayesmap.samplers.progress import Event
 
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
 
 PASSED_ON = ("chains", "warmup", "thin", "seed", "threads", "device", "hit_depth", "fast", "no_odometry")
-STAGES = ("front end", "loops", "aligned", "aligned-again", "aligned-rematched", "rematch", "placing")
+
+SHOWN = 3
+"""Stretches of odometry in doubt that are named."""
 
 
 @takes("slam")
@@ -51,7 +54,7 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.console, resuming=resume)
-    values = cells.settled(
+    values = cells.with_defaults(
         {**inferring.DEFAULTS, **call.values(inferring.settings_of(folder, "slam") if resume else None)}
     )
     sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
@@ -59,6 +62,7 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder.path), "--resume"])
 
     reading = inferring.read(call.console, log, values)
+    _check(call.console, reading, values)
     saved = inferring.saved(folder) if resume else None
     if force:
         _forget(folder)
@@ -66,7 +70,8 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     try:
         run = _slam(folder, reading, values, sensor, saved, found)
     except KeyboardInterrupt:
-        call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
+        if folder.begun or resume:
+            call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
         raise
     if not run.finished:
         inferring.leave(folder, run, reading, go_on)
@@ -86,6 +91,18 @@ def _stages(folder: Folder) -> Path:
     return folder.path / "stages"
 
 
+def _check(console: Console, reading: LogReading, values: dict[str, Any]) -> None:
+    """Refuse what cannot be inferred before an older run is touched, and name what looks wrong with odometry."""
+    from bayesmap.poses.log_checks import check_scans, doubts
+
+    check_scans(reading.scans, values["no_odometry"])
+    found = doubts(reading.scans, values["no_odometry"])
+    for doubt in found[:SHOWN]:
+        console.warn(doubt)
+    if len(found) > SHOWN:
+        console.warn(f"odometry stands still so in {len(found) - SHOWN:,} more stretches")
+
+
 def _forget(folder: Folder) -> None:
     import shutil
 
@@ -100,17 +117,11 @@ def _slam(
     toml = as_toml({"slam": {name: values[name] for name in inferring.names_of("slam")}})
     with progress(folder.console, "matching scans") as show:
 
-        def on_progress(event: Event) -> None:
-            if event.stage not in SETTING_UP and event.stage not in STAGES:
-                folder.begin(toml)
-            show(event)
-
         def on_checkpoint(run: Run) -> None:
-            folder.begin(toml)
             folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
 
-        _stages(folder).mkdir(parents=True, exist_ok=True)
-        run = slam(
+        folder.begin(toml)  # before the first stage: whatever is finished from here on is resumed with these settings
+        return slam(
             reading.scans,
             resolution=values["resolution"],
             prior=cells.prior_of(values),
@@ -118,14 +129,12 @@ def _slam(
             draws=values["draws"],
             checkpoint=_stages(folder),
             resume=saved,
-            on_progress=on_progress,
+            on_progress=show,
             on_trajectory=found.append,
             on_checkpoint=on_checkpoint,
             checkpoint_every_s=values["checkpoint_every"],
             **{name: values[name] for name in PASSED_ON},
         )
-    folder.begin(toml)
-    return run
 
 
 def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:
@@ -180,6 +189,8 @@ def summary(run: Run) -> dict[str, Any]:
         out["sampled"] = {
             "sigma_m": float(np.median(poses.sigma_m)),
             "sigma_rad": float(np.median(poses.sigma_rad)),
+            "by_approximation": poses.by_approximation,
+            "ess_min": poses.ess_min,
             # Of a few draws a chain may not have moved a pose at all: that has no R-hat.
             "rhat_max": float(poses.rhat[np.isfinite(poses.rhat)].max(initial=1.0)),
             "unmoved": int((~np.isfinite(poses.rhat)).any(axis=-1).sum()),
@@ -193,6 +204,12 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
         f"{trajectory['loop_closures']:,} loop closures, standard deviation "
         f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
     )
+    sampled = trajectory.get("sampled")
+    if sampled is not None and sampled["by_approximation"]:
+        call.console.warn(
+            f"the chains over poses have not mixed (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
+            f"{sampled['ess_min']:.0f}): in scores and exports, too, poses and covariances are the approximation's"
+        )
     if trajectory["flagged"]:
         call.console.warn(
             f"{len(trajectory['flagged'])} scans are badly explained by all others, their poses are not to be trusted: "

@@ -85,7 +85,7 @@ def read_carmen(
     try:
         for number, line in read_lines(path):
             try:
-                kind = _message_name(line)
+                kind = message_name(line)
                 messages[kind] += 1
                 if kind in lasers:
                     laser = parse_laser(kind, line.split())
@@ -106,7 +106,7 @@ def read_carmen(
     return replace(reading, notes=(*reading.notes, *_notes(reading.message, layout)))
 
 
-def _message_name(line: bytes) -> str:
+def message_name(line: bytes) -> str:
     """The line's first word; empty for comments and blank lines."""
     if b"\0" in line:
         raise Malformed("binary data; a log is text")

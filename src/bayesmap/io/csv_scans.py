@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -34,6 +34,7 @@ from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.rep117 import judge
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import time_order
 
 DELIMITERS = (b",", b";", b"\t")
 POSE = ("x", "y", "yaw")
@@ -45,6 +46,9 @@ _SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")
 _BEAM = re.compile(r"r_(\d+)")
 
 
+Bad = Callable[[int, str], None]
+
+
 @dataclass
 class _Table:
     """What lies in the file: settings from comments, the header, and the rows with their line numbers."""
@@ -53,6 +57,33 @@ class _Table:
     columns: list[str] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
     rows: list[NDArray[np.float64]] = field(default_factory=list)
+    delimiter: bytes = b","
+
+    def limits(self) -> tuple[float, float]:
+        """The sensor's smallest and largest range, as far as comments say them."""
+        return self.settings.get("range_min", [0.0])[0], self.settings.get("range_max", [math.inf])[0]
+
+    def take(self, name: str, number: int, line: bytes, bad: Bad) -> None:
+        """The next line of the file."""
+        text = line.strip()
+        if text.startswith(b"#"):
+            setting = _SETTING.fullmatch(text)
+            if setting and (key := setting[1].decode()) in SETTINGS:
+                self.settings[key] = _setting(name, number, key, setting[2])
+        elif text and not self.columns:
+            self.delimiter = _delimiter(line)
+            self.columns = _names(line, self.delimiter)
+        elif text:
+            fields = line.rstrip(b"\r").split(self.delimiter)
+            if len(fields) != len(self.columns):
+                bad(number, f"the row has {len(fields)} fields where the header has {len(self.columns)}")
+                return
+            values = _numbers(fields)
+            if isinstance(values, str):
+                bad(number, values)
+                return
+            self.lines.append(number)
+            self.rows.append(values)
 
 
 def is_header(line: bytes) -> bool:
@@ -87,17 +118,14 @@ def read_csv(
     if not len(readings):
         first = f"; {len(skipped)} rows were malformed, first line {skipped[0].line}" if skipped else ""
         raise BadInput(f"{name}: the table has a header, but no scan{first}")
-    order = np.arange(len(readings)) if stamps is None else np.argsort(stamps, kind="stable")
-    limits = [
-        table.settings.get(key, [math.inf if key == "range_max" else 0.0])[0] for key in ("range_min", "range_max")
-    ]
-    judged = judge(name, readings[order], *limits, no_return=no_return, max_range_m=max_range_m)
+    timed = None if stamps is None else time_order(stamps)
+    order = np.arange(len(readings)) if timed is None else timed.order
+    judged = judge(name, readings[order], *table.limits(), no_return=no_return, max_range_m=max_range_m)
     moving = poses.ndim == 3
     scans = Scans(
         poses[order, 0] if moving else poses[order], angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
-        stamps_s=None if stamps is None else stamps[order], beam_poses=poses[order] if moving else None,
+        stamps_s=None if timed is None else timed.stamps_s, beam_poses=poses[order] if moving else None,
     )  # fmt: skip
-    reordered = 0 if stamps is None else int((stamps < np.maximum.accumulate(stamps)).sum())
     return LogReading(
         path=name,
         format="csv",
@@ -108,40 +136,51 @@ def read_csv(
         no_return=judged.no_return,
         max_range_origin=judged.max_range_origin,
         laser_offset=(0.0, 0.0, 0.0),
-        reordered=reordered,
-        notes=judged.notes,
+        reordered=0 if timed is None else timed.reordered,
+        notes=(*judged.notes, *(() if timed is None or stamps is None else timed.notes(stamps))),
         deskewed=moving,
     )
 
 
-Bad = Callable[[int, str], None]
+def live_rows(
+    name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, no_return: float | None, max_range_m: float
+) -> Iterator[Scans]:
+    """The scans of a table with one row a scan, each as soon as its line is there.
+
+    Raises:
+        BadInput: one row a beam, no angles, or what ``bad`` raises of a malformed row.
+    """
+    table = _Table()
+    for number, line in lines:
+        table.take(name, number, line, bad)
+        if table.columns and "r_0" not in table.columns:
+            raise BadInput(f"{name}: a table of one row a beam cannot be followed; write one row a scan")
+        if not table.rows:
+            continue
+        poses, angles, readings, stamps = _one_row_a_scan(name, table, bad)
+        table.lines, table.rows = [], []
+        if len(readings):
+            smallest, largest = table.limits()
+            code = no_return
+            if code is None and not np.isinf(readings).any():
+                code = largest if largest > 0 else math.inf
+            silent = not (~np.isnan(readings)).any()
+            ranges = readings if silent else judge(
+                name, readings, smallest, largest, no_return=code, max_range_m=max_range_m
+            ).ranges_m  # fmt: skip
+            scans = Scans(poses, angles, ranges, max_range_m, smallest, stamps_s=stamps)
+            yield scans.limited(max_range_m)
+
+
 Parts = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], "NDArray[np.float64] | None"]
 """Poses (S, 3) or (S, A, 3), angles (A,), readings (S, A), stamps (S,)."""
 
 
 def _read(name: str, bad: Bad, lenient: bool, skipped: list[SkippedLine]) -> _Table:
-    table, delimiter, number = _Table(), b",", 0
+    table, number = _Table(), 0
     try:
         for number, line in read_lines(name):
-            text = line.strip()
-            if text.startswith(b"#"):
-                setting = _SETTING.fullmatch(text)
-                if setting and (key := setting[1].decode()) in SETTINGS:
-                    table.settings[key] = _setting(name, number, key, setting[2])
-            elif text and not table.columns:
-                delimiter = _delimiter(line)
-                table.columns = _names(line, delimiter)
-            elif text:
-                fields = line.rstrip(b"\r").split(delimiter)
-                if len(fields) != len(table.columns):
-                    bad(number, f"the row has {len(fields)} fields where the header has {len(table.columns)}")
-                    continue
-                values = _numbers(fields)
-                if isinstance(values, str):
-                    bad(number, values)
-                    continue
-                table.lines.append(number)
-                table.rows.append(values)
+            table.take(name, number, line, bad)
     except DamagedFile:
         if not lenient:
             raise

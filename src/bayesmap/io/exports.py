@@ -28,11 +28,13 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.io.recording_writer import ENDINGS, FOLDER
 from bayesmap.space.grid import Grid
+from bayesmap.space.relative_law import RelativeLaw
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from bayesmap.io.g2o_writer import Edges
+    from bayesmap.poses.trajectory import Trajectory as Approximation
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {
@@ -49,8 +51,7 @@ FORMATS = {
 
 TRAJECTORIES = ("tum", "trajectory", "g2o")
 
-SLAM_DRAWS = 64
-"""Of the trajectory that `bayesmap.slam` found, for relative poses and steps."""
+APPROXIMATION = "the Student-t approximation of all scans' poses"
 
 THRESHOLDED = ("map-server", "occupancy-grid")
 """Formats that turn probabilities into per cent, and take a mode and thresholds."""
@@ -128,15 +129,44 @@ def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
 
 
 def trajectory_of(run: object, scans: Scans) -> Trajectory:
-    """Where a run says that the sensor was: its draws of poses where it has some, else the poses of its scans."""
+    """Where a run says that the sensor was, and how sure that is.
+
+    Of a run of `bayesmap.slam` all scans, as its approximation has them, unless its chains over the poses of the key
+    scans have mixed: then those. Of other runs their draws of poses, or else the poses of their scans.
+    """
     approximate = getattr(run, "trajectory", None)
-    if approximate is not None:  # of all scans, the map's and those between; only right after `bayesmap.slam`
-        drawn = approximate.draw(SLAM_DRAWS, 0)
-        return Trajectory(approximate.poses, approximate.stamps_s, approximate.covariances, drawn)
     draws = getattr(run, "poses", None)
     if draws is None or draws.ndim != 4 or draws.shape[0] * draws.shape[1] < 2 or (draws == draws[0, 0]).all():
-        return Trajectory(scans.poses, scans.stamps_s)
-    return Trajectory.of_draws(draws, scans.stamps_s)
+        if approximate is None:
+            return Trajectory(scans.poses, scans.stamps_s)
+        return _approximated(approximate, APPROXIMATION)
+    from bayesmap.posterior.pose_summary import summarise_poses
+
+    mixing = summarise_poses(draws)
+    figures = f"R-hat up to {mixing.rhat_max:.3g}, effective sample size from {mixing.ess_min:.0f}"
+    if mixing.mixed:
+        return Trajectory.of_draws(
+            draws, scans.stamps_s, f"draws of the chains over poses, which have mixed ({figures})"
+        )
+    unmixed = f"the chains over poses have not mixed ({figures})"
+    if approximate is None:
+        known_by = f"draws of poses, which are too alike: {unmixed}"
+        return Trajectory.of_draws(draws, scans.stamps_s, known_by)
+    return _approximated(approximate, f"{APPROXIMATION}: {unmixed}")
+
+
+def _approximated(found: Approximation, known_by: str) -> Trajectory:
+    law = RelativeLaw(found.relative_covariances, found.gaussian.dof)
+    return Trajectory(found.poses, found.stamps_s, found.covariances(), relative=law, known_by=known_by)
+
+
+def _graph_of(run: object, trajectory: Trajectory) -> Edges | None:
+    """What ties the scans of a run together, if it is the approximation that tells where they are."""
+    if trajectory.relative is None:
+        return None
+    from bayesmap.io.slam_edges import slam_edges
+
+    return slam_edges(run.trajectory)  # type: ignore[attr-defined]
 
 
 def export_trajectory(
@@ -241,7 +271,8 @@ def export_run(
         there = trajectory_of(run, scans)
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=there),)
     if chosen in TRAJECTORIES:
-        return export_trajectory(path, trajectory_of(run, scans), format=chosen)
+        there = trajectory_of(run, scans)
+        return export_trajectory(path, there, format=chosen, edges=_graph_of(run, there) if chosen == "g2o" else None)
     from bayesmap.io.geotiff import write_geotiff
 
     return (write_geotiff(path, layers_of(run), grid, observed),)

@@ -1,8 +1,10 @@
 """A pose graph as a g2o file, which g2o, GTSAM (``readG2o``), Ceres and SE-Sync read.
 
     VERTEX_SE2 id x y yaw
-    FIX id
     EDGE_SE2 i j dx dy dyaw  xx xy xyaw yy yyaw yawyaw
+
+There is no line ``FIX 0``: g2o holds one pose by itself, GTSAM reads no edge that comes after such a line, and Ceres'
+reader refuses it.
 
 An edge is a measurement of pose j in the frame of pose i, with the upper triangle of its information matrix, the
 inverse of its covariance, in that frame.
@@ -56,8 +58,8 @@ class Edges:
 def chain_edges(trajectory: Trajectory) -> Edges:
     """The graph of a trajectory of which only poses are known: each pose as seen from the one before.
 
-    The covariance of such a step is that of the draws where there are some; otherwise the sum of both poses' own, as if
-    they were independent, which overstates it.
+    The covariance of such a step is that of relative poses where it is known, or of the draws; otherwise the sum of
+    both poses' own, as if they were independent, which overstates it.
 
     Raises:
         BadInput: a trajectory without draws and without covariances, or of a single pose.
@@ -66,7 +68,9 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     if steps < 1:
         raise BadInput("graph: a single pose has no edge")
     relative = between(trajectory.poses[:-1], trajectory.poses[1:])
-    if trajectory.draws is not None and len(trajectory.draws) > 3:
+    if trajectory.relative is not None:
+        covariance = trajectory.relative.covariances(np.arange(steps), np.arange(1, steps + 1))
+    elif trajectory.draws is not None and len(trajectory.draws) > 3:
         drawn = between(trajectory.draws[:, :-1], trajectory.draws[:, 1:])
         error = between(np.broadcast_to(relative, drawn.shape), drawn)
         covariance = np.einsum("dsi,dsj->sij", error, error) / (len(drawn) - 1)
@@ -76,11 +80,11 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     else:
         raise BadInput("graph: nothing is known of how sure these poses are; a graph needs covariances or draws")
     covariance = covariance + 1e-12 * np.eye(3)
-    return Edges(np.arange(steps), np.arange(1, steps + 1), relative, np.linalg.inv(covariance))
+    return Edges(np.arange(steps), np.arange(1, steps + 1), relative, np.asarray(np.linalg.inv(covariance), np.float64))
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
-    """Write a pose graph, whole or not at all; its first pose is held fixed.
+    """Write a pose graph, whole or not at all.
 
     Raises:
         BadInput: an edge to a pose that is not there, or a file that cannot be written.
@@ -90,10 +94,9 @@ def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -
     if len(ends) and (ends.min() < 0 or ends.max() >= count):
         raise BadInput(f"graph: an edge names pose {ends.max()}, but there are {count}")
     lines = [f"VERTEX_SE2 {i} {x:.9f} {y:.9f} {yaw:.9f}" for i, (x, y, yaw) in enumerate(poses_world)]
-    lines.append("FIX 0")
     upper = np.triu_indices(3)
     for i, j, relative, information in zip(edges.first, edges.second, edges.relative, edges.information, strict=True):
-        numbers = [f"{v:.9f}" for v in relative] + [f"{v:.9g}" for v in information[upper]]
+        numbers = [f"{v:.9f}" for v in relative] + [f"{v:.17g}" for v in information[upper]]
         lines.append(f"EDGE_SE2 {i} {j} " + " ".join(numbers))
     target = Path(path)
     with write_whole(target) as partial:

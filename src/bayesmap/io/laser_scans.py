@@ -18,6 +18,7 @@ from bayesmap.io.laser_lines import LASERS, BeamLayout, LaserLine
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.returns import NoReturn, decode
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import time_order
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,11 +71,12 @@ def reading_of(
 
     numbers = np.array([scan.laser.numbers for scan in scans])
     poses, stamps = np.array([scan.pose_world for scan in scans]), numbers[:, 6]
-    order = np.argsort(stamps, kind="stable")
+    timed = time_order(stamps)
+    order = timed.order
     stated_max_m = max((s.laser.max_range_m for s in scans if s.laser.max_range_m is not None), default=None)
     ranges, coded = decode(np.array([scan.laser.readings_m for scan in scans]), no_return, stated_max_m)
     limit_m = _largest_range_m(name, ranges, coded) if max_range_m is None else max_range_m
-    result = Scans(poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=stamps[order])
+    result = Scans(poses[order], layout.angles_rad(), ranges[order], limit_m, stamps_s=timed.stamps_s)
     reading = LogReading(
         path=name,
         format=log_format,
@@ -85,10 +87,13 @@ def reading_of(
         no_return=coded,
         max_range_origin="readings" if max_range_m is None else "given",
         laser_offset=_laser_offset(numbers[:, :3], numbers[:, 3:6]),
-        reordered=int((stamps < np.maximum.accumulate(stamps)).sum()),
-        notes=tuple(
-            f"the log also holds {count} {other} scans, which were not used: {kind} has more or as many"
-            for other, count in others.items()
+        reordered=timed.reordered,
+        notes=(
+            *timed.notes(stamps),
+            *(
+                f"the log also holds {count} {other} scans, which were not used: {kind} has more or as many"
+                for other, count in others.items()
+            ),
         ),
     )
     return reading, layout

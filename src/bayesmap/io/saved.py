@@ -2,10 +2,10 @@
 
 Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sample_stats`` (log joint and its parts),
 ``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (where the chains stand),
-``warmup_sample_stats``. Settings, grid, prior, sensor and timings are attributes of the root, as JSON. Arrays that
-count some cells only have these cells' indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as
-deflated bytes, half precision as 32-bit floats, so that any reader sees plain arrays; a checksum over all of it tells
-a damaged file from a whole one.
+``warmup_sample_stats``, and ``trajectory`` (`bayesmap.io.saved_trajectory`) where one was inferred. Settings, grid,
+prior, sensor and timings are attributes of the root, as JSON. Arrays that count some cells only have these cells'
+indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as deflated bytes, half precision as 32-bit
+floats, so that any reader sees plain arrays; a checksum over all of it tells a damaged file from a whole one.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ from bayesmap.io.atomic import write_whole
 from bayesmap.io.checksum import checksum_of
 from bayesmap.io.saved_arrays import write_arrays, write_draws
 from bayesmap.io.saved_content import assemble
+from bayesmap.io.saved_trajectory import arrays_of, numbers_of, read_trajectory, write_trajectory
+from bayesmap.poses.trajectory import Trajectory
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.describe import describe
@@ -36,7 +38,9 @@ from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = 6  # 5 has no labels, 4 no stop chances of surfaces; older ones: `bayesmap.io.saved_before`
+FORMAT_VERSION = (
+    7  # 6 has no trajectory, 5 no labels, 4 no stop chances of surfaces; older ones: `bayesmap.io.saved_before`
+)
 LAYOUT_SINCE = 4
 
 
@@ -44,6 +48,7 @@ def save(
     posterior: Posterior,
     path: str | os.PathLike[str],
     on_progress: Callable[[int, int], None] = lambda done, total: None,
+    trajectory: Trajectory | None = None,
 ) -> None:
     """Write a posterior, whole or not at all.
 
@@ -51,15 +56,18 @@ def save(
         posterior: what to write.
         path: where.
         on_progress: told how many of all numbers of the draws have been written.
+        trajectory: the approximation of all scans' poses, if there is one.
 
     Raises:
         BadInput: the folder cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-        _write(posterior, file, on_progress)
+        _write(posterior, file, on_progress, trajectory)
 
 
-def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], None]) -> None:
+def _write(
+    posterior: Posterior, file: Any, on_progress: Callable[[int, int], None], trajectory: Trajectory | None
+) -> None:
     grid, scans, draws = posterior.grid, posterior.scans, posterior.draws
     header = {
         "cells": posterior.kind,
@@ -75,6 +83,8 @@ def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], No
         "log_evidence": posterior.log_evidence,
         "notes": posterior.notes,
     }
+    if trajectory is not None:
+        header["trajectory"] = numbers_of(trajectory)
     file.setncatts(
         {
             "format": FORMAT,
@@ -82,7 +92,7 @@ def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], No
             "inference_library": "bayesmap",
             "inference_library_version": __version__,
             "bayesmap": json.dumps(header),
-            "checksum": _checksum(posterior, header),
+            "checksum": _checksum(posterior, header, trajectory),
         }
     )
     group = file.createGroup("posterior")
@@ -119,6 +129,8 @@ def _write(posterior: Posterior, file: Any, on_progress: Callable[[int, int], No
         # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
         write_arrays(state, dimensions, {name: values}, compressed=values.dtype == np.uint8)
+    if trajectory is not None:
+        write_trajectory(file, trajectory)
 
 
 def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
@@ -141,8 +153,8 @@ def _write_scans(file: Any, scans: Scans) -> Any:
     return constant
 
 
-def load_posterior(path: str | os.PathLike[str]) -> Posterior:
-    """Read a posterior back.
+def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | None]:
+    """Read a posterior back, and the approximation of the poses that it was made with, if any.
 
     Raises:
         BadInput: no such file; not netCDF, or not a run of bayesmap's; a newer format; or damaged.
@@ -156,7 +168,9 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior:
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
             reason = _not_ours(attributes)
             if reason is None:
-                posterior, found = _read(file, json.loads(attributes["bayesmap"]), int(attributes["format_version"]))
+                posterior, trajectory, found = _read(
+                    file, json.loads(attributes["bayesmap"]), int(attributes["format_version"])
+                )
                 whole = found == attributes["checksum"]
     except BadInput as problem:
         raise BadInput(f"{path}: {problem}") from None
@@ -166,7 +180,7 @@ def load_posterior(path: str | os.PathLike[str]) -> Posterior:
         raise BadInput(f"{path}: {reason}")
     if not whole:
         raise BadInput(f"{path}: the saved run is damaged (its checksum does not match); use a backup or run again")
-    return posterior
+    return posterior, trajectory
 
 
 def _not_ours(attributes: dict[str, Any]) -> str | None:
@@ -182,10 +196,11 @@ def _not_ours(attributes: dict[str, Any]) -> str | None:
     )
 
 
-def _read(file: Any, header: dict[str, Any], version: int) -> tuple[Posterior, str]:
-    """The posterior of an open file, and its checksum."""
+def _read(file: Any, header: dict[str, Any], version: int) -> tuple[Posterior, Trajectory | None, str]:
+    """The posterior of an open file, its trajectory, and the checksum of both."""
     if version < LAYOUT_SINCE:
-        return saved_before.read(file, header)
+        posterior, found = saved_before.read(file, header)
+        return posterior, None, found
     constant = file["constant_data"]
 
     def named(prefix: str) -> dict[str, NDArray[Any]]:
@@ -194,15 +209,18 @@ def _read(file: Any, header: dict[str, Any], version: int) -> tuple[Posterior, s
     prior = prior_from(header["prior"] | named("prior_"))
     snapshot = Snapshot(header["sweep"], {name: v[:] for name, v in file["chain_state"].variables.items()})
     posterior = assemble(file, header, prior, snapshot, statistics=named("statistic_"))
-    return posterior, _checksum(posterior, header)
+    trajectory = read_trajectory(file, header["trajectory"]) if "trajectory" in header else None
+    return posterior, trajectory, _checksum(posterior, header, trajectory)
 
 
-def _checksum(posterior: Posterior, header: dict[str, Any]) -> str:
+def _checksum(posterior: Posterior, header: dict[str, Any], trajectory: Trajectory | None) -> str:
     scans, draws = posterior.scans, posterior.draws
     named = {f"draws {name}": values for name, values in draws.arrays.items()}
     named |= {f"index {name}": values for name, values in draws.index.items()}
     named |= {f"state {name}": values for name, values in posterior.snapshot.arrays.items()}
     named |= {f"constant {name}": values for name, values in _by_name(posterior).items()}
+    if trajectory is not None:
+        named |= {f"trajectory {name}": values for name, (_, values) in arrays_of(trajectory).items()}
     arrays = (
         posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.occupancy,
         posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s, scans.beam_poses,

@@ -1,5 +1,6 @@
 """Reading a tabulated sensor law (`bayesmap.sensors.tabulated`) by interpolation."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ WIDEST_SPREAD = wp.constant(wp.float32(WIDEST))
 class LawTable:
     """A `TabulatedLaw` on a device."""
 
+    least: wp.float32  # log densities and log probabilities below it are taken for it
     typed: int
     most: wp.float32
     low_m: wp.float32  # of the nodes of the range where the beam stops nowhere
@@ -31,9 +33,16 @@ class LawTable:
     log_typed_nowhere: wp.vec2
 
 
-def put_table(law: TabulatedLaw, device: str) -> Any:
-    """A table on a device."""
+def put_table(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
+    """A table on a device.
+
+    Args:
+        law: what it holds.
+        device: where kernels run.
+        least: log densities and log probabilities below it are taken for it.
+    """
     table = LawTable()
+    table.least = least
     table.typed, table.most, table.min_m = int(law.typed), law.most, law.limits.min_m
     low, high = (law.limits.min_m, law.limits.max_m) if law.typed else (-law.limits.max_m, 2.0 * law.limits.max_m)
     table.low_m, table.high_m = low, high
@@ -96,7 +105,13 @@ def offset_node(table: LawTable, off: wp.float32) -> wp.float32:
 
 @wp.func
 def table_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """log p(reading | the beam stops at about the distance)."""
+    """log p(reading | the beam stops at about the distance), or the least that the table allows."""
+    return wp.max(unbounded_log_density(table, reading_m, distance_m, variance, max_m), type(reading_m)(table.least))
+
+
+@wp.func
+def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
+    """The same, however small."""
     z = wp.float32(reading_m)
     d = wp.float32(distance_m)
     top = wp.float32(max_m)

@@ -42,7 +42,7 @@ Floats = NDArray[np.float64]
 # reading; the mixture has a floor.
 GONE = wp.constant(wp.float64(1.0e-30))
 GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
-CELLS_BEYOND = 4.0
+CELLS_PAST_REACH = 4.0
 """Cells past a reading's reach whose surfaces may still explain it, by their extent along the beam."""
 
 
@@ -188,7 +188,7 @@ def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits
         limits: of the sensor.
         resolution_m: edge of the map's cells.
     """
-    return np.asarray(sensor.reach_m(range_m, limits) + CELLS_BEYOND * resolution_m)
+    return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
 
 
 def _sums(

@@ -73,7 +73,8 @@ def scan_normals(
 
     Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side and is widened,
     twice as far each time, as long as the wall stays straight within ``noise_m``: the direction of a long wall is
-    known better by the power 3/2 of the length. ``spread`` is the variance of the normal's angle per variance of a
+    known better by the power 3/2 of the length. A piece whose direction the noise hides has no normal, until a longer
+    one shows it. ``spread`` is the variance of the normal's angle per variance of a
     point, in 1 / m^2: one over the sum of squared distances along the line.
     """
     s = first + wp.tid()
@@ -86,7 +87,8 @@ def scan_normals(
         here = points[s, b]
         away = wp.length(here)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
-        gap = widest_gap(step_rad, away)
+        gap = wp.max(widest_gap(step_rad, away), wp.float32(5.0) * noise_m)
+        farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
         reach = reach_m
         for fit in range(REACHES):
             n = float(1.0)
@@ -108,7 +110,7 @@ def scan_normals(
                         break
                     d = there - here
                     distance = wp.length(d)
-                    if distance > wp.max(wp.float32(0.5), wp.float32(2.2) * apart):
+                    if distance > farthest:
                         break
                     if k > 2 and distance > reach:
                         break
@@ -127,18 +129,21 @@ def scan_normals(
             root = wp.sqrt(wp.max(wp.float32(0.0), (a - c2) * (a - c2) * wp.float32(0.25) + h * h))
             along = (a + c2) * wp.float32(0.5) + root
             across = wp.max((a + c2) * wp.float32(0.5) - root, wp.float32(0.0))
-            straight = across < wp.float32(0.04) * along and across < n * wp.float32(4.0) * noise_m * noise_m
+            long = across < wp.float32(0.04) * along
+            straight = across < n * wp.float32(4.0) * noise_m * noise_m
             if fit > 0:
                 straight = straight and across < n * wp.float32(1.5) * noise_m * noise_m
             if not straight:
                 break
+            reach = reach * wp.float32(2.0)
+            if not long:
+                continue  # noise hides the direction of so short a piece: a longer one may show it
             turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * h, a - c2)
             normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
             if normal[0] * here[0] + normal[1] * here[1] > wp.float32(0.0):
                 normal = -normal  # towards the laser
             normals[s, b] = normal
             spread[s, b] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
-            reach = reach * wp.float32(2.0)
     for b in range(beams):
         if spread[s, b] > wp.float32(0.0):
             kind[s, b] = WITH_NORMAL

@@ -48,6 +48,10 @@ SensorLaw32 = _law("SensorLaw32", wp.float32)
 def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
     """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`.
 
+    Of a model without a compiled formula the law in single precision takes no density and no probability for less than
+    exp(`LOG_IMPOSSIBLE`): the sampler of stops needs numbers that do not underflow, and one odd beam makes no map
+    impossible. Predictions, in double precision, have no such bound.
+
     Raises:
         BadInput: a model without a compiled formula whose law cannot be tabulated.
     """
@@ -55,7 +59,8 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     packed.min_m, packed.max_m = limits.min_m, limits.max_m
     model = sensor.kernel_parameters()
     if model is None:
-        packed.kind, packed.table = TABLE, put_table(tabulated(sensor, limits), device)
+        least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
+        packed.kind, packed.table = TABLE, put_table(tabulated(sensor, limits), device, least)
         return packed
     packed.kind = MIXTURE if model.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002

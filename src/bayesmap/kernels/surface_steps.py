@@ -2,9 +2,9 @@
 
 Where along a wall a surface lies, and how far it extends, beams hardly say, as long as it fills its cell; where across,
 and how thick it is, they say to millimetres. Steps that know nothing of this are too short in one direction for the
-other's sake. So each cell has a frame, fixed beforehand by its readings at their word (`bayesmap.samplers.plug_in`),
-whose first axis points along the wall. A cell in its frame is a `Cell` with the mean along and across, from the cell's
-centre, and the Cholesky factor of the covariance in these axes.
+other's sake. So each cell has a frame, fixed beforehand by where its readings end
+(`bayesmap.samplers.initial_estimate`), whose first axis points along the wall. A cell in its frame is a `Cell` with the
+mean along and across, from the cell's centre, and the Cholesky factor of the covariance in these axes.
 
 A row of steps holds: sizes for logit m, mean along, mean across, log l11, l21, log l22, and the frame's cosine and
     sine.

@@ -102,7 +102,7 @@ class PoseBelief:
             share = float(self.weights[own].sum())
             if share >= LEAST_MODE:
                 mean, covariance = _moments(self.poses[own], self.weights[own] / share)
-                found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), share))
+                found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
         return tuple(sorted(found, key=lambda mode: -mode.probability))
 
     @cached_property
@@ -157,15 +157,17 @@ class PoseBelief:
             area: corners of the polygon in order, (K, 2), metres; or (x_min, x_max, y_min, y_max).
 
         Raises:
-            BadInput: neither.
+            BadInput: neither, or a rectangle whose first number of a pair is not below the second.
         """
         corners = np.asarray(area, dtype=np.float64)
         if corners.shape == (4,):
+            if not (corners[0] < corners[1] and corners[2] < corners[3]):
+                raise BadInput(f"area: give x_min below x_max and y_min below y_max, got {corners.tolist()}")
             x0, x1, y0, y1 = corners
             corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
         if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
             raise BadInput(f"area: give corners (K, 2) or (x_min, x_max, y_min, y_max), got shape {corners.shape}")
-        return float((1.0 - self.p_lost) * self.weights[_inside(self.poses[:, :2], corners)].sum())
+        return float((1.0 - self.p_lost) * min(1.0, self.weights[_inside(self.poses[:, :2], corners)].sum()))
 
     def as_json(self) -> dict[str, Any]:
         """The answer as JSON values."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.special import ndtr
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.localization.belief import Mode, PoseBelief, Region
@@ -18,10 +19,11 @@ from bayesmap.poses.prior import Odometry
 from bayesmap.poses.se2 import rotation
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from bayesmap.space.scans import Scans
+    from bayesmap.space.grid import Grid
 
 Floats = NDArray[np.float64]
 
@@ -56,6 +58,13 @@ class Near:
         """As a normal distribution."""
         covariance = np.diag(np.array([self.sigma_m, self.sigma_m, self.sigma_rad]) ** 2)
         return PoseMixture(np.asarray(self.pose)[None], covariance[None], np.zeros(1))
+
+    def share_in(self, grid: Grid) -> float:
+        """The probability of a position on the map's grid."""
+        low = np.array(grid.origin)
+        high = low + np.array(grid.shape) * grid.resolution
+        at = np.asarray(self.pose)[:2]
+        return float(np.prod(ndtr((high - at) / self.sigma_m) - ndtr((low - at) / self.sigma_m)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +129,7 @@ def localize(
     odometry: Odometry | None = None,
     independent: bool = False,
     seed: int = 0,
+    device: str = "cpu",
     on_belief: Callable[[int, PoseBelief], None] | None = None,
 ) -> Localization:
     """Where were these scans taken, in the map of this run?
@@ -132,15 +142,19 @@ def localize(
         odometry: how far off motions are; by default that of a usual robot.
         independent: locate each scan by itself, as if nothing were known of motions.
         seed: of the draws of poses.
+        device: "cpu" or a CUDA device such as "cuda:0", where poses are weighed; a `KnownMap` has its own.
         on_belief: given the number of each scan and its posterior as soon as it is known.
 
     Raises:
-        BadInput: no scan, a run without draws, or a sensor model of the user's own.
+        BadInput: no scan, a run without draws, no such device, a sensor model of the user's own, a prior that lies
+            outside the map, or arguments of another kind.
     """
+    if not isinstance(scans, Scans):
+        raise BadInput(f"localize: scans must be those that bm.read_log gives, got {scans!r}")
     if len(scans) == 0:
         raise BadInput("localize: there is no scan")
     beliefs = []
-    known = run if isinstance(run, KnownMap) else KnownMap.of_run(run)
+    known = _known(run, device)
     for number, belief in enumerate(follow(known, scans, prior, odometry, independent, seed)):
         beliefs.append(belief)
         if on_belief is not None:
@@ -157,20 +171,62 @@ def follow(
     seed: int = 0,
 ) -> Iterator[PoseBelief]:
     """The posteriors of scans, one after the other; arguments are those of `localize`."""
+    each = (scans.select(slice(i, i + 1)) for i in range(len(scans)))
+    return follow_live(known, each, prior, odometry, independent, seed)
+
+
+def follow_live(
+    known: KnownMap,
+    scans: Iterable[Scans],
+    prior: Near | None = None,
+    odometry: Odometry | None = None,
+    independent: bool = False,
+    seed: int = 0,
+) -> Iterator[PoseBelief]:
+    """The same of scans that come one at a time: the posterior of each before the next is asked for."""
     odometry = Odometry() if odometry is None else odometry
+    _check(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
-    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     first = Prior() if prior is None else Prior(prior.components(), CARRIED, LOST_AT_FIRST)
     believed, belief = first, None
-    for i in range(len(scans)):
-        stamp = None if scans.stamps_s is None else float(scans.stamps_s[i])
-        scan = Scan(scans.angles_rad, scans.ranges_m[i], limits, stamp)
+    pose = np.zeros(3)
+    for one in scans:
+        stamp = None if one.stamps_s is None else float(one.stamps_s[0])
+        limits = RangeLimits(one.min_range_m, one.max_range_m)
+        scan = Scan(one.angles_rad, one.ranges_m[0], limits, stamp)
+        before, pose = pose, one.poses[0]
         if belief is not None:
-            motion = between(scans.poses[i - 1], scans.poses[i])
+            motion = between(before, pose)
             believed = Prior() if independent else moved(belief, motion, odometry.sigmas(motion))
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < SURE
         belief = update(known, believed, scan, rng, look_everywhere=unsure or independent)
         yield belief
+
+
+def _known(run: Any, device: str) -> KnownMap:
+    if isinstance(run, KnownMap):
+        return run
+    if not hasattr(run, "posterior"):
+        raise BadInput(f"localize: give a run, such as bm.load gives, or a KnownMap of one, got {run!r}")
+    return KnownMap.of_run(run, device=device)
+
+
+def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
+    """Refuse a prior or an odometry of another kind, and a prior by which the robot is not on the map."""
+    if not isinstance(odometry, Odometry):
+        raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
+    if prior is None:
+        return
+    if not isinstance(prior, Near):
+        raise BadInput(f"localize: prior must be such as bm.Near((x, y, yaw)), or None for anywhere, got {prior!r}")
+    if prior.share_in(known.grid) < CARRIED:
+        low = np.array(known.grid.origin)
+        high = low + known.grid.resolution * np.array(known.grid.shape)
+        x, y = np.asarray(prior.pose)[:2]
+        raise BadInput(
+            f"prior: ({x:g}, {y:g}) +- {prior.sigma_m:g} m lies outside the map, which is from {low[0]:g} to "
+            f"{high[0]:g} m in x and from {low[1]:g} to {high[1]:g} m in y"
+        )
 
 
 def moved(belief: PoseBelief, motion: Floats, sigmas: Floats) -> Prior:

@@ -155,7 +155,8 @@ def align(
         on_progress: called with the number of rounds that are done and the poses, (S, 3).
         threads: to compute with; by default all cores.
     """
-    count, sigma = len(poses), 0.01
+    count, sigma = len(poses), geometry.noise_m
+    reach_m, scale_m = geometry.reach_m(*reach_m), geometry.scale_m(*scale_m)
     weights = np.ones((count, geometry.beams), np.float32)
     gaussian, totals = None, np.zeros((len(pairs), 4))
     for number in range(rounds):

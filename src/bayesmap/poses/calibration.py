@@ -38,6 +38,10 @@ MOST_LAG_S = 0.5
 PAIRS = 400
 """Of scans that are turned against each other, for the angle between beams."""
 
+GROUPS, SURE, SURE_OF_REGULAR = 20, 4.0, 2.0
+"""Pairs are left out in so many groups to see how sure the angle is; it is changed where it is so many standard errors
+off, or so many and within one of an angle that lasers have."""
+
 REGULAR_WITHIN = 0.005
 """To so much of itself the angle between beams can be estimated from residuals."""
 
@@ -170,7 +174,7 @@ def angle_step_ratio(
         threads: to compute with; by default all cores.
 
     Returns:
-        The factor; 1 where no scans are turned against each other.
+        The factor; 1 where no scans are turned against each other, or what they say is no surer than chance.
     """
     turned = np.abs(wrapped(poses[source, 2] - poses[target, 2]))
     useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
@@ -183,27 +187,36 @@ def angle_step_ratio(
     weak = np.tile(np.diag([25.0, 25.0, 100.0]), (len(useful), 1, 1))
     each = np.arange(len(useful) + 1, dtype=np.int32)
 
-    def residual(factor: float) -> float:
+    def residuals(factor: float) -> Floats:
         angles = scans.angles_rad[0] + factor * (scans.angles_rad - scans.angles_rad[0])
         geometry = scan_geometry(some, farthest_m=farthest_m, angles_rad=angles, threads=threads)
         # Turning a scan about its first beam turns its pose; the middle beam shall stay where it was.
         start = place.copy()
         start[:, 2] -= 0.5 * (factor - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
         _, _, totals = refine_scans(
-            geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 10, (0.2, 0.15),
-            (0.05, 0.03), 0.7, threads=threads,
+            geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 10,
+            geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7, threads=threads,
         )  # fmt: skip
-        return float(np.mean(1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)))
+        return 1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)
 
     factors = 1.0 + np.linspace(-0.0125, 0.0125, 11)
-    values = np.array([residual(float(f)) for f in factors])
-    bend, tilt, _ = np.polyfit(factors - 1.0, values, 2)
-    if bend <= 0.0:
-        return 1.0
-    found = 1.0 - tilt / (2.0 * bend)
-    if abs(found - 1.0) > 0.0125:
+    values = np.array([residuals(float(f)) for f in factors])
+    found = _lowest(factors, values.mean(axis=1))
+    groups = np.arange(len(useful)) % GROUPS
+    without = np.array([_lowest(factors, values[:, groups != group].mean(axis=1)) for group in range(GROUPS)])
+    # The jackknife's standard error (Efron and Tibshirani 1993, ch. 11).
+    error = np.sqrt((GROUPS - 1) / GROUPS * ((without - without.mean()) ** 2).sum())
+    if not abs(found - 1.0) <= 0.0125:
         return 1.0  # outside what was tried: not a matter of the angle
-    return _regular(found, float(np.degrees(np.median(np.diff(scans.angles_rad)))))
+    usual = _regular(found, float(np.degrees(np.median(np.diff(scans.angles_rad)))))
+    sure = SURE_OF_REGULAR if usual != found and abs(found - usual) < error else SURE
+    return usual if abs(found - 1.0) > sure * error else 1.0
+
+
+def _lowest(factors: Floats, values: Floats) -> float:
+    """Where the parabola through values is lowest; NaN if it is nowhere."""
+    bend, tilt, _ = np.polyfit(factors - 1.0, values, 2)
+    return float(1.0 - tilt / (2.0 * bend)) if bend > 0.0 else float("nan")
 
 
 def _regular(factor: float, stated_deg: float) -> float:

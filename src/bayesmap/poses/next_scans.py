@@ -220,7 +220,8 @@ def _refined(
     placed, laser_information, _ = refine_scans(
         geometry, None, scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys),
         np.tile(keys, jobs).astype(np.int32), np.tile(poses, (jobs, 1)), start, predicted, prior_information,
-        POINT_SIGMA_M, STEPS, REACH_M, SCALE_M, ALIKE, threads=threads,
+        max(POINT_SIGMA_M, geometry.noise_m), STEPS, geometry.reach_m(*REACH_M),
+        geometry.scale_m(*SCALE_M), ALIKE, threads=threads,
     )  # fmt: skip
     own = rotation(placed[:, 2])
     return placed, np.swapaxes(own, 1, 2) @ laser_information @ own

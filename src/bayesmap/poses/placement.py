@@ -90,8 +90,8 @@ def place_scans(
     turn = rotation(poses[scans, 2])
     found, laser_information, totals = refine_scans(
         geometry, None, scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans],
-        poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), CAUTION * max(sigma_m, LEAST_SIGMA_M), 10, (0.2, 0.08),
-        (0.1, 0.03), ALIKE, threads=threads,
+        poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), CAUTION * max(sigma_m, LEAST_SIGMA_M), 10,
+        geometry.reach_m(0.2, 0.08), geometry.scale_m(0.1, 0.03), ALIKE, threads=threads,
     )  # fmt: skip
     back = rotation(found[:, 2])
     result[scans] = found

@@ -21,6 +21,10 @@ Floats = NDArray[np.float64]
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
+FREE = np.array([1.0, 1.0, 1.0])
+"""Standard deviations, metres and radians, of a motion that odometry says nothing of: from one scan that is kept to
+the next robots move and turn by about so much."""
+
 
 class PoseLaw(ABC):
     """A density over the poses of S scans, (S, 3) in the world frame; leading dimensions broadcast."""
@@ -166,18 +170,25 @@ class Odometry(PosePrior):
 class Motions(PosePrior):
     """Each motion from scan to scan is normal about one that is given: odometry, corrected by whoever knows better.
 
+    With a chance of ``p_slip`` it says nothing of the motion: a wheel slipped, or the log states the same pose twice
+    while the robot turned on. Then the motion is normal about the one that is given with the deviations of `FREE`.
+
     Attributes:
         relative: each scan's pose in the frame of the one before, (S - 1, 3).
         sigmas: standard deviations of x, y and yaw of these, (S - 1, 3).
+        p_slip: chance that a motion is another one altogether.
 
     Raises:
-        BadInput: shapes that do not fit together, or deviations that are not positive.
+        BadInput: shapes that do not fit together, deviations that are not positive, or a chance outside [0, 1).
     """
 
     relative: Floats
     sigmas: Floats
+    p_slip: float = 0.0
 
     def __post_init__(self) -> None:
+        if not 0 <= self.p_slip < 1:
+            raise BadInput(f"Motions: p_slip must lie in [0, 1), got {self.p_slip!r}")
         if self.relative.shape != self.sigmas.shape or self.relative.shape[1:] != (3,):
             raise BadInput(f"Motions: shapes {self.relative.shape} and {self.sigmas.shape}, expected (S - 1, 3) twice")
         if not (np.isfinite(self.sigmas).all() and (self.sigmas > 0).all()):
@@ -191,12 +202,13 @@ class Motions(PosePrior):
         """
         if len(log_poses) != len(self.relative) + 1:
             raise BadInput(f"Motions: {len(self.relative)} motions, but {len(log_poses)} scans")
-        return _Markov(log_poses[0], self.relative, self.sigmas)
+        return _Markov(log_poses[0], self.relative, self.sigmas, self.p_slip)
 
     def describe(self) -> dict[str, object]:
         """The prior as plain JSON values; the motions by their checksum."""
         digest = hashlib.blake2b(self.relative.tobytes() + self.sigmas.tobytes(), digest_size=8)
-        return {"kind": "motions", "count": len(self.relative), "checksum": digest.hexdigest()}
+        about = {"kind": "motions", "count": len(self.relative), "checksum": digest.hexdigest()}
+        return about | ({"p_slip": self.p_slip} if self.p_slip else {})
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,12 +263,24 @@ class _Markov(PoseLaw):
     first: Floats
     motions: Floats  # (S - 1, 3), from scan to scan in the earlier one's frame
     sigmas: Floats  # of their errors
+    p_slip: float = 0.0  # that a motion has errors of the size of FREE instead
 
     def _factors(self, before: Floats, after: Floats) -> Floats:
         """Log density of each motion, (..., S - 1)."""
+        error = self._errors(before, after)
+        if not self.p_slip:
+            return _normal(error, self.sigmas)
+        return np.logaddexp(*self._kinds(error))
+
+    def _errors(self, before: Floats, after: Floats) -> Floats:
         error = between(before, after) - self.motions
         error[..., 2] = wrapped(error[..., 2])
-        return _normal(error, self.sigmas)
+        return error
+
+    def _kinds(self, error: Floats) -> tuple[Floats, Floats]:
+        """Log densities of errors of motions that odometry knows, and of those that it does not."""
+        known, free = _normal(error, self.sigmas), _normal(error, np.maximum(self.sigmas, FREE))
+        return known + math.log1p(-self.p_slip), free + math.log(self.p_slip)
 
     def log_prob(self, poses: Floats) -> Floats:
         chain = self._factors(poses[..., :-1, :], poses[..., 1:, :]).sum(axis=-1)
@@ -272,6 +296,10 @@ class _Markov(PoseLaw):
 
     def precision(self, poses: Floats) -> Floats:
         weights = self.sigmas**-2.0
+        if self.p_slip:
+            known, free = self._kinds(self._errors(poses[:-1], poses[1:]))
+            slipped = np.exp(free - np.logaddexp(known, free))[:, None]
+            weights = (1.0 - slipped) * weights + slipped * np.maximum(self.sigmas, FREE) ** -2.0
         out = np.zeros((len(poses), 3, 3))
         # The error of a motion, in the earlier pose's frame, is e = R(-yaw) (p' - p) - motion.
         yaw = poses[:-1, 2]
@@ -295,7 +323,11 @@ class _Markov(PoseLaw):
     def sample(self, rng: np.random.Generator) -> Floats:
         poses = np.empty((len(self.motions) + 1, 3))
         poses[0] = self.first
-        noisy = self.motions + self.sigmas * rng.standard_normal(self.motions.shape)
+        sigmas = self.sigmas
+        if self.p_slip:
+            slipped = rng.random(len(sigmas)) < self.p_slip
+            sigmas = np.where(slipped[:, None], np.maximum(sigmas, FREE), sigmas)
+        noisy = self.motions + sigmas * rng.standard_normal(self.motions.shape)
         for i, motion in enumerate(noisy):
             poses[i + 1] = compose(poses[i], motion)
         return poses

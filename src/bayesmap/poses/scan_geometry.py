@@ -9,18 +9,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.poses.point_noise import LEAST_M, range_noise_m
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 
-REACH_M = 0.12
-"""How far to either side of a point its wall's direction is fitted at first: narrower fits let scans slide."""
-
-NOISE_M = 0.01
-"""A point's standard deviation, as assumed where normals are fitted: lasers of robots have 5 to 30 mm."""
+REACH_M, REACH_SIGMAS = 0.12, 10.0
+"""How far to either side of a point its wall's direction is fitted at first, and at least so many standard deviations
+of a point: narrower fits let scans slide, and among points that scatter as widely as they are apart there is no
+line."""
 
 NEAREST_M = 0.05
 """Readings closer than this are the robot itself."""
+
+PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0
+"""Standard deviations of a range: the distance between two points of one wall has the square root of two of them."""
 
 BINS_A_BEAM = 4
 
@@ -38,6 +41,7 @@ class ScanGeometry:
         step_rad: the usual angle between neighbouring beams.
         full_circle: whether the last beam's neighbour is the first.
         farthest_m: hits beyond are left out.
+        noise_m: standard deviation of a range, found from the scans.
         device: where the arrays are.
     """
 
@@ -49,6 +53,7 @@ class ScanGeometry:
     step_rad: float
     full_circle: bool
     farthest_m: float
+    noise_m: float = LEAST_M
     device: str = "cpu"
 
     def __len__(self) -> int:
@@ -58,6 +63,16 @@ class ScanGeometry:
     def beams(self) -> int:
         """Beams of a scan."""
         return int(self.kind.shape[1])
+
+    def reach_m(self, first_m: float, last_m: float) -> tuple[float, float]:
+        """How far paired points may lie apart, at first and at last: no less than the noise sets them apart."""
+        least = PAIR_SIGMAS * self.noise_m
+        return max(first_m, least), max(last_m, least)
+
+    def scale_m(self, first_m: float, last_m: float) -> tuple[float, float]:
+        """Geman and McClure's c, at first and at last: one below the noise would take noise for outliers."""
+        least = SCALE_SIGMAS * self.noise_m
+        return max(first_m, least), max(last_m, least)
 
     @cached_property
     def host_points(self) -> NDArray[np.float32]:
@@ -115,10 +130,11 @@ def scan_geometry(
     full_circle = len(angles) > 8 and 2.0 * np.pi - (angles[-1] - angles[0]) < 1.9 * step
     limit = scans.max_range_m if farthest_m is None else min(farthest_m, scans.max_range_m)
     ranges = np.ascontiguousarray(scans.ranges_m[:, order])
-    arrays = points_and_normals(
-        ranges, angles, max(NEAREST_M, scans.min_range_m), limit, step, full_circle, REACH_M, NOISE_M, device, threads
-    )
-    return ScanGeometry(*arrays, _beam_of_angle(angles, step), step, full_circle, limit, device)
+    nearest = max(NEAREST_M, scans.min_range_m)
+    noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
+    reach = max(REACH_M, REACH_SIGMAS * noise)
+    arrays = points_and_normals(ranges, angles, nearest, limit, step, full_circle, reach, noise, device, threads)
+    return ScanGeometry(*arrays, _beam_of_angle(angles, step), step, full_circle, limit, noise, device)
 
 
 def _beam_of_angle(angles_rad: Floats, step_rad: float) -> NDArray[np.int32]:

@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
 from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
 from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odometry
 from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
@@ -17,6 +16,7 @@ from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.graph import FAR, Factors
 from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
+from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
 from bayesmap.poses.odometry_motion import stated_motions, variances
@@ -27,6 +27,7 @@ from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import time_order
 
 Floats = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
@@ -64,7 +65,7 @@ def infer_trajectory(
 
     Args:
         scans: S scans whose poses are raw odometry (of the laser). Stamps may come in bursts or out of order: scans
-            are taken in the order of time.
+            are taken in the order of time, or of the log where its clock was set back (`bayesmap.space.time_order`).
         no_odometry: do not look at the poses; the scans must come at 5 Hz or so.
         calibrate_angles: find the angle between beams, too, rather than to believe what the log states.
         seed: of whatever is random; the result is the same for any number of threads.
@@ -78,13 +79,14 @@ def infer_trajectory(
             raises ends the inference.
 
     Raises:
-        BadInput: fewer than two scans, scans without a single hit, or no odometry and too few scans a second.
+        BadInput: fewer than two scans, scans without a single hit, odometry that stands still all the time although
+            the robot moves, or no odometry and too few scans a second.
     """
-    _check(scans, no_odometry)
+    check_scans(scans, no_odometry)
     order = np.arange(len(scans))
     if scans.stamps_s is not None:
-        order = np.argsort(scans.stamps_s, kind="stable")
-        scans = scans.select(order)
+        timed = time_order(scans.stamps_s)
+        order, scans = timed.order, replace(scans.select(timed.order), stamps_s=timed.stamps_s)
     stages = Stages(
         checkpoint,
         fingerprint(
@@ -325,20 +327,6 @@ class _Run:
             old = aligned.poses
             aligned = self.align("aligned-rematched", geometry, poses, factors, reach_m, 6, wide=False)
         return aligned, before
-
-
-def _check(scans: Scans, no_odometry: bool) -> None:
-    if len(scans) < 2:
-        raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")
-    if not np.isfinite(scans.ranges_m).any():
-        raise BadInput("slam: no scan has a single hit: there is nothing to match")
-    if no_odometry and scans.stamps_s is not None and np.ptp(scans.stamps_s) > 0:
-        gap = float(np.median(np.diff(np.sort(scans.stamps_s))))
-        if gap > 0.5:
-            raise BadInput(
-                f"slam: without odometry scans must come at 5 Hz or so, these come every {gap:.2f} s; "
-                "give the log's odometry, or all of its scans"
-            )
 
 
 def _nearest(keys: NDArray[np.intp], count: int) -> NDArray[np.intp]:

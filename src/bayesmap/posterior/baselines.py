@@ -81,7 +81,7 @@ class Baseline:
 
     Attributes:
         name: in tables.
-        stop: stop probabilities from hits, passes, and the row's own parameters.
+        stop: stop probabilities of all cells, from the hits and passes of all, and the row's own parameters.
         own: those parameters.
         starts: where their fit starts.
     """
@@ -90,6 +90,17 @@ class Baseline:
     stop: Callable[[Floats, Floats, Mapping[str, float]], Floats]
     own: tuple[Parameter, ...] = ()
     starts: tuple[Mapping[str, float], ...] = ({},)
+
+    def stops(self, hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
+        """What ``stop`` says, which must be one probability for every cell.
+
+        Raises:
+            ValueError: another number of them, which would give cells the values of others.
+        """
+        found = np.asarray(self.stop(hits, passes, values))
+        if found.shape != hits.shape:
+            raise ValueError(f"{self.name}: stop gave an array of shape {found.shape} for cells of shape {hits.shape}")
+        return found
 
 
 BASELINES = (
@@ -188,8 +199,7 @@ def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, va
     total, beams = 0.0, 0
     sensor = sensor_of(values, dof)
     for fold in folds:
-        touched = fold.rays.touched
-        stop = baseline.stop(fold.hits[touched], fold.passes[touched], values)[None].astype(np.float32)
+        stop = baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched][None].astype(np.float32)
         logs = log_densities(fold.rays, [stop], sensor, values["hit_depth"])
         valid = ~np.isnan(logs)
         total, beams = total + float(logs[valid].sum()), beams + int(valid.sum())
@@ -206,7 +216,7 @@ def fit_baseline(
         train: the scans that the map is made from.
         grid: its cells.
         folds: of `make_folds`, to share between baselines.
-        on_progress: told which share is done, as far as that can be known of a search.
+        on_progress: called with the share that is done, as far as that can be known of a search.
     """
     from bayesmap.kernels.counts import count_hits
 
@@ -238,6 +248,6 @@ def fit_baseline(
     assert best is not None
     score, values, dof = best
     hits, passes = count_hits(train, grid)
-    stop = baseline.stop(hits.astype(float), passes.astype(float), values)
+    stop = baseline.stops(hits.astype(float), passes.astype(float), values)
     predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values, dof), values["hit_depth"])
     return Fitted(baseline.name, predictor, values, score)

@@ -11,16 +11,43 @@ from bayesmap.space.scans import Scans
 MOST_EVERY = 100
 
 
+class NoneHeldOut(BadInput):
+    """The log is the run's own, and none of its scans can judge the map."""
+
+
 def seen_by(train: Scans, scans: Scans) -> NDArray[np.bool_]:
-    """Which scans are among those of a run: same pose, same readings; shape (S,)."""
+    """Which scans are among those of a run: same stamps and readings; shape (S,).
+
+    Poses do not count, since a run may have inferred them, except where scans have no stamps, or no hit, to tell them
+    apart by.
+    """
+    return _matched(train, scans) >= 0
+
+
+def moved_by(train: Scans, scans: Scans) -> bool:
+    """Whether scans that are among those of a run stand elsewhere there."""
+    match = _matched(train, scans)
+    seen = match >= 0
+    return not np.allclose(train.poses[match[seen]], scans.poses[seen], rtol=0.0, atol=1e-6)
+
+
+def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
+    """The run's scan that each scan is, -1 if none; shape (S,)."""
     if train.angles_rad.shape != scans.angles_rad.shape or not np.allclose(train.angles_rad, scans.angles_rad):
-        return np.zeros(len(scans), dtype=np.bool_)
-    known = set(_fingerprints(train))
-    return np.array([one in known for one in _fingerprints(scans)], dtype=np.bool_)
+        return np.full(len(scans), -1)
+    stamped = train.stamps_s is not None and scans.stamps_s is not None
+    known = {name: i for i, name in enumerate(_fingerprints(train, stamped))}
+    return np.array([known.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
 
 
-def _fingerprints(scans: Scans) -> list[bytes]:
-    return [pose.tobytes() + ranges.tobytes() for pose, ranges in zip(scans.poses, scans.ranges_m, strict=True)]
+def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
+    """Readings with their stamp; with their pose where there is none, or where no beam met anything."""
+    names = []
+    for i, ranges in enumerate(scans.ranges_m):
+        at = scans.stamps_s[i] if stamped and scans.stamps_s is not None else scans.poses[i]
+        pose = b"" if np.isfinite(ranges).any() else scans.poses[i].tobytes()
+        names.append(at.tobytes() + pose + ranges.tobytes())
+    return names
 
 
 def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
@@ -33,7 +60,9 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
         where: the log's name, for messages.
 
     Raises:
-        BadInput: the run has seen some of them, so that the score would flatter it.
+        NoneHeldOut: the run has seen all scans, or has moved them, so that nobody knows where those stand that it
+            has not seen.
+        BadInput: the run has seen some of them, so that the score would flatter it; or it is another log.
     """
     seen = seen_by(train, scans)
     if every == 0:
@@ -48,6 +77,11 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
             f"{where}: none of the run's scans is in it: not the log that the run was made from, or read with another "
             "--no-return, topic or --deskew; to score another recording of the same place whole, give --all"
         )
+    if moved_by(train, scans):
+        raise NoneHeldOut(
+            f"{where}: the run has its scans elsewhere than this log, as bayesmap slam does, so none is left to judge "
+            f"its map by; bayesmap score {where} --trajectory DIR/trajectory.tum judges a map along its path"
+        )
     held = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
     if held is None or not held.any():
         scans.holdout(every)  # says what is wrong
@@ -55,7 +89,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
     if not (held & seen).any():
         return scans.select(held)
     if seen.all():
-        raise BadInput(
+        raise NoneHeldOut(
             f"{where}: the run was made without holding scans out, so there is none to score it on; make one with "
             f"bayesmap infer --holdout {every}"
         )

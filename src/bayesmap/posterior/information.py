@@ -92,7 +92,7 @@ def expected_information(
         hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
         seed: of the simulated scans.
         device: where to compute.
-        on_progress: told which share is done, from 0 to 1.
+        on_progress: called with the share that is done, from 0 to 1.
 
     Raises:
         BadInput: poses or angles that are none, or fewer than two draws.

@@ -52,7 +52,7 @@ def fit_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress:
         occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
         grid: of the map.
         train: scans that will not be scored, at their poses in the map's frame.
-        on_progress: told which share is done.
+        on_progress: called with the share that is done.
 
     Raises:
         BadInput: shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.

@@ -39,7 +39,7 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
         predictor: what predicts.
         scans: held out.
         device: where to compute.
-        on_progress: told which share is done.
+        on_progress: called with the share that is done.
 
     Raises:
         BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.

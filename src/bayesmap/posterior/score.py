@@ -52,11 +52,12 @@ def log_score(
     scans: Scans,
     sensor: SensorModel | None = None,
     on_progress: Callable[[int, int], None] = lambda done, total: None,
+    device: str = "cpu",
 ) -> float:
     """Mean of `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
 
     Raises:
         BadInput: as `beam_log_scores` and `predictor_of`.
     """
-    scores = beam_log_scores(predictor_of(posterior, sensor), scans, on_progress)
+    scores = beam_log_scores(predictor_of(posterior, sensor), scans, on_progress, device)
     return float(scores[~np.isnan(scores)].mean())

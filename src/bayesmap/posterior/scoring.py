@@ -135,7 +135,7 @@ def score_prediction(
         scans: held out.
         seed: of the randomised transform and of the bootstrap.
         device: where to compute.
-        on_progress: told which share is done.
+        on_progress: called with the share that is done.
 
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
@@ -205,6 +205,7 @@ def score_posterior(
     sensor: SensorModel | None = None,
     *,
     seed: int = 0,
+    device: str = "cpu",
     on_progress: OnShare = ignored,
 ) -> Score:
     """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
@@ -212,4 +213,4 @@ def score_posterior(
     Raises:
         BadInput: as `score_prediction` and `predictor_of`.
     """
-    return score_prediction(predictor_of(posterior, sensor), scans, seed=seed, on_progress=on_progress)
+    return score_prediction(predictor_of(posterior, sensor), scans, seed=seed, device=device, on_progress=on_progress)

@@ -6,8 +6,10 @@ error e has a covariance C, and
     NEES = e' C^-1 e
 
 should be chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4), and a region of
-probability p should hold the truth in a share p of relations. C is the covariance of the relative pose over the
-posterior's draws; estimated from D draws, NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) instead (Hotelling).
+probability p should hold the truth in a share p of relations. Where the law of relative poses is known (the Student-t
+approximation that `bayesmap.slam` finds, with scale matrices S and nu degrees of freedom), C is its covariance, and
+e' S^-1 e / 3 follows F(3, nu). Otherwise C is the covariance of the relative pose over the posterior's draws; estimated
+from D independent draws, NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) instead (Hotelling).
 A trajectory that comes with covariances of single poses alone, and no draws, is taken as if its poses were
 independent: right for localizations in a known map, far too wide for neighbours in a SLAM trajectory.
 """
@@ -23,7 +25,8 @@ from scipy import stats
 
 from bayesmap.poses.relations import RelationErrors, Relations, relation_errors
 from bayesmap.poses.se2 import between_jacobians, rotation
-from bayesmap.space.planar import between, compose, interpolate, inverse, wrapped
+from bayesmap.space.planar import around, between, compose, interpolate, inverse, wrapped
+from bayesmap.space.relative_law import RelativeLaw
 from bayesmap.space.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -42,12 +45,14 @@ class TrajectoryScore:
         region: the least probability of a region around the estimate that holds the truth, shape (M,): uniform if the
             covariances are right; None likewise.
         assumed_independent: whether covariances of single poses were all there was.
+        known_by: what said how sure the poses are, in words.
     """
 
     errors: RelationErrors
     nees: Floats | None = None
     region: Floats | None = None
     assumed_independent: bool = False
+    known_by: str = ""
 
     def coverage(self, level: float) -> float:
         """The share of relations whose truth lies in the region of a probability; NaN where regions are unknown."""
@@ -63,6 +68,7 @@ class TrajectoryScore:
             "nees": {"mean": float(self.nees.mean()), "median": float(np.median(self.nees)), "expected": DIMENSIONS},
             "coverage": [{"level": level, "share": self.coverage(level)} for level in LEVELS],
             "assumed_independent": self.assumed_independent,
+            "known_by": self.known_by or None,
         }
 
 
@@ -75,23 +81,46 @@ def score_trajectory(
         trajectory: with stamps, of the clock of the relations.
         relations: the truth.
         mount: the frame whose relations are known, given in the frame of the trajectory, shape (3,); None: the same.
-        exact: only relations whose both times are those of poses; otherwise poses are interpolated.
+        exact: only relations whose both times are those of poses; otherwise poses are interpolated where they are at
+            most `bayesmap.poses.relations.LONGEST_GAP_S` apart.
 
     Raises:
-        BadInput: a trajectory without stamps, or no relation within its time.
+        BadInput: no relation within the trajectory's time, or none near enough to its poses.
     """
     moved = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
     stamps = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s
     errors = relation_errors(stamps, moved.poses, relations, exact=exact)
     used = relations.select(errors.covered)
+    if moved.relative is not None and len(moved) > 1:
+        nees, region = _by_law(moved, moved.relative, stamps, used, errors.errors)
+        return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
     if moved.draws is not None and len(moved.draws) > 2 * DIMENSIONS:
         nees, region = _by_draws(moved.draws, stamps, used)
-        return TrajectoryScore(errors, nees, region)
+        return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
     if moved.covariances is not None:
         covariance = _independent(moved, stamps, used)
         nees = np.einsum("ni,nij,nj->n", errors.errors, np.linalg.inv(covariance), errors.errors)
         return TrajectoryScore(errors, nees, stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
     return TrajectoryScore(errors)
+
+
+def _by_law(
+    trajectory: Trajectory, law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats
+) -> tuple[Floats, Floats]:
+    """NEES and least region of each relation, by the law of the relative poses of the scans nearest in time."""
+    first, second = (_nearest(stamps_s, at) for at in (relations.first_s, relations.second_s))
+    # Two times about one scan: the step to a scan beside it, which is no surer.
+    second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
+    turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
+    scale = turn @ law.scales(first, second) @ np.swapaxes(turn, 1, 2) + 1e-15 * np.eye(DIMENSIONS)
+    square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)
+    return square * (law.dof - 2.0) / law.dof, np.asarray(stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
+
+
+def _nearest(stamps_s: Floats, at_s: Floats) -> NDArray[np.intp]:
+    """The numbers of the stamps that are nearest to some times."""
+    before, after = around(stamps_s, at_s)
+    return np.where(at_s - stamps_s[before] < stamps_s[after] - at_s, before, after)
 
 
 def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
@@ -120,9 +149,7 @@ def _independent(trajectory: Trajectory, stamps_s: Floats, relations: Relations)
     ends = []
     for at_s in (relations.first_s, relations.second_s):
         pose = interpolate(stamps_s, trajectory.poses, at_s)
-        after = np.clip(np.searchsorted(stamps_s, at_s), 1, len(stamps_s) - 1) if len(stamps_s) > 1 else 0 * at_s
-        after = np.asarray(after, dtype=np.intp)
-        nearest = np.where(at_s - stamps_s[after - 1] < stamps_s[after] - at_s, after - 1, after)
+        nearest = _nearest(stamps_s, at_s)
         own = np.swapaxes(rotation(pose[:, 2]), 1, 2)  # world axes to the pose's own
         ends.append((pose, own @ trajectory.covariances[nearest] @ np.swapaxes(own, 1, 2)))
     (first, sure_first), (second, sure_second) = ends

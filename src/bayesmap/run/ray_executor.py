@@ -26,7 +26,7 @@ from bayesmap.run.runner import Job, pause_after
 from bayesmap.run.schedule import Schedule
 from bayesmap.run.segments import Segment, chains_of_segments, some_chains
 from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import Snapshot
+from bayesmap.samplers.sampler import Snapshot, to_see
 from bayesmap.version import __version__
 
 WAIT_S = 0.25
@@ -249,7 +249,7 @@ class _RayRun:
         ]
         count = self.remote(ray_worker.observed_counts)
         counts = [
-            count(self.name, *self.shared, group.chain_ids, part.snapshot, part.draws.arrays)
+            count(self.name, *self.shared, group.chain_ids, part.snapshot, to_see(part.draws))
             for group, part in zip(self.groups, parts, strict=True)
             if part is not None
         ]

@@ -96,7 +96,7 @@ def observed_counts(
     snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
 ) -> NDArray[np.int32]:
-    """`bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot, with their draws so far."""
+    """`bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot; the draws are `to_see`'s."""
     here = held(run, job, problem)
     state = job.sampler.init(here.problem, chain_ids, job.seed, snapshot)
     return job.sampler.observed_counts(state, draws)

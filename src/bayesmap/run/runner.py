@@ -21,7 +21,7 @@ from bayesmap.run.chains import Chains, Record
 from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler
+from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler, to_see
 
 STEP_SECONDS = 0.25
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step
@@ -131,7 +131,7 @@ def run_chains(
     Args:
         job: what to run.
         resume: continue these chains of the same job: the result is bit for bit that of chains that never stopped.
-        watch: told after every step; asked between two steps whether to stop.
+        watch: gets progress after every step, and is asked between two steps whether to stop.
         on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
             often where it takes so long that it would hold the chains up.
         checkpoint_every_s: see above.
@@ -151,7 +151,7 @@ def run_chains(
 
     def so_far(state: ChainState) -> Chains:
         log_likelihood, log_prior, warmup = record.log_densities
-        counts = job.sampler.observed_counts(state, record.draws.arrays)
+        counts = job.sampler.observed_counts(state, to_see(record.draws))
         return Chains(
             draws=record.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
             snapshot=job.sampler.snapshot(state), observed_counts=counts, statistics=statistics,

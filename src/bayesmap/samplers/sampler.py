@@ -15,6 +15,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.draws import Draws
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.space.grid import Grid
@@ -59,6 +60,9 @@ class Keep:
 
 
 NOTHING = Keep()
+
+MAPS_TO_SEE = 8
+"""Draws of each chain that decide which cells count as observed, at most: the same, whatever other chains there are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +143,7 @@ class Sampler(Protocol[P, S]):
             model: what is sampled.
             device: where kernels run.
             threads: of the CPU; all cores if None. Nothing depends on it but time.
-            watch: told how far it is.
+            watch: gets how far it is.
 
         Raises:
             BadInput: a model that this sampler cannot sample.
@@ -167,4 +171,18 @@ class Sampler(Protocol[P, S]):
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """In how many maps some beam says something of each cell, and in how many was looked, of all chains, (2, nx,
         ny): of the draws; without any, of the maps at which the chains stand.
+
+        Args:
+            state: of the chains.
+            draws: what `to_see` has chosen of theirs; {} for the maps at which they stand.
         """
+
+
+def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
+    """The draws that `Sampler.observed_counts` is given: some maps, evenly spread; of arrays of some cells none.
+
+    Which cells are observed hardly differs from draw to draw, and all draws may be gigabytes, or far away.
+    """
+    some = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
+    whole = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}
+    return {name: array[:, some if name in whole else slice(0)] for name, array in draws.arrays.items()}

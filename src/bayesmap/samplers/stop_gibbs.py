@@ -181,17 +181,18 @@ class StopGibbs:
         )
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Kept-phase sweeps in which some beam told a cell something, of those that counted, else of the last, (2, nx,
-        ny).
+        """Kept-phase sweeps in which some beam said something of a cell, and those that counted, (2, nx, ny).
+
+        Without any, of the last sweep.
         """
         chains = range(state.chains.n_chains)
         if draws:
             counts = np.sum([state.chains.observed_counts(chain).T for chain in chains], axis=0)
         else:
-            counts = np.sum([self._informed_now(state, chain) for chain in chains], axis=0)
+            counts = np.sum([self._observed_now(state, chain) for chain in chains], axis=0)
         return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)
 
-    def _informed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
+    def _observed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
         """Whether some beam says something of each cell where a chain stands, and whether that is known, (2, N)."""
         if not state.problem.prior.has_surfaces:
             hits, met = state.chains.counted(chain)

@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 
 Order = Literal["raster", "radial", "random"]
 
-MAPS_TO_SEE = 8
-"""How many draws of each chain decide which cells count as observed: the same, whatever other chains there are."""
-
 
 @dataclass(frozen=True, eq=False)
 class WallState:
@@ -150,8 +147,7 @@ class WallSampler(ABC):
         if packed is None or packed.shape[1] == 0:
             reached = (state.chains.states.reached.numpy() > 0).sum(axis=0).reshape(shape)
             return np.stack([reached, np.full(shape, state.chains.shape[0])]).astype(np.int32)
-        some = np.unique(np.linspace(0, packed.shape[1] - 1, MAPS_TO_SEE).astype(int))
-        maps = unpack(packed[:, some].reshape(-1, packed.shape[-1]), shape)
+        maps = unpack(packed.reshape(-1, packed.shape[-1]), shape)
         share = reach_frequency(state.problem.table, maps, state.problem.device)
         return np.stack([np.rint(share * len(maps)), np.full(shape, len(maps))]).astype(np.int32)
 

@@ -32,6 +32,9 @@ range where the beam stops nowhere."""
 WIDEST = 63.0
 """The widest spread, in scales: wider ones are taken for it."""
 
+LOG_LEAST = -1e6
+"""What is less likely is taken for this, in nats: between nodes there is no interpolating with minus infinity."""
+
 SAMPLES = 512
 LEAST_SCALE_M = 1e-4
 SLACK = 0.05
@@ -157,8 +160,7 @@ def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floa
 
 
 def _floored(log_p: Floats) -> Floats:
-    """No reading is impossible, so that one odd beam never makes a whole map so."""
-    return np.maximum(log_p, LOG_IMPOSSIBLE)
+    return np.maximum(log_p, LOG_LEAST)
 
 
 def _by_slices(sensor: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:

@@ -36,6 +36,18 @@ def inverse(pose: Floats) -> Floats:
     return between(pose, np.zeros(3))
 
 
+def around(stamps_s: Floats, at_s: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Indices of the stamps before and after some times; outside those of the two nearest, of a single stamp its own.
+
+    Args:
+        stamps_s: shape (S,), ascending.
+        at_s: shape (N,).
+    """
+    last = len(stamps_s) - 1
+    after = np.clip(np.searchsorted(stamps_s, at_s), 1, max(1, last))
+    return after - 1, np.minimum(after, last)
+
+
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
     """Poses at other times: along the straight relative motion between neighbours; outside, the nearest end.
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import compose, interpolate, wrapped
+from bayesmap.space.relative_law import RelativeLaw
 from bayesmap.space.scans import as_poses
 
 Floats = NDArray[np.float64]
@@ -23,6 +24,8 @@ class Trajectory:
         stamps_s: when, seconds, shape (S,), ascending; None where nobody knows.
         covariances: of x, y and yaw, in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None where nobody knows.
         draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None where there are none.
+        relative: how sure relative poses are; None where that follows from the draws, or nobody knows.
+        known_by: what says how sure the poses are, in words; empty where nothing does, or nobody asked.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or stamps that descend.
@@ -32,6 +35,8 @@ class Trajectory:
     stamps_s: Floats | None = None
     covariances: Floats | None = None
     draws: Floats | None = None
+    relative: RelativeLaw | None = None
+    known_by: str = ""
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
@@ -56,7 +61,7 @@ class Trajectory:
         return len(self.poses)
 
     @classmethod
-    def of_draws(cls, draws: Floats, stamps_s: Floats | None = None) -> Trajectory:
+    def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
         """The trajectory of a posterior: mean and covariance of each pose over draws.
 
         A yaw's mean is that of its deviations from the first draw's, so that it may lie anywhere on the circle.
@@ -64,6 +69,7 @@ class Trajectory:
         Args:
             draws: shape (D, S, 3), or (chains, D, S, 3).
             stamps_s: shape (S,).
+            known_by: what is said of the draws.
 
         Raises:
             BadInput: no draw.
@@ -79,7 +85,7 @@ class Trajectory:
         covariances = np.einsum("dsi,dsj->sij", error, error) / max(len(flat) - 1, 1)
         poses = flat[0] + mean
         poses[:, 2] = wrapped(poses[:, 2])
-        return cls(poses, stamps_s, covariances, flat)
+        return cls(poses, stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Poses at other times, (N, 3), and which of those times lie between the first stamp and the last, (N,).
@@ -108,7 +114,8 @@ class Trajectory:
             swing[:, 1, 2] = poses[:, 0] - self.poses[:, 0]
             covariances = swing @ covariances @ np.swapaxes(swing, 1, 2)
         draws = None if self.draws is None else compose(self.draws, mount)
-        return Trajectory(poses, self.stamps_s, covariances, draws)
+        relative = None if self.relative is None else self.relative.of_frame(self.poses, np.asarray(mount))
+        return Trajectory(poses, self.stamps_s, covariances, draws, relative, self.known_by)
 
 
 SLACK_S = 0.002

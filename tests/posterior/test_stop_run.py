@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from oracle.field_law import log_likelihoods, paths_of
-from oracle.field_worlds import beam_rays, scans_of_all_kinds
-from samplers.field_rooms import surfaces_of
+from oracle.stop_law import log_likelihoods, paths_of
+from oracle.stop_worlds import beam_rays, scans_of_all_kinds
+from samplers.stop_rooms import surfaces_of
 
 import bayesmap as bm
 from bayesmap.cells.reflectivity import quantiles_of_halves

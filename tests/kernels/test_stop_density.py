@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from oracle.field_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
-from oracle.field_worlds import Worlds, beam_rays, centres_of, draw_worlds, scans_of_all_kinds
+from oracle.stop_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
+from oracle.stop_worlds import Worlds, beam_rays, centres_of, draw_worlds, scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.kernels.predict import log_densities

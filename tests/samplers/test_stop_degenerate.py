@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from field_rooms import GRID, PRIORS, TRUTH, infer, scans
+from stop_rooms import GRID, PRIORS, TRUTH, infer, scans
 
 import bayesmap as bm
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from oracle.enumeration import all_maps, log_prior_of_all
-from oracle.field_law import reading_law
+from oracle.stop_law import reading_law
 from scipy import special, stats
 
 

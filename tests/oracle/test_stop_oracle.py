@@ -6,9 +6,9 @@ False alarms: `ALPHA` = 1e-4 over this module.
 import numpy as np
 import pytest
 from oracle import density
-from oracle.field_exact import exact_reflectivities
-from oracle.field_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
-from oracle.field_worlds import build_worlds, draw_worlds
+from oracle.stop_exact import exact_reflectivities
+from oracle.stop_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
+from oracle.stop_worlds import build_worlds, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit
 from oracle.worlds import bm_limits
 from scipy import special, stats

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from oracle.field_law import draw_readings, draw_states, paths_of
+from oracle.stop_law import draw_readings, draw_states, paths_of
 
 import bayesmap as bm
 from bayesmap.beams.rays import around_readings

@@ -5,8 +5,8 @@ from dataclasses import fields, replace
 import netCDF4
 import numpy as np
 import pytest
-from oracle.field_worlds import scans_of_all_kinds
-from samplers.field_rooms import assert_same, surfaces_of
+from oracle.stop_worlds import scans_of_all_kinds
+from samplers.stop_rooms import assert_same, surfaces_of
 
 import bayesmap as bm
 

@@ -12,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from oracle.field_law import log_likelihoods, paths_of
-from oracle.field_worlds import draw_worlds, replaced
+from oracle.stop_law import log_likelihoods, paths_of
+from oracle.stop_worlds import draw_worlds, replaced
 from oracle.verdict import ALPHA
 from scipy import stats
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from field_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
+from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -129,7 +129,7 @@ def test_progress_is_told_of_the_fit_warm_up_and_draws_to_the_last_sweep():
 
 
 def test_kept_log_likelihoods_are_those_of_the_kept_draws():
-    from oracle.field_law import log_likelihoods, paths_of
+    from oracle.stop_law import log_likelihoods, paths_of
 
     run = infer("reflectivities", sensor=TRUTH, draws=3)
     rays = trace_stops(scans(), GRID, bm.Beta(), TRUTH).rays

@@ -1,0 +1,47 @@
+"""`bayesmap app` with a log: read by the settings with which other commands read one."""
+
+import gzip
+import json
+import signal
+
+import pytest
+from shell import call, start
+
+from bayesmap.app.opened import open_file
+
+PATIENCE_S = 120.0
+
+
+@pytest.fixture
+def cut(office, tmp_path):
+    """A packed log that ends too early, in the middle of a line."""
+    path = tmp_path / "cut.log.gz"
+    packed = gzip.compress(office.read_bytes())
+    path.write_bytes(packed[: len(packed) // 2])
+    return path
+
+
+@pytest.mark.parametrize("command", ["infer", "slam", "localize", "score", "render", "app"])
+def test_whoever_reads_a_log_has_the_option_that_refusals_name(command):
+    assert "--skip-bad-lines" in call(command, "--help").stdout
+
+
+def test_a_cut_log_is_refused_and_shown_as_far_as_it_goes_with_the_option_that_is_named(cut):
+    refused = start("app", "--no-browser", cut)
+    _, errors = refused.communicate(timeout=PATIENCE_S)
+    assert refused.returncode == 3
+    assert "--skip-bad-lines" in errors
+    process = start("app", "--no-browser", "-q", cut, "--skip-bad-lines")
+    try:
+        assert process.stdout.readline().startswith("http://127.0.0.1:")
+    finally:
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=PATIENCE_S)
+    assert (process.returncode, errors) == (0, "")
+
+
+def test_settings_of_reading_reach_the_log(office):
+    whole = open_file(str(office)).document.source.scans
+    assert open_file(str(office), thin_m=1.0).document.source.scans < whole
+    printed = json.loads(json.dumps({"no_return": float("inf")}))  # as the worker is told
+    assert open_file(str(office), **printed).document.source.scans == whole

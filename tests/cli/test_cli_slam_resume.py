@@ -1,0 +1,114 @@
+"""`bayesmap slam` stopped in any of its stages: the command that it prints ends as if nothing had stopped it."""
+
+import os
+import shlex
+import signal
+
+import numpy as np
+import pytest
+from shell import call
+
+import bayesmap as bm
+import bayesmap.from_odometry
+
+SETTINGS = (
+    "--chains", "2", "--warmup", "3", "--draws", "4", "--resolution", "0.25", "--max-range", "7", "--threads", "2",
+)  # fmt: skip
+OTHERS = ("--fast", "--resolution", "0.5", "--threads", "2")
+SAME = ("trajectory.tum", "trajectory-covariances.txt", "map.pgm", "config.toml")
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    """A robot's round through a small office, with the odometry of a Pioneer."""
+    path = tmp_path_factory.mktemp("log") / "office.log"
+    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "40", "--odometry", "typical",
+                "--fov", "360", "--angles", "120", "--seed", "4", "-o", path)  # fmt: skip
+    assert made.exit_code == 0, made.stderr
+    return path
+
+
+@pytest.fixture(scope="module")
+def whole(log, tmp_path_factory):
+    """The run that nothing stopped."""
+    folder = tmp_path_factory.mktemp("whole") / "run"
+    result = call("slam", log, "-o", folder, *SETTINGS)
+    assert result.exit_code == 0, result.stderr
+    return folder
+
+
+def press_ctrl_c_in(monkeypatch, stage):
+    """Press it when a stage of the approximation, or the first sweep of the chains, is told of."""
+    real = bayesmap.from_odometry.slam
+
+    def slam(*given, on_progress, **options):
+        def told(event):
+            on_progress(event)
+            if event.stage == stage:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        return real(*given, on_progress=told, **options)
+
+    monkeypatch.setattr(bayesmap.from_odometry, "slam", slam)
+
+
+def printed(stderr):
+    """The arguments of the command that was printed."""
+    (line,) = (line for line in stderr.splitlines() if line.endswith("--resume"))
+    name, *arguments = shlex.split(line)
+    assert name == "bayesmap"
+    return arguments
+
+
+def assert_same(folder, whole):
+    for name in SAME:
+        assert (folder / name).read_bytes() == (whole / name).read_bytes(), name
+    run, other = bm.load(folder / "run.nc"), bm.load(whole / "run.nc")
+    assert run.finished
+    np.testing.assert_array_equal(run.poses, other.poses)
+    np.testing.assert_array_equal(run.occupancy, other.occupancy)
+
+
+@pytest.mark.parametrize("stage", ["front end", "loops", "aligned", "warm-up"])
+def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_path, monkeypatch, stage):
+    folder = tmp_path / "run"
+    with monkeypatch.context() as patch:
+        press_ctrl_c_in(patch, stage)
+        stopped = call("slam", log, "-o", folder, *SETTINGS)
+    assert stopped.exit_code == 130, stopped.stderr
+    resumed = call(*printed(stopped.stderr))
+    assert resumed.exit_code == 0, resumed.stderr
+    assert_same(folder, whole)
+
+
+def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch):
+    folder = tmp_path / "run"
+    assert call("slam", log, "-o", folder, *OTHERS).exit_code == 0
+    with monkeypatch.context() as patch:
+        press_ctrl_c_in(patch, "front end")
+        stopped = call("slam", log, "-o", folder, *SETTINGS, "--force")
+    assert stopped.exit_code == 130, stopped.stderr
+    assert {path.name for path in folder.iterdir()} == {"stages", "config.toml"}
+    assert call(*printed(stopped.stderr)).exit_code == 0
+    assert_same(folder, whole)
+
+
+def test_an_older_run_stays_where_nothing_can_be_inferred(log, whole):
+    before = (whole / "run.nc").read_bytes()
+    refused = call("slam", log, "-o", whole, "--force", "--no-odometry")
+    assert refused.exit_code == 3
+    assert (whole / "run.nc").read_bytes() == before
+    assert (whole / "config.toml").exists()
+
+
+def test_ctrl_c_before_the_run_has_begun_prints_no_command(log, whole, monkeypatch):
+    monkeypatch.setattr("bayesmap.cli.folder.Folder.begin", lambda self, toml: os.kill(os.getpid(), signal.SIGINT))
+    stopped = call("slam", log, "-o", whole, "--force", *OTHERS)
+    assert stopped.exit_code == 130
+    assert "--resume" not in stopped.stderr
+
+
+def test_a_folder_that_cannot_be_written_is_bad_input(log):
+    refused = call("slam", log, "-o", "/proc/run", *SETTINGS)
+    assert refused.exit_code == 3, refused.stderr
+    assert refused.stderr.splitlines()[-1].startswith("bayesmap: error: /proc")
