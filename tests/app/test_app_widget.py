@@ -2,11 +2,15 @@
 
 import os
 import queue
+import threading
+import time
 
 import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.app import session
+from bayesmap.app.tasks import Report
 from bayesmap.app.worlds import new_document, tutorial_document
 
 pytest.importorskip("anywidget")
@@ -61,6 +65,27 @@ def test_the_live_page_infers(shown):
     state, _ = view.until("state", lambda h: h["seq"] == view.seq)
     assert state["document"] == view.widget.document
     view.until("field", lambda h: h["generation"] == state["generation"] == view.widget.generation)
+
+
+def test_a_report_that_comes_while_an_edit_is_applied_waits_for_it(shown, monkeypatch):
+    view = shown(seed=3)
+    view.until("field", lambda h: not h["approximate"])
+    begun, edit = threading.Event(), session.edit
+
+    def slow(document, message):
+        begun.set()
+        time.sleep(0.2)
+        return edit(document, message)
+
+    monkeypatch.setattr(session, "edit", slow)
+    editing = threading.Thread(target=view.send, args=("walls",), kwargs={"cells": [[10, 12]], "wall": True})
+    editing.start()
+    begun.wait(PATIENCE_S)
+    done = {"type": "finished", "generation": view.widget.generation, "draws": {"chains": 1, "count": 1}}
+    view.widget._hear(Report(done))  # as a thread of the supervisor's calls it; it tells of the state
+    editing.join()
+    state, _ = view.until("state", lambda h: h["seq"] == view.seq)
+    assert state["document"] == view.widget.document
 
 
 def test_the_live_page_begins_where_it_is_told(shown):

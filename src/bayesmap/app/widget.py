@@ -56,6 +56,8 @@ class MapWidget(anywidget.AnyWidget):
         self._run = run
         first = tutorial_document(seed) if document is None else parse_simulation(dict(document))
         self._session = Session(_shown(run, first))
+        # where there is no event loop, the supervisor's threads call in themselves, and the session is no thread's own
+        self._one_at_a_time = threading.RLock()
         self._later = _on_this_loop()
         self.on_msg(self._receive)
         self._end_with_notebook()
@@ -118,14 +120,15 @@ class MapWidget(anywidget.AnyWidget):
     def _receive(self, _widget: object, content: Any, _buffers: object) -> None:
         """A message of the view's."""
         self._start()
-        if isinstance(content, dict) and content.get("type") == "hello":
-            self._do(self._session.join(CLIENT))
-        try:
-            message = check(content)
-        except Refused as refused:
-            self._post(refusal(refused, None, seq_of(content if isinstance(content, dict) else "")), {})
-            return
-        self._do(self._session.receive(CLIENT, message))
+        with self._one_at_a_time:
+            if isinstance(content, dict) and content.get("type") == "hello":
+                self._do(self._session.join(CLIENT))
+            try:
+                message = check(content)
+            except Refused as refused:
+                self._post(refusal(refused, None, seq_of(content if isinstance(content, dict) else "")), {})
+                return
+            self._do(self._session.receive(CLIENT, message))
 
     def _start(self) -> None:
         if self._supervisor is not None:
@@ -137,14 +140,19 @@ class MapWidget(anywidget.AnyWidget):
             self._run.save(path)
         self._supervisor = Supervisor(
             lambda report: self._later(lambda: self._hear(report)),
-            lambda: self._later(lambda: self._do(self._session.worker_lost())),
+            lambda: self._later(self._lost),
             path,
         )
         self._supervisor.start()
 
     def _hear(self, report: Report) -> None:
         if report.header["type"] != "unusable":
-            self._do(self._session.hear(report))
+            with self._one_at_a_time:
+                self._do(self._session.hear(report))
+
+    def _lost(self) -> None:
+        with self._one_at_a_time:
+            self._do(self._session.worker_lost())
 
     def _do(self, effects: Effects) -> None:
         for effect in effects:
