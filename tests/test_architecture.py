@@ -95,6 +95,32 @@ def test_heavy_libraries_have_a_room_each(library, rooms):
                 assert home(path) in rooms.split(), f"{path}:{line}: only {rooms} imports {library}"
 
 
+KINDS_OF_CELLS = {"BinaryWalls", "Independent", "Ising", "Reflective", "Beta", "Surface"}
+
+
+def asked_for_a_kind(source):
+    """Lines that ask by type which kind of cells there is."""
+    for node in ast.walk(ast.parse(source)):
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name)
+            and node.func.id in ("isinstance", "issubclass")
+        ):
+            words = {getattr(inner, "id", getattr(inner, "attr", None)) for inner in ast.walk(node.args[1])}
+            if words & KINDS_OF_CELLS:
+                yield node.lineno
+
+
+def test_only_cells_know_which_kinds_of_cells_there_are():
+    """Others ask a kind what it has, or take the one that they work with by `CellPrior.of`."""
+    found = [f"{path}:{line}" for path in FILES if home(path) != "cells" for line in asked_for_a_kind(path.read_text())]
+    assert not found
+
+
+def test_a_question_for_a_kind_is_noticed():
+    assert list(asked_for_a_kind("import bayesmap as bm\nisinstance(prior, (int, bm.Surface))\n")) == [2]
+
+
 def test_every_room_is_known():
     assert {home(path) for path in FILES} - {""} <= set(LEVEL)
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +82,23 @@ class CellPrior(ABC):
     def is_incomplete(self) -> bool:
         """Whether something of the prior is to be fitted to the scans before any map can be drawn."""
         return False
+
+    @classmethod
+    def of(cls, prior: CellPrior, asked_by: str, remedy: str = "") -> Self:
+        """The prior itself, where it is of this kind: for what works with one kind alone.
+
+        Args:
+            prior: to be checked.
+            asked_by: what works with this kind alone, as the error is to name it.
+            remedy: what the error is to advise.
+
+        Raises:
+            BadInput: a prior of another kind.
+        """
+        if not isinstance(prior, cls):
+            advice = f"; {remedy}" if remedy else ""
+            raise BadInput(f"{asked_by}: the prior must be {cls.__name__}, got {type(prior).__name__}{advice}")
+        return prior
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)

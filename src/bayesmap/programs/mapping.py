@@ -79,11 +79,8 @@ def mapping_model(
         BadInput: shapes that do not fit, numbers that are not finite, a sensor without likelihood on JAX, or a prior
             that couples neighbours.
     """
-    if not isinstance(prior, Independent):
-        raise BadInput(
-            f"mapping_model: the prior must be Independent, got {type(prior).__name__}; use infer, or write a program "
-            "that draws its walls and gives them to sensor_model"
-        )
+    remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
+    prior = Independent.of(prior, "mapping_model", remedy)
     walls = _Walls(_Fixed(prior.probabilities(grid)))
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)

@@ -67,10 +67,9 @@ class Parameters:
     @classmethod
     def from_description(cls, values: dict[str, Any]) -> Parameters:
         """The parameters of a description."""
-        sensor, prior = from_description(values["sensor"]), prior_from(values["prior"])
+        sensor = from_description(values["sensor"])
         assert isinstance(sensor, BeamMixture)
-        assert isinstance(prior, Reflective)
-        return cls(sensor, prior)
+        return cls(sensor, Reflective.of(prior_from(values["prior"]), "fitted parameters"))
 
 
 @dataclass(frozen=True, eq=False)

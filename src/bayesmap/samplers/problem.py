@@ -135,13 +135,13 @@ def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -
     """Trace the beam table of a model of binary walls.
 
     Raises:
-        BadInput: a prior of another shape than the grid, a device that is not there, or too many incidences.
+        BadInput: a prior of another kind or shape, a device that is not there, or too many incidences.
     """
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.trace import trace
 
-    assert isinstance(model.cells, BinaryWalls)
+    walls = BinaryWalls.of(model.cells, "this method")
     device = resolve(device)
-    model.cells.probabilities(model.grid)  # shapes are checked before the long work
+    walls.probabilities(model.grid)  # shapes are checked before the long work
     table = trace(model.scans, model.grid, model.sensor, hit_depth=model.hit_depth, device=device)
-    return WallProblem(table, model.cells, model.scans.poses, device, threads)
+    return WallProblem(table, walls, model.scans.poses, device, threads)
