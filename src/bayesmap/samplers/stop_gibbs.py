@@ -53,9 +53,9 @@ class StopGibbs:
         """Compile, trace, and estimate where to start."""
         from bayesmap.kernels.stop_chains import KERNELS, load_stop_kernels
 
-        assert isinstance(model.cells, Reflective)
+        cells = Reflective.of(model.cells, "stop-gibbs")
         problem = trace_stops(
-            model.scans, model.grid, model.cells, model.sensor, hit_depth=model.hit_depth, device=device,
+            model.scans, model.grid, cells, model.sensor, hit_depth=model.hit_depth, device=device,
             threads=threads, watch=watch,
         )  # fmt: skip
         watch.report("compile", 0, len(KERNELS))
