@@ -45,6 +45,9 @@ GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
 CELLS_PAST_REACH = 4.0
 """Cells past a reading's reach whose surfaces may still explain it, by their extent along the beam."""
 
+FEW_BEAMS = 5_000
+"""Up to so many are done before a second thread has begun."""
+
 
 @wp.func
 def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
@@ -213,7 +216,7 @@ def _sums(
     for batch in batches:
         draws += len(batch)
         inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
-        launch(add_forecasts, beams, [*inputs, most, total, *cumulatives], device)
+        launch(add_forecasts, beams, [*inputs, most, total, *cumulatives], device, 1 if beams < FEW_BEAMS else None)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     with np.errstate(divide="ignore"):

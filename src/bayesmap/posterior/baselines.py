@@ -192,6 +192,21 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
     return folds
 
 
+def one_fold(train: Scans, grid: Grid) -> list[Fold]:
+    """What a map is fitted on that no scan changes, and none need be held out of: `BEAMS_WANTED` beams, if there are.
+
+    Raises:
+        BadInput: no training scan with a valid reading.
+    """
+    valid = (train.readings != Reading.INVALID).sum(axis=1)
+    train, valid = train.select(valid > 0), valid[valid > 0]
+    if len(train) == 0:
+        raise BadInput("score: none of the training scans has a valid reading to fit a sensor on")
+    wanted = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
+    nothing = np.zeros(grid.shape).ravel()
+    return [_fold(nothing, nothing, train.select(np.arange(wanted) * len(train) // wanted), grid)]
+
+
 def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, values: Values) -> float:
     """Mean log predictive density of the folds' beams, each under the counts of the other scans."""
     from bayesmap.kernels.predict import log_densities

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.baselines import Baseline, Fitted, fit_baseline, make_folds
+from bayesmap.posterior.baselines import Baseline, Fitted, fit_baseline, one_fold
 from bayesmap.posterior.progress_shares import OnShare, ignored
 from bayesmap.posterior.tuning import Parameter
 from bayesmap.space.grid import Grid
@@ -69,4 +69,4 @@ def fit_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress:
         )
     flat = values.ravel()
     baseline = Baseline(name, lambda hits, passes, numbers: stop_probabilities(flat, numbers), OWN, STARTS)
-    return fit_baseline(baseline, train, grid, make_folds(train, grid), on_progress)
+    return fit_baseline(baseline, train, grid, one_fold(train, grid), on_progress)
