@@ -50,6 +50,7 @@ class Sums:
     first: wp.vec3d
     cost: wp.float64
     weight: wp.float64
+    force_sq: wp.float64  # of the points' weighted residuals, each weighted once
     matched: int
     seen: int  # points that fall between the beams of the other scan, within its range
 
@@ -165,6 +166,7 @@ def pair_scans(
     g2 = float(0.0)
     cost = float(0.0)
     total = float(0.0)
+    force_sq = float(0.0)
     matched = int(0)
     seen = int(0)
     k = int(0)
@@ -204,6 +206,7 @@ def pair_scans(
             e = ux * dx + uy * dy
             w = 1.0 / (1.0 + e * e / (scale * scale))
             w = w * w
+            force_sq += weights[i, b] * w * w * e * e
             w = w * weights[i, b]
             j2 = uy * rx - ux * ry
             h00 += w * ux * ux
@@ -255,28 +258,10 @@ def pair_scans(
     sums.first = wp.vec3d(wp.float64(g0), wp.float64(g1), wp.float64(g2))
     sums.cost = wp.float64(cost)
     sums.weight = wp.float64(total)
+    sums.force_sq = wp.float64(force_sq)
     sums.matched = matched
     sums.seen = seen
     return sums
-
-
-@wp.func
-def turn_of(yaw: wp.float64) -> wp.mat33d:
-    """The matrix that turns steps (x, y, yaw) given in a frame at this yaw into the outer frame's axes."""
-    c = wp.cos(yaw)
-    s = wp.sin(yaw)
-    o = wp.float64(0.0)
-    return wp.mat33d(c, -s, o, s, c, o, o, o, wp.float64(1.0))
-
-
-@wp.func
-def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
-    """The pose b in the frame of a."""
-    c = wp.cos(a[2])
-    s = wp.sin(a[2])
-    dx = b[0] - a[0]
-    dy = b[1] - a[1]
-    return wp.vec3d(c * dx + s * dy, -s * dx + c * dy, b[2] - a[2])
 
 
 @wp.kernel
@@ -305,6 +290,7 @@ def sum_pairs(
     totals[p, 1] = sums.weight
     totals[p, 2] = wp.float64(sums.matched)
     totals[p, 3] = wp.float64(sums.seen)
+    totals[p, 4] = sums.force_sq
 
 
 def scene_of(geometry: Any, stride: int = 1) -> Any:
@@ -331,16 +317,16 @@ def pair_sums(
     stride: int = 1,
     threads: int | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 4) of pairs of scans.
+    """H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
 
-    Totals are cost, weight, points matched, and points within the other scan's view.
+    Totals are cost, weight, points matched, points within the other scan's view, and the squares of the points' forces.
     """
     device, count = geometry.device, len(source)
     if weights is None:
         weights = np.ones((len(geometry), geometry.beams), np.float32)
     second, slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
     gradient = wp.empty(count, dtype=wp.vec3d, device=device)
-    totals = wp.empty((count, 4), dtype=wp.float64, device=device)
+    totals = wp.empty((count, 5), dtype=wp.float64, device=device)
     inputs = [scene_of(geometry, stride), devices.to_device(weights, wp.float32, device)]
     inputs += [devices.to_device(source, wp.int32, device), devices.to_device(target, wp.int32, device)]
     inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, second, slack, gradient, totals]

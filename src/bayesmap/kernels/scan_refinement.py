@@ -7,12 +7,31 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.line_pairs import Scene, pair_scans, pose_between, scene_of, turn_of
+from bayesmap.kernels.line_pairs import Scene, pair_scans, scene_of
 from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
 STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
+
+
+@wp.func
+def turn_of(yaw: wp.float64) -> wp.mat33d:
+    """The matrix that turns steps (x, y, yaw) given in a frame at this yaw into the outer frame's axes."""
+    c = wp.cos(yaw)
+    s = wp.sin(yaw)
+    o = wp.float64(0.0)
+    return wp.mat33d(c, -s, o, s, c, o, o, o, wp.float64(1.0))
+
+
+@wp.func
+def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
+    """The pose b in the frame of a."""
+    c = wp.cos(a[2])
+    s = wp.sin(a[2])
+    dx = b[0] - a[0]
+    dy = b[1] - a[1]
+    return wp.vec3d(c * dx + s * dy, -s * dx + c * dy, b[2] - a[2])
 
 
 @wp.func

@@ -158,7 +158,7 @@ def align(
     count, sigma = len(poses), geometry.noise_m
     reach_m, scale_m = geometry.reach_m(*reach_m), geometry.scale_m(*scale_m)
     weights = np.ones((count, geometry.beams), np.float32)
-    gaussian, totals = None, np.zeros((len(pairs), 4))
+    gaussian, totals = None, np.zeros((len(pairs), 5))
     for number in range(rounds):
         share = min(1.0, number / max(1.0, 0.5 * rounds))
         reach = reach_m[0] * (reach_m[1] / reach_m[0]) ** share
@@ -168,7 +168,7 @@ def align(
         if number in (0, (rounds + 1) // 2, rounds - 2):
             seen = between(poses[pairs.target], poses[pairs.source])
             counts = match_counts(geometry, pairs.offsets, pairs.target, seen, reach, scale, ALIKE, threads)
-            weights = (0.5 / (1.0 + counts)).astype(np.float32)
+            weights = beam_weights(counts)
         laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, threads)
         squares = odometry.squares(poses)
         slipping = 1.0 / (1.0 + squares / SLIP)
@@ -186,6 +186,11 @@ def align(
     matched = shares / np.maximum(np.bincount(pairs.source, minlength=count), 1)
     assert gaussian is not None
     return Alignment(poses, pairs, sigma, gaussian, matched)
+
+
+def beam_weights(counts: NDArray[np.float32]) -> NDArray[np.float32]:
+    """What a beam counts in each of its pairs, (S, B), by the number of scans that it is matched with."""
+    return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
 
 def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussian:
