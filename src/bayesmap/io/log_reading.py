@@ -1,4 +1,4 @@
-"""What was read from a log: the scans, and an account of how they were come by."""
+"""What was read from a log: the scans, and an account of how they were read."""
 
 from __future__ import annotations
 

@@ -93,7 +93,7 @@ def describe_log(
     deskew: bool = False,
     thin_m: float = 0.0,
 ) -> LogReading:
-    """As `read_log`, with an account of how the scans were come by: skipped lines, no-return code, notes."""
+    """As `read_log`, with an account of how the scans were read: skipped lines, no-return code, notes."""
     kind = format_of(path)
     chosen = {"scan_topic": scan_topic, "pose_topic": pose_topic, "fixed_frame": fixed_frame}
     if kind in RECORDINGS:

@@ -1,4 +1,4 @@
-"""Gibbs sampling of reflectivities and surfaces, with each beam's stop drawn along (docs/surfaces.md).
+"""Gibbs sampling of reflectivities and surfaces, and of where each beam stops (docs/surfaces.md).
 
 Given the cells, where each beam stops is drawn from its exact conditional in one walk along the beam; given the stops,
 each cell's reflectivity is a Beta, and its surface takes a Metropolis step. The reflectivity half goes back to
