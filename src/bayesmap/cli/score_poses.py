@@ -113,7 +113,10 @@ def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -
     if figures["coverage"] is not None:
         held = ", ".join(f"{100 * c['share']:.1f} of {100 * c['level']:g}" for c in figures["coverage"])
         nees = figures["nees"]
-        lines.append(f"regions      hold {held} %; NEES {nees['mean']:.2f}, median {nees['median']:.2f} (3 is right)")
+        lines.append(
+            f"regions      hold {held} %, if relations are exact; "
+            f"NEES {nees['mean']:.2f}, median {nees['median']:.2f} (3 is right)"
+        )
         lines += [f"by           {found.known_by}"] if found.known_by else []
     elif of_run:
         lines.append(
