@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.space.planar import between, compose, interpolate, inverse, wrapped
+from bayesmap.space.planar import around, between, compose, interpolate, inverse, nearest, wrapped
 
 NUMBER = st.floats(-50, 50)
 POSE = st.tuples(NUMBER, NUMBER, NUMBER).map(np.array)
@@ -61,3 +61,20 @@ def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way()
 def test_one_pose_holds_at_all_times(count):
     found = interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
     np.testing.assert_allclose(found, [[1.0, 2.0, 0.5]] * 3)
+
+
+def test_neighbours_are_those_before_and_after_and_the_two_at_the_end_outside():
+    before, after = around(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
+    assert before.tolist() == [0, 0, 0, 1, 1]
+    assert after.tolist() == [1, 1, 1, 2, 2]
+
+
+def test_a_single_stamp_is_its_own_neighbour():
+    assert [index.tolist() for index in around(np.array([5]), np.array([1, 5, 9]))] == [[0, 0, 0], [0, 0, 0]]
+    assert nearest(np.array([5]), np.array([1, 5, 9])).tolist() == [0, 0, 0]
+
+
+@given(st.lists(st.integers(-50, 50), min_size=1, max_size=8, unique=True), st.integers(-60, 60))
+def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(known, wanted):
+    known = np.sort(known)
+    assert nearest(known, np.array([wanted]))[0] == np.argmin(np.abs(known - wanted))

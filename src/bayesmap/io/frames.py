@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from bayesmap.io.laser_messages import Malformed
+from bayesmap.space.planar import around
 from bayesmap.space.rigid import Track, planar
 
 FURTHEST_M = 1e7
@@ -110,9 +111,9 @@ class Chain:
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
         for track, constant, _ in self.links:
             if not constant and len(track.stamps_ns) > 1:
-                after = np.clip(np.searchsorted(track.stamps_ns, stamps_ns), 1, len(track.stamps_ns) - 1)
-                moved = np.diff(track.motions.translation, axis=0)[after - 1]
-                long = np.diff(track.stamps_ns)[after - 1] > longest_s * 1e9
+                before, _ = around(track.stamps_ns, stamps_ns)
+                moved = np.diff(track.motions.translation, axis=0)[before]
+                long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
                 result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)
         return result
 

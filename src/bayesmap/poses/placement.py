@@ -11,6 +11,7 @@ from bayesmap.kernels.scan_refinement import refine_scans
 from bayesmap.poses.alignment import ALIKE, Pairs
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.se2 import rotation
+from bayesmap.space.planar import around, nearest
 
 Floats = NDArray[np.float64]
 
@@ -74,16 +75,14 @@ def place_scans(
     result[keys] = key_poses
     if not len(scans):
         return Placement(result, information, matched)
-    after = np.clip(np.searchsorted(keys, scans), 1, max(1, len(keys) - 1))
-    before = after - 1
-    after = np.minimum(after, len(keys) - 1)
-    nearest = np.where(scans - keys[before] <= keys[after] - scans, before, after)
-    other = np.where(nearest == before, after, before)
+    before, after = around(keys, scans)
+    near = nearest(keys, scans)
+    other = np.where(near == before, after, before)
     compared = []
     for k in range(len(keys)):
         partners = pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]]
         compared.append(np.concatenate([[k], _spread(partners, COMPARED - 2)]).astype(np.int32))
-    lists = [np.union1d(compared[n], [o]) for n, o in zip(nearest, other, strict=True)]
+    lists = [np.union1d(compared[n], [o]) for n, o in zip(near, other, strict=True)]
     offsets = np.concatenate([[0], np.cumsum([len(one) for one in lists])]).astype(np.int32)
     flat = np.concatenate(lists).astype(np.intp)
     prior = np.diag(1.0 / PRIOR_SIGMA**2)

@@ -26,7 +26,7 @@ from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, compose, nearest
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
@@ -174,14 +174,15 @@ class _Run:
         )  # fmt: skip
         explained = placed.matched.copy()
         explained[keys] = scores
-        nearest = _nearest(keys, len(scans))
+        nearest_key = nearest(keys, np.arange(len(scans)))
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
         leaps = keys[1:][contradicted_links(track, final.poses)]
         error_m = point_error_m(key_geometry, final, threads)
         gaussian = replace(with_point_error(final, error_m), poses=compose(self.origin, final.poses))
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
-            compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest, placed.own_covariance(keys),
+            compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest_key,
+            placed.own_covariance(keys),
             explained, flag_unexplained(explained, keys), breaks, closures,
             Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors,
             leaps,
@@ -329,12 +330,3 @@ class _Run:
             old = aligned.poses
             aligned = self.align("aligned-rematched", geometry, poses, factors, reach_m, 6, wide=False)
         return aligned, before
-
-
-def _nearest(keys: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """Position of the key nearest in the order of time to each scan."""
-    scans = np.arange(count)
-    after = np.clip(np.searchsorted(keys, scans), 1, max(1, len(keys) - 1))
-    after = np.minimum(after, len(keys) - 1)
-    before = np.maximum(after - 1, 0)
-    return np.where(np.abs(scans - keys[before]) <= np.abs(keys[after] - scans), before, after)

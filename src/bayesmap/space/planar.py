@@ -36,16 +36,34 @@ def inverse(pose: Floats) -> Floats:
     return between(pose, np.zeros(3))
 
 
-def around(stamps_s: Floats, at_s: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Indices of the stamps before and after some times; outside those of the two nearest, of a single stamp its own.
+def around(
+    known: NDArray[np.floating] | NDArray[np.integer], wanted: NDArray[np.floating] | NDArray[np.integer]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Indices of what is known before and after each of some times, or other numbers.
 
     Args:
-        stamps_s: shape (S,), ascending.
-        at_s: shape (N,).
+        known: shape (S,), ascending.
+        wanted: shape (N,).
+
+    Returns:
+        Twice (N,): where wanted lies outside, the two at that end; of a single one that is known its own, twice.
     """
-    last = len(stamps_s) - 1
-    after = np.clip(np.searchsorted(stamps_s, at_s), 1, max(1, last))
+    last = len(known) - 1
+    after = np.clip(np.searchsorted(known, wanted), 1, max(1, last))
     return after - 1, np.minimum(after, last)
+
+
+def nearest(
+    known: NDArray[np.floating] | NDArray[np.integer], wanted: NDArray[np.floating] | NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Index of what is known nearest to each of some times, or other numbers, (N,); of two as near the earlier.
+
+    Args:
+        known: shape (S,), ascending.
+        wanted: shape (N,).
+    """
+    before, after = around(known, wanted)
+    return np.where(np.abs(wanted - known[before]) <= np.abs(known[after] - wanted), before, after)
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
