@@ -182,10 +182,8 @@ class _Run:
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
             compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest_key,
-            placed.own_covariance(keys),
-            explained, flag_unexplained(explained, keys), breaks, closures,
-            Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors,
-            leaps,
+            placed.own_covariance(keys), explained, flag_unexplained(explained, keys), breaks, closures,
+            Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors, leaps,
         )  # fmt: skip
 
     def front_end(self, geometry: ScanGeometry) -> Track:
