@@ -1,6 +1,5 @@
 """Settings for all tests; its presence also puts tests/ on the import path (`from data import intel_log`)."""
 
-import os
 import signal
 
 from hypothesis import settings
@@ -14,8 +13,3 @@ settings.load_profile("bayesmap")
 # ignore it, as a script's shell starts jobs in the background, it is put in force again.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
-def pytest_xdist_auto_num_workers():
-    """One more than there are cores: tests of the page and of clusters wait for other processes much of their time."""
-    return (os.cpu_count() or 1) + 1
