@@ -9,7 +9,7 @@ from simulated import path_around, ring, scans_of
 
 from bayesmap.poses.alignment import Pairs, align, overlapping_pairs
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.point_errors import COUNTED_AGAIN, point_error_m, with_point_error
+from bayesmap.poses.point_errors import COUNTED_AGAIN, PointError, point_error, with_point_error
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
@@ -39,7 +39,7 @@ def squares(truth, gaussian):
 
 def test_what_is_found_is_in_proportion_to_the_noise_and_what_matching_leaves_is_not():
     found = {noise: aligned(noise) for noise in (0.01, 0.04)}
-    errors = [point_error_m(geometry, one) / noise for noise, (_, geometry, one) in found.items()]
+    errors = [point_error(geometry, one).sigma_m / noise for noise, (_, geometry, one) in found.items()]
     assert errors[1] == pytest.approx(errors[0], rel=0.05)
     left = [one.sigma_m / noise for noise, (_, _, one) in found.items()]
     assert left[1] < 0.85 * left[0]
@@ -48,7 +48,7 @@ def test_what_is_found_is_in_proportion_to_the_noise_and_what_matching_leaves_is
 @pytest.mark.parametrize("noise_m", [0.01, 0.04])
 def test_covariances_have_the_size_of_errors_for_any_noise(noise_m):
     truth, geometry, found = aligned(noise_m)
-    assert 0.7 < squares(truth, with_point_error(found, point_error_m(geometry, found))) < 1.5
+    assert 0.7 < squares(truth, with_point_error(found, point_error(geometry, found))) < 1.5
 
 
 def test_what_matching_leaves_claims_twice_too_much_of_a_noisy_laser():
@@ -67,10 +67,12 @@ def test_only_the_laser_s_part_is_scaled():
         curvature=np.append(tied.curvature, np.eye(3)[None], axis=0),
         force=np.append(tied.force, np.zeros((1, 3)), axis=0),
     )  # fmt: skip
-    scaled = with_point_error(replace(found, gaussian=by_wheels), 2.0 * found.sigma_m)
-    share = 0.25 * tied.dof / (tied.dof - 2.0) / (1.0 - COUNTED_AGAIN)
-    assert np.allclose(scaled.curvature[:laser], share * tied.curvature)
-    assert np.allclose(scaled.force[:laser], share * tied.force)
+    error = PointError(found.sigma_m, np.array([0.5, 0.5, 0.25]))
+    scaled = with_point_error(replace(found, gaussian=by_wheels), error)
+    share = tied.dof / (tied.dof - 2.0) / (1.0 - COUNTED_AGAIN)
+    ratio = np.array([[4.0, 4.0, 2.0], [4.0, 4.0, 2.0], [2.0, 2.0, 1.0]]) / 16.0
+    assert np.allclose(scaled.curvature[:laser], share * ratio * tied.curvature)
+    assert np.allclose(scaled.force[:laser], share * np.diag(ratio) * tied.force)
     assert np.array_equal(scaled.curvature[laser], np.eye(3))
 
 
@@ -79,4 +81,4 @@ def test_scans_that_share_nothing_keep_what_matching_leaves():
     nothing = replace(
         found, pairs=Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(len(geometry) + 1, np.int32))
     )
-    assert point_error_m(geometry, nothing) == found.sigma_m
+    assert point_error(geometry, nothing).sigma_m == found.sigma_m

@@ -10,7 +10,7 @@ they are apart the nearest is seldom the same.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,12 +28,33 @@ COUNTED_AGAIN = 0.1
 """Of the points' variance so much is in that of errors in common, too (`shared_errors`): what that finds in simulated
 offices, where nothing is in common."""
 
+LEVER_M = 4.0
+"""Points are so far from the laser, about: what a turn moves them by."""
+
 LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0
 """Where the forces hardly answer to a shift there is too little to match."""
 
 
-def point_error_m(geometry: ScanGeometry, aligned: Alignment, threads: int | None = None) -> float:
-    """Standard deviation of a point, such that Gauss and Newton's curvature over its square has the right size, metres.
+@dataclass(frozen=True, eq=False)
+class PointError:
+    """How far points err, and how the forces answer to a shift.
+
+    Attributes:
+        scatter_m: standard deviation of a point's force over its mean weight, metres.
+        response: k above, of shifts along x and y and of turns, (3,).
+    """
+
+    scatter_m: float
+    response: Floats
+
+    @property
+    def sigma_m(self) -> float:
+        """Standard deviation of a point as shifts see it, metres."""
+        return self.scatter_m / float(self.response[0])
+
+
+def point_error(geometry: ScanGeometry, aligned: Alignment, threads: int | None = None) -> PointError:
+    """How far errors of points move scans that were aligned.
 
     Args:
         geometry: of the scans that were aligned.
@@ -53,29 +74,32 @@ def point_error_m(geometry: ScanGeometry, aligned: Alignment, threads: int | Non
         return second, first, totals
 
     second, _, totals = sums(np.zeros(3))
-    step, changed, said = 0.5 * aligned.sigma_m, 0.0, 0.0
-    for axis in (0, 1):
-        shift = np.zeros(3)
-        shift[axis] = step
-        changed += float((sums(shift)[1] - sums(-shift)[1])[:, axis].sum()) / (2.0 * step)
-        said += float(second[:, axis, axis].sum())
+    said = np.einsum("mii->i", second)
     weight, force_sq = float(totals[:, 1].sum()), float(totals[:, 4].sum())
-    if not (said > 0.0 and weight > 0.0):
-        return aligned.sigma_m
-    response = float(np.clip(changed / said, LEAST_RESPONSE, MOST_RESPONSE))
-    return float(np.sqrt(0.5 * force_sq / weight)) / response
+    if not (said.min(initial=np.inf) > 0.0 and weight > 0.0):
+        return PointError(aligned.sigma_m, np.ones(3))
+    changed = np.empty(3)
+    for axis, lever_m in enumerate((1.0, 1.0, LEVER_M)):
+        shift = np.zeros(3)
+        shift[axis] = 0.5 * aligned.sigma_m / lever_m
+        changed[axis] = (sums(shift)[1] - sums(-shift)[1])[:, axis].sum() / (2.0 * shift[axis])
+    along = (changed[0] + changed[1]) / (said[0] + said[1])  # the axes are those of scans, which look any way
+    response = np.clip([along, along, changed[2] / said[2]], LEAST_RESPONSE, MOST_RESPONSE)
+    return PointError(float(np.sqrt(0.5 * force_sq / weight)), response)
 
 
-def with_point_error(aligned: Alignment, error_m: float) -> PoseGaussian:
+def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
     """The approximation of the posterior with points that err so much: the laser's part of it is scaled.
 
     The approximation is a Student's t, whose covariance is dof / (dof - 2) times its scale matrix.
     """
     gaussian = aligned.gaussian
-    scale = (aligned.sigma_m / error_m) ** 2 * gaussian.dof / (gaussian.dof - 2.0) / (1.0 - COUNTED_AGAIN)
+    scale = (aligned.sigma_m / error.scatter_m) ** 2 * gaussian.dof / (gaussian.dof - 2.0) / (1.0 - COUNTED_AGAIN)
     laser = np.arange(len(gaussian.first)) < len(aligned.pairs)
+    curvature = scale * error.response[:, None] * gaussian.curvature * error.response
+    force = scale * error.response**2 * gaussian.force
     return replace(
         gaussian,
-        curvature=np.where(laser[:, None, None], scale * gaussian.curvature, gaussian.curvature),
-        force=np.where(laser[:, None], scale * gaussian.force, gaussian.force),
+        curvature=np.where(laser[:, None, None], curvature, gaussian.curvature),
+        force=np.where(laser[:, None], force, gaussian.force),
     )

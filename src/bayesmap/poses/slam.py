@@ -21,7 +21,7 @@ from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
 from bayesmap.poses.odometry_motion import stated_motions, variances
 from bayesmap.poses.placement import place_scans
-from bayesmap.poses.point_errors import point_error_m, with_point_error
+from bayesmap.poses.point_errors import point_error, with_point_error
 from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
@@ -177,8 +177,8 @@ class _Run:
         nearest_key = nearest(keys, np.arange(len(scans)))
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
         leaps = keys[1:][contradicted_links(track, final.poses)]
-        error_m = point_error_m(key_geometry, final, threads)
-        gaussian = replace(with_point_error(final, error_m), poses=compose(self.origin, final.poses))
+        error = point_error(key_geometry, final, threads)
+        gaussian = replace(with_point_error(final, error), poses=compose(self.origin, final.poses))
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
             compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest_key,
