@@ -15,6 +15,7 @@ OBJECT_STORE_BYTES = 80_000_000  # 75 MB is the least that Ray takes
 ENVIRONMENT = {
     "RAY_USAGE_STATS_ENABLED": "0",
     "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",  # without it Ray warns of a change to come
+    "RAY_worker_niceness": "0",  # at Ray's own 15 whatever else the machine does starves workers for minutes
     "RAY_agent_register_timeout_ms": "150000",  # 30 s are too few where many tests share two cores
 }
 ATTEMPTS = 3
