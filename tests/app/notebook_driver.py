@@ -63,13 +63,14 @@ def jupyterlab(page, folder, source):
     with listening(command, folder, f"http://127.0.0.1:{port}/api") as process:
         page.goto(address)
         deadline = time.monotonic() + CELL_SECONDS
-        while True:  # before the kernel is connected, JupyterLab drops a cell that is run
-            run_by_keys(page, ".jp-Notebook .cm-content", "Shift+Enter")
-            page.wait_for_timeout(2000)
-            if re.search(r"[*\d]", page.locator(".jp-InputPrompt").first.inner_text()):
-                break
+        canvas = page.locator(".jp-OutputArea-output canvas[role=application]")
+        while not canvas.count():
+            # Before the kernel is connected, JupyterLab drops a cell that is run, at times after it was marked so.
+            if not re.search(r"[*\d]", page.locator(".jp-InputPrompt").first.inner_text()):
+                run_by_keys(page, ".jp-Notebook .cm-content", "Shift+Enter")
+            page.wait_for_timeout(1000)
             assert time.monotonic() < deadline, "JupyterLab never ran the cell"
-        yield page.locator(".jp-OutputArea-output canvas[role=application]"), process
+        yield canvas, process
 
 
 @contextlib.contextmanager
