@@ -140,11 +140,16 @@ def draw_states(rng, prior, centres, count=(), *, anywhere=False):
 
 
 def draw_covariances(rng, prior, count):
-    """Inverse-Wishart covariances in edges, large ones thinned out: kept with chance exp(-tr / (2 extent^2))."""
-    law = stats.invwishart(prior.dof, prior.spread**2 * np.eye(2))
+    """Inverse-Wishart covariances in edges, large ones thinned out: kept with chance exp(-tr / (2 extent^2)).
+
+    By Bartlett's decomposition, A A' of A = [[a, 0], [b, c]] is a Wishart draw (SciPy draws one at a time, far slower).
+    """
     sigma = np.empty((0, 2, 2))
     while len(sigma) < count:
-        more = np.reshape(law.rvs(int(1.5 * (count - len(sigma))) + 2, random_state=rng), (-1, 2, 2))
+        size = int(1.5 * (count - len(sigma))) + 2
+        a2, c2, b = rng.chisquare(prior.dof, size), rng.chisquare(prior.dof - 1, size), rng.standard_normal(size)
+        rows = [[(1 + b**2 / c2) / a2, -b / (np.sqrt(a2) * c2)], [-b / (np.sqrt(a2) * c2), 1 / c2]]
+        more = prior.spread**2 * np.moveaxis(np.array(rows), -1, 0)  # of the inverse of A A'
         keep = rng.random(len(more)) < np.exp(-np.trace(more, axis1=1, axis2=2) / (2 * prior.extent**2))
         sigma = np.concatenate([sigma, more[keep]])
     return sigma[:count]
