@@ -15,6 +15,9 @@ import warp as wp
 
 from bayesmap.kernels.device import load_kernels
 
+FEW_BEAMS = 1_000
+"""Fewer beams than this are traced before a second thread has begun: to start one takes 0.2 ms."""
+
 
 def available_cores() -> int:
     """Cores that this process may use."""
@@ -22,6 +25,11 @@ def available_cores() -> int:
         return len(os.sched_getaffinity(0))
     except AttributeError:  # macOS
         return os.cpu_count() or 1
+
+
+def threads_for(beams: int) -> int | None:
+    """Threads for a kernel that follows each of so many beams through the grid: one, or as many as there are cores."""
+    return 1 if beams < FEW_BEAMS else None
 
 
 @cache

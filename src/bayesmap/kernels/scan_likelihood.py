@@ -15,7 +15,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.parallel import launch, threads_for
 from bayesmap.kernels.predict import add_stop, no_sum, weight_of_nothing
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
 from bayesmap.kernels.surface_crossing import Cell, cross_surface, ray_from
@@ -171,7 +171,7 @@ class ScanLikelihood:
             readings,
             out,
         ]
-        launch(beam_log_likelihoods, len(poses) * beams, inputs, device)
+        launch(beam_log_likelihoods, len(out), inputs, device, threads_for(len(out)))
         return np.asarray(out.numpy().reshape(len(poses), beams))
 
     def __call__(

@@ -17,7 +17,7 @@ from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_stop import HeldMaps, Maps, StopStates, put_maps, stop_in
-from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.parallel import launch, threads_for
 from bayesmap.kernels.predict import law_with_cumulative
 from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
 from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
@@ -125,7 +125,7 @@ def _mixed(
     for maps, count in batches:
         draws += count
         inputs = [*fixed, maps, count, wp.float64(gone), *sums, no_stop]
-        launch(add_stops, rays.n_beams, inputs, device)
+        launch(add_stops, rays.n_beams, inputs, device, threads_for(rays.n_beams))
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     weight, shift, square = (a.numpy() for a in sums)
@@ -233,5 +233,5 @@ def first_hit_events(
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
     inputs = [law_with_cumulative(sensor, rays.limits, device), put_stops(stops, device), *put_rays(rays, device)]
     inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
-    launch(find_events, rays.n_beams, inputs, device)
+    launch(find_events, rays.n_beams, inputs, device, threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()

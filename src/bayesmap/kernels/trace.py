@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.parallel import launch, threads_for
 from bayesmap.kernels.rays import put_rays, stop_distances, trace_rays
 from bayesmap.kernels.sensor_law import sensor_law
 from bayesmap.kernels.table_likelihood import fill_likelihood
@@ -55,7 +55,7 @@ def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device:
         filled = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
         inputs = [sensor_law(sensor, rays.limits, device), *put_rays(rays, device), wp.float64(hit_depth)]
         inputs += [devices.to_device(rays.range_m, wp.float64, device), *filled]
-        launch(fill_likelihood, rays.n_beams, inputs, device)
+        launch(fill_likelihood, rays.n_beams, inputs, device, threads_for(rays.n_beams))
         loglik, no_hit = (a.numpy() for a in filled)
     return BeamTable(grid=rays.grid, offsets=rays.offsets, cells=rays.cells, loglik=loglik, no_hit=no_hit)
 
