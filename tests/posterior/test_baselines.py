@@ -9,7 +9,8 @@ import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict import log_densities
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.posterior.baselines import BASELINES, FOLDS, fit_baseline, hit_ratio, inner_score, log_odds, make_folds
+from bayesmap.posterior.baselines import BASELINES, fit_baseline, hit_ratio, inner_score, log_odds
+from bayesmap.posterior.folds import make_folds, together
 from bayesmap.posterior.scoring import score_prediction
 from bayesmap.posterior.tuning import SENSOR, Parameter, maximise, sensor_of
 
@@ -74,19 +75,6 @@ def fitted(room):
     return fit_baseline(BY_NAME["hit ratio"], train, grid)
 
 
-def test_folds_leave_each_scan_out_of_its_own_counts(room):
-    grid, train, _, _ = room
-    folds = make_folds(train, grid)
-    assert len(folds) == FOLDS  # so few beams that all ways are taken
-    assert sum(len(fold.scans) for fold in folds) == len(train)
-    for fold in folds:
-        own = {pose.tobytes() for pose in fold.scans.poses}
-        others = train.select(np.array([pose.tobytes() not in own for pose in train.poses]))
-        hits, passes = count_hits(others, grid)
-        np.testing.assert_array_equal(fold.hits, hits)
-        np.testing.assert_array_equal(fold.passes, passes)
-
-
 def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
     """Beams are cut past their readings for fitting: the score is the same."""
     grid, train, _, _ = room
@@ -98,7 +86,7 @@ def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
         sensor, depth = fitted.predictor.sensor, fitted.values["hit_depth"]
         logs.append(log_densities(rays, [stop[:, rays.touched]], sensor, depth))
     dof = getattr(fitted.predictor.sensor.noise, "dof", None)
-    found = inner_score(folds, baseline, dof, fitted.values)
+    found = inner_score(together(folds), baseline, dof, fitted.values)
     assert found == pytest.approx(np.concatenate(logs).mean(), abs=1e-4)
     assert found == pytest.approx(fitted.inner_nats_per_beam, abs=1e-9)
 
@@ -111,7 +99,7 @@ def test_no_change_of_a_single_number_fits_better(room, fitted):
         at = parameter.inner(fitted.values[parameter.name])
         for step in (-0.3, -0.1, 0.1, 0.3):
             moved = fitted.values | {parameter.name: parameter.outer(at + step)}
-            assert inner_score(folds, baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
+            assert inner_score(together(folds), baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
 
 
 def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor(room, fitted):
@@ -133,12 +121,3 @@ def test_clamping_costs(room, fitted):
     best = score_prediction(fitted.predictor, held)
     assert score_prediction(clamped.predictor, held).nats_per_beam < best.nats_per_beam - 0.5
     assert sensor_of(clamped.values, None).p_random == clamped.values["p_random"]
-
-
-def test_too_few_scans_are_refused(room):
-    grid, train, _, _ = room
-    with pytest.raises(bm.BadInput, match="takes two scans or more"):
-        make_folds(train.select(slice(0, 1)), grid)
-    blind = dataclasses.replace(train, ranges_m=np.full(train.ranges_m.shape, np.nan))
-    with pytest.raises(bm.BadInput, match="none of the training scans has a valid reading"):
-        make_folds(blind, grid)

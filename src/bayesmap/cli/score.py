@@ -237,7 +237,8 @@ def _name(run: Run) -> str:
 
 
 def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, how: dict[str, Any]) -> list[tuple[Fitted, Score]]:
-    from bayesmap.posterior.baselines import BASELINES, fit_baseline, make_folds
+    from bayesmap.posterior.baselines import BASELINES, fit_baseline
+    from bayesmap.posterior.folds import make_folds
     from bayesmap.posterior.scoring import score_prediction
 
     with progress(call.console, "tracing beams"):

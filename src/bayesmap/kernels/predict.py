@@ -196,6 +196,7 @@ def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits
 
 def _sums(
     rays: Rays,
+    columns: NDArray[np.int32],
     batches: Iterable[StopStates],
     sensor: SensorModel,
     hit_depth: float,
@@ -209,7 +210,7 @@ def _sums(
     most: Any = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
     total = wp.zeros(beams, dtype=wp.float64, device=device)
     cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
-    fixed = [*put_rays(rays, device), devices.to_device(rays.columns, wp.int32, device)]
+    fixed = [*put_rays(rays, device), devices.to_device(columns, wp.int32, device)]
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
     readings = [devices.to_device(a, wp.float64, device) for a in (rays.range_m, reach_m)]
     draws = 0
@@ -226,13 +227,20 @@ def _sums(
 
 
 def log_densities(
-    rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
+    rays: Rays,
+    batches: Iterable[StopStates],
+    sensor: SensorModel,
+    hit_depth: float,
+    *,
+    columns: NDArray[np.int32] | None = None,
+    device: str = "cpu",
 ) -> Floats:
     """Log predictive density of every reading alone, (B,): see `forecast`.
 
-    Here, and here alone, beams may have been traced no further than their reading reaches.
+    Here, and here alone, beams may have been traced no further than their reading reaches; and each entry's cell may
+    have a column of its own in the draws, ``columns``.
     """
-    return _sums(rays, batches, sensor, hit_depth, device, False)[0]
+    return _sums(rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, False)[0]
 
 
 def forecast(
@@ -250,7 +258,7 @@ def forecast(
     Raises:
         BadInput: no draws, or a sensor of the user's own whose probabilities do not add up to one.
     """
-    log_density, (at, at_max, at_min) = _sums(rays, batches, sensor, hit_depth, device, True)
+    log_density, (at, at_max, at_min) = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
     z = rays.range_m
     typed = are_typed(sensor, rays.limits)
     nan = np.where(np.isnan(z), np.nan, 0.0)

@@ -18,28 +18,15 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import Rays
 from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
-from bayesmap.errors import BadInput
+from bayesmap.posterior.folds import THIN, Fold, HeldOut, make_folds, together
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.progress_shares import OnShare, ignored, parts
 from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Reading, Scans
+from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
-
-FOLDS = 10
-"""Every tenth scan, as in the protocol itself: inner and outer counts are nearly as dense."""
-
-BEAMS_WANTED = 20_000
-"""Valid beams to fit on: a dozen parameters cost about 6 / 20 000 nats a beam."""
-
-THIN = 4
-"""Every fourth of a fold's scans, or of the folds, is enough to find out where the best values are, roughly."""
-
-PAST_READING_M = 3.0
-"""How far past a reading a beam is traced for fitting: its density is flat there."""
 
 P_HIT, P_MISS = 0.7, 0.4
 P_LEAST, P_MOST = 0.1192, 0.971
@@ -143,82 +130,14 @@ class Fitted:
     inner_nats_per_beam: float
 
 
-@dataclass(frozen=True, eq=False)
-class Fold:
-    """One way to leave training scans out: the counts of the others, and the beams to predict."""
-
-    hits: Floats
-    passes: Floats
-    scans: Scans
-    rays: Rays
-
-    def thinned(self) -> Fold:
-        """The same counts, and every `THIN`-th of the scans to predict: for a first rough search."""
-        return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
-
-
-def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
-    from bayesmap.kernels.rays import trace_rays
-
-    reach = np.where(np.isfinite(scans.ranges_m), scans.ranges_m + PAST_READING_M, scans.max_range_m).ravel()
-    return Fold(hits, passes, scans, trace_rays(scans, grid, reach_m=reach))
-
-
-def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Inner hold-outs, interleaved, until they have `BEAMS_WANTED` beams.
-
-    Raises:
-        BadInput: fewer than two training scans with valid readings.
-    """
-    from bayesmap.kernels.counts import count_hits
-
-    folds: list[Fold] = []
-    count, beams = min(FOLDS, len(train)), 0
-    if count < 2:
-        raise BadInput("score: baselines are fitted by holding out training scans, which takes two scans or more")
-    hits, passes = count_hits(train, grid)
-    for i in np.random.default_rng(0).permutation(count).tolist():  # a fixed order, but not that of the protocol
-        part = train.select(np.arange(len(train)) % count == i)
-        valid = int((part.readings != Reading.INVALID).sum())
-        if valid == 0:
-            continue
-        own_hits, own_passes = count_hits(part, grid)
-        folds.append(_fold((hits - own_hits).astype(float), (passes - own_passes).astype(float), part, grid))
-        beams += valid
-        if beams >= BEAMS_WANTED:
-            break
-    if not folds:
-        raise BadInput("score: none of the training scans has a valid reading to fit baselines on")
-    return folds
-
-
-def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """What a map is fitted on that no scan changes, and none need be held out of: `BEAMS_WANTED` beams, if there are.
-
-    Raises:
-        BadInput: no training scan with a valid reading.
-    """
-    valid = (train.readings != Reading.INVALID).sum(axis=1)
-    train, valid = train.select(valid > 0), valid[valid > 0]
-    if len(train) == 0:
-        raise BadInput("score: none of the training scans has a valid reading to fit a sensor on")
-    wanted = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
-    nothing = np.zeros(grid.shape).ravel()
-    return [_fold(nothing, nothing, train.select(np.arange(wanted) * len(train) // wanted), grid)]
-
-
-def inner_score(folds: Sequence[Fold], baseline: Baseline, dof: float | None, values: Values) -> float:
+def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values: Values) -> float:
     """Mean log predictive density of the folds' beams, each under the counts of the other scans."""
     from bayesmap.kernels.predict import log_densities
 
-    total, beams = 0.0, 0
-    sensor = sensor_of(values, dof)
-    for fold in folds:
-        stop = baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched][None].astype(np.float32)
-        logs = log_densities(fold.rays, [stop], sensor, values["hit_depth"])
-        valid = ~np.isnan(logs)
-        total, beams = total + float(logs[valid].sum()), beams + int(valid.sum())
-    return total / beams
+    stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in held_out.folds]
+    maps, sensor = np.concatenate(stops)[None].astype(np.float32), sensor_of(values, dof)
+    logs = log_densities(held_out.rays, [maps], sensor, values["hit_depth"], columns=held_out.columns)
+    return float(np.nanmean(logs))
 
 
 def fit_baseline(
@@ -252,8 +171,8 @@ def fit_baseline(
         # Heavy tails start where normal noise ended: the rest is nearly the same.
         begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
         values, score = maximise(
-            partial(inner_score, folds, baseline, dof),
-            partial(inner_score, rough, baseline, dof),
+            partial(inner_score, together(folds), baseline, dof),
+            partial(inner_score, together(rough), baseline, dof),
             (*SENSOR, *baseline.own),
             begin,
             on_share,

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.baselines import Baseline, Fitted, fit_baseline, one_fold
+from bayesmap.posterior.baselines import Baseline, Fitted, fit_baseline
+from bayesmap.posterior.folds import one_fold
 from bayesmap.posterior.progress_shares import OnShare, ignored
 from bayesmap.posterior.tuning import Parameter
 from bayesmap.space.grid import Grid
