@@ -7,6 +7,7 @@ import { MapKeys, pageKey } from "./input/keys";
 import { Pointer } from "./input/pointer";
 import { CursorLayer } from "./layers/cursor";
 import { DecisionsLayer } from "./layers/decisions";
+import { EvidenceLayer } from "./layers/evidence";
 import { FieldLayer } from "./layers/field";
 import { GhostLayer } from "./layers/ghost";
 import { HypothesisLayer } from "./layers/hypothesis";
@@ -23,6 +24,7 @@ import { traceChart, weightChart } from "./panels/chart";
 import { decisionsPanel } from "./panels/decisions";
 import { helpDialog, newDialog, shareDialog } from "./panels/dialogs";
 import { download, h, mark, put } from "./panels/dom";
+import { evidencePanel } from "./panels/evidence";
 import { ghostPanel } from "./panels/ghost";
 import { head } from "./panels/head";
 import { legend } from "./panels/legend";
@@ -73,7 +75,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
 
   // the map
   const layers = [
-    new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new ReadingLayer(), new MarksLayer(),
+    new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new ReadingLayer(), new EvidenceLayer(), new MarksLayer(),
     new DecisionsLayer(), new WhereLayer(), new GhostLayer(), new CursorLayer(),
   ];
   const canvases = layers.map(({ name }) => h("canvas", { className: name }));
@@ -98,7 +100,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
   const panels = [
-    decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
+    decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), evidencePanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
     scanPanel(ui), readingPanel(ui), viewPanel(ui, player, shown, scale), sensors, model, posesPanel(ui), inference, clear,
   ];
   const panel = h("aside", { "aria-label": "Controls" }, ...panels);
@@ -133,6 +135,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
       view.fit(session.shape);
       hand.cursor = hand.hover = null;
       session.decisions.forget();
+      session.evidence.forget();
       session.ghost.refit();
       canvas.setAttribute("aria-label", `Map, ${session.shape[0]} by ${session.shape[1]} cells`);
     }

@@ -119,7 +119,7 @@ export type Overlay = { strokes: Float32Array; trajectory: Float32Array };
 export type Stage = { generation: number; name: string; text: string; done: number; of: number };
 
 /** Beams through a cell; how many speak for a wall, or for what is there, and against it, and how much in nats. */
-export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number };
+export type CellFacts = { x: number; y: number; beams: number; beams_for?: number; nats_for?: number; beams_against?: number; nats_against?: number; each?: boolean };
 
 /** A way to the session. `onmessage` and `onstatus` are set by the page before it calls `open`. */
 export type Transport = {

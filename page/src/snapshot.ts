@@ -38,6 +38,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     stage: session.stage,
     ghost: ghostOf(session),
     reading: { picked: session.reading.picked, found: session.reading.found, trouble: session.reading.trouble },
+    evidence: { cell: session.evidence.cell, together: session.evidence.together, each: session.evidence.each && listsOf(session.evidence.each) },
     over: Boolean(session.flicker.under),
     overlay: session.overlay && { strokes: session.overlay.strokes.length / 5, trajectory: session.overlay.trajectory.length / 2 },
     worker: session.worker,
@@ -50,6 +51,8 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     transform: { ...view.transform },
   };
 }
+
+const listsOf = (each: object) => Object.fromEntries(Object.entries(each).map(([name, value]) => [name, Array.from(value as Float64Array)]));
 
 function ghostOf({ ghost }: Session) {
   const { held, pose, fan, answers, trouble } = ghost;

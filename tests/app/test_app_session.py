@@ -258,10 +258,12 @@ def test_cancel_lets_waiting_edits_go_on():
 def test_questions_go_to_the_worker():
     acted = Acted()
     acted.act("inspect", x=3, y=4)
+    acted.act("inspect", x=3, y=4, each=True)
     acted.act("view", layer="draw", chain=1, draw=5)
     acted.act("export", what="map")
     acted.act("cancel")
-    assert acted.tasks[-4:] == [Inspect(1, 3, 4), View("draw", 1, 5, 1), Export(1, "map"), Cancel()]
+    asked = [Inspect(1, 3, 4), Inspect(1, 3, 4, each=True)]
+    assert acted.tasks[-5:] == [*asked, View("draw", 1, 5, 1), Export(1, "map"), Cancel()]
     assert acted.state["view"] == {"layer": "draw", "chain": 1, "draw": 5}
 
 

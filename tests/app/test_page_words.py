@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from page_driver import NEXT_FRAME, act, centre, document, settled, until
 
-from bayesmap.app.evidence import evidence
+from bayesmap.app.evidence import summed, wall_ratios
 from bayesmap.app.parsing import parse_document
 from bayesmap.app.preview import Preview
 from bayesmap.app.scanning import simulated_scene
@@ -53,7 +53,7 @@ def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_pag
     assert said.startswith(f"Cell {x}, {y}")
     found = re.search(r"(\d+) beams?\b.*for a wall (\d+), ([\d.]+) nats.*against (\d+), ([\d.]+) nats", said)
     beams, beams_for, nats_for, beams_against, nats_against = map(float, found.groups())
-    known = evidence(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y)
+    known = summed(wall_ratios(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y))
     assert (beams, beams_for, beams_against) == (known.beams, known.beams_for, known.beams_against)
     assert nats_for == pytest.approx(known.nats_for, abs=0.051)
     assert nats_against == pytest.approx(known.nats_against, abs=0.051)

@@ -4,9 +4,9 @@ import { inside } from "../geometry/cells";
 import type { Point, Sensor } from "../protocol";
 import type { Session } from "../state/session";
 
-export type Tool = "draw" | "erase" | "sensor" | "pan" | "path" | "look" | "where" | "ghost";
+export type Tool = "draw" | "erase" | "sensor" | "pan" | "path" | "look" | "where" | "ghost" | "evidence";
 /** Tools that change nothing. */
-export const READING = new Set<Tool>(["pan", "path", "look", "where", "ghost"]);
+export const READING = new Set<Tool>(["pan", "path", "look", "where", "ghost", "evidence"]);
 const REST_MS = 120;
 
 export class Hand {
@@ -42,6 +42,7 @@ export class Hand {
     this.tool = tool;
     this.session.decisions.look(tool === "look");
     this.session.ghost.hold(tool === "ghost");
+    this.session.evidence.hold(tool === "evidence");
     this.session.changed();
   }
 

@@ -6,7 +6,7 @@ import type { Layer, Point } from "../protocol";
 import type { Session } from "../state/session";
 import type { Editor } from "./editor";
 import { READING, type Hand, type Tool } from "./hand";
-import { pick } from "./picking";
+import { pick, PICKING } from "./picking";
 
 /** Whom keys are for: where a map can be drawn, where the posterior can be asked, where there is something to infer. */
 export type KeysFor = "all" | "drawn" | "asked" | "inferred";
@@ -15,10 +15,10 @@ export type KeysFor = "all" | "drawn" | "asked" | "inferred";
 export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
   ["D, E, S", "draw, erase, sensor", "drawn"],
   ["P, G, L", "pan, path, look next", "asked"],
-  ["W, O", "where am I, ghost", "asked"],
+  ["W, O, V", "where am I, ghost, evidence of beams", "asked"],
   ["arrows", "move the cursor, the sensor, the ghost or the view; with Shift by five cells"],
   ["Space", "draw or erase at the cursor; next sensor", "drawn"],
-  ["Space", "at the cursor: start or goal of a path, or where to look from", "asked"],
+  ["Space", "at the cursor: start or goal of a path, where to look from, or the cell to ask about", "asked"],
   ["[ and ]", "turn the sensor or the ghost", "asked"],
   ["A, Delete", "add, remove a sensor", "drawn"],
   ["R, Escape", "run, cancel", "inferred"],
@@ -106,7 +106,7 @@ export class MapKeys {
 
   private space(event: Event) {
     const { session, hand, editor } = this;
-    if ((hand.tool === "path" || hand.tool === "look") && session.document) {
+    if (PICKING.has(hand.tool) && session.document) {
       if (!hand.cursor) this.arrow(0, 0);
       else pick(session, hand, editor, centreOf(hand.cursor, session.document.grid));
       return;
@@ -127,7 +127,7 @@ export class MapKeys {
   }
 }
 
-const TOOLS: { [key: string]: Tool } = { d: "draw", e: "erase", s: "sensor", p: "pan", g: "path", l: "look", w: "where", o: "ghost" };
+const TOOLS: { [key: string]: Tool } = { d: "draw", e: "erase", s: "sensor", p: "pan", g: "path", l: "look", w: "where", o: "ghost", v: "evidence" };
 const LAYERS: { [key: string]: Layer } = { m: "mean", n: "draw", h: "entropy" };
 const COMMANDS: { [key: string]: string } = { "+": "in", "=": "in", "-": "out", "0": "fit", "?": "help" };
 

@@ -1,13 +1,21 @@
-// A place on the map is chosen, by a click or by the keyboard: a point of a path, or where to look from next.
+// A place on the map is chosen, by a click or by the keyboard: a point of a path, where to look from next, a cell.
 
+import { toCells } from "../geometry/cells";
 import type { Point } from "../protocol";
 import type { Session } from "../state/session";
 import type { Editor } from "./editor";
-import type { Hand } from "./hand";
+import type { Hand, Tool } from "./hand";
 
-/** Takes a place in metres: the start or the goal of a path, else the view that is nearest to it. */
+/** Tools that a click gives a place. */
+export const PICKING = new Set<Tool>(["path", "look", "evidence"]);
+
+/** Takes a place in metres: the start or the goal of a path, a cell to ask about, else the view that is nearest to it. */
 export function pick(session: Session, hand: Hand, editor: Editor, place: Point) {
   if (hand.tool === "path") return session.decisions.point(place);
+  if (hand.tool === "evidence" && session.document) {
+    const { x, y } = toCells(place, session.document.grid);
+    return session.evidence.pin({ x: Math.floor(x), y: Math.floor(y) });
+  }
   const found = session.decisions.nearest(place);
   const { views } = session.decisions;
   if (found === null || !views) return;

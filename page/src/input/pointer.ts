@@ -8,7 +8,7 @@ import type { Session } from "../state/session";
 import type { Editor } from "./editor";
 import { dragGhost, takeGhost, type GhostGesture } from "./ghosting";
 import { READING, type Hand } from "./hand";
-import { pick } from "./picking";
+import { pick, PICKING } from "./picking";
 
 const REACH = { touch: 24, other: 11 };
 /** A hand that moves no further has clicked. */
@@ -91,7 +91,7 @@ export class Pointer {
       this.begin(takeGhost(session.ghost, point, this.reach(event), document.grid, this.view));
       return this.dragGhost(event);
     }
-    if (event.button === 0 && (hand.tool === "path" || hand.tool === "look")) return this.begin({ kind: "pick", first: point });
+    if (event.button === 0 && PICKING.has(hand.tool)) return this.begin({ kind: "pick", first: point });
     // who asks where the robot is may drag it
     const held = hand.tool === "where" && session.editable && event.button !== 1 ? this.gripAt(point, event, document) : null;
     if (held?.kind === "sensor") {

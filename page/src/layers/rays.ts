@@ -19,8 +19,8 @@ export class RaysLayer implements Layer {
   }
 
   shows({ session, look }: Scene) {
-    // the ghost's fan would be lost among them
-    return Boolean(session.scan && session.document && (look.rays || look.readings) && !session.ghost.held);
+    // the ghost's fan, and a cell's beams, would be lost among them
+    return Boolean(session.scan && session.document && (look.rays || look.readings) && !session.ghost.held && !session.evidence.cellShown);
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {

@@ -13,6 +13,7 @@ const TOOLS = [
   ["look", "Look next", "look"],
   ["where", "Where am I?", "where"],
   ["ghost", "Ghost", "ghost"],
+  ["evidence", "Evidence", "evidence"],
 ] as const;
 
 export function bar(ui: Ui) {

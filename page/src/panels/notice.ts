@@ -132,7 +132,8 @@ function describeCell(session: Session, cell: Point) {
     else if (kind !== "binary") parts.push(`${mean} ${p.toFixed(2)}`, ...(interval ? [] : [`entropy ${entropyBits(p).toFixed(2)} bit`]));
     else if (shown.layer === "draw") parts.push(p > 0.5 ? "wall in this draw" : "free in this draw");
     else parts.push(`P(wall) ${p.toFixed(2)}`, `entropy ${entropyBits(p).toFixed(2)} bit`);
-    const facts = session.cell?.x === cell.x && session.cell.y === cell.y ? session.cell : null;
+    const about = session.evidence.facts;
+    const facts = about?.x === cell.x && about.y === cell.y ? about : null;
     const beams = facts ? facts.beams : null;
     if (!shown.observed[i]) parts.push("unobserved");
     else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);

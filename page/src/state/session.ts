@@ -1,10 +1,11 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, CellFacts, Connection, Field, Layer, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
+import type { Buffers, Connection, Field, Layer, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, needsServer, NO_SERVER, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
+import { Evidence } from "./evidence";
 import { Flicker } from "./flicker";
 import { Ghost } from "./ghost";
 import { Latency } from "./latency";
@@ -30,7 +31,6 @@ export class Session {
   overlay: Overlay | null = null;
   /** The field on the canvas. */
   shown: Field | null = null;
-  cell: CellFacts | null = null;
   /** Of the trajectory that was inferred last. */
   private lastStage: Stage | null = null;
   worker = "starting";
@@ -41,6 +41,7 @@ export class Session {
   /** Number of the last message that changes something. */
   acted = 0;
   readonly decisions = new Decisions(this);
+  readonly evidence = new Evidence(this);
   readonly where = new Where(this);
   readonly ghost = new Ghost(this);
   readonly reading = new Reading(this);
@@ -173,8 +174,7 @@ export class Session {
     this.latency.painted(generation);
     if (generation > this.reported && !this.recorded) this.transport.send({ type: "painted", generation });
     this.reported = generation;
-    this.decisions.ask();
-    this.ghost.ask();
+    for (const asking of [this.decisions, this.ghost, this.evidence]) asking.ask();
   }
 
   /** What the numbers of the map are. */
@@ -237,7 +237,7 @@ export class Session {
         this.where.receive(message, buffers);
         break;
       case "cell":
-        this.cell = message as unknown as CellFacts;
+        this.evidence.receive(message, buffers);
         break;
       case "path":
       case "views":

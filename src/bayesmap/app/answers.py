@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.evidence import Evidence, evidence
+from bayesmap.app.evidence import BeamRatios, strongest, summed, wall_ratios
 from bayesmap.app.ghost import Ghost
 from bayesmap.app.residual import beam_message
 from bayesmap.app.result import Result
@@ -60,7 +60,8 @@ class Answers:
     def answer(self, task: Question, now: Now) -> Report:
         """The answer to any question but for a file."""
         if isinstance(task, Inspect):
-            return Report(cell_message(now.scene, now.result, task), {}, task.client)
+            header, buffers = cell_message(now.scene, now.result, task)
+            return Report(header, dict(buffers), task.client)
         if isinstance(task, WhereAmI):
             return self._whereabouts.answer(task, now.result, now.scan, now.generation)
         return self._of_posterior(task, now)
@@ -94,9 +95,12 @@ class Answers:
         return beam_message(result, task), {}
 
 
-def cell_message(scene: Scene | None, result: Result | None, task: Inspect) -> dict[str, Any]:
+def cell_message(
+    scene: Scene | None, result: Result | None, task: Inspect
+) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     """The message `cell`: how many beams touch it, and what they say of a wall, or of what stands there."""
     found: dict[str, Any] = {"beams": 0}
+    buffers: dict[str, NDArray[Any]] = {}
     if scene is not None:
         table = scene.problem.table
         nx, ny = table.grid.shape
@@ -104,18 +108,20 @@ def cell_message(scene: Scene | None, result: Result | None, task: Inspect) -> d
             cell = task.x * ny + task.y
             found = {"beams": int(np.count_nonzero(table.cells == cell))}
             said = None if result is None else _said_of(result, table, cell)
-            found |= {} if said is None else asdict(said)
-    return {"type": "cell", "x": task.x, "y": task.y, **found}
+            if said is not None and result is not None:
+                found |= asdict(summed(said))
+                buffers = strongest(said, scene.scans.at(result.scan_poses)) if task.each else {}
+    return {"type": "cell", "x": task.x, "y": task.y, "each": task.each, **found}, buffers
 
 
-def _said_of(result: Result, table: BeamTable, cell: int) -> Evidence | None:
+def _said_of(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
     """What beams say of a cell; None where nothing can be said."""
-    from bayesmap.app.stop_evidence import stop_evidence
+    from bayesmap.app.stop_evidence import stop_ratios
 
     if result.prior.words.kind == "binary":
-        return evidence(table, result.mean().ravel(), cell)
+        return wall_ratios(table, result.mean().ravel(), cell)
     try:
-        return stop_evidence(result, table, cell)
+        return stop_ratios(result, table, cell)
     except BadInput:
         return None
 

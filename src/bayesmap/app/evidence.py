@@ -8,12 +8,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable
+from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 2000
 """Beams that are looked at; of more, some that are evenly spread, and each counts for those left out."""
 
 SILENT_NATS = 0.005
 """A beam whose log-likelihood changes by less says nothing."""
+
+MOST_DRAWN = 100
+"""Beams of a cell that a page is told one by one: those that say most."""
+
+
+@dataclass(frozen=True, eq=False)
+class BeamRatios:
+    """What each beam through a cell says of it.
+
+    Attributes:
+        beams: flat indices of those that were looked at, (B,).
+        nats: log ratio of each one's likelihood with what may stand there and without, (B,).
+        through: beams that touch the cell.
+        every: how many beams each that was looked at counts for.
+    """
+
+    beams: NDArray[np.intp]
+    nats: NDArray[np.float64]
+    through: int
+    every: int
 
 
 @dataclass(frozen=True)
@@ -35,7 +56,7 @@ class Evidence:
     nats_against: float
 
 
-def evidence(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Evidence:
+def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:
     """Log-likelihood ratio of every beam through a cell, wall against free, the other cells being as probable as now.
 
     log p(z | wall at k) - log p(z | free at k), each the mean over where the beam first meets a wall when every other
@@ -53,17 +74,46 @@ def evidence(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Eviden
         [_log_ratio(table, p_wall, int(b), int(k)) for b, k in zip(beams, places[::every], strict=True)],
         dtype=np.float64,
     )
-    return summed(nats, len(places), every)
+    return BeamRatios(beams, nats, len(places), every)
 
 
-def summed(nats: NDArray[np.float64], beams: int, every: int) -> Evidence:
-    """The evidence of some beams' log ratios; ``every`` is how many beams each of them counts for."""
+def summed(said: BeamRatios) -> Evidence:
+    """How many beams speak for what may stand in a cell and how many against it, and how much together."""
+    nats, every = said.nats, said.every
     speaks_for, speaks_against = nats > SILENT_NATS, nats < -SILENT_NATS
     return Evidence(
-        beams,
+        said.through,
         every * int(speaks_for.sum()), every * float(nats[speaks_for].sum()),
         every * int(speaks_against.sum()), every * abs(float(nats[speaks_against].sum())),
     )  # fmt: skip
+
+
+def strongest(said: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
+    """The beams that say most of a cell, the strongest first.
+
+    Args:
+        said: by the beams of some scans.
+        scans: these, at the poses from which the cell was looked at.
+
+    Returns:
+        Where each starts and ends in the world, ``start`` and ``end`` (M, 2), metres; without a return that is where the
+        sensor's span ends. Its log ratio, ``nats`` (M,), and the indices of its ``scan`` and ``beam``, (M,).
+    """
+    order = np.argsort(-np.abs(said.nats), kind="stable")[:MOST_DRAWN]
+    order = order[np.abs(said.nats[order]) > SILENT_NATS]
+    chosen = said.beams[order]
+    start = scans.beam_starts_world().reshape(-1, 2)[chosen]
+    angle = scans.beam_angles_world().ravel()[chosen]
+    length = np.clip(scans.ranges_m.ravel()[chosen], scans.min_range_m, scans.max_range_m)
+    end = start + length[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    scan, beam = np.divmod(chosen, scans.ranges_m.shape[1])
+    return {
+        "start": start,
+        "end": end,
+        "nats": said.nats[order],
+        "scan": scan.astype(float),
+        "beam": beam.astype(float),
+    }
 
 
 def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, place: int) -> float:

@@ -202,7 +202,10 @@ FIELDS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "view": _view,
     "painted": lambda value: {"generation": _whole("generation", value.get("generation"))},
     "scan": lambda value: {"index": _whole("index", value.get("index"))},
-    "inspect": lambda value: {name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("x", "y")},
+    "inspect": lambda value: {
+        **{name: _whole(name, value.get(name), 0, 2**31 - 1) for name in ("x", "y")},
+        **_optional(value, "each", lambda v: _flag("each", v)),
+    },
     "path": _path,
     "views": lambda value: {},
     "ghost": lambda value: {

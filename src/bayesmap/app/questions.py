@@ -24,7 +24,7 @@ def _inspect(document: Document, client: int, message: Message) -> Inspect:
     nx, ny = document.grid.shape
     if message["x"] >= nx or message["y"] >= ny:
         raise Refused("inspect: a cell outside the map")
-    return Inspect(client, message["x"], message["y"])
+    return Inspect(client, message["x"], message["y"], message.get("each", False))
 
 
 def _path(document: Document, client: int, message: Message) -> FindPath:

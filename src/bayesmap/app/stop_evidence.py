@@ -17,7 +17,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.evidence import Evidence, summed
+from bayesmap.app.evidence import BeamRatios
 from bayesmap.app.ghost import predictor_of_result
 from bayesmap.app.result import Result
 from bayesmap.beams.table import BeamTable
@@ -28,7 +28,7 @@ MOST_BEAMS = 500
 """Beams that are looked at; of more, some that are evenly spread, and each counts for those left out."""
 
 
-def stop_evidence(result: Result, table: BeamTable, cell: int) -> Evidence | None:
+def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
     """Of a cell by its flat index; None where there are no draws to ask.
 
     Raises:
@@ -41,7 +41,7 @@ def stop_evidence(result: Result, table: BeamTable, cell: int) -> Evidence | Non
     every = max(1, -(-len(places) // MOST_BEAMS))
     beams = np.searchsorted(table.offsets, places[::every], side="right") - 1
     scans = one_beam_each(result.scene.scans.at(result.scan_poses), beams)
-    return summed(log_ratios(predictor, scans, cell), len(places), every)
+    return BeamRatios(beams, log_ratios(predictor, scans, cell), len(places), every)
 
 
 def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:

@@ -67,11 +67,12 @@ class ShowScan:
 
 @dataclass(frozen=True)
 class Inspect:
-    """How many beams touch a cell."""
+    """How many beams touch a cell, and what they say of it: together, or each by itself too."""
 
     client: int
     x: int
     y: int
+    each: bool = False
 
 
 @dataclass(frozen=True)
