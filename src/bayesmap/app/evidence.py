@@ -96,7 +96,7 @@ def strongest(said: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
         scans: these, at the poses from which the cell was looked at.
 
     Returns:
-        Where each starts and ends in the world, ``start`` and ``end`` (M, 2), metres; without a return that is where the
+        Where each starts and ends in the world, ``start`` and ``end`` (M, 2), metres; without a return where the
         sensor's span ends. Its log ratio, ``nats`` (M,), and the indices of its ``scan`` and ``beam``, (M,).
     """
     order = np.argsort(-np.abs(said.nats), kind="stable")[:MOST_DRAWN]
