@@ -115,14 +115,16 @@ class WallProblem:
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
     def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """The walls, with cells that the prior fixes set as it says.
+        """One map or several, (..., nx, ny), with cells that the prior fixes set as it says.
 
         Raises:
             BadInput: walls of another shape than the grid's.
         """
-        self.table.check_walls(walls)
-        p = self.p_wall.reshape(self.table.grid.shape)
-        return np.where(p == 0, False, np.where(p == 1, True, np.asarray(walls) != 0))
+        shape = self.table.grid.shape
+        if np.shape(walls)[-2:] != shape:
+            self.table.check_walls(walls)
+        p = self.p_wall.reshape(shape)
+        return ((np.asarray(walls) != 0) | (p == 1)) & (p != 0)
 
 
 def log_odds(p_wall: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -94,7 +94,7 @@ class WallSampler(ABC):
             maps = np.stack([start_map(problem, start, chain, seed, marginals) for chain in chain_ids])
         else:
             maps = resume.arrays["walls"].reshape(len(chain_ids), *problem.grid.shape) != 0
-        maps = np.stack([problem.admit(walls) for walls in maps]).reshape(len(maps), -1)
+        maps = problem.admit(maps).reshape(len(maps), -1)
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
         sweep = 0 if resume is None else resume.sweep
