@@ -188,7 +188,7 @@ def test_the_read_out_tells_of_the_cell_under_the_pointer(page):
     readout = page.get_by_text("P(wall) 0.0")
     readout.wait_for()
     assert readout.inner_text().startswith("Cell 10, 12 \u00b7 10.0, 12.0 m")
-    page.get_by_text("beams").wait_for()
+    page.locator(".readout").get_by_text("beams").wait_for()
     page.mouse.move(*centre(page, 20, 20))
     page.get_by_text("Cell 20, 20").wait_for()
     assert "unobserved" in page.get_by_text("Cell 20, 20").inner_text()
@@ -217,7 +217,7 @@ def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     hidden = page.locator(".stage canvas").evaluate_all(
         "(all) => all.filter((one) => getComputedStyle(one).visibility === 'hidden').map((one) => one.className)"
     )
-    assert set(hidden) == {"hypothesis", "overlay", "reading", "decisions", "where", "ghost"}
+    assert set(hidden) == {"hypothesis", "overlay", "reading", "evidence", "decisions", "where", "ghost"}
     everything = {"field", "rays", "marks", "cursor"}
     paints(lambda: page.keyboard.press("+"), *everything)
 

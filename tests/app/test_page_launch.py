@@ -96,3 +96,13 @@ def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, server
     until(other, "s.painted.layer === 'mean'")
     assert np.array_equal(settled(other)["probability"], settled(page)["probability"])
     act(page, lambda: page.get_by_role("button", name="Undo").click())
+
+
+def test_the_tools_fit_into_a_window_of_any_width(open_page, server):
+    page = open_page(server, document())
+    for width in (1400, 1300, 1280, 1201, 1200, 1000, 901, 900, 800, 761, 760, 700, 641, 640, 420, 380, 320):
+        page.set_viewport_size({"width": width, "height": 860})
+        until(page, "true")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        whole, seen = page.locator(".bar").evaluate("(bar) => [bar.scrollWidth, bar.clientWidth]")
+        assert whole <= seen, width

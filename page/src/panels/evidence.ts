@@ -9,7 +9,7 @@ const LISTED = 8;
 
 export function evidencePanel(ui: Ui) {
   const { session, hand } = ui;
-  const said = h("p", { className: "said", role: "status" });
+  const said = h("p", { className: "words", role: "status" });
   const list = h("ol", { className: "spoken" });
   const section = ui.section("Evidence of beams", said, list);
   let listed = -1;

@@ -30,13 +30,13 @@ floor(Math.random()*2**30);asked=0;nextGesture(){return++this.gestures}get senso
 e[0]??null}choose(e){this.tool=e,this.session.decisions.look(e==="look"),this.session.ghost.hold(e==="ghost"),this.session.evidence.hold(e==="evidence"),this.session.
 changed()}select(e){this.selected=e,this.session.changed()}point(e){let n=e&&Ot(e,this.session.shape)?e:null;n?.x===this.hover?.x&&n?.y===this.hover?.y||(this.hover=
 n,this.ask(n),this.session.changed())}setCursor(e){!e&&!this.cursor||(this.cursor=e,this.ask(e),this.session.changed())}ask(e){clearTimeout(this.asked),!(!e||this.
-busy)&&(this.asked=window.setTimeout(()=>{this.session.act({type:"inspect",x:e.x,y:e.y}),this.cursor&&this.announce(this.describe(e))},wu))}};var Je={left:36,right:12,top:34,bottom:26},vu=60,xu=160,Wn=class{width=0;height=0;ratio=1;transform={scale:1,x:0,y:0};fitted=!0;corner={x:0,y:0};resize(e,n,o){[
+busy)&&(this.asked=window.setTimeout(()=>{this.session.act({type:"inspect",x:e.x,y:e.y}),this.cursor&&this.announce(this.describe(e))},wu))}};var Je={left:36,right:12,top:34,bottom:26},xu=60,vu=160,Wn=class{width=0;height=0;ratio=1;transform={scale:1,x:0,y:0};fitted=!0;corner={x:0,y:0};resize(e,n,o){[
 this.width,this.height,this.ratio]=[e,n,o]}get middle(){return{x:this.width/2,y:this.height/2}}fit([e,n]){let o={x:this.width-Je.left-Je.right,y:this.height-Je.
 top-Je.bottom},s=Math.max(.05,Math.min(o.x/e,o.y/n));s*this.ratio>4&&(s=Math.floor(s*this.ratio)/this.ratio),this.transform.scale=s,this.corner={x:Je.left+(o.x-
 s*e)/2,y:Je.top+(o.y-s*n)/2},this.fitted=!0,this.settle([e,n]),this.corner={x:this.transform.x,y:this.transform.y}}zoom(e,n,o){let{scale:s}=this.transform,{x:r,
-y:i}=this.corner,a=ne(s*e,Math.min(this.width,this.height)/Math.max(...o)/3,xu),l=a/s;this.transform.scale=a,this.corner={x:n.x-l*(n.x-r),y:n.y-l*(n.y-i)},this.
+y:i}=this.corner,a=ne(s*e,Math.min(this.width,this.height)/Math.max(...o)/3,vu),l=a/s;this.transform.scale=a,this.corner={x:n.x-l*(n.x-r),y:n.y-l*(n.y-i)},this.
 fitted=!1,this.settle(o)}pan(e,n,o){this.corner.x+=e,this.corner.y+=n,this.fitted=!1,this.settle(o)}toGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:(e.
-x-s)/o,y:n-(e.y-r)/o}}fromGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:s+e.x*o,y:r+(n-e.y)*o}}settle([e,n]){let{scale:o}=this.transform,s=vu;this.corner.
+x-s)/o,y:n-(e.y-r)/o}}fromGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:s+e.x*o,y:r+(n-e.y)*o}}settle([e,n]){let{scale:o}=this.transform,s=xu;this.corner.
 x=ne(this.corner.x,s-e*o,this.width-s),this.corner.y=ne(this.corner.y,s-n*o,this.height-s),this.transform.x=Math.round(this.corner.x*this.ratio)/this.ratio,this.
 transform.y=Math.round(this.corner.y*this.ratio)/this.ratio}};var Vo=new Set(["path","look","evidence"]);function Bo(t,e,n,o){if(e.tool==="path")return t.decisions.point(o);if(e.tool==="evidence"&&t.document){let{x:p,y:h}=_e(
 o,t.document.grid);return t.evidence.pin({x:Math.floor(p),y:Math.floor(h)})}let s=t.decisions.nearest(o),{views:r}=t.decisions;if(s===null||!r)return;let[i,a,l]=r.
@@ -209,8 +209,8 @@ Math.cos(f),w.y-es*Math.sin(f)),e.stroke()}e.globalAlpha=1}place(e,{view:n,look:
 scale/s.resolution,[[f,w],[,y]]=r.covariance,[k,M]=[(f+y)/2,Math.hypot((f-y)/2,w)],[T,S]=[k+M,k-M].map(_=>Math.max(ia,h*Math.sqrt(Math.max(_,0))));e.beginPath(),
 e.ellipse(p.x,p.y,T,S,-Math.atan2(2*w,f-y)/2,0,2*Math.PI);let E=ia+1;e.moveTo(p.x+E*Math.cos(u),p.y-E*Math.sin(u)),e.lineTo(p.x+(E+es)*Math.cos(u),p.y-(E+es)*Math.
 sin(u)),e.strokeStyle=o.theme.halo,e.lineWidth=4,e.stroke(),e.strokeStyle=o.theme.belief,e.lineWidth=2,e.stroke(),i&&Ut(e,gr(r.probability),p.x,p.y-S-9,o.theme,
-"center",!0)}},gr=t=>t>.995&&t<1?"over 99 %":t<.005?"under 1 %":`${Math.round(100*t)} %`;var aa=900,vo=2;function la({session:t,look:e}){let[n,o]=t.shape,s=new Wn;s.resize(aa,Math.round(ne(aa*o/n,300,1800)),vo),s.fit(t.shape);let r=document.createElement(
-"canvas");Object.assign(r,{width:s.width*vo,height:s.height*vo});let i=r.getContext("2d");i.scale(vo,vo),i.fillStyle=e.theme.ground,i.fillRect(0,0,s.width,s.height);
+"center",!0)}},gr=t=>t>.995&&t<1?"over 99 %":t<.005?"under 1 %":`${Math.round(100*t)} %`;var aa=900,xo=2;function la({session:t,look:e}){let[n,o]=t.shape,s=new Wn;s.resize(aa,Math.round(ne(aa*o/n,300,1800)),xo),s.fit(t.shape);let r=document.createElement(
+"canvas");Object.assign(r,{width:s.width*xo,height:s.height*xo});let i=r.getContext("2d");i.scale(xo,xo),i.fillStyle=e.theme.ground,i.fillRect(0,0,s.width,s.height);
 let a=[new Vn,new jn,new Yn,new qn,new Kn,new Hn,new Jn,new Bn],l={session:t,view:s,look:{...e,hover:null,cursor:null,selected:null}};for(let u of a)(u.shows?.(
 l)??!0)&&(i.save(),u.paint(i,l),i.restore());return new Promise(u=>r.toBlob(u))}var ts=class{name="reading";depends({session:e}){return[e.reading.version,e.document?.grid.resolution]}shows({session:{reading:e,document:n,scan:o,ghost:s}}){return!!(!s.
 held&&e.picked&&n&&o?.index===e.picked.scan)}paint(e,n){let{session:o,view:s,look:r}=n,{picked:i,found:a}=o.reading,{scan:l,document:u}=o;if(!i||!u||l?.index!==
@@ -218,22 +218,22 @@ i.scan)return;Ne(e,n);let{grid:p,max_range:h}=u,f=M=>{let T={x:i.from.x+M*Math.c
 w=(M,T,S,E)=>{e.beginPath(),e.moveTo(M.x,M.y),e.lineTo(T.x,T.y),e.lineWidth=S,e.strokeStyle=E,e.stroke()},y=l.hit[i.beam]===1,k=f(y?l.ranges[i.beam]:h);if(w(f(0),
 k,3,r.theme.halo),w(f(0),k,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let M=(T,S)=>ne(T??S,0,h);if(w(f(M(a.low,0)),f(M(a.high,h)),6,r.theme.ghost),
 a.median!==null){let T=f(a.median),S={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};w({x:T.x-S.x,y:T.y-S.y},{x:T.x+S.x,y:T.y+S.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),
-e.arc(k.x,k.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};function x(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
+e.arc(k.x,k.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};function v(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
 "role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function A(t,e,n){t[e]!==n&&(t[e]=n)}function dt(t,e,n){t.getAttribute(
 e)!==n&&t.setAttribute(e,n)}var mn=t=>t.getRootNode().activeElement===t,Me=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function yr(t,e){let n=URL.
-createObjectURL(e);x("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var ca=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
+createObjectURL(e);v("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var ca=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
 here","Where am I?","where"],["ghost","Ghost","ghost"],["evidence","Evidence","evidence"]];function ua(t){let{hand:e,session:n}=t,o=t.segmented("Tool",ca,()=>n.
 editable||!n.document||_t.has(e.tool)?e.tool:"pan",s=>e.choose(s),s=>n.editable||_t.has(s)&&!n.recorded||s==="pan");return t.visible(o,()=>!n.recorded),ca.forEach(
-([s],r)=>{_t.has(s)||t.visible(o.children[r],()=>!n.document||n.editable)}),x("div",{className:"bar"},o,x("span",{className:"space"}),t.button("minus","Zoom out",
+([s],r)=>{_t.has(s)||t.visible(o.children[r],()=>!n.document||n.editable)}),v("div",{className:"bar"},o,v("span",{className:"space"}),t.button("minus","Zoom out",
 ()=>t.command("out"),{title:"Zoom out (−)"}),t.button("plus","Zoom in",()=>t.command("in"),{title:"Zoom in (+)"}),t.button("fit","Whole map",()=>t.command("fi\
 t"),{title:"Whole map (0)"}))}var Ju="uplot",Zu="u-hz",Qu="u-vt",Xu="u-title",ed="u-wrap",td="u-under",nd="u-over",od="u-axis",bn="u-off",sd="u-select",rd="u-cursor-x",id="u-cursor-y",ad="u-\
-cursor-pt",ld="u-legend",cd="u-live",ud="u-inline",dd="u-series",hd="u-marker",da="u-label",pd="u-value",ko="width",So="height";var ha="bottom",Zn="left",br="right",$r="#000",pa=$r+"0",wr="mousemove",fa="mousedown",vr="mouseup",ma="mouseenter",ga="mouseleave",ya="dblclick",fd="resize",md="\
+cursor-pt",ld="u-legend",cd="u-live",ud="u-inline",dd="u-series",hd="u-marker",da="u-label",pd="u-value",ko="width",So="height";var ha="bottom",Zn="left",br="right",$r="#000",pa=$r+"0",wr="mousemove",fa="mousedown",xr="mouseup",ma="mouseenter",ga="mouseleave",ya="dblclick",fd="resize",md="\
 scroll",ba="change",is="dppxchange",Fr="--",so=typeof window<"u",Tr=so?document:null,Xn=so?window:null,gd=so?navigator:null,he,ns;function Pr(){let t=devicePixelRatio;
 he!=t&&(he=t,ns&&_r(ba,ns,Pr),ns=matchMedia(`(min-resolution: ${he-.001}dppx) and (max-resolution: ${he+.001}dppx)`),wn(ba,ns,Pr),Xn.dispatchEvent(new CustomEvent(
 is)))}function ht(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function Er(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function Te(t,e,n){
-t.style[e]=n+"px"}function Ct(t,e,n,o){let s=Tr.createElement(t);return e!=null&&ht(s,e),n?.insertBefore(s,o),s}function xt(t,e){return Ct("div",t,e)}var wa=new WeakMap;
-function Gt(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=wa.get(t);r!=i&&(t.style.transform=r,wa.set(t,r),e<0||n<0||e>o||n>s?ht(t,bn):Er(t,bn))}var va=new WeakMap;
-function xa(t,e,n){let o=e+n,s=va.get(t);o!=s&&(va.set(t,o),t.style.background=e,t.style.borderColor=n)}var ka=new WeakMap;function Sa(t,e,n,o){let s=e+""+n,r=ka.
+t.style[e]=n+"px"}function Ct(t,e,n,o){let s=Tr.createElement(t);return e!=null&&ht(s,e),n?.insertBefore(s,o),s}function vt(t,e){return Ct("div",t,e)}var wa=new WeakMap;
+function Gt(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=wa.get(t);r!=i&&(t.style.transform=r,wa.set(t,r),e<0||n<0||e>o||n>s?ht(t,bn):Er(t,bn))}var xa=new WeakMap;
+function va(t,e,n){let o=e+n,s=xa.get(t);o!=s&&(xa.set(t,o),t.style.background=e,t.style.borderColor=n)}var ka=new WeakMap;function Sa(t,e,n,o){let s=e+""+n,r=ka.
 get(t);s!=r&&(ka.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Ir={passive:!0},yd={...Ir,
 capture:!0};function wn(t,e,n,o){e.addEventListener(t,n,o?yd:Ir)}function _r(t,e,n,o){e.removeEventListener(t,n,Ir)}so&&Pr();function At(t,e,n,o){let s;n=n||0,o=
 o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:pt((n+o)/2),e[s]<t?n=s:o=s;return t-e[n]<=e[o]-t?n:o}function Za(t){return(n,o,s)=>{let r=-1,i=-1;for(let a=o;a<=
@@ -241,17 +241,17 @@ s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,
 let r=s?bd:cs,i=s?Xa:Qa;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let u=e;u<=n;u++){let p=t[u];i(p)&&(p<
 a?a=p:p>l&&(l=p))}return[a??ge,l??-ge]}function us(t,e,n,o){let s=Pa(t),r=Pa(e);t==e&&(s==-1?(t*=n,e/=n):(t/=n,e*=n));let i=n==10?Bt:el,a=s==1?pt:kt,l=r==1?kt:pt,
 u=a(i(Ie(t))),p=l(i(Ie(e))),h=eo(n,u),f=eo(n,p);return n==10&&(u<0&&(h=ye(h,-u)),p<0&&(f=ye(f,-p))),o||n==2?(t=h*s,e=f*r):(t=sl(t,h),e=ds(e,f)),[t,e]}function Or(t,e,n,o){
-let s=us(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ur=.1,Ma={mode:3,pad:Ur},To={pad:0,soft:null,mode:0},vd={min:To,max:To};function as(t,e,n,o){return hs(
-n)?Ta(t,e,n):(To.pad=n,To.soft=o?0:null,To.mode=o?3:0,Ta(t,e,vd))}function ue(t,e){return t??e}function xd(t,e,n){for(e=ue(e,0),n=ue(n,t.length-1);e<=n;){if(t[e]!=
+let s=us(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ur=.1,Ma={mode:3,pad:Ur},To={pad:0,soft:null,mode:0},xd={min:To,max:To};function as(t,e,n,o){return hs(
+n)?Ta(t,e,n):(To.pad=n,To.soft=o?0:null,To.mode=o?3:0,Ta(t,e,xd))}function ue(t,e){return t??e}function vd(t,e,n){for(e=ue(e,0),n=ue(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function Ta(t,e,n){let o=n.min,s=n.max,r=ue(o.pad,0),i=ue(s.pad,0),a=ue(o.hard,-ge),l=ue(s.hard,ge),u=ue(o.soft,ge),p=ue(s.soft,-ge),
 h=ue(o.mode,0),f=ue(s.mode,0),w=e-t,y=Bt(w),k=nt(Ie(t),Ie(e)),M=Bt(k),T=Ie(M-y);(w<1e-24||T>10)&&(w=0,(t==0||e==0)&&(w=1e-24,h==2&&u!=ge&&(r=0),f==2&&p!=-ge&&(i=
 0)));let S=w||k||1e3,E=Bt(S),_=eo(10,pt(E)),K=S*(w==0?t==0?.1:1:r),N=ye(sl(t-K,_/10),24),Y=t>=u&&(h==1||h==3&&N<=u||h==2&&N>=u)?u:ge,V=nt(a,N<Y&&t>=Y?Y:Lt(Y,N)),
 R=S*(w==0?e==0?.1:1:i),G=ye(ds(e+R,_/10),24),L=e<=p&&(f==1||f==3&&G>=p||f==2&&G<=p)?p:-ge,Z=Lt(l,G>L&&e<=L?L:nt(L,G));return V==Z&&V==0&&(Z=100),[V,Z]}var kd=new Intl.
 NumberFormat(so?gd.language:"en-US"),Gr=t=>kd.format(t),ft=Math,rs=ft.PI,Ie=ft.abs,pt=ft.floor,Fe=ft.round,kt=ft.ceil,Lt=ft.min,nt=ft.max,eo=ft.pow,Pa=ft.sign,Bt=ft.
-log10,el=ft.log2,Sd=(t,e=1)=>ft.sinh(t)*e,xr=(t,e=1)=>ft.asinh(t/e),ge=1/0;function Ea(t){return(Bt((t^t>>31)-(t>>31))|0)+1}function Cr(t,e,n){return Lt(nt(t,e),
+log10,el=ft.log2,Sd=(t,e=1)=>ft.sinh(t)*e,vr=(t,e=1)=>ft.asinh(t/e),ge=1/0;function Ea(t){return(Bt((t^t>>31)-(t>>31))|0)+1}function Cr(t,e,n){return Lt(nt(t,e),
 n)}function tl(t){return typeof t=="function"}function se(t){return tl(t)?t:()=>t}var Md=()=>{},nl=t=>t,ol=(t,e)=>e,Td=t=>null,_a=t=>!0,Ca=(t,e)=>t==e,Pd=/\.\d*?(?=9{6,}|0{6,})/gm,
-vn=t=>{if(il(t)||en.has(t))return t;let e=`${t}`,n=e.match(Pd);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${vn(
-s)}e${r}`}return ye(t,o)};function gn(t,e){return vn(ye(vn(t/e))*e)}function ds(t,e){return vn(kt(vn(t/e))*e)}function sl(t,e){return vn(pt(vn(t/e))*e)}function ye(t,e=0){
+xn=t=>{if(il(t)||en.has(t))return t;let e=`${t}`,n=e.match(Pd);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${xn(
+s)}e${r}`}return ye(t,o)};function gn(t,e){return xn(ye(xn(t/e))*e)}function ds(t,e){return xn(kt(xn(t/e))*e)}function sl(t,e){return xn(pt(xn(t/e))*e)}function ye(t,e=0){
 if(il(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return Fe(o)/n}var en=new Map;function rl(t){return((""+t).split(".")[1]||"").length}function Eo(t,e,n,o){
 let s=[],r=o.map(rl);for(let i=e;i<n;i++){let a=Ie(i),l=ye(eo(t,i),a);for(let u=0;u<o.length;u++){let p=t==10?+`${o[u]}e${i}`:o[u]*l,h=(i>=0?0:a)+(i>=r[u]?0:r[u]),
 f=t==10?p:ye(p,h);s.push(f),en.set(f,h)}}return s}var Po={},Wr=[],to=[null,null],Xt=Array.isArray,il=Number.isInteger,Ed=t=>t===void 0;function Aa(t){return typeof t==
@@ -269,11 +269,11 @@ i[o[l]];s.push(a)}return s}function Id(t){let e=t[0][0],n=e.length;for(let o=1;o
 if(s[r]!=e[r])return!1}}return!0}function Od(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
 o)return!0;let r=nt(1,pt((s-o+1)/e));for(let i=t[o],a=o+r;a<=s;a+=r){let l=t[a];if(l!=null){if(l<=i)return!1;i=l}}return!0}var ll=["January","February","March",
 "April","May","June","July","August","September","October","November","December"],cl=["Sunday","Monday","Tuesday","Wednesday","Thursday","Friday","Saturday"];function ul(t){
-return t.slice(0,3)}var Ud=cl.map(ul),Gd=ll.map(ul),Wd={MMMM:ll,MMM:Gd,WWWW:cl,WWW:Ud};function xo(t){return(t<10?"0":"")+t}function zd(t){return(t<10?"00":t<100?
-"0":"")+t}var Hd={YYYY:t=>t.getFullYear(),YY:t=>(t.getFullYear()+"").slice(2),MMMM:(t,e)=>e.MMMM[t.getMonth()],MMM:(t,e)=>e.MMM[t.getMonth()],MM:t=>xo(t.getMonth()+
-1),M:t=>t.getMonth()+1,DD:t=>xo(t.getDate()),D:t=>t.getDate(),WWWW:(t,e)=>e.WWWW[t.getDay()],WWW:(t,e)=>e.WWW[t.getDay()],HH:t=>xo(t.getHours()),H:t=>t.getHours(),
-h:t=>{let e=t.getHours();return e==0?12:e>12?e-12:e},AA:t=>t.getHours()>=12?"PM":"AM",aa:t=>t.getHours()>=12?"pm":"am",a:t=>t.getHours()>=12?"p":"a",mm:t=>xo(t.
-getMinutes()),m:t=>t.getMinutes(),ss:t=>xo(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>zd(t.getMilliseconds())};function zr(t,e){e=e||Wd;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
+return t.slice(0,3)}var Ud=cl.map(ul),Gd=ll.map(ul),Wd={MMMM:ll,MMM:Gd,WWWW:cl,WWW:Ud};function vo(t){return(t<10?"0":"")+t}function zd(t){return(t<10?"00":t<100?
+"0":"")+t}var Hd={YYYY:t=>t.getFullYear(),YY:t=>(t.getFullYear()+"").slice(2),MMMM:(t,e)=>e.MMMM[t.getMonth()],MMM:(t,e)=>e.MMM[t.getMonth()],MM:t=>vo(t.getMonth()+
+1),M:t=>t.getMonth()+1,DD:t=>vo(t.getDate()),D:t=>t.getDate(),WWWW:(t,e)=>e.WWWW[t.getDay()],WWW:(t,e)=>e.WWW[t.getDay()],HH:t=>vo(t.getHours()),H:t=>t.getHours(),
+h:t=>{let e=t.getHours();return e==0?12:e>12?e-12:e},AA:t=>t.getHours()>=12?"PM":"AM",aa:t=>t.getHours()>=12?"pm":"am",a:t=>t.getHours()>=12?"p":"a",mm:t=>vo(t.
+getMinutes()),m:t=>t.getMinutes(),ss:t=>vo(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>zd(t.getMilliseconds())};function zr(t,e){e=e||Wd;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
 s;for(;s=o.exec(t);)n.push(s[0][0]=="{"?Hd[s[1]]:s[0]);return r=>{let i="";for(let a=0;a<n.length;a++)i+=typeof n[a]=="string"?n[a]:n[a](r,e);return i}}var Vd=new Intl.
 DateTimeFormat().resolvedOptions().timeZone;function Bd(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==Vd?n=t:(n=new Date(
 t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var dl=t=>t%1==0,ls=[1,2,2.5,5],jd=Eo(10,-32,0,ls),hl=Eo(10,0,32,ls),Kd=hl.filter(
@@ -293,15 +293,15 @@ l&&a[2]||T!=u&&a[3]||S!=p&&a[4]||E!=h&&a[5]||_!=f&&a[6]||K!=w&&a[7]||a[1];return
 map(l=>n(t(l)))}function kr(t,e,n){return new Date(t,e,n)}function Fa(t,e){return e(t)}var nh="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function Ia(t,e){return(n,o,s,r)=>r==
 null?Fr:e(t(o))}function oh(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function sh(t,e){return t.series[e].fill(
 t,e)}var rh={show:!0,live:!0,isolate:!1,mount:Md,markers:{show:!0,width:2,stroke:oh,fill:sh,dash:"solid"},idx:null,idxs:null,values:[]};function ih(t,e){let n=t.
-cursor.points,o=xt(),s=n.size(t,e);Te(o,ko,s),Te(o,So,s);let r=s/-2;Te(o,"marginLeft",r),Te(o,"marginTop",r);let i=n.width(t,e,s);return i&&Te(o,"borderWidth",i),
+cursor.points,o=vt(),s=n.size(t,e);Te(o,ko,s),Te(o,So,s);let r=s/-2;Te(o,"marginLeft",r),Te(o,"marginTop",r);let i=n.width(t,e,s);return i&&Te(o,"borderWidth",i),
 o}function ah(t,e){let n=t.series[e].points;return n._fill||n._stroke}function lh(t,e){let n=t.series[e].points;return n._stroke||n._fill}function ch(t,e){return t.
 series[e].points.size}var Sr=[0,0];function uh(t,e,n){return Sr[0]=e,Sr[1]=n,Sr}function ss(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function Mr(t,e,n,o=!0){
 return s=>{(!o||s.target==e)&&n(s)}}var dh={show:!0,x:!0,y:!0,lock:!1,move:uh,points:{one:!1,show:ih,size:ch,width:0,stroke:lh,fill:ah},bind:{mousedown:ss,mouseup:ss,
 click:ss,dblclick:ss,mousemove:Mr,mouseleave:Mr,mouseenter:Mr},drag:{setScale:!0,x:!0,y:!1,dist:0,uni:null,click:(t,e)=>{e.stopPropagation(),e.stopImmediatePropagation()},
 _x:!1,_y:!1},focus:{dist:(t,e,n,o,s)=>o-s,prox:-1,bias:0},hover:{skip:[void 0],prox:null,bias:0},left:-10,top:-10,idx:null,dataIdx:null,idxs:null,event:null},yl={
 show:!0,stroke:"rgba(0,0,0,0.07)",width:2},Vr=Re({},yl,{filter:ol}),bl=Re({},Vr,{size:10}),wl=Re({},yl,{show:!1}),Br='12px system-ui, -apple-system, "Segoe UI",\
- Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',vl="bold "+Br,xl=1.5,Oa={
-show:!0,scale:"x",stroke:$r,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:vl,side:2,grid:Vr,ticks:bl,border:wl,font:Br,lineGap:xl,rotate:0},
+ Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',xl="bold "+Br,vl=1.5,Oa={
+show:!0,scale:"x",stroke:$r,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:xl,side:2,grid:Vr,ticks:bl,border:wl,font:Br,lineGap:vl,rotate:0},
 hh="Value",ph="Time",Ua={show:!0,scale:"x",auto:!1,sorted:1,min:ge,max:-ge,idxs:[]};function fh(t,e,n,o,s){return e.map(r=>r==null?"":Gr(r))}function mh(t,e,n,o,s,r,i){
 let a=[],l=en.get(s)||0;n=i?n:ye(ds(n,s),l);for(let u=n;u<=o;u=ye(u+s,l))a.push(Object.is(u,-0)?0:u);return a}function Ar(t,e,n,o,s,r,i){let a=[],l=t.scales[t.axes[e].
 scale].log,u=l==10?Bt:el,p=pt(u(n));s=eo(l,p),l==10&&(s=yn[At(s,yn)]);let h=n,f=s*l;l==10&&(f=yn[At(f,yn)]);do a.push(h),h=h+s,l==10&&!en.has(h)&&(h=ye(h,en.get(
@@ -309,19 +309,19 @@ s))),h>=f&&(s=h,f=s*l,l==10&&(f=yn[At(f,yn)]));while(h<=o);return a}function gh(
 l],p=o>=0&&n<=0?[0]:[];return(n<-l?Ar(t,e,nt(l,-o),-n,s):[l]).reverse().map(f=>-f).concat(p,u)}var kl=/./,yh=/[12357]/,bh=/[125]/,Ga=/1/,Lr=(t,e,n,o)=>t.map((s,r)=>e==
 4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function wh(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,u=r._space,p=l(10,i),h=l(
 9,i)-p>=u?kl:l(7,i)-p>=u?yh:l(5,i)-p>=u?bh:Ga;if(h==Ga){let f=Ie(l(1,i)-p);if(f<u)return Lr(e.slice().reverse(),a.distr,h,kt(u/f)).reverse()}return Lr(e,a.distr,
-h,1)}function vh(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,u=Ie(l(1,i)-l(2,i));return u<a?Lr(e.slice().reverse(),3,kl,kt(a/u)).reverse():e}function xh(t,e,n,o){
-return o==null?Fr:e==null?"":Gr(e)}var Wa={show:!0,scale:"y",stroke:$r,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:vl,side:3,grid:Vr,ticks:bl,
-border:wl,font:Br,lineGap:xl,rotate:0};function kh(t,e){let n=3+(t||1)*2;return ye(n*e,3)}function Sh(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
+h,1)}function xh(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,u=Ie(l(1,i)-l(2,i));return u<a?Lr(e.slice().reverse(),3,kl,kt(a/u)).reverse():e}function vh(t,e,n,o){
+return o==null?Fr:e==null?"":Gr(e)}var Wa={show:!0,scale:"y",stroke:$r,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:xl,side:3,grid:Vr,ticks:bl,
+border:wl,font:Br,lineGap:vl,rotate:0};function kh(t,e){let n=3+(t||1)*2;return ye(n*e,3)}function Sh(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
 s[o[0]],n,!0),i=t.valToPos(s[o[1]],n,!0),a=Ie(i-r),l=t.series[e],u=a/(l.points.space*he);return o[1]-o[0]<=u}var za={scale:null,auto:!0,sorted:0,min:ge,max:-ge},
 Sl=(t,e,n,o,s)=>s,Ha={show:!0,auto:!0,sorted:0,gaps:Sl,alpha:1,facets:[Re({},za,{scale:"x"}),Re({},za,{scale:"y"})]},Va={scale:"y",auto:!0,sorted:0,show:!0,spanGaps:!1,
 gaps:Sl,alpha:1,points:{show:Sh,filter:null},values:null,min:ge,max:-ge,idxs:[],path:null,clip:null};function Mh(t,e,n,o,s){return n/10}var Ml={time:!0,auto:!0,
 distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Th=Re({},Ml,{time:!1,ori:1}),Ba={};function Tl(t,e){let n=Ba[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,u){for(let p=0;p<n.plots.length;p++)n.plots[p]!=s&&n.plots[p].pub(o,s,r,i,a,l,u)}},t!=null&&(Ba[t]=
-n)),n}var oo=1,Dr=2;function xn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],u=o==2?r[1]:r[e],p=o==2?i[s.facets[0].scale]:
+n)),n}var oo=1,Dr=2;function vn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],u=o==2?r[1]:r[e],p=o==2?i[s.facets[0].scale]:
 i[t.series[0].scale],h=o==2?i[s.facets[1].scale]:i[s.scale],f=a.left,w=a.top,y=a.width,k=a.height,M=t.valToPosH,T=t.valToPosV;return p.ori==0?n(s,l,u,p,h,M,T,f,
 w,y,k,fs,ro,gs,El,Cl):n(s,l,u,p,h,T,M,w,f,k,y,ms,io,qr,_l,Al)}function jr(t,e){let n=0,o=0,s=ue(t.bands,Wr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
 e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function Ph(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
-l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function jt(t,e,n,o,s,r){return xn(t,e,(i,a,l,u,p,h,f,w,y,k,M)=>{let T=i.pxRound,S=u.
+l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function jt(t,e,n,o,s,r){return vn(t,e,(i,a,l,u,p,h,f,w,y,k,M)=>{let T=i.pxRound,S=u.
 dir*(u.ori==0?1:-1),E=u.ori==0?ro:io,_,K;S==1?(_=n,K=o):(_=o,K=n);let N=T(h(a[_],u,k,w)),Y=T(f(l[_],p,M,y)),V=T(h(a[K],u,k,w)),R=T(f(r==1?p.max:p.min,p,M,y)),G=new Path2D(
 s);return E(G,V,R),E(G,N,R),E(G,N,Y),G})}function ps(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?gs:qr,l=n;for(let h=0;h<t.length;h++){let f=t[h];
 if(f[1]>f[0]){let w=f[0]-l;w>0&&a(i,l,o,w,o+r),l=f[1]}}let u=n+s-l,p=10;u>0&&a(i,l,o-p/2,u,o+r+p)}return i}function Eh(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
@@ -331,11 +331,11 @@ return a}function ja(t){return t==0?nl:t==1?Fe:e=>gn(e,t)}function Pl(t){let e=t
 l,a,u)},o=t==0?(s,r,i,a,l)=>{s.rect(r,i,a,l)}:(s,r,i,a,l)=>{s.rect(i,r,l,a)};return(s,r,i,a,l,u=0,p=0)=>{u==0&&p==0?o(s,r,i,a,l):(u=Lt(u,a/2,l/2),p=Lt(p,a/2,l/2),
 e(s,r+u,i),n(s,r+a,i,r+a,i+l,u),n(s,r+a,i+l,r,i+l,p),n(s,r,i+l,r,i,p),n(s,r,i,r+a,i,u),s.closePath())}}var fs=(t,e,n)=>{t.moveTo(e,n)},ms=(t,e,n)=>{t.moveTo(n,e)},
 ro=(t,e,n)=>{t.lineTo(e,n)},io=(t,e,n)=>{t.lineTo(n,e)},gs=Pl(0),qr=Pl(1),El=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},_l=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},Cl=(t,e,n,o,s,r,i)=>{
-t.bezierCurveTo(e,n,o,s,r,i)},Al=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Ll(t){return(e,n,o,s,r)=>xn(e,n,(i,a,l,u,p,h,f,w,y,k,M)=>{let{pxRound:T,
+t.bezierCurveTo(e,n,o,s,r,i)},Al=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Ll(t){return(e,n,o,s,r)=>vn(e,n,(i,a,l,u,p,h,f,w,y,k,M)=>{let{pxRound:T,
 points:S}=i,E,_;u.ori==0?(E=fs,_=El):(E=ms,_=_l);let K=ye(S.width*he,3),N=(S.size-S.width)/2*he,Y=ye(N*2,3),V=new Path2D,R=new Path2D,{left:G,top:L,width:Z,height:O}=e.
 bbox;gs(R,G-Y,L-Y,Z+Y*2,O+Y*2);let j=z=>{if(l[z]!=null){let Q=T(h(a[z],u,k,w)),H=T(f(l[z],p,M,y));E(V,Q+N,H),_(V,Q,H,N,0,rs*2)}};if(r)r.forEach(j);else for(let z=o;z<=
 s;z++)j(z);return{stroke:K>0?V:null,fill:V,clip:R,flags:oo|Dr}})}function Dl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var _h=Dl(ro),Ch=Dl(io);function Nl(t){let e=ue(t?.alignGaps,0);return(n,o,s,r)=>xn(n,o,(i,a,l,u,p,h,f,w,y,k,M)=>{[s,r]=cs(l,s,r);let T=i.pxRound,S=O=>T(h(O,u,k,
+var _h=Dl(ro),Ch=Dl(io);function Nl(t){let e=ue(t?.alignGaps,0);return(n,o,s,r)=>vn(n,o,(i,a,l,u,p,h,f,w,y,k,M)=>{[s,r]=cs(l,s,r);let T=i.pxRound,S=O=>T(h(O,u,k,
 w)),E=O=>T(f(O,p,M,y)),_,K;u.ori==0?(_=ro,K=_h):(_=io,K=Ch);let N=u.dir*(u.ori==0?1:-1),Y={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},V=Y.
 stroke,R=!1;if(r-s>=k*4){let O=W=>n.posToVal(W,u.key,!0),j=null,z=null,Q,H,je,be=S(a[N==1?s:r]),re=S(a[s]),le=S(a[r]),ee=O(N==1?re+1:le-1);for(let W=N==1?s:r;W>=
 s&&W<=r;W+=N){let Ce=a[W],me=(N==1?Ce<ee:Ce>ee)?be:S(Ce),ae=l[W];me==be?ae!=null?(H=ae,j==null?(_(V,me,E(H)),Q=j=z=H):H<j?j=H:H>z&&(z=H)):ae===null&&(R=!0):(j!=
@@ -343,7 +343,7 @@ null&&K(V,be,E(j),E(z),E(Q),E(H)),ae!=null?(H=ae,_(V,me,E(H)),j=z=Q=H):(j=z=null
 Q),E(H))}else for(let O=N==1?s:r;O>=s&&O<=r;O+=N){let j=l[O];j===null?R=!0:j!=null&&_(V,S(a[O]),E(j))}let[L,Z]=jr(n,o);if(i.fill!=null||L!=0){let O=Y.fill=new Path2D(
 V),j=i.fillTo(n,o,i.min,i.max,L),z=E(j),Q=S(a[s]),H=S(a[r]);N==-1&&([H,Q]=[Q,H]),_(O,H,z),_(O,Q,z)}if(!i.spanGaps){let O=[];R&&O.push(...Kr(a,l,s,r,N,S,e)),Y.gaps=
 O=i.gaps(n,o,s,r,O),Y.clip=ps(O,u.ori,w,y,k,M)}return Z!=0&&(Y.band=Z==2?[jt(n,o,s,r,V,-1),jt(n,o,s,r,V,1)]:jt(n,o,s,r,V,Z)),Y})}function Ah(t){let e=ue(t.align,
-1),n=ue(t.ascDesc,!1),o=ue(t.alignGaps,0),s=ue(t.extend,!1);return(r,i,a,l)=>xn(r,i,(u,p,h,f,w,y,k,M,T,S,E)=>{[a,l]=cs(h,a,l);let _=u.pxRound,{left:K,width:N}=r.
+1),n=ue(t.ascDesc,!1),o=ue(t.alignGaps,0),s=ue(t.extend,!1);return(r,i,a,l)=>vn(r,i,(u,p,h,f,w,y,k,M,T,S,E)=>{[a,l]=cs(h,a,l);let _=u.pxRound,{left:K,width:N}=r.
 bbox,Y=re=>_(y(re,f,S,M)),V=re=>_(k(re,w,E,T)),R=f.ori==0?ro:io,G={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},L=G.stroke,Z=f.dir*(f.ori==
 0?1:-1),O=V(h[Z==1?a:l]),j=Y(p[Z==1?a:l]),z=j,Q=j;s&&e==-1&&(Q=K,R(L,Q,O)),R(L,j,O);for(let re=Z==1?a:l;re>=a&&re<=l;re+=Z){let le=h[re];if(le==null)continue;let ee=Y(
 p[re]),W=V(le);e==1?R(L,ee,O):R(L,z,W),R(L,ee,W),O=W,z=ee}let H=z;s&&e==1&&(H=K+N,R(L,H,O));let[je,be]=jr(r,i);if(u.fill!=null||je!=0){let re=G.fill=new Path2D(
@@ -351,7 +351,7 @@ L),le=u.fillTo(r,i,u.min,u.max,je),ee=V(le);R(re,H,ee),R(re,Q,ee)}if(!u.spanGaps
 W=n||e==-1?-le:le;re.forEach(Ce=>{Ce[0]+=ee,Ce[1]+=W}),G.gaps=re=u.gaps(r,i,a,l,re),G.clip=ps(re,f.ori,M,T,S,E)}return be!=0&&(G.band=be==2?[jt(r,i,a,l,L,-1),jt(
 r,i,a,l,L,1)]:jt(r,i,a,l,L,be)),G})}function Ka(t,e,n,o,s,r,i=ge){if(t.length>1){let a=null;for(let l=0,u=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let p=Ie(
 t[l]-t[a]);p<u&&(u=p,i=Ie(n(t[l],o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function Lh(t){t=t||Po;let e=ue(t.size,[.6,ge,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==
-null?[0,0]:typeof s=="number"?[s,0]:s;let r=se(s),i=1-e[0],a=ue(e[1],ge),l=ue(e[2],1),u=ue(t.disp,Po),p=ue(t.each,w=>{}),{fill:h,stroke:f}=u;return(w,y,k,M)=>xn(
+null?[0,0]:typeof s=="number"?[s,0]:s;let r=se(s),i=1-e[0],a=ue(e[1],ge),l=ue(e[2],1),u=ue(t.disp,Po),p=ue(t.each,w=>{}),{fill:h,stroke:f}=u;return(w,y,k,M)=>vn(
 w,y,(T,S,E,_,K,N,Y,V,R,G,L)=>{let Z=T.pxRound,O=n,j=o*he,z=a*he,Q=l*he,H,je;_.ori==0?[H,je]=r(w,y):[je,H]=r(w,y);let be=_.dir*(_.ori==0?1:-1),re=_.ori==0?gs:qr,
 le=_.ori==0?p:(I,we,$e,Mn,sn,Dt,rn)=>{p(I,we,$e,sn,Mn,rn,Dt)},ee=ue(w.bands,Wr).find(I=>I.series[0]==y),W=ee!=null?ee.dir:0,Ce=T.fillTo(w,y,T.min,T.max,W),Ue=Z(
 Y(Ce,K,L,R)),me,ae,ot,st=G,Pe=Z(T.width*he),St=!1,mt=null,q=null,ie=null,Ke=null;h!=null&&(Pe==0||f!=null)&&(St=!0,mt=h.values(w,y,k,M),q=new Map,new Set(mt).forEach(
@@ -364,7 +364,7 @@ zt=null;if(ee!=null)zt=w.data[ee.series[1]];else{let{y0:I,y1:we}=u;I!=null&&we!=
 $e,_,G,V),sn=Y(ue(we,Ce),K,L,R),Dt=Z(Mn-me),rn=Z(nt(sn,Ue)),at=Z(Lt(sn,Ue)),gt=rn-at;if(we!=null){let rt=we<0?te:on,Mt=we<0?on:te;St?(Pe>0&&ie[I]!=null&&re(Ke.get(
 ie[I]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),mt[I]!=null&&re(q.get(mt[I]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt)):re(Sn,Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),le(w,y,
 I,Dt-Pe/2,at,ae+Pe,gt)}}return Pe>0?Qe.stroke=St?Ke:Sn:St||(Qe._fill=T.width==0?T._fill:T._stroke??T._fill,Qe.width=0),Qe.fill=St?q:Sn,Qe})}function Dh(t,e){let n=ue(
-e?.alignGaps,0);return(o,s,r,i)=>xn(o,s,(a,l,u,p,h,f,w,y,k,M,T)=>{[r,i]=cs(u,r,i);let S=a.pxRound,E=H=>S(f(H,p,M,y)),_=H=>S(w(H,h,T,k)),K,N,Y;p.ori==0?(K=fs,Y=ro,
+e?.alignGaps,0);return(o,s,r,i)=>vn(o,s,(a,l,u,p,h,f,w,y,k,M,T)=>{[r,i]=cs(u,r,i);let S=a.pxRound,E=H=>S(f(H,p,M,y)),_=H=>S(w(H,h,T,k)),K,N,Y;p.ori==0?(K=fs,Y=ro,
 N=Cl):(K=ms,Y=io,N=Al);let V=p.dir*(p.ori==0?1:-1),R=E(l[V==1?r:i]),G=R,L=[],Z=[];for(let H=V==1?r:i;H>=r&&H<=i;H+=V)if(u[H]!=null){let be=l[H],re=E(be);L.push(
 G=re),Z.push(_(u[H]))}let O={stroke:t(L,Z,K,Y,N,S),fill:null,clip:null,band:null,gaps:null,flags:oo},j=O.stroke,[z,Q]=jr(o,s);if(a.fill!=null||z!=0){let H=O.fill=
 new Path2D(j),je=a.fillTo(o,s,a.min,a.max,z),be=_(je);Y(H,G,be),Y(H,R,be)}if(!a.spanGaps){let H=[];H.push(...Kr(l,u,r,i,V,E,n)),O.gaps=H=a.gaps(o,s,r,i,H),O.clip=
@@ -380,15 +380,15 @@ let r=nt(Ea(t),Ea(e)),i=e-t,a=At(s/o*i,n);do{let l=n[a],u=o*l/i;if(u>=s&&r+(l<5?
 n;return t=t.replace(/(\d+)px/,(o,s)=>(e=Fe((n=+s)*he))+"px"),[t,e,n]}function Hh(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=ye(e[2]*he,1);e[0]=e[0].replace(
 /[0-9.]+px/,n+"px"),e[1]=n})}function Oe(t,e,n){let o={mode:ue(t.mode,1)},s=o.mode;function r(c,d,m,g){let b=d.valToPct(c);return g+m*(d.dir==-1?1-b:b)}function i(c,d,m,g){
 let b=d.valToPct(c);return g+m*(d.dir==-1?b:1-b)}function a(c,d,m,g){return d.ori==0?r(c,d,m,g):i(c,d,m,g)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let u=o.
-root=xt(Ju);if(t.id!=null&&(u.id=t.id),ht(u,t.class),t.title){let c=xt(Xu,u);c.textContent=t.title}let p=Ct("canvas"),h=o.ctx=p.getContext("2d"),f=xt(ed,u);wn("\
-click",f,c=>{c.target===y&&(ve!=$n||Ee!=Fn)&&Ye.click(o,c)},!0);let w=o.under=xt(td,f);f.appendChild(p);let y=o.over=xt(nd,f);t=no(t);let k=+ue(t.pxAlign,1),M=ja(
+root=vt(Ju);if(t.id!=null&&(u.id=t.id),ht(u,t.class),t.title){let c=vt(Xu,u);c.textContent=t.title}let p=Ct("canvas"),h=o.ctx=p.getContext("2d"),f=vt(ed,u);wn("\
+click",f,c=>{c.target===y&&(xe!=$n||Ee!=Fn)&&Ye.click(o,c)},!0);let w=o.under=vt(td,f);f.appendChild(p);let y=o.over=vt(nd,f);t=no(t);let k=+ue(t.pxAlign,1),M=ja(
 k);(t.plugins||[]).forEach(c=>{c.opts&&(t=c.opts(o,t)||t)});let T=t.ms||.001,S=o.series=s==1?Ya(t.series||[],Ua,Va,!1):Ih(t.series||[null],Ha),E=o.axes=Ya(t.axes||
 [],Oa,Wa,!0),_=o.scales={},K=o.bands=t.bands||[];K.forEach(c=>{c.fill=se(c.fill||null),c.dir=ue(c.dir,-1)});let N=s==2?S[1].facets[0].scale:S[0].scale,Y={axes:nu,
-series:Zc},V=(t.drawOrder||["axes","series"]).map(c=>Y[c]);function R(c){let d=c.distr==3?m=>Bt(m>0?m:c.clamp(o,m,c.min,c.max,c.key)):c.distr==4?m=>xr(m,c.asinh):
-c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=d(m),{_min:b,_max:v}=c,P=v-b;return(g-b)/P}}function G(c){let d=_[c];if(d==null){let m=(t.scales||Po)[c]||Po;if(m.
-from!=null){G(m.from);let g=Re({},_[m.from],m,{key:c});g.valToPct=R(g),_[c]=g}else{d=_[c]=Re({},c==N?Ml:Th,m),d.key=c;let g=d.time,b=d.range,v=Xt(b);if((c!=N||s==
-2&&!g)&&(v&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?Ma:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?Ma:{mode:1,hard:b[1],soft:b[1]}},v=!1),!v&&hs(b))){let P=b;
-b=(C,D,$)=>D==null?to:as(D,$,P)}d.range=se(b||(g?Oh:c==N?d.distr==3?Gh:d.distr==4?Wh:Rl:d.distr==3?$l:d.distr==4?Fl:Uh)),d.auto=se(v?!1:d.auto),d.clamp=se(d.clamp||
+series:Zc},V=(t.drawOrder||["axes","series"]).map(c=>Y[c]);function R(c){let d=c.distr==3?m=>Bt(m>0?m:c.clamp(o,m,c.min,c.max,c.key)):c.distr==4?m=>vr(m,c.asinh):
+c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=d(m),{_min:b,_max:x}=c,P=x-b;return(g-b)/P}}function G(c){let d=_[c];if(d==null){let m=(t.scales||Po)[c]||Po;if(m.
+from!=null){G(m.from);let g=Re({},_[m.from],m,{key:c});g.valToPct=R(g),_[c]=g}else{d=_[c]=Re({},c==N?Ml:Th,m),d.key=c;let g=d.time,b=d.range,x=Xt(b);if((c!=N||s==
+2&&!g)&&(x&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?Ma:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?Ma:{mode:1,hard:b[1],soft:b[1]}},x=!1),!x&&hs(b))){let P=b;
+b=(C,D,$)=>D==null?to:as(D,$,P)}d.range=se(b||(g?Oh:c==N?d.distr==3?Gh:d.distr==4?Wh:Rl:d.distr==3?$l:d.distr==4?Fl:Uh)),d.auto=se(x?!1:d.auto),d.clamp=se(d.clamp||
 Mh),d._min=d._max=null,d.valToPct=R(d)}}}G("x"),G("y"),s==1&&S.forEach(c=>{G(c.scale)}),E.forEach(c=>{G(c.scale)});for(let c in t.scales)G(c);let L=_[N],Z=L.distr,
 O,j;L.ori==0?(ht(u,Zu),O=r,j=i):(ht(u,Qu),O=i,j=r);let z={};for(let c in _){let d=_[c];(d.min!=null||d.max!=null)&&(z[c]={min:d.min,max:d.max},d.min=d.max=null)}
 let Q=t.tzDate||(c=>new Date(Fe(c/T))),H=t.fmtDate||zr,je=T==1?Zd(Q):eh(Q),be=$a(Q,Ra(T==1?Jd:Xd,H)),re=Ia(Q,Fa(nh,H)),le=[],ee=o.legend=Re({},rh,t.legend),W=o.
@@ -396,27 +396,27 @@ cursor=Re({},dh,{drag:{y:s==2}},t.cursor),Ce=ee.show,Ue=W.show,me=ee.markers;ee.
 se(me.fill);let ae,ot,st,Pe=[],St=[],mt,q=!1,ie={};if(ee.live){let c=S[1]?S[1].values:null;q=c!=null,mt=q?c(o,1,0):{_:0};for(let d in mt)ie[d]=Fr}if(Ce)if(ae=Ct(
 "table",ld,u),st=Ct("tbody",null,ae),ee.mount(o,ae),q){ot=Ct("thead",null,ae,st);let c=Ct("tr",null,ot);Ct("th",null,c);for(var Ke in mt)Ct("th",da,c).textContent=
 Ke}else ht(ae,ud),ee.live&&ht(ae,cd);let Wt={show:!0},lo={show:!1};function _o(c,d){if(d==0&&(q||!ee.live||s==2))return to;let m=[],g=Ct("tr",dd,st,st.childNodes[d]);
-ht(g,c.class),c.show||ht(g,bn);let b=Ct("th",null,g);if(me.show){let C=xt(hd,b);if(d>0){let D=me.width(o,d);D&&(C.style.border=D+"px "+me.dash(o,d)+" "+me.stroke(
-o,d)),C.style.background=me.fill(o,d)}}let v=xt(da,b);c.label instanceof HTMLElement?v.appendChild(c.label):v.textContent=c.label,d>0&&(me.show||(v.style.color=
+ht(g,c.class),c.show||ht(g,bn);let b=Ct("th",null,g);if(me.show){let C=vt(hd,b);if(d>0){let D=me.width(o,d);D&&(C.style.border=D+"px "+me.dash(o,d)+" "+me.stroke(
+o,d)),C.style.background=me.fill(o,d)}}let x=vt(da,b);c.label instanceof HTMLElement?x.appendChild(c.label):x.textContent=c.label,d>0&&(me.show||(x.style.color=
 c.width>0?me.stroke(o,d):me.fill(o,d)),Qe("click",b,C=>{if(W._lock)return;ln(C);let D=S.indexOf(c);if((C.ctrlKey||C.metaKey)!=ee.isolate){let $=S.some((F,U)=>U>
 0&&U!=D&&F.show);S.forEach((F,U)=>{U>0&&Rt(U,$?U==D?Wt:lo:Wt,!0,De.setSeries)})}else Rt(D,{show:!c.show},!0,De.setSeries)},!1),Pn&&Qe(ma,b,C=>{W._lock||(ln(C),Rt(
 S.indexOf(c),On,!0,De.setSeries))},!1));for(var P in mt){let C=Ct("td",pd,g);C.textContent="--",m.push(C)}return[g,m]}let nn=new Map;function Qe(c,d,m,g=!0){let b=nn.
-get(d)||{},v=W.bind[c](o,d,m,g);v&&(wn(c,d,b[c]=v),nn.set(d,b))}function Sn(c,d,m){let g=nn.get(d)||{};for(let b in g)(c==null||b==c)&&(_r(b,d,g[b]),delete g[b]);
+get(d)||{},x=W.bind[c](o,d,m,g);x&&(wn(c,d,b[c]=x),nn.set(d,b))}function Sn(c,d,m){let g=nn.get(d)||{};for(let b in g)(c==null||b==c)&&(_r(b,d,g[b]),delete g[b]);
 c==null&&nn.delete(d)}let zt=0,on=0,te=0,I=0,we=0,$e=0,Mn=we,sn=$e,Dt=te,rn=I,at=0,gt=0,rt=0,Mt=0;o.bbox={};let Os=!1,Co=!1,Tn=!1,an=!1,Ao=!1,yt=!1;function Us(c,d,m){
 (m||c!=o.width||d!=o.height)&&ri(c,d),Ln(!1),Tn=!0,Co=!0,Dn()}function ri(c,d){o.width=zt=te=c,o.height=on=I=d,we=$e=0,Vc(),Bc();let m=o.bbox;at=m.left=gn(we*he,
 .5),gt=m.top=gn($e*he,.5),rt=m.width=gn(te*he,.5),Mt=m.height=gn(I*he,.5)}let Wc=3;function zc(){let c=!1,d=0;for(;!c;){d++;let m=eu(d),g=tu(d);c=d==Wc||m&&g,c||
-(ri(o.width,o.height),Co=!0)}}function Hc({width:c,height:d}){Us(c,d)}o.setSize=Hc;function Vc(){let c=!1,d=!1,m=!1,g=!1;E.forEach((b,v)=>{if(b.show&&b._show){let{
+(ri(o.width,o.height),Co=!0)}}function Hc({width:c,height:d}){Us(c,d)}o.setSize=Hc;function Vc(){let c=!1,d=!1,m=!1,g=!1;E.forEach((b,x)=>{if(b.show&&b._show){let{
 side:P,_size:C}=b,D=P%2,$=b.label!=null?b.labelSize:0,F=C+$;F>0&&(D?(te-=F,P==3?(we+=F,g=!0):m=!0):(I-=F,P==0?($e+=F,c=!0):d=!0))}}),cn[0]=c,cn[1]=m,cn[2]=d,cn[3]=
-g,te-=Kt[1]+Kt[3],we+=Kt[3],I-=Kt[2]+Kt[0],$e+=Kt[0]}function Bc(){let c=we+te,d=$e+I,m=we,g=$e;function b(v,P){switch(v){case 1:return c+=P,c-P;case 2:return d+=
-P,d-P;case 3:return m-=P,m+P;case 0:return g-=P,g+P}}E.forEach((v,P)=>{if(v.show&&v._show){let C=v.side;v._pos=b(C,v._size),v.label!=null&&(v._lpos=b(C,v.labelSize))}})}
-if(W.dataIdx==null){let c=W.hover,d=c.skip=new Set(c.skip??[]);d.add(void 0);let m=c.prox=se(c.prox),g=c.bias??=0;W.dataIdx=(b,v,P,C)=>{if(v==0)return P;let D=P,
-$=m(b,v,P,C)??ge,F=$>=0&&$<ge,U=L.ori==0?te:I,X=W.left,de=e[0],ce=e[v];if(d.has(ce[P])){D=null;let oe=null,J=null,B;if(g==0||g==-1)for(B=P;oe==null&&B-- >0;)d.has(
+g,te-=Kt[1]+Kt[3],we+=Kt[3],I-=Kt[2]+Kt[0],$e+=Kt[0]}function Bc(){let c=we+te,d=$e+I,m=we,g=$e;function b(x,P){switch(x){case 1:return c+=P,c-P;case 2:return d+=
+P,d-P;case 3:return m-=P,m+P;case 0:return g-=P,g+P}}E.forEach((x,P)=>{if(x.show&&x._show){let C=x.side;x._pos=b(C,x._size),x.label!=null&&(x._lpos=b(C,x.labelSize))}})}
+if(W.dataIdx==null){let c=W.hover,d=c.skip=new Set(c.skip??[]);d.add(void 0);let m=c.prox=se(c.prox),g=c.bias??=0;W.dataIdx=(b,x,P,C)=>{if(x==0)return P;let D=P,
+$=m(b,x,P,C)??ge,F=$>=0&&$<ge,U=L.ori==0?te:I,X=W.left,de=e[0],ce=e[x];if(d.has(ce[P])){D=null;let oe=null,J=null,B;if(g==0||g==-1)for(B=P;oe==null&&B-- >0;)d.has(
 ce[B])||(oe=B);if(g==0||g==1)for(B=P;J==null&&B++<ce.length;)d.has(ce[B])||(J=B);if(oe!=null||J!=null)if(F){let ke=oe==null?-1/0:O(de[oe],L,U,0),Ae=J==null?1/0:
 O(de[J],L,U,0),Be=X-ke,fe=Ae-X;Be<=fe?Be<=$&&(D=oe):fe<=$&&(D=J)}else D=J==null?oe:oe==null?J:P-oe<=J-P?oe:J}else F&&Ie(X-O(de[P],L,U,0))>$&&(D=null);return D}}
 let ln=c=>{W.event=c};W.idxs=le,W._lock=!1;let Ze=W.points;Ze.show=se(Ze.show),Ze.size=se(Ze.size),Ze.stroke=se(Ze.stroke),Ze.width=se(Ze.width),Ze.fill=se(Ze.fill);
 let Nt=o.focus=Re({},t.focus||{alpha:.3},W.focus),Pn=Nt.prox>=0,En=Pn&&Ze.one,bt=[],_n=[],Cn=[];function ii(c,d){let m=Ze.show(o,d);if(m instanceof HTMLElement)
 return ht(m,ad),ht(m,c.class),Gt(m,-10,-10,te,I),y.insertBefore(m,bt[d]),m}function ai(c,d){if(s==1||d>0){let m=s==1&&_[c.scale].time,g=c.value;c.value=m?Aa(g)?
-Ia(Q,Fa(g,H)):g||re:g||xh,c.label=c.label||(m?ph:hh)}if(En||d>0){c.width=c.width==null?1:c.width,c.paths=c.paths||$h||Td,c.fillTo=se(c.fillTo||Ph),c.pxAlign=+ue(
+Ia(Q,Fa(g,H)):g||re:g||vh,c.label=c.label||(m?ph:hh)}if(En||d>0){c.width=c.width==null?1:c.width,c.paths=c.paths||$h||Td,c.fillTo=se(c.fillTo||Ph),c.pxAlign=+ue(
 c.pxAlign,k),c.pxRound=ja(c.pxAlign),c.stroke=se(c.stroke||null),c.fill=se(c.fill||null),c._stroke=c._fill=c._paths=c._focus=null;let m=kh(nt(1,c.width),1),g=c.
 points=Re({},{size:m,width:nt(1,m*.2),stroke:c.stroke,space:m*2,paths:Fh,_stroke:null,_fill:null},c.points);g.show=se(g.show),g.filter=se(g.filter),g.fill=se(g.
 fill),g.stroke=se(g.stroke),g.paths=se(g.paths),g.pxAlign=c.pxAlign}if(Ce){let m=_o(c,d);Pe.splice(d,0,m[0]),St.splice(d,0,m[1]),ee.values.push(null)}if(Ue){le.
@@ -426,135 +426,135 @@ c,1)[0];Sn(null,d.firstChild),d.remove()}Ue&&(le.splice(c,1),bt.splice(c,1)[0].r
 !1,!1,!1,!1];function qc(c,d){if(c._show=c.show,c.show){let m=c.side%2,g=_[c.scale];g==null&&(c.scale=m?S[1].scale:N,g=_[c.scale]);let b=g.time;c.size=se(c.size),
 c.space=se(c.space),c.rotate=se(c.rotate),Xt(c.incrs)&&c.incrs.forEach(P=>{!en.has(P)&&en.set(P,rl(P))}),c.incrs=se(c.incrs||(g.distr==2?Kd:b?T==1?Yd:Qd:yn)),c.
 splits=se(c.splits||(b&&g.distr==1?je:g.distr==3?Ar:g.distr==4?gh:mh)),c.stroke=se(c.stroke),c.grid.stroke=se(c.grid.stroke),c.ticks.stroke=se(c.ticks.stroke),c.
-border.stroke=se(c.border.stroke);let v=c.values;c.values=Xt(v)&&!Xt(v[0])?se(v):b?Xt(v)?$a(Q,Ra(v,H)):Aa(v)?th(Q,v):v||be:v||fh,c.filter=se(c.filter||(g.distr>=
-3&&g.log==10?wh:g.distr==3&&g.log==2?vh:ol)),c.font=Ja(c.font),c.labelFont=Ja(c.labelFont),c._size=c.size(o,null,d,0),c._space=c._rotate=c._incrs=c._found=c._splits=
-c._values=null,c._size>0&&(cn[d]=!0,c._el=xt(od,f))}}function co(c,d,m,g){let[b,v,P,C]=m,D=d%2,$=0;return D==0&&(C||v)&&($=d==0&&!b||d==2&&!P?Fe(Oa.size/3):0),D==
-1&&(b||P)&&($=d==1&&!v||d==3&&!C?Fe(Wa.size/2):0),$}let li=o.padding=(t.padding||[co,co,co,co]).map(c=>se(ue(c,co))),Kt=o._padding=li.map((c,d)=>c(o,d,cn,0)),qe,
+border.stroke=se(c.border.stroke);let x=c.values;c.values=Xt(x)&&!Xt(x[0])?se(x):b?Xt(x)?$a(Q,Ra(x,H)):Aa(x)?th(Q,x):x||be:x||fh,c.filter=se(c.filter||(g.distr>=
+3&&g.log==10?wh:g.distr==3&&g.log==2?xh:ol)),c.font=Ja(c.font),c.labelFont=Ja(c.labelFont),c._size=c.size(o,null,d,0),c._space=c._rotate=c._incrs=c._found=c._splits=
+c._values=null,c._size>0&&(cn[d]=!0,c._el=vt(od,f))}}function co(c,d,m,g){let[b,x,P,C]=m,D=d%2,$=0;return D==0&&(C||x)&&($=d==0&&!b||d==2&&!P?Fe(Oa.size/3):0),D==
+1&&(b||P)&&($=d==1&&!x||d==3&&!C?Fe(Wa.size/2):0),$}let li=o.padding=(t.padding||[co,co,co,co]).map(c=>se(ue(c,co))),Kt=o._padding=li.map((c,d)=>c(o,d,cn,0)),qe,
 Ge=null,We=null,Lo=s==1?S[0].idxs:null,Tt=null,uo=!1;function ci(c,d){if(e=c??[],o.data=o._data=e,s==2){qe=0;for(let m=1;m<S.length;m++)qe+=e[m][0].length}else{
 e.length==0&&(o.data=o._data=e=[[]]),Tt=e[0],qe=Tt.length;let m=e;if(Z==2){m=e.slice();let g=m[0]=Array(qe);for(let b=0;b<qe;b++)g[b]=b}o._data=e=m}if(Ln(!0),Ve(
 "setData"),Z==2&&(Tn=!0),d!==!1){let m=L;m.auto(o,uo)?Gs():Yt(N,m.min,m.max),an=an||W.left>=0,yt=!0,Dn()}}o.setData=ci;function Gs(){uo=!0;let c,d;s==1&&(qe>0?(Ge=
 Lo[0]=0,We=Lo[1]=qe-1,c=e[0][Ge],d=e[0][We],Z==2?(c=Ge,d=We):c==d&&(Z==3?[c,d]=us(c,c,L.log,!1):Z==4?[c,d]=Or(c,c,L.log,!1):L.time?d=c+Fe(86400/T):[c,d]=as(c,d,
-Ur,!0))):(Ge=Lo[0]=c=null,We=Lo[1]=d=null)),Yt(N,c,d)}let Do,An,Ws,zs,Hs,Vs,Bs,js,Ks,it;function ui(c,d,m,g,b,v){c??=pa,m??=Wr,g??="butt",b??=pa,v??="round",c!=
-Do&&(h.strokeStyle=Do=c),b!=An&&(h.fillStyle=An=b),d!=Ws&&(h.lineWidth=Ws=d),v!=Hs&&(h.lineJoin=Hs=v),g!=Vs&&(h.lineCap=Vs=g),m!=zs&&h.setLineDash(zs=m)}function di(c,d,m,g){
+Ur,!0))):(Ge=Lo[0]=c=null,We=Lo[1]=d=null)),Yt(N,c,d)}let Do,An,Ws,zs,Hs,Vs,Bs,js,Ks,it;function ui(c,d,m,g,b,x){c??=pa,m??=Wr,g??="butt",b??=pa,x??="round",c!=
+Do&&(h.strokeStyle=Do=c),b!=An&&(h.fillStyle=An=b),d!=Ws&&(h.lineWidth=Ws=d),x!=Hs&&(h.lineJoin=Hs=x),g!=Vs&&(h.lineCap=Vs=g),m!=zs&&h.setLineDash(zs=m)}function di(c,d,m,g){
 d!=An&&(h.fillStyle=An=d),c!=Bs&&(h.font=Bs=c),m!=js&&(h.textAlign=js=m),g!=Ks&&(h.textBaseline=Ks=g)}function qs(c,d,m,g,b=0){if(g.length>0&&c.auto(o,uo)&&(d==
-null||d.min==null)){let v=ue(Ge,0),P=ue(We,g.length-1),C=m.min==null?wd(g,v,P,b,c.distr==3):[m.min,m.max];c.min=Lt(c.min,m.min=C[0]),c.max=nt(c.max,m.max=C[1])}}
+null||d.min==null)){let x=ue(Ge,0),P=ue(We,g.length-1),C=m.min==null?wd(g,x,P,b,c.distr==3):[m.min,m.max];c.min=Lt(c.min,m.min=C[0]),c.max=nt(c.max,m.max=C[1])}}
 let hi={min:null,max:null};function Yc(){for(let g in _){let b=_[g];z[g]==null&&(b.min==null||z[N]!=null&&b.auto(o,uo))&&(z[g]=hi)}for(let g in _){let b=_[g];z[g]==
-null&&b.from!=null&&z[b.from]!=null&&(z[g]=hi)}z[N]!=null&&Ln(!0);let c={};for(let g in z){let b=z[g];if(b!=null){let v=c[g]=no(_[g],_d);if(b.min!=null)Re(v,b);else if(g!=
-N||s==2)if(qe==0&&v.from==null){let P=v.range(o,null,null,g);v.min=P[0],v.max=P[1]}else v.min=ge,v.max=-ge}}if(qe>0){S.forEach((g,b)=>{if(s==1){let v=g.scale,P=z[v];
-if(P==null)return;let C=c[v];if(b==0){let D=C.range(o,C.min,C.max,v);C.min=D[0],C.max=D[1],Ge=At(C.min,e[0]),We=At(C.max,e[0]),We-Ge>1&&(e[0][Ge]<C.min&&Ge++,e[0][We]>
-C.max&&We--),g.min=Tt[Ge],g.max=Tt[We]}else g.show&&g.auto&&qs(C,P,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[v,P]=g.facets,C=v.
-scale,D=P.scale,[$,F]=e[b],U=c[C],X=c[D];U!=null&&qs(U,z[C],v,$,v.sorted),X!=null&&qs(X,z[D],P,F,P.sorted),g.min=P.min,g.max=P.max}});for(let g in c){let b=c[g],
-v=z[g];if(b.from==null&&(v==null||v.min==null)){let P=b.range(o,b.min==ge?null:b.min,b.max==-ge?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in c){let b=c[g];
-if(b.from!=null){let v=c[b.from];if(v.min==null)b.min=b.max=null;else{let P=b.range(o,v.min,v.max,g);b.min=P[0],b.max=P[1]}}}let d={},m=!1;for(let g in c){let b=c[g],
-v=_[g];if(v.min!=b.min||v.max!=b.max){v.min=b.min,v.max=b.max;let P=v.distr;v._min=P==3?Bt(v.min):P==4?xr(v.min,v.asinh):P==100?v.fwd(v.min):v.min,v._max=P==3?Bt(
-v.max):P==4?xr(v.max,v.asinh):P==100?v.fwd(v.max):v.max,d[g]=m=!0}}if(m){S.forEach((g,b)=>{s==2?b>0&&d.y&&(g._paths=null):d[g.scale]&&(g._paths=null)});for(let g in d)
+null&&b.from!=null&&z[b.from]!=null&&(z[g]=hi)}z[N]!=null&&Ln(!0);let c={};for(let g in z){let b=z[g];if(b!=null){let x=c[g]=no(_[g],_d);if(b.min!=null)Re(x,b);else if(g!=
+N||s==2)if(qe==0&&x.from==null){let P=x.range(o,null,null,g);x.min=P[0],x.max=P[1]}else x.min=ge,x.max=-ge}}if(qe>0){S.forEach((g,b)=>{if(s==1){let x=g.scale,P=z[x];
+if(P==null)return;let C=c[x];if(b==0){let D=C.range(o,C.min,C.max,x);C.min=D[0],C.max=D[1],Ge=At(C.min,e[0]),We=At(C.max,e[0]),We-Ge>1&&(e[0][Ge]<C.min&&Ge++,e[0][We]>
+C.max&&We--),g.min=Tt[Ge],g.max=Tt[We]}else g.show&&g.auto&&qs(C,P,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[x,P]=g.facets,C=x.
+scale,D=P.scale,[$,F]=e[b],U=c[C],X=c[D];U!=null&&qs(U,z[C],x,$,x.sorted),X!=null&&qs(X,z[D],P,F,P.sorted),g.min=P.min,g.max=P.max}});for(let g in c){let b=c[g],
+x=z[g];if(b.from==null&&(x==null||x.min==null)){let P=b.range(o,b.min==ge?null:b.min,b.max==-ge?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in c){let b=c[g];
+if(b.from!=null){let x=c[b.from];if(x.min==null)b.min=b.max=null;else{let P=b.range(o,x.min,x.max,g);b.min=P[0],b.max=P[1]}}}let d={},m=!1;for(let g in c){let b=c[g],
+x=_[g];if(x.min!=b.min||x.max!=b.max){x.min=b.min,x.max=b.max;let P=x.distr;x._min=P==3?Bt(x.min):P==4?vr(x.min,x.asinh):P==100?x.fwd(x.min):x.min,x._max=P==3?Bt(
+x.max):P==4?vr(x.max,x.asinh):P==100?x.fwd(x.max):x.max,d[g]=m=!0}}if(m){S.forEach((g,b)=>{s==2?b>0&&d.y&&(g._paths=null):d[g.scale]&&(g._paths=null)});for(let g in d)
 Tn=!0,Ve("setScale",g);Ue&&W.left>=0&&(an=yt=!0)}for(let g in z)z[g]=null}function Jc(c){let d=Cr(Ge-1,0,qe-1),m=Cr(We+1,0,qe-1);for(;c[d]==null&&d>0;)d--;for(;c[m]==
 null&&m<qe-1;)m++;return[d,m]}function Zc(){if(qe>0){let c=S.some(d=>d._focus)&&it!=Nt.alpha;c&&(h.globalAlpha=it=Nt.alpha),S.forEach((d,m)=>{if(m>0&&d.show&&(pi(
 m,!1),pi(m,!0),d._paths==null)){let g=it;it!=d.alpha&&(h.globalAlpha=it=d.alpha);let b=s==2?[0,e[m][0].length-1]:Jc(e[m]);d._paths=d.paths(o,m,b[0],b[1]),it!=g&&
 (h.globalAlpha=it=g)}}),S.forEach((d,m)=>{if(m>0&&d.show){let g=it;it!=d.alpha&&(h.globalAlpha=it=d.alpha),d._paths!=null&&fi(m,!1);{let b=d._paths!=null?d._paths.
-gaps:null,v=d.points.show(o,m,Ge,We,b),P=d.points.filter(o,m,v,b);(v||P)&&(d.points._paths=d.points.paths(o,m,Ge,We,P),fi(m,!0))}it!=g&&(h.globalAlpha=it=g),Ve(
+gaps:null,x=d.points.show(o,m,Ge,We,b),P=d.points.filter(o,m,x,b);(x||P)&&(d.points._paths=d.points.paths(o,m,Ge,We,P),fi(m,!0))}it!=g&&(h.globalAlpha=it=g),Ve(
 "drawSeries",m)}}),c&&(h.globalAlpha=it=1)}}function pi(c,d){let m=d?S[c].points:S[c];m._stroke=m.stroke(o,c),m._fill=m.fill(o,c)}function fi(c,d){let m=d?S[c].
-points:S[c],{stroke:g,fill:b,clip:v,flags:P,_stroke:C=m._stroke,_fill:D=m._fill,_width:$=m.width}=m._paths;$=ye($*he,3);let F=null,U=$%2/2;d&&D==null&&(D=$>0?"#\
+points:S[c],{stroke:g,fill:b,clip:x,flags:P,_stroke:C=m._stroke,_fill:D=m._fill,_width:$=m.width}=m._paths;$=ye($*he,3);let F=null,U=$%2/2;d&&D==null&&(D=$>0?"#\
 fff":C);let X=m.pxAlign==1&&U>0;if(X&&h.translate(U,U),!d){let de=at-$/2,ce=gt-$/2,oe=rt+$,J=Mt+$;F=new Path2D,F.rect(de,ce,oe,J)}d?Ys(C,$,m.dash,m.cap,D,g,b,P,
-v):Qc(c,C,$,m.dash,m.cap,D,g,b,P,F,v),X&&h.translate(-U,-U)}function Qc(c,d,m,g,b,v,P,C,D,$,F){let U=!1;D!=0&&K.forEach((X,de)=>{if(X.series[0]==c){let ce=S[X.series[1]],
-oe=e[X.series[1]],J=(ce._paths||Po).band;Xt(J)&&(J=X.dir==1?J[0]:J[1]);let B,ke=null;ce.show&&J&&xd(oe,Ge,We)?(ke=X.fill(o,de)||v,B=ce._paths.clip):J=null,Ys(d,
-m,g,b,ke,P,C,D,$,F,B,J),U=!0}}),U||Ys(d,m,g,b,v,P,C,D,$,F)}let mi=oo|Dr;function Ys(c,d,m,g,b,v,P,C,D,$,F,U){ui(c,d,m,g,b),(D||$||U)&&(h.save(),D&&h.clip(D),$&&
-h.clip($)),U?(C&mi)==mi?(h.clip(U),F&&h.clip(F),Ro(b,P),No(c,v,d)):C&Dr?(Ro(b,P),h.clip(U),No(c,v,d)):C&oo&&(h.save(),h.clip(U),F&&h.clip(F),Ro(b,P),h.restore(),
-No(c,v,d)):(Ro(b,P),No(c,v,d)),(D||$||U)&&h.restore()}function No(c,d,m){m>0&&(d instanceof Map?d.forEach((g,b)=>{h.strokeStyle=Do=b,h.stroke(g)}):d!=null&&c&&h.
-stroke(d))}function Ro(c,d){d instanceof Map?d.forEach((m,g)=>{h.fillStyle=An=g,h.fill(m)}):d!=null&&c&&h.fill(d)}function Xc(c,d,m,g){let b=E[c],v;if(g<=0)v=[0,
-0];else{let P=b._space=b.space(o,c,d,m,g),C=b._incrs=b.incrs(o,c,d,m,g,P);v=zh(d,m,C,g,P)}return b._found=v}function Js(c,d,m,g,b,v,P,C,D,$){let F=P%2/2;k==1&&h.
-translate(F,F),ui(C,P,D,$,C),h.beginPath();let U,X,de,ce,oe=b+(g==0||g==3?-v:v);m==0?(X=b,ce=oe):(U=b,de=oe);for(let J=0;J<c.length;J++)d[J]!=null&&(m==0?U=de=c[J]:
+x):Qc(c,C,$,m.dash,m.cap,D,g,b,P,F,x),X&&h.translate(-U,-U)}function Qc(c,d,m,g,b,x,P,C,D,$,F){let U=!1;D!=0&&K.forEach((X,de)=>{if(X.series[0]==c){let ce=S[X.series[1]],
+oe=e[X.series[1]],J=(ce._paths||Po).band;Xt(J)&&(J=X.dir==1?J[0]:J[1]);let B,ke=null;ce.show&&J&&vd(oe,Ge,We)?(ke=X.fill(o,de)||x,B=ce._paths.clip):J=null,Ys(d,
+m,g,b,ke,P,C,D,$,F,B,J),U=!0}}),U||Ys(d,m,g,b,x,P,C,D,$,F)}let mi=oo|Dr;function Ys(c,d,m,g,b,x,P,C,D,$,F,U){ui(c,d,m,g,b),(D||$||U)&&(h.save(),D&&h.clip(D),$&&
+h.clip($)),U?(C&mi)==mi?(h.clip(U),F&&h.clip(F),Ro(b,P),No(c,x,d)):C&Dr?(Ro(b,P),h.clip(U),No(c,x,d)):C&oo&&(h.save(),h.clip(U),F&&h.clip(F),Ro(b,P),h.restore(),
+No(c,x,d)):(Ro(b,P),No(c,x,d)),(D||$||U)&&h.restore()}function No(c,d,m){m>0&&(d instanceof Map?d.forEach((g,b)=>{h.strokeStyle=Do=b,h.stroke(g)}):d!=null&&c&&h.
+stroke(d))}function Ro(c,d){d instanceof Map?d.forEach((m,g)=>{h.fillStyle=An=g,h.fill(m)}):d!=null&&c&&h.fill(d)}function Xc(c,d,m,g){let b=E[c],x;if(g<=0)x=[0,
+0];else{let P=b._space=b.space(o,c,d,m,g),C=b._incrs=b.incrs(o,c,d,m,g,P);x=zh(d,m,C,g,P)}return b._found=x}function Js(c,d,m,g,b,x,P,C,D,$){let F=P%2/2;k==1&&h.
+translate(F,F),ui(C,P,D,$,C),h.beginPath();let U,X,de,ce,oe=b+(g==0||g==3?-x:x);m==0?(X=b,ce=oe):(U=b,de=oe);for(let J=0;J<c.length;J++)d[J]!=null&&(m==0?U=de=c[J]:
 X=ce=c[J],h.moveTo(U,X),h.lineTo(de,ce));h.stroke(),k==1&&h.translate(-F,-F)}function eu(c){let d=!0;return E.forEach((m,g)=>{if(!m.show)return;let b=_[m.scale];
-if(b.min==null){m._show&&(d=!1,m._show=!1,Ln(!1));return}else m._show||(d=!1,m._show=!0,Ln(!1));let v=m.side,P=v%2,{min:C,max:D}=b,[$,F]=Xc(g,C,D,P==0?te:I);if(F==
+if(b.min==null){m._show&&(d=!1,m._show=!1,Ln(!1));return}else m._show||(d=!1,m._show=!0,Ln(!1));let x=m.side,P=x%2,{min:C,max:D}=b,[$,F]=Xc(g,C,D,P==0?te:I);if(F==
 0)return;let U=b.distr==2,X=m._splits=m.splits(o,g,C,D,$,F,U),de=b.distr==2?X.map(B=>Tt[B]):X,ce=b.distr==2?Tt[X[1]]-Tt[X[0]]:$,oe=m._values=m.values(o,m.filter(
-o,de,g,F,ce),g,F,ce);m._rotate=v==2?m.rotate(o,oe,g,F):0;let J=m._size;m._size=kt(m.size(o,oe,g,c)),J!=null&&m._size!=J&&(d=!1)}),d}function tu(c){let d=!0;return li.
+o,de,g,F,ce),g,F,ce);m._rotate=x==2?m.rotate(o,oe,g,F):0;let J=m._size;m._size=kt(m.size(o,oe,g,c)),J!=null&&m._size!=J&&(d=!1)}),d}function tu(c){let d=!0;return li.
 forEach((m,g)=>{let b=m(o,g,cn,c);b!=Kt[g]&&(d=!1),Kt[g]=b}),d}function nu(){for(let c=0;c<E.length;c++){let d=E[c];if(!d.show||!d._show)continue;let m=d.side,g=m%
-2,b,v,P=d.stroke(o,c),C=m==0||m==3?-1:1,[D,$]=d._found;if(d.label!=null){let et=d.labelGap*C,ut=Fe((d._lpos+et)*he);di(d.labelFont[0],P,"center",m==2?"top":ha),
-h.save(),g==1?(b=v=0,h.translate(ut,Fe(gt+Mt/2)),h.rotate((m==3?-rs:rs)/2)):(b=Fe(at+rt/2),v=ut);let hn=tl(d.label)?d.label(o,c,D,$):d.label;h.fillText(hn,b,v),
+2,b,x,P=d.stroke(o,c),C=m==0||m==3?-1:1,[D,$]=d._found;if(d.label!=null){let et=d.labelGap*C,ut=Fe((d._lpos+et)*he);di(d.labelFont[0],P,"center",m==2?"top":ha),
+h.save(),g==1?(b=x=0,h.translate(ut,Fe(gt+Mt/2)),h.rotate((m==3?-rs:rs)/2)):(b=Fe(at+rt/2),x=ut);let hn=tl(d.label)?d.label(o,c,D,$):d.label;h.fillText(hn,b,x),
 h.restore()}if($==0)continue;let F=_[d.scale],U=g==0?rt:Mt,X=g==0?at:gt,de=d._splits,ce=F.distr==2?de.map(et=>Tt[et]):de,oe=F.distr==2?Tt[de[1]]-Tt[de[0]]:D,J=d.
-ticks,B=d.border,ke=J.show?J.size:0,Ae=Fe(ke*he),Be=Fe((d.alignTo==2?d._size-ke-d.gap:d.gap)*he),fe=d._rotate*-rs/180,Le=M(d._pos*he),lt=(Ae+Be)*C,Xe=Le+lt;v=g==
+ticks,B=d.border,ke=J.show?J.size:0,Ae=Fe(ke*he),Be=Fe((d.alignTo==2?d._size-ke-d.gap:d.gap)*he),fe=d._rotate*-rs/180,Le=M(d._pos*he),lt=(Ae+Be)*C,Xe=Le+lt;x=g==
 0?Xe:0,b=g==1?Xe:0;let wt=d.font[0],Pt=d.align==1?Zn:d.align==2?br:fe>0?Zn:fe<0?br:g==0?"center":m==3?br:Zn,Ft=fe||g==1?"middle":m==2?"top":ha;di(wt,P,Pt,Ft);let ct=d.
-font[1]*d.lineGap,vt=de.map(et=>M(a(et,F,U,X))),Et=d._values;for(let et=0;et<Et.length;et++){let ut=Et[et];if(ut!=null){g==0?b=vt[et]:v=vt[et],ut=""+ut;let hn=ut.
+font[1]*d.lineGap,xt=de.map(et=>M(a(et,F,U,X))),Et=d._values;for(let et=0;et<Et.length;et++){let ut=Et[et];if(ut!=null){g==0?b=xt[et]:x=xt[et],ut=""+ut;let hn=ut.
 indexOf(`
-`)==-1?[ut]:ut.split(/\n/gm);for(let tt=0;tt<hn.length;tt++){let Ri=hn[tt];fe?(h.save(),h.translate(b,v+tt*ct),h.rotate(fe),h.fillText(Ri,0,0),h.restore()):h.fillText(
-Ri,b,v+tt*ct)}}}J.show&&Js(vt,J.filter(o,ce,c,$,oe),g,m,Le,Ae,ye(J.width*he,3),J.stroke(o,c),J.dash,J.cap);let It=d.grid;It.show&&Js(vt,It.filter(o,ce,c,$,oe),g,
+`)==-1?[ut]:ut.split(/\n/gm);for(let tt=0;tt<hn.length;tt++){let Ri=hn[tt];fe?(h.save(),h.translate(b,x+tt*ct),h.rotate(fe),h.fillText(Ri,0,0),h.restore()):h.fillText(
+Ri,b,x+tt*ct)}}}J.show&&Js(xt,J.filter(o,ce,c,$,oe),g,m,Le,Ae,ye(J.width*he,3),J.stroke(o,c),J.dash,J.cap);let It=d.grid;It.show&&Js(xt,It.filter(o,ce,c,$,oe),g,
 g==0?2:1,g==0?gt:at,g==0?Mt:rt,ye(It.width*he,3),It.stroke(o,c),It.dash,It.cap),B.show&&Js([Le],[1],g==0?1:0,g==0?1:2,g==1?gt:at,g==1?Mt:rt,ye(B.width*he,3),B.stroke(
 o,c),B.dash,B.cap)}Ve("drawAxes")}function Ln(c){S.forEach((d,m)=>{m>0&&(d._paths=null,c&&(s==1?(d.min=null,d.max=null):d.facets.forEach(g=>{g.min=null,g.max=null})))})}
 let $o=!1,Zs=!1,ho=[];function ou(){Zs=!1;for(let c=0;c<ho.length;c++)Ve(...ho[c]);ho.length=0}function Dn(){$o||($d(gi),$o=!0)}function su(c,d=!1){$o=!0,Zs=d,c(
 o),gi(),d&&ho.length>0&&queueMicrotask(ou)}o.batch=su;function gi(){if(Os&&(Yc(),Os=!1),Tn&&(zc(),Tn=!1),Co){if(Te(w,Zn,we),Te(w,"top",$e),Te(w,ko,te),Te(w,So,I),
 Te(y,Zn,we),Te(y,"top",$e),Te(y,ko,te),Te(y,So,I),Te(f,ko,zt),Te(f,So,on),p.width=Fe(zt*he),p.height=Fe(on*he),E.forEach(({_el:c,_show:d,_size:m,_pos:g,side:b})=>{
-if(c!=null)if(d){let v=b===3||b===0?m:0,P=b%2==1;Te(c,P?"left":"top",g-v),Te(c,P?"width":"height",m),Te(c,P?"top":"left",P?$e:we),Te(c,P?"height":"width",P?I:te),
+if(c!=null)if(d){let x=b===3||b===0?m:0,P=b%2==1;Te(c,P?"left":"top",g-x),Te(c,P?"width":"height",m),Te(c,P?"top":"left",P?$e:we),Te(c,P?"height":"width",P?I:te),
 Er(c,bn)}else ht(c,bn)}),Do=An=Ws=Hs=Vs=Bs=js=Ks=zs=null,it=1,mo(!0),we!=Mn||$e!=sn||te!=Dt||I!=rn){Ln(!1);let c=te/Dt,d=I/rn;if(Ue&&!an&&W.left>=0){W.left*=c,W.
 top*=d,Nn&&Gt(Nn,Fe(W.left),0,te,I),Rn&&Gt(Rn,0,Fe(W.top),te,I);for(let m=0;m<bt.length;m++){let g=bt[m];g!=null&&(_n[m]*=c,Cn[m]*=d,Gt(g,kt(_n[m]),kt(Cn[m]),te,
-I))}}if(xe.show&&!Ao&&xe.left>=0&&xe.width>0){xe.left*=c,xe.width*=c,xe.top*=d,xe.height*=d;for(let m in or)Te(In,m,xe[m])}Mn=we,sn=$e,Dt=te,rn=I}Ve("setSize"),
-Co=!1}zt>0&&on>0&&(h.clearRect(0,0,p.width,p.height),Ve("drawClear"),V.forEach(c=>c()),Ve("draw")),xe.show&&Ao&&(Fo(xe),Ao=!1),Ue&&an&&(dn(null,!0,!1),an=!1),ee.
+I))}}if(ve.show&&!Ao&&ve.left>=0&&ve.width>0){ve.left*=c,ve.width*=c,ve.top*=d,ve.height*=d;for(let m in or)Te(In,m,ve[m])}Mn=we,sn=$e,Dt=te,rn=I}Ve("setSize"),
+Co=!1}zt>0&&on>0&&(h.clearRect(0,0,p.width,p.height),Ve("drawClear"),V.forEach(c=>c()),Ve("draw")),ve.show&&Ao&&(Fo(ve),Ao=!1),Ue&&an&&(dn(null,!0,!1),an=!1),ee.
 show&&ee.live&&yt&&(tr(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),uo=!1,$o=!1}o.redraw=(c,d)=>{Tn=d||!1,c!==!1?Yt(N,L.min,L.max):Dn()};function Qs(c,d){let m=_[c];
 if(m.from==null){if(qe==0){let g=m.range(o,d.min,d.max,c);d.min=g[0],d.max=g[1]}if(d.min>d.max){let g=d.min;d.min=d.max,d.max=g}if(qe>1&&d.min!=null&&d.max!=null&&
 d.max-d.min<1e-16)return;c==N&&m.distr==2&&qe>0&&(d.min=At(d.min,e[0]),d.max=At(d.max,e[0]),d.min==d.max&&d.max++),z[c]=d,Os=!0,Dn()}}o.setScale=Qs;let Xs,er,Nn,
-Rn,yi,bi,$n,Fn,wi,vi,ve,Ee,qt=!1,Ye=W.drag,ze=Ye.x,He=Ye.y;Ue&&(W.x&&(Xs=xt(rd,y)),W.y&&(er=xt(id,y)),L.ori==0?(Nn=Xs,Rn=er):(Nn=er,Rn=Xs),ve=W.left,Ee=W.top);let xe=o.
-select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),In=xe.show?xt(sd,xe.over?y:w):null;function Fo(c,d){if(xe.show){for(let m in c)xe[m]=c[m],m in
+Rn,yi,bi,$n,Fn,wi,xi,xe,Ee,qt=!1,Ye=W.drag,ze=Ye.x,He=Ye.y;Ue&&(W.x&&(Xs=vt(rd,y)),W.y&&(er=vt(id,y)),L.ori==0?(Nn=Xs,Rn=er):(Nn=er,Rn=Xs),xe=W.left,Ee=W.top);let ve=o.
+select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),In=ve.show?vt(sd,ve.over?y:w):null;function Fo(c,d){if(ve.show){for(let m in c)ve[m]=c[m],m in
 or&&Te(In,m,c[m]);d!==!1&&Ve("setSelect")}}o.setSelect=Fo;function ru(c){if(S[c].show)Ce&&Er(Pe[c],bn);else if(Ce&&ht(Pe[c],bn),Ue){let m=En?bt[0]:bt[c];m!=null&&
-Gt(m,-10,-10,te,I)}}function Yt(c,d,m){Qs(c,{min:d,max:m})}function Rt(c,d,m,g){d.focus!=null&&uu(c),d.show!=null&&S.forEach((b,v)=>{v>0&&(c==v||c==null)&&(b.show=
-d.show,ru(v),s==2?(Yt(b.facets[0].scale,null,null),Yt(b.facets[1].scale,null,null)):Yt(b.scale,null,null),Dn())}),m!==!1&&Ve("setSeries",c,d),g&&go("setSeries",
+Gt(m,-10,-10,te,I)}}function Yt(c,d,m){Qs(c,{min:d,max:m})}function Rt(c,d,m,g){d.focus!=null&&uu(c),d.show!=null&&S.forEach((b,x)=>{x>0&&(c==x||c==null)&&(b.show=
+d.show,ru(x),s==2?(Yt(b.facets[0].scale,null,null),Yt(b.facets[1].scale,null,null)):Yt(b.scale,null,null),Dn())}),m!==!1&&Ve("setSeries",c,d),g&&go("setSeries",
 o,c,d)}o.setSeries=Rt;function iu(c,d){Re(K[c],d)}function au(c,d){c.fill=se(c.fill||null),c.dir=ue(c.dir,-1),d=d??K.length,K.splice(d,0,c)}function lu(c){c==null?
 K.length=0:K.splice(c,1)}o.addBand=au,o.setBand=iu,o.delBand=lu;function cu(c,d){S[c].alpha=d,Ue&&bt[c]!=null&&(bt[c].style.opacity=d),Ce&&Pe[c]&&(Pe[c].style.opacity=
-d)}let Ht,Jt,un,On={focus:!0};function uu(c){if(c!=un){let d=c==null,m=Nt.alpha!=1;S.forEach((g,b)=>{if(s==1||b>0){let v=d||b==0||b==c;g._focus=d?null:v,m&&cu(b,
-v?1:Nt.alpha)}}),un=c,m&&Dn()}}Ce&&Pn&&Qe(ga,ae,c=>{W._lock||(ln(c),un!=null&&Rt(null,On,!0,De.setSeries))});function $t(c,d,m){let g=_[d];m&&(c=c/he-(g.ori==1?
-$e:we));let b=te;g.ori==1&&(b=I,c=b-c),g.dir==-1&&(c=b-c);let v=g._min,P=g._max,C=c/b,D=v+(P-v)*C,$=g.distr;return $==3?eo(10,D):$==4?Sd(D,g.asinh):$==100?g.bwd(
+d)}let Ht,Jt,un,On={focus:!0};function uu(c){if(c!=un){let d=c==null,m=Nt.alpha!=1;S.forEach((g,b)=>{if(s==1||b>0){let x=d||b==0||b==c;g._focus=d?null:x,m&&cu(b,
+x?1:Nt.alpha)}}),un=c,m&&Dn()}}Ce&&Pn&&Qe(ga,ae,c=>{W._lock||(ln(c),un!=null&&Rt(null,On,!0,De.setSeries))});function $t(c,d,m){let g=_[d];m&&(c=c/he-(g.ori==1?
+$e:we));let b=te;g.ori==1&&(b=I,c=b-c),g.dir==-1&&(c=b-c);let x=g._min,P=g._max,C=c/b,D=x+(P-x)*C,$=g.distr;return $==3?eo(10,D):$==4?Sd(D,g.asinh):$==100?g.bwd(
 D):D}function du(c,d){let m=$t(c,N,d);return At(m,e[0],Ge,We)}o.valToIdx=c=>At(c,e[0]),o.posToIdx=du,o.posToVal=$t,o.valToPos=(c,d,m)=>_[d].ori==0?r(c,_[d],m?rt:
-te,m?at:0):i(c,_[d],m?Mt:I,m?gt:0),o.setCursor=(c,d,m)=>{ve=c.left,Ee=c.top,dn(null,d,m)};function xi(c,d){Te(In,Zn,xe.left=c),Te(In,ko,xe.width=d)}function ki(c,d){
-Te(In,"top",xe.top=c),Te(In,So,xe.height=d)}let po=L.ori==0?xi:ki,fo=L.ori==1?xi:ki;function hu(){if(Ce&&ee.live)for(let c=s==2?1:0;c<S.length;c++){if(c==0&&q)continue;
+te,m?at:0):i(c,_[d],m?Mt:I,m?gt:0),o.setCursor=(c,d,m)=>{xe=c.left,Ee=c.top,dn(null,d,m)};function vi(c,d){Te(In,Zn,ve.left=c),Te(In,ko,ve.width=d)}function ki(c,d){
+Te(In,"top",ve.top=c),Te(In,So,ve.height=d)}let po=L.ori==0?vi:ki,fo=L.ori==1?vi:ki;function hu(){if(Ce&&ee.live)for(let c=s==2?1:0;c<S.length;c++){if(c==0&&q)continue;
 let d=ee.values[c],m=0;for(let g in d)St[c][m++].firstChild.nodeValue=d[g]}}function tr(c,d){if(c!=null&&(c.idxs?c.idxs.forEach((m,g)=>{le[g]=m}):Ed(c.idx)||le.
 fill(c.idx),ee.idx=le[0]),Ce&&ee.live){for(let m=0;m<S.length;m++)(m>0||s==1&&!q)&&pu(m,le[m]);hu()}yt=!1,d!==!1&&Ve("setLegend")}o.setLegend=tr;function pu(c,d){
-let m=S[c],g=c==0&&Z==2?Tt:e[c],b;q?b=m.values(o,c,d)??ie:(b=m.value(o,d==null?null:g[d],c,d),b=b==null?ie:{_:b}),ee.values[c]=b}function dn(c,d,m){wi=ve,vi=Ee,
-[ve,Ee]=W.move(o,ve,Ee),W.left=ve,W.top=Ee,Ue&&(Nn&&Gt(Nn,Fe(ve),0,te,I),Rn&&Gt(Rn,0,Fe(Ee),te,I));let g,b=Ge>We;Ht=ge,Jt=null;let v=L.ori==0?te:I,P=L.ori==1?te:
-I;if(ve<0||qe==0||b){g=W.idx=null;for(let C=0;C<S.length;C++){let D=bt[C];D!=null&&Gt(D,-10,-10,te,I)}Pn&&Rt(null,On,!0,c==null&&De.setSeries),ee.live&&(le.fill(
-g),yt=!0)}else{let C,D,$;s==1&&(C=L.ori==0?ve:Ee,D=$t(C,N),g=W.idx=At(D,e[0],Ge,We),$=O(e[0][g],L,v,0));let F=-10,U=-10,X=0,de=0,ce=!0,oe="",J="";for(let B=s==2?
+let m=S[c],g=c==0&&Z==2?Tt:e[c],b;q?b=m.values(o,c,d)??ie:(b=m.value(o,d==null?null:g[d],c,d),b=b==null?ie:{_:b}),ee.values[c]=b}function dn(c,d,m){wi=xe,xi=Ee,
+[xe,Ee]=W.move(o,xe,Ee),W.left=xe,W.top=Ee,Ue&&(Nn&&Gt(Nn,Fe(xe),0,te,I),Rn&&Gt(Rn,0,Fe(Ee),te,I));let g,b=Ge>We;Ht=ge,Jt=null;let x=L.ori==0?te:I,P=L.ori==1?te:
+I;if(xe<0||qe==0||b){g=W.idx=null;for(let C=0;C<S.length;C++){let D=bt[C];D!=null&&Gt(D,-10,-10,te,I)}Pn&&Rt(null,On,!0,c==null&&De.setSeries),ee.live&&(le.fill(
+g),yt=!0)}else{let C,D,$;s==1&&(C=L.ori==0?xe:Ee,D=$t(C,N),g=W.idx=At(D,e[0],Ge,We),$=O(e[0][g],L,x,0));let F=-10,U=-10,X=0,de=0,ce=!0,oe="",J="";for(let B=s==2?
 1:0;B<S.length;B++){let ke=S[B],Ae=le[B],Be=Ae==null?null:s==1?e[B][Ae]:e[B][1][Ae],fe=W.dataIdx(o,B,g,D),Le=fe==null?null:s==1?e[B][fe]:e[B][1][fe];if(yt=yt||Le!=
-Be||fe!=Ae,le[B]=fe,B>0&&ke.show){let lt=fe==null?-10:fe==g?$:O(s==1?e[0][fe]:e[B][0][fe],L,v,0),Xe=Le==null?-10:j(Le,s==1?_[ke.scale]:_[ke.facets[1].scale],P,0);
-if(Pn&&Le!=null){let wt=L.ori==1?ve:Ee,Pt=Ie(Nt.dist(o,B,fe,Xe,wt));if(Pt<Ht){let Ft=Nt.bias;if(Ft!=0){let ct=$t(wt,ke.scale),vt=Le>=0?1:-1,Et=ct>=0?1:-1;Et==vt&&
-(Et==1?Ft==1?Le>=ct:Le<=ct:Ft==1?Le<=ct:Le>=ct)&&(Ht=Pt,Jt=B)}else Ht=Pt,Jt=B}}if(yt||En){let wt,Pt;L.ori==0?(wt=lt,Pt=Xe):(wt=Xe,Pt=lt);let Ft,ct,vt,Et,It,et,ut=!0,
-hn=Ze.bbox;if(hn!=null){ut=!1;let tt=hn(o,B);vt=tt.left,Et=tt.top,Ft=tt.width,ct=tt.height}else vt=wt,Et=Pt,Ft=ct=Ze.size(o,B);if(et=Ze.fill(o,B),It=Ze.stroke(o,
-B),En)B==Jt&&Ht<=Nt.prox&&(F=vt,U=Et,X=Ft,de=ct,ce=ut,oe=et,J=It);else{let tt=bt[B];tt!=null&&(_n[B]=vt,Cn[B]=Et,Sa(tt,Ft,ct,ut),xa(tt,et,It),Gt(tt,kt(vt),kt(Et),
-te,I))}}}}if(En){let B=Nt.prox,ke=un==null?Ht<=B:Ht>B||Jt!=un;if(yt||ke){let Ae=bt[0];Ae!=null&&(_n[0]=F,Cn[0]=U,Sa(Ae,X,de,ce),xa(Ae,oe,J),Gt(Ae,kt(F),kt(U),te,
-I))}}}if(xe.show&&qt)if(c!=null){let[C,D]=De.scales,[$,F]=De.match,[U,X]=c.cursor.sync.scales,de=c.cursor.drag;if(ze=de._x,He=de._y,ze||He){let{left:ce,top:oe,width:J,
+Be||fe!=Ae,le[B]=fe,B>0&&ke.show){let lt=fe==null?-10:fe==g?$:O(s==1?e[0][fe]:e[B][0][fe],L,x,0),Xe=Le==null?-10:j(Le,s==1?_[ke.scale]:_[ke.facets[1].scale],P,0);
+if(Pn&&Le!=null){let wt=L.ori==1?xe:Ee,Pt=Ie(Nt.dist(o,B,fe,Xe,wt));if(Pt<Ht){let Ft=Nt.bias;if(Ft!=0){let ct=$t(wt,ke.scale),xt=Le>=0?1:-1,Et=ct>=0?1:-1;Et==xt&&
+(Et==1?Ft==1?Le>=ct:Le<=ct:Ft==1?Le<=ct:Le>=ct)&&(Ht=Pt,Jt=B)}else Ht=Pt,Jt=B}}if(yt||En){let wt,Pt;L.ori==0?(wt=lt,Pt=Xe):(wt=Xe,Pt=lt);let Ft,ct,xt,Et,It,et,ut=!0,
+hn=Ze.bbox;if(hn!=null){ut=!1;let tt=hn(o,B);xt=tt.left,Et=tt.top,Ft=tt.width,ct=tt.height}else xt=wt,Et=Pt,Ft=ct=Ze.size(o,B);if(et=Ze.fill(o,B),It=Ze.stroke(o,
+B),En)B==Jt&&Ht<=Nt.prox&&(F=xt,U=Et,X=Ft,de=ct,ce=ut,oe=et,J=It);else{let tt=bt[B];tt!=null&&(_n[B]=xt,Cn[B]=Et,Sa(tt,Ft,ct,ut),va(tt,et,It),Gt(tt,kt(xt),kt(Et),
+te,I))}}}}if(En){let B=Nt.prox,ke=un==null?Ht<=B:Ht>B||Jt!=un;if(yt||ke){let Ae=bt[0];Ae!=null&&(_n[0]=F,Cn[0]=U,Sa(Ae,X,de,ce),va(Ae,oe,J),Gt(Ae,kt(F),kt(U),te,
+I))}}}if(ve.show&&qt)if(c!=null){let[C,D]=De.scales,[$,F]=De.match,[U,X]=c.cursor.sync.scales,de=c.cursor.drag;if(ze=de._x,He=de._y,ze||He){let{left:ce,top:oe,width:J,
 height:B}=c.select,ke=c.scales[U].ori,Ae=c.posToVal,Be,fe,Le,lt,Xe,wt=C!=null&&$(C,U),Pt=D!=null&&F(D,X);wt&&ze?(ke==0?(Be=ce,fe=J):(Be=oe,fe=B),Le=_[C],lt=O(Ae(
-Be,U),Le,v,0),Xe=O(Ae(Be+fe,U),Le,v,0),po(Lt(lt,Xe),Ie(Xe-lt))):po(0,v),Pt&&He?(ke==1?(Be=ce,fe=J):(Be=oe,fe=B),Le=_[D],lt=j(Ae(Be,X),Le,P,0),Xe=j(Ae(Be+fe,X),Le,
-P,0),fo(Lt(lt,Xe),Ie(Xe-lt))):fo(0,P)}else sr()}else{let C=Ie(wi-yi),D=Ie(vi-bi);if(L.ori==1){let X=C;C=D,D=X}ze=Ye.x&&C>=Ye.dist,He=Ye.y&&D>=Ye.dist;let $=Ye.uni;
-$!=null?ze&&He&&(ze=C>=$,He=D>=$,!ze&&!He&&(D>C?He=!0:ze=!0)):Ye.x&&Ye.y&&(ze||He)&&(ze=He=!0);let F,U;ze&&(L.ori==0?(F=$n,U=ve):(F=Fn,U=Ee),po(Lt(F,U),Ie(U-F)),
-He||fo(0,P)),He&&(L.ori==1?(F=$n,U=ve):(F=Fn,U=Ee),fo(Lt(F,U),Ie(U-F)),ze||po(0,v)),!ze&&!He&&(po(0,0),fo(0,0))}if(Ye._x=ze,Ye._y=He,c==null){if(m){if(Ni!=null){
-let[C,D]=De.scales;De.values[0]=C!=null?$t(L.ori==0?ve:Ee,C):null,De.values[1]=D!=null?$t(L.ori==1?ve:Ee,D):null}go(wr,o,ve,Ee,te,I,g)}if(Pn){let C=m&&De.setSeries,
+Be,U),Le,x,0),Xe=O(Ae(Be+fe,U),Le,x,0),po(Lt(lt,Xe),Ie(Xe-lt))):po(0,x),Pt&&He?(ke==1?(Be=ce,fe=J):(Be=oe,fe=B),Le=_[D],lt=j(Ae(Be,X),Le,P,0),Xe=j(Ae(Be+fe,X),Le,
+P,0),fo(Lt(lt,Xe),Ie(Xe-lt))):fo(0,P)}else sr()}else{let C=Ie(wi-yi),D=Ie(xi-bi);if(L.ori==1){let X=C;C=D,D=X}ze=Ye.x&&C>=Ye.dist,He=Ye.y&&D>=Ye.dist;let $=Ye.uni;
+$!=null?ze&&He&&(ze=C>=$,He=D>=$,!ze&&!He&&(D>C?He=!0:ze=!0)):Ye.x&&Ye.y&&(ze||He)&&(ze=He=!0);let F,U;ze&&(L.ori==0?(F=$n,U=xe):(F=Fn,U=Ee),po(Lt(F,U),Ie(U-F)),
+He||fo(0,P)),He&&(L.ori==1?(F=$n,U=xe):(F=Fn,U=Ee),fo(Lt(F,U),Ie(U-F)),ze||po(0,x)),!ze&&!He&&(po(0,0),fo(0,0))}if(Ye._x=ze,Ye._y=He,c==null){if(m){if(Ni!=null){
+let[C,D]=De.scales;De.values[0]=C!=null?$t(L.ori==0?xe:Ee,C):null,De.values[1]=D!=null?$t(L.ori==1?xe:Ee,D):null}go(wr,o,xe,Ee,te,I,g)}if(Pn){let C=m&&De.setSeries,
 D=Nt.prox;un==null?Ht<=D&&Rt(Jt,On,!0,C):Ht>D?Rt(null,On,!0,C):Jt!=un&&Rt(Jt,On,!0,C)}}yt&&(ee.idx=g,tr()),d!==!1&&Ve("setCursor")}let Zt=null;Object.defineProperty(
-o,"rect",{get(){return Zt==null&&mo(!1),Zt}});function mo(c=!1){c?Zt=null:(Zt=y.getBoundingClientRect(),Ve("syncRect",Zt))}function Si(c,d,m,g,b,v,P){W._lock||qt&&
-c!=null&&c.movementX==0&&c.movementY==0||(nr(c,d,m,g,b,v,P,!1,c!=null),c!=null?dn(null,!0,!0):dn(d,!0,!1))}function nr(c,d,m,g,b,v,P,C,D){if(Zt==null&&mo(!1),ln(
-c),c!=null)m=c.clientX-Zt.left,g=c.clientY-Zt.top;else{if(m<0||g<0){ve=-10,Ee=-10;return}let[$,F]=De.scales,U=d.cursor.sync,[X,de]=U.values,[ce,oe]=U.scales,[J,
-B]=De.match,ke=d.axes[0].side%2==1,Ae=L.ori==0?te:I,Be=L.ori==1?te:I,fe=ke?v:b,Le=ke?b:v,lt=ke?g:m,Xe=ke?m:g;if(ce!=null?m=J($,ce)?a(X,_[$],Ae,0):-10:m=Ae*(lt/fe),
+o,"rect",{get(){return Zt==null&&mo(!1),Zt}});function mo(c=!1){c?Zt=null:(Zt=y.getBoundingClientRect(),Ve("syncRect",Zt))}function Si(c,d,m,g,b,x,P){W._lock||qt&&
+c!=null&&c.movementX==0&&c.movementY==0||(nr(c,d,m,g,b,x,P,!1,c!=null),c!=null?dn(null,!0,!0):dn(d,!0,!1))}function nr(c,d,m,g,b,x,P,C,D){if(Zt==null&&mo(!1),ln(
+c),c!=null)m=c.clientX-Zt.left,g=c.clientY-Zt.top;else{if(m<0||g<0){xe=-10,Ee=-10;return}let[$,F]=De.scales,U=d.cursor.sync,[X,de]=U.values,[ce,oe]=U.scales,[J,
+B]=De.match,ke=d.axes[0].side%2==1,Ae=L.ori==0?te:I,Be=L.ori==1?te:I,fe=ke?x:b,Le=ke?b:x,lt=ke?g:m,Xe=ke?m:g;if(ce!=null?m=J($,ce)?a(X,_[$],Ae,0):-10:m=Ae*(lt/fe),
 oe!=null?g=B(F,oe)?a(de,_[F],Be,0):-10:g=Be*(Xe/Le),L.ori==1){let wt=m;m=g,g=wt}}D&&(d==null||d.cursor.event.type==wr)&&((m<=1||m>=te-1)&&(m=gn(m,te)),(g<=1||g>=
-I-1)&&(g=gn(g,I))),C?(yi=m,bi=g,[$n,Fn]=W.move(o,m,g)):(ve=m,Ee=g)}let or={width:0,height:0,left:0,top:0};function sr(){Fo(or,!1)}let Mi,Ti,Pi,Ei;function _i(c,d,m,g,b,v,P){
-qt=!0,ze=He=Ye._x=Ye._y=!1,nr(c,d,m,g,b,v,P,!0,!1),c!=null&&(Qe(vr,Tr,Ci,!1),go(fa,o,$n,Fn,te,I,null));let{left:C,top:D,width:$,height:F}=xe;Mi=C,Ti=D,Pi=$,Ei=F}
-function Ci(c,d,m,g,b,v,P){qt=Ye._x=Ye._y=!1,nr(c,d,m,g,b,v,P,!1,!0);let{left:C,top:D,width:$,height:F}=xe,U=$>0||F>0,X=Mi!=C||Ti!=D||Pi!=$||Ei!=F;if(U&&X&&Fo(xe),
+I-1)&&(g=gn(g,I))),C?(yi=m,bi=g,[$n,Fn]=W.move(o,m,g)):(xe=m,Ee=g)}let or={width:0,height:0,left:0,top:0};function sr(){Fo(or,!1)}let Mi,Ti,Pi,Ei;function _i(c,d,m,g,b,x,P){
+qt=!0,ze=He=Ye._x=Ye._y=!1,nr(c,d,m,g,b,x,P,!0,!1),c!=null&&(Qe(xr,Tr,Ci,!1),go(fa,o,$n,Fn,te,I,null));let{left:C,top:D,width:$,height:F}=ve;Mi=C,Ti=D,Pi=$,Ei=F}
+function Ci(c,d,m,g,b,x,P){qt=Ye._x=Ye._y=!1,nr(c,d,m,g,b,x,P,!1,!0);let{left:C,top:D,width:$,height:F}=ve,U=$>0||F>0,X=Mi!=C||Ti!=D||Pi!=$||Ei!=F;if(U&&X&&Fo(ve),
 Ye.setScale&&U&&X){let de=C,ce=$,oe=D,J=F;if(L.ori==1&&(de=D,ce=F,oe=C,J=$),ze&&Yt(N,$t(de,N),$t(de+ce,N)),He)for(let B in _){let ke=_[B];B!=N&&ke.from==null&&ke.
-min!=ge&&Yt(B,$t(oe+J,B),$t(oe,B))}sr()}else W.lock&&(W._lock=!W._lock,dn(d,!0,c!=null));c!=null&&(Sn(vr,Tr),go(vr,o,ve,Ee,te,I,null))}function fu(c,d,m,g,b,v,P){
-if(W._lock)return;ln(c);let C=qt;if(qt){let D=!0,$=!0,F=10,U,X;L.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=ve<=F||ve>=te-F,$=Ee<=F||Ee>=I-F),U&&D&&(ve=ve<$n?0:te),
-X&&$&&(Ee=Ee<Fn?0:I),dn(null,!0,!0),qt=!1}ve=-10,Ee=-10,le.fill(null),dn(null,!0,!0),C&&(qt=C)}function Ai(c,d,m,g,b,v,P){W._lock||(ln(c),Gs(),sr(),c!=null&&go(
-ya,o,ve,Ee,te,I,null))}function Li(){E.forEach(Hh),Us(o.width,o.height,!0)}wn(is,Xn,Li);let Un={};Un.mousedown=_i,Un.mousemove=Si,Un.mouseup=Ci,Un.dblclick=Ai,Un.
+min!=ge&&Yt(B,$t(oe+J,B),$t(oe,B))}sr()}else W.lock&&(W._lock=!W._lock,dn(d,!0,c!=null));c!=null&&(Sn(xr,Tr),go(xr,o,xe,Ee,te,I,null))}function fu(c,d,m,g,b,x,P){
+if(W._lock)return;ln(c);let C=qt;if(qt){let D=!0,$=!0,F=10,U,X;L.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=xe<=F||xe>=te-F,$=Ee<=F||Ee>=I-F),U&&D&&(xe=xe<$n?0:te),
+X&&$&&(Ee=Ee<Fn?0:I),dn(null,!0,!0),qt=!1}xe=-10,Ee=-10,le.fill(null),dn(null,!0,!0),C&&(qt=C)}function Ai(c,d,m,g,b,x,P){W._lock||(ln(c),Gs(),sr(),c!=null&&go(
+ya,o,xe,Ee,te,I,null))}function Li(){E.forEach(Hh),Us(o.width,o.height,!0)}wn(is,Xn,Li);let Un={};Un.mousedown=_i,Un.mousemove=Si,Un.mouseup=Ci,Un.dblclick=Ai,Un.
 setSeries=(c,d,m,g)=>{let b=De.match[2];m=b(o,d,m),m!=-1&&Rt(m,g,!0,!1)},Ue&&(Qe(fa,y,_i),Qe(wr,y,Si),Qe(ma,y,c=>{ln(c),mo(!1)}),Qe(ga,y,fu),Qe(ya,y,Ai),Nr.add(
 o),o.syncRect=mo);let Io=o.hooks=t.hooks||{};function Ve(c,d,m){Zs?ho.push([c,d,m]):c in Io&&Io[c].forEach(g=>{g.call(null,o,d,m)})}(t.plugins||[]).forEach(c=>{
 for(let d in c.hooks)Io[d]=(Io[d]||[]).concat(c.hooks[d])});let Di=(c,d,m)=>m,De=Re({key:null,setSeries:!1,filters:{pub:_a,sub:_a},scales:[N,S[1]?S[1].scale:null],
-match:[Ca,Ca,Di],values:[null,null]},W.sync);De.match.length==2&&De.match.push(Di),W.sync=De;let Ni=De.key,rr=Tl(Ni);function go(c,d,m,g,b,v,P){De.filters.pub(c,
-d,m,g,b,v,P)&&rr.pub(c,d,m,g,b,v,P)}rr.sub(o);function mu(c,d,m,g,b,v,P){De.filters.sub(c,d,m,g,b,v,P)&&Un[c](null,d,m,g,b,v,P)}o.pub=mu;function gu(){rr.unsub(
+match:[Ca,Ca,Di],values:[null,null]},W.sync);De.match.length==2&&De.match.push(Di),W.sync=De;let Ni=De.key,rr=Tl(Ni);function go(c,d,m,g,b,x,P){De.filters.pub(c,
+d,m,g,b,x,P)&&rr.pub(c,d,m,g,b,x,P)}rr.sub(o);function mu(c,d,m,g,b,x,P){De.filters.sub(c,d,m,g,b,x,P)&&Un[c](null,d,m,g,b,x,P)}o.pub=mu;function gu(){rr.unsub(
 o),Nr.delete(o),nn.clear(),_r(is,Xn,Li),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=gu;function ir(){Ve("init",t,e),ci(e||t.data,!1),z[N]?Qs(N,z[N]):Gs(),Ao=
-xe.show&&(xe.width>0||xe.height>0),an=yt=!0,Us(t.width,t.height)}return S.forEach(ai),E.forEach(qc),n?n instanceof HTMLElement?(n.appendChild(u),ir()):n(o,ir):ir(),
-o}Oe.assign=Re;Oe.fmtNum=Gr;Oe.rangeNum=as;Oe.rangeLog=us;Oe.rangeAsinh=Or;Oe.orient=xn;Oe.pxRatio=he;Oe.join=Rd;Oe.fmtDate=zr,Oe.tzDate=Bd;Oe.sync=Tl;{Oe.addGap=
+ve.show&&(ve.width>0||ve.height>0),an=yt=!0,Us(t.width,t.height)}return S.forEach(ai),E.forEach(qc),n?n instanceof HTMLElement?(n.appendChild(u),ir()):n(o,ir):ir(),
+o}Oe.assign=Re;Oe.fmtNum=Gr;Oe.rangeNum=as;Oe.rangeLog=us;Oe.rangeAsinh=Or;Oe.orient=vn;Oe.pxRatio=he;Oe.join=Rd;Oe.fmtDate=zr,Oe.tzDate=Bd;Oe.sync=Tl;{Oe.addGap=
 Eh,Oe.clipGaps=ps;let t=Oe.paths={points:Ll};t.linear=Nl,t.stepped=Ah,t.bars=Lh,t.spline=Nh}var ys=128,Il=50,Vh=.25,Bh=t=>[t.ray,t.truth,t.sensor,t.noReturn],jh=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),Kh=({data:t})=>Math.
 max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),bs=(t,e)=>({font:cr,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
 frame,width:1,size:4}});function Ol(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:ys})).
-observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:ys}),s=n()),o)}function Ul(t,e){let{session:n}=t,o=x("div",{className:"\
+observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:ys}),s=n()),o)}function Ul(t,e){let{session:n}=t,o=v("div",{className:"\
 chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All"],["first",`First ${Il}`]],()=>s,y=>{s=y,u=null,n.changed()}),
 i=0,a=-1/0,l=-1,u=null,h=Ol(o,()=>{let y=Bh(e()),k=Array.from({length:i},(M,T)=>({label:`chain ${T+1}`,stroke:y[T%y.length],width:1,points:{show:!1}}));return new Oe(
 {width:100,height:ys,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,Kh,0,0],scales:{x:{time:!1,range:(M,T,S)=>[T,Math.max(S,T+1)]},y:{range:(M,T,S)=>Zh(
-Math.max(T,a),S)}},axes:[bs(e,26),bs(e,jh)],series:[{label:"sweep"},...k],hooks:{draw:[M=>Qh(M,l,e())]}},[[],...k.map(()=>[])],o)},e),f=x("span",{className:"cap\
-tion",textContent:"log joint by sweep"}),w=x("div",{className:"charted"},x("div",{className:"buttons"},r,f),o);return t.each(()=>{let y=n.shown,k=y?.traced?.length?
+Math.max(T,a),S)}},axes:[bs(e,26),bs(e,jh)],series:[{label:"sweep"},...k],hooks:{draw:[M=>Qh(M,l,e())]}},[[],...k.map(()=>[])],o)},e),f=v("span",{className:"cap\
+tion",textContent:"log joint by sweep"}),w=v("div",{className:"charted"},v("div",{className:"buttons"},r,f),o);return t.each(()=>{let y=n.shown,k=y?.traced?.length?
 y.trace.length/y.traced.length:0;if(A(w,"hidden",k===0),!y||!k)return;let M=n.document?.source.kind==="run"?"draw":"sweep";A(f,"textContent",`log joint by ${M}`);
 let T=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.traced[y.traced.length-1]/n.draws.count:-1,S=h(k!==i&&(i=k,!0));if(!S||u===y&&l===T&&S.data[0].length)return;
 [u,l]=[y,T],a=s==="all"?Jh(y,k):-1/0;let E=qh(y,k,s);S.setData(E),o.setAttribute("data-sweeps",E[0].join())}),w}function qh({trace:t,traced:e},n,o){let s=o==="a\
@@ -562,13 +562,13 @@ ll"?Yh(e):[...e.keys()].filter(i=>e[i]<=Il),r=i=>Float32Array.from(s,a=>i[a]);re
 function Yh(t){let e=t.length,n=e>2?Math.min(t[e-1]-t[e-2],t[e-2]-t[e-3]):1,o=-1/0;return[...t.keys()].filter(s=>t[s]<o&&s<e-1?!1:(o=t[s]+n,!0))}function Jh({trace:t,
 traced:e},n){let o=e.length,s=e.findIndex(r=>r>=Vh*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.min(...t.slice(i*o+s,(i+1)*o))))}function Zh(t,e){
 let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function Qh(t,e,n){if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.
-save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Gl(t,e){let{session:n}=t,o=x("div",{className:"chart",role:"img","aria-label":"\
-Histogram of the particles' weights"}),s=x("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),r=x("div",{className:"charted"},
+save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}function Gl(t,e){let{session:n}=t,o=v("div",{className:"chart",role:"img","aria-label":"\
+Histogram of the particles' weights"}),s=v("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),r=v("div",{className:"charted"},
 s,o),a=Ol(o,()=>new Oe({width:100,height:ys,legend:{show:!1},cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(u,p,h)=>[p,h]},y:{distr:3,range:(u,p,h)=>[
 .5,Math.max(10,2*h)]}},axes:[bs(e,26),{...bs(e,52),values:(u,p)=>p.map(h=>h>=1?String(h):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[
 .9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.each(()=>{let u=n.shown;A(r,"hidden",!u?.weights);let p=u?.weights&&a(!1);if(!u?.weights||!p||
 l===u&&p.data[0].length)return;l=u;let h=[...u.weights],f=-(u.lowest??-1)/h.length,w=[...h.map((y,k)=>(u.lowest??-1)+k*f),0];p.setData([w,[...h.map(y=>y||null),
-null]])}),r}function Wl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=x("p",{className:"said",role:"status"}),r=x("div",{className:"double"},t.numberInput("Robot's radius (m\
+null]])}),r}function Wl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=v("p",{className:"said",role:"status"}),r=v("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,u=>o.set({radius:u}),{min:.01,max:100,step:"any"}),t.numberInput("Highest risk",()=>o.risk,u=>o.set({risk:u}),{min:1e-4,max:.99,step:"any"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),l=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
 r,()=>n.tool==="path"),t.each(()=>{A(l,"textContent",i()),A(s,"textContent",n.tool==="path"?Xh(t):ep(t))}),a}function Xh({session:t}){let{start:e,goal:n,path:o,
@@ -584,23 +584,23 @@ ean), one whole map that explains them (one draw), and how wide the 90 % interva
 wer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",ip="The map is made from the scans of this log. Where it\
 s poses are raw odometry, Run first infers where the robot was; then it samples maps, and keeps them as draws.",ap="This is a saved run: its draws, and what the\
 y say together.",lp="Mouse: the wheel zooms, the middle button pans.",cp="Shift or the right button erases, and so does a click on a wall.",up="Touch: two finge\
-rs zoom and pan.";function zl(t){let{session:e}=t,n=x("div"),o=qi.map(([i,a,l])=>{let u=x("tr",{},x("th",{scope:"row"},x("kbd",{textContent:i})),x("td",{textContent:a}));
-return t.visible(u,()=>dp[l??"all"](e)),u}),s=x("p"),r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?sp:op,l=e.editable?[`${np} ${a}`,
-rp]:i==="log"?[a,ip]:i==="run"?[a,ap]:[a];l.join()!==r&&n.replaceChildren(...l.map(u=>x("p",{textContent:u}))),r=l.join(),A(s,"textContent",[lp,...e.editable?[cp]:
-[],up].join(" "))}),t.dialog("Help",n,s,x("table",{},x("tbody",{},...o)))}var dp={all:()=>!0,drawn:t=>t.editable,asked:t=>!t.recorded,inferred:t=>!t.recorded&&t.
-document?.source.kind!=="run"};function Hl(t){let e=()=>x("input",{type:"number",min:Se.cells[0],max:Se.cells[1],step:1,required:!0,value:"21"}),[n,o]=[e(),e()],
-s=x("select",{});for(let[i,a]of tp)s.append(x("option",{value:i,textContent:a}));s.addEventListener("change",()=>{s.value==="building"&&Number(n.value)<60&&([n.
-value,o.value]=["120","80"])});let r=x("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("Height (cells)",o),x("div",{className:"buttons \
-end"},x("button",{type:"submit",className:"primary",textContent:"Create"})));return r.addEventListener("submit",()=>{t.session.act({type:"new",shape:[Number(n.value),
+rs zoom and pan.";function zl(t){let{session:e}=t,n=v("div"),o=qi.map(([i,a,l])=>{let u=v("tr",{},v("th",{scope:"row"},v("kbd",{textContent:i})),v("td",{textContent:a}));
+return t.visible(u,()=>dp[l??"all"](e)),u}),s=v("p"),r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?sp:op,l=e.editable?[`${np} ${a}`,
+rp]:i==="log"?[a,ip]:i==="run"?[a,ap]:[a];l.join()!==r&&n.replaceChildren(...l.map(u=>v("p",{textContent:u}))),r=l.join(),A(s,"textContent",[lp,...e.editable?[cp]:
+[],up].join(" "))}),t.dialog("Help",n,s,v("table",{},v("tbody",{},...o)))}var dp={all:()=>!0,drawn:t=>t.editable,asked:t=>!t.recorded,inferred:t=>!t.recorded&&t.
+document?.source.kind!=="run"};function Hl(t){let e=()=>v("input",{type:"number",min:Se.cells[0],max:Se.cells[1],step:1,required:!0,value:"21"}),[n,o]=[e(),e()],
+s=v("select",{});for(let[i,a]of tp)s.append(v("option",{value:i,textContent:a}));s.addEventListener("change",()=>{s.value==="building"&&Number(n.value)<60&&([n.
+value,o.value]=["120","80"])});let r=v("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("Height (cells)",o),v("div",{className:"buttons \
+end"},v("button",{type:"submit",className:"primary",textContent:"Create"})));return r.addEventListener("submit",()=>{t.session.act({type:"new",shape:[Number(n.value),
 Number(o.value)],world:s.value}),t.hand.selected=null}),t.dialog("New map",r)}var hp="The link holds the walls, the sensors and all settings after its #, and no\
  token. It opens in this browser while the server runs; the part from # on can be put after the address of any bayesmap page.",pp="The link holds the file's nam\
 e and all settings after its #, but no scans and no token. It opens in this browser while the server shows this file; the part from # on can be put after the ad\
-dress of any bayesmap page that shows it.";function Vl(t){let e=x("input",{type:"text",readOnly:!0,"aria-label":"Link"}),n=x("span",{role:"status",className:"co\
+dress of any bayesmap page that shows it.";function Vl(t){let e=v("input",{type:"text",readOnly:!0,"aria-label":"Link"}),n=v("span",{role:"status",className:"co\
 pied"}),o=async()=>{e.select();try{await navigator.clipboard.writeText(e.value)}catch{document.execCommand("copy")}n.textContent="Copied",setTimeout(()=>n.textContent=
-"",2e3)},s=t.button(null,"Copy the link",o,{className:"primary",text:"Copy"}),r=x("p");t.each(()=>A(r,"textContent",t.session.document?.source.kind==="simulatio\
-n"?hp:pp));let i=t.dialog("Share",r,x("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var fp=8;function Bl(t){let{session:e,hand:n}=t,o=x("p",{className:"said",role:"status"}),s=x("ol",{className:"spoken"}),r=t.section("Evidence of beams",o,s),i=-1;
+"",2e3)},s=t.button(null,"Copy the link",o,{className:"primary",text:"Copy"}),r=v("p");t.each(()=>A(r,"textContent",t.session.document?.source.kind==="simulatio\
+n"?hp:pp));let i=t.dialog("Share",r,v("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var fp=8;function Bl(t){let{session:e,hand:n}=t,o=v("p",{className:"words",role:"status"}),s=v("ol",{className:"spoken"}),r=t.section("Evidence of beams",o,s),i=-1;
 return t.visible(r,()=>n.tool==="evidence"),t.each(()=>{let{evidence:a}=e;if(A(o,"textContent",gp(e)),i===a.version)return;i=a.version;let{nats:l,scan:u,beam:p}=a.
-each??{nats:[],scan:[],beam:[]},h=Array.from(l.slice(0,fp),(f,w)=>x("li",{},`${fr(f)} nats: ${mp(e,u[w],p[w])}`));s.replaceChildren(...h)}),r}var mp=({document:t,
+each??{nats:[],scan:[],beam:[]},h=Array.from(l.slice(0,fp),(f,w)=>v("li",{},`${fr(f)} nats: ${mp(e,u[w],p[w])}`));s.replaceChildren(...h)}),r}var mp=({document:t,
 editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function gp({evidence:t,quantity:e}){let{cell:n,together:o}=t;if(!n)return"\
 Click a cell to see which beams speak for what is there (blue) and which against it (orange), in nats each.";let s=`Cell ${n.x}, ${n.y}`;if(!o)return`${s}: aski\
 ng its beams.`;if(!o.beams)return`${s}: no beam reaches it.`;let r=o.beams===1?"1 beam":`${o.beams} beams`;if(o.nats_for===void 0||o.nats_against===void 0)return`${s}\
@@ -610,25 +610,25 @@ toFixed(1)} nats.${a}`}var kn=t=>t.charAt(0).toUpperCase()+t.slice(1),ws=class{t
 let n=e>this.until&&!/worker/.test(this.text);(this.text==="Connecting"||n)&&this.say("Ready","info",e)}worker(e){e==="restarted"?this.say("The worker stopped a\
 nd is being started again; the map is kept","warning",this.until):e==="ready"&&this.text==="Connecting"?this.say("Ready","info",this.until):e==="ready"&&/worker/.
 test(this.text)&&this.say("The worker runs again","info",this.until)}};var jl=t=>Math.round(t*180/Math.PI);function Kl(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(l,u)=>t.numberInput(l,()=>Number((o.pose?.[u]??0).toFixed(2)),p=>o.move(
-{[u]:p}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>jl(o.pose?.yaw??0),l=>o.move({yaw:l*Math.PI/180}),{step:5}),i=x("p",{className:"words ghosted"}),a=t.
-section("Ghost",x("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>A(i,"textContent",yp(t))),
+{[u]:p}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>jl(o.pose?.yaw??0),l=>o.move({yaw:l*Math.PI/180}),{step:5}),i=v("p",{className:"words ghosted"}),a=t.
+section("Ghost",v("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>A(i,"textContent",yp(t))),
 a}function yp({session:t}){let{ghost:e}=t;if(e.trouble)return kn(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
 st to see what its laser would read.";let{draws:n,low:o,high:s,near:r}=e.fan,i=Array.from(s,(p,h)=>p-o[h]).filter(Number.isFinite).sort((p,h)=>p-h),a=i.length?`${Me(
 100*i[i.length>>1],0)} cm wide at the median beam`:"as wide as the laser's range",l=n?`${n} draws of the map`:"the mean map, cells taken for independent",u=r?` \
 Rings are the hits of scan ${r.index+1}, taken ${Me(100*r.away,0)} cm from here, turned by ${jl(r.turn)}°.`:"";return`Dots are predictive medians, bars the cen\
-tral 80 % interval, ${a}, by ${l}.${u}`}function ql(t){let{session:e}=t,n=x("span",{className:"what"});t.each(()=>{let{grid:u,source:p}=e.document??{};if(!u||!p)return;let h=`${u.shape[0]} × ${u.shape[1]}\
+tral 80 % interval, ${a}, by ${l}.${u}`}function ql(t){let{session:e}=t,n=v("span",{className:"what"});t.each(()=>{let{grid:u,source:p}=e.document??{};if(!u||!p)return;let h=`${u.shape[0]} × ${u.shape[1]}\
  cells of ${+u.resolution.toPrecision(3)} m`;A(n,"textContent",p.name?`${p.name}, ${h}`:h)});let o=()=>!e.recorded&&!!e.document,s=[t.button("undo","Undo",()=>e.
 act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo}),t.button("redo","Redo",()=>e.act({type:"redo"}),{title:"Redo (Ctrl+Y)",when:()=>!!e.state?.
-can_redo}),x("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),...t.embedded?[]:[t.button("link","Share",()=>t.command(
+can_redo}),v("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),...t.embedded?[]:[t.button("link","Share",()=>t.command(
 "share"),{text:"Share",when:o})]];for(let u of s)t.visible(u,()=>!e.recorded);let r=t.button("theme","Theme: automatic",()=>t.command("theme")),i=t.button("help",
-"Help",()=>t.command("help"),{title:"Help (?)"}),a=x("span",{className:"space"});return{element:x("header",{},x("h1",{textContent:"bayesmap"}),n,a,...s,wp(t),r,
+"Help",()=>t.command("help"),{title:"Help (?)"}),a=v("span",{className:"space"});return{element:v("header",{},v("h1",{textContent:"bayesmap"}),n,a,...s,wp(t),r,
 i),nameTheme(u){let p=`Theme: ${u}`;dt(r,"aria-label",p),A(r,"title",p)}}}var bp=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function wp(t){
-let{session:e}=t,n=(a,l,u,p)=>{let h=t.button(null,a,()=>t.command(`export ${l}`),{text:a,when:p});return u&&t.visible(h,()=>!e.recorded),h},o=x("div",{className:"\
+let{session:e}=t,n=(a,l,u,p)=>{let h=t.button(null,a,()=>t.command(`export ${l}`),{text:a,when:p});return u&&t.visible(h,()=>!e.recorded),h},o=v("div",{className:"\
 menu",hidden:!0},n("Picture (PNG)","png",!1),n("Saved run (netCDF)","run",!0,()=>bp(e)),n("Map for robots (YAML and PGM)","map",!0),n("Page with its draws (HTML\
 )","html",!0),n("Document (JSON)","document",!0)),s=t.button("save","Export",()=>r(o.hidden),{text:"Export",when:()=>!!e.document}),r=a=>{o.hidden=!a,s.setAttribute(
-"aria-expanded",String(a)),a&&o.firstElementChild.focus()};r(!1);let i=x("div",{className:"anchor"},s,o);return i.addEventListener("keydown",a=>{a.key!=="Escape"||
+"aria-expanded",String(a)),a&&o.firstElementChild.focus()};r(!1);let i=v("div",{className:"anchor"},s,o);return i.addEventListener("keydown",a=>{a.key!=="Escape"||
 o.hidden||(r(!1),s.focus(),a.stopPropagation())}),i.addEventListener("focusout",a=>{i.contains(a.relatedTarget)||r(!1)}),o.addEventListener("click",()=>{r(!1),s.
-focus()}),i}var vp={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
+focus()}),i}var xp={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
 5 5.5L12 3l2.5 2.5M9.5 18.5L12 21l2.5-2.5M5.5 9.5L3 12l2.5 2.5M18.5 9.5L21 12l-2.5 2.5",path:"M5 19a2 2 0 1 0 .1 0M7 18c9-1 1-11 10-12M19 3a2 2 0 1 0 .1 0",look:"\
 M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0 1 0 .1 0",where:"M12 21c-4-5-6-7.500-6-11a6 6 0 0 1 12 0c0 3.500-2 6-6 11M12 8a\
 2 2 0 1 0 .1 0",ghost:"M5 20V11a7 7 0 0 1 14 0v9l-2.300-2-2.400 2-2.300-2-2.300 2-2.400-2zM9.500 11v.5M14.500 11v.5",evidence:"M3 5l13 7M3 19l13-7M3 12h13M17 8.\
@@ -637,34 +637,34 @@ M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",play:"M7 4.5l12 7.5-12 7.5z",pause:"M8.5
 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",save:"M12 4v11M7.5 10.5L12 15l4.5-4.5M4 20h16",grid:"M4 4h16v16H4zM4 12h16M12 4v16",theme:"M12 3a9 9 0 1 0 0 18zM12 3a\
 9 9 0 0 1 0 18",help:"M8.5 9a3.5 3.5 0 1 1 5 3.2c-1.1.6-1.5 1.200-1.500 2.500M12 18v.5",close:"M6 6l12 12M18 6L6 18"};function tn(t){let e=document.createElementNS(
 "http://www.w3.org/2000/svg","svg"),n=document.createElementNS("http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute(
-"aria-hidden","true"),n.setAttribute("d",vp[t]),e.append(n),e}var vs=({document:t})=>!t||t.source.kind==="simulation",Yr=({recorded:t})=>!t,Yl="surface (zoom in)",Jl=[{mark:"truth",text:"true wall",when:vs,may:vs},{mark:"r\
+"aria-hidden","true"),n.setAttribute("d",xp[t]),e.append(n),e}var xs=({document:t})=>!t||t.source.kind==="simulation",Yr=({recorded:t})=>!t,Yl="surface (zoom in)",Jl=[{mark:"truth",text:"true wall",when:xs,may:xs},{mark:"r\
 ay",text:"ray"},{mark:"miss",text:"no return"},{mark:"dot",text:"reading"},{mark:"sensor",text:"sensor"},{mark:"stroke",text:"surface",when:({overlay:t})=>!!t?.
-strokes.length,may:t=>!vs(t)},{mark:"trajectory",text:"trajectory",when:({overlay:t})=>!!t?.trajectory.length,may:t=>!vs(t)},{mark:"unobserved",text:"unobserved"},
+strokes.length,may:t=>!xs(t)},{mark:"trajectory",text:"trajectory",when:({overlay:t})=>!!t?.trajectory.length,may:t=>!xs(t)},{mark:"unobserved",text:"unobserved"},
 {mark:"draw",text:"this draw",when:({flicker:t})=>!!t.under},{mark:"ghost",text:"predicted reading",when:({ghost:t,reading:e})=>t.held||e.picked!==null,may:Yr},
 {mark:"path",text:"path, as wide as the robot",when:({decisions:t})=>!!t.path,may:Yr}],Zl=[{mark:"belief",text:"possible pose"},{mark:"place",text:"95 % of a pl\
-ace"}];function Ql(t,e,n){return x("div",{className:"legend"},xp(t,e,n),kp(t))}function xp(t,e,n){let{session:o}=t,s=x("span",{className:"ramp"}),r=x("span",{className:"\
-name"}),i=Jl.map(u=>{let[p,h]=xs(u),{mark:f,when:w}=u;return w&&t.visible(p,()=>w(o)),f==="stroke"&&t.each(()=>A(h,"textContent",wo(n())?u.text:Yl)),f==="path"&&
-t.each(()=>p.firstElementChild?.classList.toggle("risky",o.decisions.path?.within_risk===!1)),p}),a=Zl.map(u=>xs(u)[0]);for(let u of a)t.visible(u,()=>!!o.where.
+ace"}];function Ql(t,e,n){return v("div",{className:"legend"},vp(t,e,n),kp(t))}function vp(t,e,n){let{session:o}=t,s=v("span",{className:"ramp"}),r=v("span",{className:"\
+name"}),i=Jl.map(u=>{let[p,h]=vs(u),{mark:f,when:w}=u;return w&&t.visible(p,()=>w(o)),f==="stroke"&&t.each(()=>A(h,"textContent",wo(n())?u.text:Yl)),f==="path"&&
+t.each(()=>p.firstElementChild?.classList.toggle("risky",o.decisions.path?.within_risk===!1)),p}),a=Zl.map(u=>vs(u)[0]);for(let u of a)t.visible(u,()=>!!o.where.
 found);let l="";return t.each(()=>{let{layer:u}=o;A(r,"textContent",Xl(o,u));let p=u==="entropy"||u==="width",h=`${p} ${e().ground}`;l!==h&&(l=h,s.style.background=
-pr(p?zn:f=>hr(e(),f)))}),x("ul",{"aria-label":"Legend"},x("li",{},r,x("span",{className:"scale"},"0",s,"1")),...i,Sp(t),...a)}function kp(t){let{session:e}=t,n=[
-"mean","draw","entropy","width"].map(l=>{let u=x("span");return t.each(()=>A(u,"textContent",Xl(e,l))),l==="width"&&t.visible(u,()=>e.quantity.interval),u}),o=Jl.
-map(l=>{let[u,p]=xs(l);l.mark==="stroke"&&(p.textContent=Yl);let{may:h}=l;return h&&t.visible(u,()=>h(e)),u}),s=x("span",{className:"scale"},"00.0",x("span",{className:"\
-ramp"}),"000.0 nats"),r=[x("ul",{},x("li",{},"one more scan tells",s)),x("ul",{},...Zl.map(l=>xs(l)[0]))],i=x("li",{className:"either"},...r);t.visible(i,()=>Yr(
-e));let a=x("span",{className:"scale"},"0",x("span",{className:"ramp"}),"1");return x("ul",{className:"room","aria-hidden":"true"},x("li",{},x("span",{className:"\
-name either"},...n),a),...o,i)}function xs({mark:t,text:e}){let n=x("i",{className:t});t==="sensor"&&n.append(tn("sensor"));let o=x("span",{textContent:e});return[
-x("li",{},n,o),o]}function Xl({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (bit)":e==="width"?"width of the 90 % interval":n==="bi\
-nary"?"P(wall)":e==="draw"?s:o}function Sp(t){let{decisions:e}=t.session,n=x("span",{className:"ramp"});n.style.background=pr(zn);let[o,s]=[x("span"),x("span")],
-r=x("li",{className:"views"},"one more scan tells",x("span",{className:"scale"},o,n,s));return t.visible(r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{let i=e.
-views?.nats;i?.length&&(A(o,"textContent",Me(Math.min(...i),1)),A(s,"textContent",`${Me(Math.max(...i),1)} nats`))}),r}var Mp=[.05,.1,.2,.4,.8],Tp=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function ec(t){let{session:e}=t,n=x("select",{onchange:()=>e.act({type:"\
+pr(p?zn:f=>hr(e(),f)))}),v("ul",{"aria-label":"Legend"},v("li",{},r,v("span",{className:"scale"},"0",s,"1")),...i,Sp(t),...a)}function kp(t){let{session:e}=t,n=[
+"mean","draw","entropy","width"].map(l=>{let u=v("span");return t.each(()=>A(u,"textContent",Xl(e,l))),l==="width"&&t.visible(u,()=>e.quantity.interval),u}),o=Jl.
+map(l=>{let[u,p]=vs(l);l.mark==="stroke"&&(p.textContent=Yl);let{may:h}=l;return h&&t.visible(u,()=>h(e)),u}),s=v("span",{className:"scale"},"00.0",v("span",{className:"\
+ramp"}),"000.0 nats"),r=[v("ul",{},v("li",{},"one more scan tells",s)),v("ul",{},...Zl.map(l=>vs(l)[0]))],i=v("li",{className:"either"},...r);t.visible(i,()=>Yr(
+e));let a=v("span",{className:"scale"},"0",v("span",{className:"ramp"}),"1");return v("ul",{className:"room","aria-hidden":"true"},v("li",{},v("span",{className:"\
+name either"},...n),a),...o,i)}function vs({mark:t,text:e}){let n=v("i",{className:t});t==="sensor"&&n.append(tn("sensor"));let o=v("span",{textContent:e});return[
+v("li",{},n,o),o]}function Xl({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (bit)":e==="width"?"width of the 90 % interval":n==="bi\
+nary"?"P(wall)":e==="draw"?s:o}function Sp(t){let{decisions:e}=t.session,n=v("span",{className:"ramp"});n.style.background=pr(zn);let[o,s]=[v("span"),v("span")],
+r=v("li",{className:"views"},"one more scan tells",v("span",{className:"scale"},o,n,s));return t.visible(r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{let i=e.
+views?.nats;i?.length&&(A(o,"textContent",Me(Math.min(...i),1)),A(s,"textContent",`${Me(Math.max(...i),1)} nats`))}),r}var Mp=[.05,.1,.2,.4,.8],Tp=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function ec(t){let{session:e}=t,n=v("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,u=Math.
-max(l[0]-a[0],l[1]-a[1]),p=[...new Set([...Mp,r.resolution])].sort((h,f)=>h-f);if(o!==p.join()){o=p.join();let h=f=>x("option",{value:String(f),textContent:Tp(f),
+max(l[0]-a[0],l[1]-a[1]),p=[...new Set([...Mp,r.resolution])].sort((h,f)=>h-f);if(o!==p.join()){o=p.join();let h=f=>v("option",{value:String(f),textContent:Tp(f),
 disabled:u/f>Se.side_of_log-1});n.replaceChildren(...p.map(h))}A(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
-source.kind==="log"),s}function tc(t){let{session:e}=t,n=x("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=x("output"),s=()=>e.document?.source.
+source.kind==="log"),s}function tc(t){let{session:e}=t,n=v("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=v("output"),s=()=>e.document?.source.
 scans??0,r=a=>{let l=Number(n.value);t.scrub(l>=s()?null:l,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});let i=t.
-section("Log",x("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),l=e.document?.scans_used??
+section("Log",v("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),l=e.document?.scans_used??
 a;A(n,"max",String(Math.max(1,a))),(!mn(n)||Number(n.value)!==l)&&A(n,"value",String(l));let u=l===a?`all ${a} scans`:`after ${l} of ${a}`;n.style.setProperty("\
---fill",`${100*(l-1)/Math.max(1,a-1)}%`),dt(n,"aria-valuetext",u),A(o,"textContent",u)}),i}var Pp=20,Ep={importance:"particles",propagate:"rounds"},ks=({working:t,shown:e})=>t&&e?.method==="pilot";function nc(t,...e){let{session:n}=t,o=x("progress",{max:1,
-value:0,"aria-label":"Progress"}),s=x("div",{className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=r?.generation!==n.generation&&(n.running||n.document?.
+--fill",`${100*(l-1)/Math.max(1,a-1)}%`),dt(n,"aria-valuetext",u),A(o,"textContent",u)}),i}var Pp=20,Ep={importance:"particles",propagate:"rounds"},ks=({working:t,shown:e})=>t&&e?.method==="pilot";function nc(t,...e){let{session:n}=t,o=v("progress",{max:1,
+value:0,"aria-label":"Progress"}),s=v("div",{className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=r?.generation!==n.generation&&(n.running||n.document?.
 source.kind==="log"),l=ks(n),u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;A(o,"value",u);let p=n.remaining_s(),h=Ep[r?.method??""]??
 "sweeps",f=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${h}`:"",w=p!==null?p<1?"less than 1 s left":`${Math.ceil(p)} s left`:n.running?"running":"",y=n.
 sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?A(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Pp?"scans":"rounds"}`):a?A(s,"textContent","\
@@ -672,19 +672,19 @@ Computing"):r&&l?A(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r
 t.section("Posterior",Cp(t),o,s,Ap(t),Lp(t),...e)}function _p({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pil\
 ot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function Cp(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"\
 primary",text:"Run",title:"Run (R)",when:()=>e.connection.connected}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escap\
-e)",when:()=>e.running||e.sampling||ks(e)}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=x("div",
-{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Ap(t){let{session:e}=t,n=x("dl"),o=(s,r,i,a=!1)=>{let l=x(
-"dd",{textContent:"–"});n.append(x("div",{title:r},x("dt",{textContent:s}),l)),t.each(()=>{A(l,"textContent",e.shown?i(e.shown):"–"),a&&A(l,"className",e.shown?.
+e)",when:()=>e.running||e.sampling||ks(e)}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=v("div",
+{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Ap(t){let{session:e}=t,n=v("dl"),o=(s,r,i,a=!1)=>{let l=v(
+"dd",{textContent:"–"});n.append(v("div",{title:r},v("dt",{textContent:s}),l)),t.each(()=>{A(l,"textContent",e.shown?i(e.shown):"–"),a&&A(l,"className",e.shown?.
 verdict?.level??"")})};return o("ESS","Effective sample size of the log joint",s=>Me(s.ess,0),!0),o("R-hat","Agreement of the chains on the log joint; 1 is full",
 s=>Me(s.rhat,3),!0),o("log joint","Log of prior times likelihood at the last sweep",s=>Me(s.log_joint,Math.abs(s.log_joint??0)<1e5?1:0)),o("reply","From the han\
-d's last move to its picture",()=>Me(e.latency.eventToPaint_ms.at(-1),0," ms")),n}function Lp(t){let{session:e}=t,n=x("div",{className:"verdict"});return t.each(
+d's last move to its picture",()=>Me(e.latency.eventToPaint_ms.at(-1),0," ms")),n}function Lp(t){let{session:e}=t,n=v("div",{className:"verdict"});return t.each(
 ()=>{let o=e.shown?.verdict;if(A(n,"hidden",!o),!o)return;let s={good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];A(n,"textContent",`${s}:\
  ${o.why}`),A(n,"className",`verdict ${o.level}`)}),n}var Dp="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",oc=200,
 Np="For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less \
 likely",sc="For and against what is there: how much likelier each beam's reading is under the draws of the map than under the same draws with this cell emptied \
 (log ratio), summed over the beams that it makes likelier, and less likely",Rp="Emptied means without the surface that the cell owns: where a neighbour's surfac\
-e explains the same readings, they say little of this one.";function ac(t){let{session:e}=t,n=x("span",{className:"chip"}),o=t.button(null,"Not converged",()=>rc(
-e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=x("div",{className:"chips"},n,o);return t.each(()=>{let r=rc(e);A(o,"hidden",!r),r&&(A(o.firstElementChild,
+e explains the same readings, they say little of this one.";function ac(t){let{session:e}=t,n=v("span",{className:"chip"}),o=t.button(null,"Not converged",()=>rc(
+e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=v("div",{className:"chips"},n,o);return t.each(()=>{let r=rc(e);A(o,"hidden",!r),r&&(A(o.firstElementChild,
 "textContent",`not converged: ${r.text}`),A(o,"title",`${e.shown?.verdict?.why}. Click to ${r.text}.`),dt(o,"aria-label",`Not converged: ${r.text}`));let i=e.shown;
 if(!i||!e.document)return A(s,"hidden",!0);let a=e.draws.count?`draw ${e.draw+1} of ${e.draws.count}`:"draw",l=i.layer==="draw"?a+(e.flicker.under?" over the me\
 an":""):i.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(i.method==="counts"){A(s,"hidden",!1);let h=e.halfway?"along\
@@ -695,15 +695,15 @@ return t==="hits"?"counts of hits":t!=="pilot"?"belief propagation":`${o===1?"1 
 of ${n}`}function rc(t){let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n||t.recorded||n.source.kind==="run")return null;let o=i=>()=>t.act({type:"set",
 patch:i}),s=e.sweeps<oc;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s)return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")return{
 text:"try Gibbs",apply:o({method:"auto"})};if(e.sweeps<e.total)return null;let r=Math.min(Se.sweeps[1],Math.max(oc,4*n.sweeps));return r>n.sweeps?{text:`try ${r}\
- sweeps`,apply:o({sweeps:r})}:null}function lc(t){let{session:e}=t,n=x("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),
-s=x("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.connected,i=Math.max(1,Math.round((e.connection.
+ sweeps`,apply:o({sweeps:r})}:null}function lc(t){let{session:e}=t,n=v("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),
+s=v("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.connected,i=Math.max(1,Math.round((e.connection.
 retryIn_ms??0)/1e3));A(s,"hidden",!r&&e.worker!=="restarted"),A(s,"className",r?"banner":"banner mild"),A(o,"hidden",!r);let a=`Connection lost. Trying again in\
  ${i} s; the map is kept here.`,l=e.connection.refused?Dp:a;A(n,"textContent",r?l:"The worker stopped and is being started again. The map is kept.")}),s}function cc(t){
-let{session:e,hand:n}=t,o=x("div",{className:"readout",id:`${t.prefix}-readout`}),s=x("span",{role:"status","aria-live":"polite"}),r=x("span",{className:"hidden",
+let{session:e,hand:n}=t,o=v("div",{className:"readout",id:`${t.prefix}-readout`}),s=v("span",{role:"status","aria-live":"polite"}),r=v("span",{className:"hidden",
 "aria-live":"polite"});return n.announce=i=>A(r,"textContent",i),n.describe=i=>ic(e,i),t.each(()=>{let{kind:i}=e.quantity;A(o,"title",i==="binary"?Np:i==="surfa\
 ce"?`${sc}. ${Rp}`:sc);let a=n.cursor??n.hover,u=matchMedia("(pointer: coarse)").matches?"Touch a cell":e.editable?"Point at a cell, or press ? for the keys":"P\
 oint at a cell";A(o,"textContent",a?ic(e,a):u);let p=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad",h=e.status.text==="Ready"&&ks(e);A(s,"textContent",
-p?"Ready, but the chains have not converged":h?"Fitting the sensor":e.status.text),A(s,"className",p?"warning":h?"busy":e.status.level)}),{element:x("footer",{},
+p?"Ready, but the chains have not converged":h?"Fitting the sensor":e.status.text),A(s,"className",p?"warning":h?"busy":e.status.level)}),{element:v("footer",{},
 s,o,r),readout:o}}function ic(t,e){let{document:n,shown:o}=t;if(!n)return"";let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+
 1),{x:l,y:u}=Gn(e,n.grid),p=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${u.toFixed(a)} m`];if(o&&o.p.length===r[0]*r[1]){let h=o.p[i]/255,{kind:f,mean:w,value:y,interval:k}=t.
 quantity;o.layer==="width"?p.push(`90 % interval ${h.toFixed(2)} wide`):f!=="binary"&&o.layer==="draw"?p.push(`${y} ${h.toFixed(2)} in this draw`):f!=="binary"?
@@ -714,11 +714,11 @@ kind]??"what is there";p.push(`for ${E} ${T.beams_for}, ${T.nats_for.toFixed(1)}
 join(" · ")}var Fp={logged:"as logged",odometry:"from raw odometry"},Ip=180/Math.PI;function uc(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
 Fp,()=>e.document?.poses??"logged",h=>t.set({poses:h}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,l=[t.slider("po\
 se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:Ip})];for(let h of l)
-t.visible(h,()=>e.editable);let u=x("p",{className:"caption"});t.each(()=>{let{pose_sigma:h=0,heading_sigma:f=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
+t.visible(h,()=>e.editable);let u=v("p",{className:"caption"});t.each(()=>{let{pose_sigma:h=0,heading_sigma:f=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
 poses==="odometry"&&e.shown?.method==="counts"&&!e.running,k=e.editable&&(h>0||f>0)&&!/auto|gibbs|block/.test(w);A(u,"hidden",!k&&!y),A(u,"textContent",y?"Run i\
 nfers where the robot was.":"This method takes poses as known; Gibbs does not.")});let p=t.section("Where the robot was",o,...l,u);return t.visible(p,()=>e.editable||
 n()&&!e.recorded),p}var Ss=t=>Math.abs(t)<.995?`${Me(100*Math.abs(t),1)} cm`:`${Me(Math.abs(t),2)} m`,Op="Point at a reading to compare it with what the posterior predicts of it.",
-Up=": preparing the comparison. The first one after an installation takes some seconds.";function dc(t){let{session:e}=t,n=x("p",{className:"words reading",role:"\
+Up=": preparing the comparison. The first one after an installation takes some seconds.";function dc(t){let{session:e}=t,n=v("p",{className:"words reading",role:"\
 status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i,
 slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?Up:"."}`:Op;A(n,"textContent",i||(r?Gp(r):l))}),o}function Gp({scan:t,beam:e,reading:n,range:o,low:s,
 median:r,high:i,residual:a,no_return:l,wall:u}){let p=`Beam ${e+1} of scan ${t+1}`,h=(T,S)=>T===null?S:`${Me(T,2)} m`,f=`median ${h(r,"no return")}, 80 % betwee\
@@ -729,13 +729,13 @@ u.along_m)} to the ${u.along_m<0?"right":"left"} along it from the middle of its
  met it at ${Me(u.incidence_rad*180/Math.PI,0)}° from its normal.`}var Wp={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},zp={
 binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},Hp={noisy:"with noise",exact:"exact"},Vp={auto:"as is best",prior:"draws of the prior",empty:"t\
 he empty map"},Bp={raster:"raster",radial:"radial",random:"random"},Ms=2*Math.PI,jp=t=>Math.round(t*1800/Math.PI)/10,Kp={importance:"Particles",propagate:"Round\
-s"};function hc(t){let{session:e,hand:n,editor:o}=t,s=x("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
-choose("sensor")});let r="";t.each(()=>{let h=e.document?.sensors??[],f=h.map(w=>w.id).join();f!==r&&s.replaceChildren(...h.map(({id:w})=>x("option",{value:String(
+s"};function hc(t){let{session:e,hand:n,editor:o}=t,s=v("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
+choose("sensor")});let r="";t.each(()=>{let h=e.document?.sensors??[],f=h.map(w=>w.id).join();f!==r&&s.replaceChildren(...h.map(({id:w})=>v("option",{value:String(
 w),textContent:`Sensor ${w}`}))),r=f,A(s,"value",String(n.sensor?.id??""))});let i=(h,f)=>t.numberInput(h,()=>Number((n.sensor?.[f]??0).toFixed(2)),w=>n.sensor&&
 o.moveSensor(n.sensor,{[f]:w}),{step:"any"}),a=t.numberInput("heading (°)",()=>Math.round((n.sensor?.yaw??0)*180/Math.PI),h=>n.sensor&&o.moveSensor(n.sensor,{yaw:h%
 360*Math.PI/180}),{step:5}),l=t.button("plus","Add a sensor",()=>t.command("add"),{text:"Add"}),u=t.button("minus","Remove the sensor",()=>o.removeSensor(),{text:"\
-Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??Ms)<Ms);let p=x("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
-a);return t.section("Sensors",x("div",{className:"buttons"},s,l,u),p)}function pc(t){let{session:e}=t,[n,o]=Se.max_range,[s,r]=Se.fov_deg,i=t.numberInput("Longe\
+Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??Ms)<Ms);let p=v("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
+a);return t.section("Sensors",v("div",{className:"buttons"},s,l,u),p)}function pc(t){let{session:e}=t,[n,o]=Se.max_range,[s,r]=Se.fov_deg,i=t.numberInput("Longe\
 st range (m)",()=>e.document?.max_range??0,h=>t.set({max_range:h}),{min:n,max:o,step:"any"}),a=[t.slider("noise",()=>"Noise (m)",{low:Se.noise[0],high:Se.noise[1],
 step:.01,unit:" m"}),t.slider("angles",()=>"Angles",{low:Se.angles[0],high:Se.angles[1],step:1,log:!0}),i,t.numberInput("Field of view (°)",()=>jp(e.document?.
 fov??Ms),h=>t.set({fov:h>=r?Ms:h*Math.PI/180}),{min:s,max:r,step:5}),t.select("Readings",Hp,()=>e.document?.readings??"noisy",h=>t.set({readings:h}))];for(let h of a)
@@ -746,29 +746,29 @@ test(n()),[r,i]=Se.seed,a=[t.select("Method",Wp,n,l=>t.set({method:l})),t.select
 n()==="auto"),t.select("Start",Vp,()=>e.document?.start??"auto",l=>t.set({start:l}),s)];for(let l of a)t.visible(l,o);return t.section("Inference",...a,t.slider(
 "sweeps",()=>Kp[n()]??"Sweeps",{low:Se.sweeps[0],high:Se.sweeps[1],step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,l=>t.set({seed:Math.round(l)}),{
 min:r,max:i,step:1}))}function mc(t){let{session:e}=t,n=t.button(null,"Clear walls",()=>e.act({type:"clear",what:"walls"}),{text:"Clear walls",when:()=>e.editable}),
-o=t.button(null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.visible(n,()=>e.editable),t.section("Clear",x("d\
+o=t.button(null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.visible(n,()=>e.editable),t.section("Clear",v("d\
 iv",{className:"buttons"},n,o))}var qp=0,Ts=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${qp++}`;updates=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}refresh(){for(let e of this.updates)e()}set(e){this.session.act({type:"set",patch:e,drag:this.drag})}scrub(e,n){
 this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}visible(e,n){this.each(()=>A(e,"hidden",!n()))}button(e,n,o,{
-className:s="",text:r="",when:i,title:a}={}){let l=x("button",{type:"button",className:s,title:a??n,onclick:o},e&&tn(e));return r&&l.append(x("span",{textContent:r})),
-r!==n&&l.setAttribute("aria-label",n),i&&this.each(()=>A(l,"disabled",!i())),l}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=x("div",{className:"\
-segmented",role:"radiogroup","aria-label":e});for(let[l,u,p]of n){let h=x("input",{type:"radio",name:i,value:l,onchange:()=>s(l)});a.append(x("label",{title:u},
-h,p?tn(p):null,x("span",{textContent:u}))),this.each(()=>{A(h,"checked",o()===l),r&&A(h,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
-/\W/g,"")}`;return x("section",{"aria-labelledby":o},x("h2",{id:o,textContent:e}),...n)}row(e,n){return n.id=`${this.prefix}-${e.replace(/\W/g,"")}`,x("div",{className:"\
-row"},x("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:l=1}){let u=`${this.prefix}-${e}`,p=M=>i?1e3*Math.log(M/o)/
+className:s="",text:r="",when:i,title:a}={}){let l=v("button",{type:"button",className:s,title:a??n,onclick:o},e&&tn(e));return r&&l.append(v("span",{textContent:r})),
+r!==n&&l.setAttribute("aria-label",n),i&&this.each(()=>A(l,"disabled",!i())),l}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=v("div",{className:"\
+segmented",role:"radiogroup","aria-label":e});for(let[l,u,p]of n){let h=v("input",{type:"radio",name:i,value:l,onchange:()=>s(l)});a.append(v("label",{title:u},
+h,p?tn(p):null,v("span",{textContent:u}))),this.each(()=>{A(h,"checked",o()===l),r&&A(h,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
+/\W/g,"")}`;return v("section",{"aria-labelledby":o},v("h2",{id:o,textContent:e}),...n)}row(e,n){return n.id=`${this.prefix}-${e.replace(/\W/g,"")}`,v("div",{className:"\
+row"},v("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:l=1}){let u=`${this.prefix}-${e}`,p=M=>i?1e3*Math.log(M/o)/
 Math.log(s/o):M,h=M=>{if(!i)return M;let T=o*(s/o)**(M/1e3),S=T<100?1:10**(Math.floor(Math.log10(T))-1);return ne(Math.round(T/S)*S,o,s)},f=()=>l===1?this.session.
-document?.[e]??o:Number(((this.session.document?.[e]??o/l)*l).toFixed(3)),w=x("label",{for:u}),y=x("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,
-max:s,step:r}}),k=x("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:h(Number(y.value))/l})),
+document?.[e]??o:Number(((this.session.document?.[e]??o/l)*l).toFixed(3)),w=v("label",{for:u}),y=v("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,
+max:s,step:r}}),k=v("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:h(Number(y.value))/l})),
 y.addEventListener("change",()=>this.endDrag()),k.addEventListener("change",()=>{this.typed(k,n(),[o,s],f,M=>this.set({[e]:i?Math.round(M):M/l})),this.endDrag()}),
 this.each(()=>{let M=f();A(w,"textContent",n()),dt(k,"aria-label",`${n()}, number`),h(Number(y.value))!==M&&(y.value=String(p(M))),dt(y,"aria-valuetext",`${M}${a}`);
-let T=100*(p(M)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${ne(T,0,100)}%`),mn(k)||A(k,"value",String(M))}),x("div",{className:"\
-row slider"},w,y,k)}select(e,n,o,s,r){let i=x("select",{onchange:()=>s(i.value)});for(let[a,l]of Object.entries(n))i.append(x("option",{value:a,textContent:l}));
+let T=100*(p(M)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${ne(T,0,100)}%`),mn(k)||A(k,"value",String(M))}),v("div",{className:"\
+row slider"},w,y,k)}select(e,n,o,s,r){let i=v("select",{onchange:()=>s(i.value)});for(let[a,l]of Object.entries(n))i.append(v("option",{value:a,textContent:l}));
 return this.each(()=>{A(i,"value",o()),r&&A(i,"disabled",!r())}),this.row(e,i)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(
 ne(a,o,s)),e.value=String(r()),a<o?this.session.say(`${n} is at least ${o}`,"warning"):a>s&&this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,s={}){
-let r=x("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>this.typed(r,e,[i,a],n,o)),this.each(()=>{mn(r)||A(r,"valu\
-e",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=x("input",{type:"checkbox",onchange:()=>o(r.checked)});return this.each(()=>A(r,"checked",n())),x("la\
-bel",{className:"check",title:s},r,x("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,s=x("button",{type:"button",className:"\
-plain","aria-label":"Close",onclick:()=>i.close()},tn("close")),r=x("div",{className:"title"},x("h2",{id:o,textContent:e}),s),i=x("dialog",{"aria-labelledby":o},
+let r=v("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>this.typed(r,e,[i,a],n,o)),this.each(()=>{mn(r)||A(r,"valu\
+e",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=v("input",{type:"checkbox",onchange:()=>o(r.checked)});return this.each(()=>A(r,"checked",n())),v("la\
+bel",{className:"check",title:s},r,v("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,s=v("button",{type:"button",className:"\
+plain","aria-label":"Close",onclick:()=>i.close()},tn("close")),r=v("div",{className:"title"},v("h2",{id:o,textContent:e}),s),i=v("dialog",{"aria-labelledby":o},
 r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),i}};var Yp=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Jp={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},Ps=class{constructor(e){
 this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;before=null;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.session.hasDraws)return;this.before=
 null,this.session.act({type:"view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.act({type:"view",layer:"draw",chain:n,
@@ -782,23 +782,23 @@ this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPe
 layer,w=>e.showLayer(w),w=>w!=="draw"||s.hasDraws),[,,i,a]=Array.from(r.children);A(a,"title","Width of each cell's 90 % interval"),t.visible(i,()=>!s.quantity.
 interval),t.visible(a,()=>s.quantity.interval);let l=(w,y)=>t.checkbox(w,()=>n[y],k=>{n[y]=k,s.changed()}),u=l("True walls","truth");t.visible(u,()=>!s.document||
 s.document.source.kind==="simulation");let[p,h]=[l("Surfaces","strokes"),l("Trajectory","trajectory")];t.visible(p,()=>!!s.overlay?.strokes.length),t.each(()=>A(
-p.lastElementChild,"textContent",wo(o())?"Surfaces":"Surfaces (zoom in)")),t.visible(h,()=>!!s.overlay?.trajectory.length);let f=x("div",{className:"checks",role:"\
-group","aria-label":"Marks"},u,l("Rays","rays"),l("Readings","readings"),p,h);return t.section("View",r,Zp(t,e),f)}function Zp(t,e){let{session:n}=t,o=x("input",
+p.lastElementChild,"textContent",wo(o())?"Surfaces":"Surfaces (zoom in)")),t.visible(h,()=>!!s.overlay?.trajectory.length);let f=v("div",{className:"checks",role:"\
+group","aria-label":"Marks"},u,l("Rays","rays"),l("Readings","readings"),p,h);return t.section("View",r,Zp(t,e),f)}function Zp(t,e){let{session:n}=t,o=v("input",
 {type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener("input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the\
- draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=x("output"),i=x("select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,
+ draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=v("output"),i=v("select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,
 Number(i.value))),t.each(()=>{let{chains:h,count:f}=n.draws;A(o,"max",String(Math.max(0,f-1))),A(o,"disabled",f===0),A(o,"value",String(n.draw));let w=f?`${n.draw+
 1} of ${f}`:"none kept";dt(o,"aria-valuetext",w),o.style.setProperty("--fill",`${f>1?100*n.draw/(f-1):0}%`),A(r,"textContent",w),i.length!==Math.max(1,h)&&i.replaceChildren(
-...Array.from({length:Math.max(1,h)},(k,M)=>x("option",{value:String(M),textContent:`chain ${M+1}`}))),A(i,"value",String(n.view.chain)),A(i,"disabled",h<2),f<2&&
+...Array.from({length:Math.max(1,h)},(k,M)=>v("option",{value:String(M),textContent:`chain ${M+1}`}))),A(i,"value",String(n.view.chain)),A(i,"disabled",h<2),f<2&&
 e.playing&&e.play(!1);let y=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==y&&(s.setAttribute("aria-lab\
-el",y),s.replaceChildren(tn(e.playing?"pause":"play")))});let a=x("select",{"aria-label":"Speed"});for(let[h,f]of Object.entries(Jp))a.append(x("option",{value:h,
+el",y),s.replaceChildren(tn(e.playing?"pause":"play")))});let a=v("select",{"aria-label":"Speed"});for(let[h,f]of Object.entries(Jp))a.append(v("option",{value:h,
 textContent:f}));a.value=String(e.drawsPerSecond),a.addEventListener("change",()=>e.drawsPerSecond=Number(a.value));let l=t.button(null,"From the first sweep",()=>e.
 playFromStart(),{text:"From the first",when:()=>n.draws.count>1});t.each(()=>A(a,"disabled",n.draws.count<2||n.flicker.still));let u=t.checkbox("Draws over the \
 mean",()=>n.flicker.on,h=>e.over(h),"Each draw in its own colour over the mean, as one of the maps that the scans leave possible");t.visible(u,()=>n.draws.count>
-1);let p=x("div",{className:"wide"},u);return x("div",{className:"player"},s,o,r,x("div",{className:"buttons wide"},i,a,l),p)}function yc(t){let{session:e}=t,n=x(
-"input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=x("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.
-section("Scan",x("div",{className:"player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;A(s,"hidden",
+1);let p=v("div",{className:"wide"},u);return v("div",{className:"player"},s,o,r,v("div",{className:"buttons wide"},i,a,l),p)}function yc(t){let{session:e}=t,n=v(
+"input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=v("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.
+section("Scan",v("div",{className:"player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;A(s,"hidden",
 r<2),A(n,"max",String(Math.max(0,r-1))),mn(n)||A(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),A(o,
-"textContent",`${Number(n.value)+1} / ${r}`)}),s}var wc=2,bc=6,Qp=.5,Xp=.005;function vc(t){let{session:e,hand:n}=t,o=x("p",{className:"whereabouts",role:"status"}),s=x("p",{className:"caption"}),r=t.section("\
+"textContent",`${Number(n.value)+1} / ${r}`)}),s}var wc=2,bc=6,Qp=.5,Xp=.005;function xc(t){let{session:e,hand:n}=t,o=v("p",{className:"whereabouts",role:"status"}),s=v("p",{className:"caption"}),r=t.section("\
 Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),A(o,"textContent",ef(t)),A(s,"textCon\
 tent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.":"Choose a scan below: it is located\
  in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function ef({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
@@ -811,7 +811,7 @@ toFixed(2)} m, heading ${Jr(e.mean[2],0)}`,s=`known to ${Zr(e.sigma_m)} and ${Jr
 e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the l\
 ikeliest":`the ${of(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Zr(o[s])} and ${Jr(r,1)} from ${i}.`}var of=t=>`${t}${["th","st","nd","rd"][t%100>10&&
 t%100<14?0:t%10]??"th"}`,Jr=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}°`,Zr=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(
-0)} cm`:`${t.toFixed(1)} m`;function xc(t,e,n){let{shown:o,status:s}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:o&&{generation:o.generation,layer:t.layer,approximate:o.
+0)} cm`:`${t.toFixed(1)} m`;function vc(t,e,n){let{shown:o,status:s}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:o&&{generation:o.generation,layer:t.layer,approximate:o.
 approximate,sweeps:o.sweeps,method:o.method,quantity:t.quantity,rhat:o.rhat,verdict:o.verdict,trace:o.trace,traced:o.traced,weights:o.weights,ess:o.ess,chain:o.
 chain,draw:o.draw},probability:o?.p??new Uint8Array(0),observed:o?.observed??new Uint8Array(0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,status:{
 text:s.text,level:s.level},connected:t.connection.connected,decisions:{path:t.decisions.path,views:t.decisions.views,trouble:t.decisions.trouble||t.decisions.viewTrouble},
@@ -1097,6 +1097,12 @@ kbd { font: inherit; font-weight: 600; }
 @media (pointer: coarse) { button, select, input[type=number], input[type=text], .segmented label { min-height: 40px; } input[type=range] { height: 34px; } .che\
 ck { min-height: 40px; } }
 @container (max-width: 1000px) { header .what { display: none; } }
+@container (max-width: 1300px) { .bar .segmented label { padding: 0 8px; gap: 4px; } .bar .segmented svg { width: 16px; } }
+@container (max-width: 1200px) { .bar .segmented label:not(:has(:checked)) span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); } }
+@container (max-width: 900px) {
+  .bar .segmented label span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); }
+  .bar .segmented label { padding: 0 7px; }
+}
 @container (max-width: 760px) {
   .app { grid-template: "head" auto "stage" minmax(260px, 46%) "bar" auto "legend" auto "panel" minmax(0, 1fr) "foot" auto / minmax(0, 1fr); }
   header { padding: 5px 8px; gap: 0; }
@@ -1127,9 +1133,9 @@ ck { min-height: 40px; } }
   .bar .segmented label { padding: 0 12px; }
   .bar .segmented svg { width: 18px; }
 }
-@container (max-width: 420px) { .bar .segmented label { padding: 0 10px; } }
+@container (max-width: 420px) { .bar .segmented label { padding: 0 9px; } }
 @container (max-width: 380px) and (max-height: 700px) { .legend li:not(:first-child) { display: none; } }
-@container (max-width: 380px) { .bar .segmented label { padding: 0 7px; } .buttons { flex-wrap: wrap; } }
+@container (max-width: 380px) { .bar .segmented label { padding: 0 5px; } .buttons { flex-wrap: wrap; } }
 @container (max-height: 520px) and (min-width: 560px) {
   .app { grid-template: "bar stage head" auto "bar stage panel" minmax(0, 1fr) "bar stage legend" auto "bar stage foot" auto / auto minmax(0, 1fr) 292px; }
   header { padding: 2px 4px; gap: 0; justify-content: space-between; border-left: 1px solid var(--line); }
@@ -1164,13 +1170,13 @@ hatch:a,unobserved:l,draw:u,ghost:p,belief:h}=n;for(let[f,w]of Object.entries({t
 app.style.setProperty(`--${f}`,w);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Nc[this.choice];try{localStorage.setItem(Rc,this.
 choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function gf(){try{return localStorage.getItem(Rc)}catch{return null}}function Is(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(Lc+Dc),r.adoptedStyleSheets=
 [i],t.toggleAttribute("data-embedded",n);let a=0,l=()=>{a||=requestAnimationFrame(me)},u=new $s(e,l,o,s);e.open();let p=new Wn,h=new Ho(u),f=new zo(u,h),w=new Ps(
-u),y=new Ts(u,h,f,ot,q=>w.showLayer(q),n),k=[new Vn,new jn,new Yn,new qn,new ts,new Qo,new Kn,new Hn,new Jn,new Bn,new Yo],M=k.map(({name:q})=>x("canvas",{className:q})),
+u),y=new Ts(u,h,f,ot,q=>w.showLayer(q),n),k=[new Vn,new jn,new Yn,new qn,new ts,new Qo,new Kn,new Hn,new Jn,new Bn,new Yo],M=k.map(({name:q})=>v("canvas",{className:q})),
 T=M[M.length-1];Object.assign(T,{tabIndex:0,role:"application"});let S=new Ko(k,M);new qo(T,u,p,h,f,n);let E=new jo(T,u,p,h,f),_={truth:!0,rays:!0,readings:!0,strokes:!0,
-trajectory:!0},K=ql(y),N=ua(y),Y={chip:ac(y),banner:lc(y)},V=x("main",{className:"stage"},...M,Y.chip,Y.banner),R=()=>W.theme,G=()=>p.transform.scale,L=Ql(y,R,G),
-Z=cc(y);T.setAttribute("aria-describedby",Z.readout.id);let O=Vl(y),j={help:zl(y),new:Hl(y),share:O.dialog},[z,Q,H,je]=[hc(y),pc(y),fc(y),mc(y)],be=[Wl(y),vc(y),
-Kl(y),Bl(y),tc(y),nc(y,Ul(y,R),Gl(y,R)),yc(y),dc(y),gc(y,w,_,G),z,Q,uc(y),H,je],re=x("aside",{"aria-label":"Controls"},...be),le=()=>u.recorded||u.document?.source.
+trajectory:!0},K=ql(y),N=ua(y),Y={chip:ac(y),banner:lc(y)},V=v("main",{className:"stage"},...M,Y.chip,Y.banner),R=()=>W.theme,G=()=>p.transform.scale,L=Ql(y,R,G),
+Z=cc(y);T.setAttribute("aria-describedby",Z.readout.id);let O=Vl(y),j={help:zl(y),new:Hl(y),share:O.dialog},[z,Q,H,je]=[hc(y),pc(y),fc(y),mc(y)],be=[Wl(y),xc(y),
+Kl(y),Bl(y),tc(y),nc(y,Ul(y,R),Gl(y,R)),yc(y),dc(y),gc(y,w,_,G),z,Q,uc(y),H,je],re=v("aside",{"aria-label":"Controls"},...be),le=()=>u.recorded||u.document?.source.
 kind==="run";y.visible(z,()=>u.editable),y.visible(Q,()=>!le()),y.visible(H,()=>!le()),y.visible(je,()=>!le()),y.each(()=>{A(N,"inert",!u.document),A(re,"inert",
-!u.document)});let ee=x("div",{className:"app"},K.element,N,V,L,re,Z.element,...Object.values(j));r.replaceChildren(ee);let W=new Fs(ee,q=>{K.nameTheme(q),l()}),
+!u.document)});let ee=v("div",{className:"app"},K.element,N,V,L,re,Z.element,...Object.values(j));r.replaceChildren(ee);let W=new Fs(ee,q=>{K.nameTheme(q),l()}),
 Ce=()=>{let q=u.editable&&h.tool==="sensor"?h.sensor?.id??null:null;return{session:u,view:p,look:{theme:W.theme,..._,hover:h.hover,cursor:h.cursor,selected:q}}},
 Ue="";function me(){a=0;let q=u.take();u.document&&String(u.shape)!==Ue&&(Ue=String(u.shape),p.fit(u.shape),h.cursor=h.hover=null,u.decisions.forget(),u.evidence.
 forget(),u.ghost.refit(),T.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.shape[1]} cells`)),S.paint(Ce()),q&&(u.painted(),w.step());let{x:ie,y:Ke}=p.transform;
@@ -1182,7 +1188,7 @@ location.pathname+await Oi(ie))}else if(q==="export png"){let ie=await la(Ce());
 u.act({type:"export",what:q.slice(7)});l()}u.ondownload=(q,ie,Ke)=>yr(q,new Blob([Ke],{type:ie}));let mt=[[n?t:window,"keydown",q=>{q.defaultPrevented||!u.document||
 Object.values(j).some(ie=>ie.open)||Yi(q,u,{tool:ie=>{h.choose(ie),E.focus()},layer:ie=>w.showLayer(ie),command:ot})}],[window,"online",()=>e.retry?.()],[window,
 "hashchange",async()=>{if(n)return;let{document:q,damaged:ie}=await Wo();q?u.bring(q):ie&&u.say(Go,"error")}]];for(let[q,ie,Ke]of mt)q.addEventListener(ie,Ke);return W.
-dress(),{destroy(){ae.disconnect(),cancelAnimationFrame(a),W.destroy();for(let[q,ie,Ke]of mt)q.removeEventListener(ie,Ke);e.close(),r.replaceChildren()},snapshot:()=>xc(
+dress(),{destroy(){ae.disconnect(),cancelAnimationFrame(a),W.destroy();for(let[q,ie,Ke]of mt)q.removeEventListener(ie,Ke);e.close(),r.replaceChildren()},snapshot:()=>vc(
 u,p,S),cellToClient(q,ie){let Ke=T.getBoundingClientRect(),Wt=p.fromGrid({x:q+.5,y:ie+.5},u.shape[1]);return{x:Ke.left+Wt.x,y:Ke.top+Wt.y}}}}var ni={uint8:Uint8Array,float32:Float32Array,float64:Float64Array},$c=8,ao=()=>({onmessage:()=>{},onstatus:()=>{}});function Fc(t){let e=new DataView(t).getUint32(
 0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},s=4+e;for(let{name:r,dtype:i,shape:a}of n.buffers){let l=a.reduce((u,p)=>u*p,1)*ni[i].BYTES_PER_ELEMENT;
 o[r]=new ni[i](t.slice(s,s+l)),s+=Math.ceil(l/$c)*$c}return[n,o]}function Ic(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{let{buffer:i,byteOffset:a,
@@ -1203,12 +1209,12 @@ map(Number);e.forEach((k,M)=>{let[T,S]=[Math.cos(k+y),Math.sin(k+y)],E=[(l[0]-f)
 E[2],E[3])),K=Math.min(o[h][M]??1/0,Math.max(E[0],E[1]),Math.max(E[2],E[3]));_<K&&u++})}),u}var oi=250,wf=8e3;function Uc(t){let e=null,n=oi,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),u=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{u=!0,n=oi,i.onstatus({connected:!0})},l.onmessage=({data:p})=>{typeof p==
 "string"?i.onmessage(JSON.parse(p),{}):i.onmessage(...Fc(p))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let p={connected:!1,retryIn_ms:n};i.onstatus(
-p),u||vf(t()).then(h=>h&&e===l&&i.onstatus({...p,refused:h})),n=Math.min(wf,2*n)}}let i={...ao(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
-a))},retry:()=>{n=oi,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};return i}async function vf(t){try{return(await fetch(t.pathname+
+p),u||xf(t()).then(h=>h&&e===l&&i.onstatus({...p,refused:h})),n=Math.min(wf,2*n)}}let i={...ao(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
+a))},retry:()=>{n=oi,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};return i}async function xf(t){try{return(await fetch(t.pathname+
 t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Gc(t){let e=(o,s=[])=>n.onmessage(o,Ic(o,s)),n={...ao(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
-sg:custom",e)};return n}var xf="This is the map that was drawn here when the connection was lost; undo leads back",si=t=>Object.assign(window,{bayesmap:t}),j0={render({model:t,el:e}){let n=document.
+sg:custom",e)};return n}var vf="This is the map that was drawn here when the connection was lost; undo leads back",si=t=>Object.assign(window,{bayesmap:t}),j0={render({model:t,el:e}){let n=document.
 createElement("div");e.append(n);let o=Is(n,Gc(t),{embedded:!0});return si(o),()=>o.destroy()}};async function kf(){let t=document.querySelector("[data-bayesmap\
 ]");if(!t||t.shadowRoot)return;let e=new CSSStyleSheet;e.replaceSync("body { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector("sc\
 ript[data-recording]");if(n){si(Is(t,Oc(JSON.parse(n.textContent??""))));return}Tc(new URLSearchParams(location.search).get("token"));let{document:o,damaged:s}=await Wo(),
 r=o?null:Mc(),i=Uc(()=>new URL(location.href));Pc(l=>{history.replaceState(null,"",`${location.pathname}?token=${encodeURIComponent(l)}${location.hash}`),i.retry?.()}),
-si(Is(t,i,{adopt:o??r,notice:s?{text:Go,level:"error"}:r?{text:xf,level:"info"}:null}))}kf();export{j0 as default,Is as mount,Oc as recordedTransport,Uc as webSocketTransport,Gc as widgetTransport};
+si(Is(t,i,{adopt:o??r,notice:s?{text:Go,level:"error"}:r?{text:vf,level:"info"}:null}))}kf();export{j0 as default,Is as mount,Oc as recordedTransport,Uc as webSocketTransport,Gc as widgetTransport};
