@@ -153,7 +153,13 @@ def test_the_legend_names_what_each_tool_paints(open_page, server):
         page.keyboard.press(key)
         until(page, known)
         playwright.expect(legend.get_by_text(words)).to_be_visible()
+    page.keyboard.press("v")
+    playwright.expect(legend.get_by_text("speaks against it")).not_to_be_visible()
+    page.mouse.click(*centre(page, 10, 12))
+    playwright.expect(legend.get_by_text("speaks for it")).to_be_visible()
+    playwright.expect(legend.get_by_text("speaks against it")).to_be_visible()
     page.keyboard.press("g")
+    playwright.expect(legend.get_by_text("speaks against it")).not_to_be_visible()
     playwright.expect(legend.get_by_text("one more scan tells")).not_to_be_visible()
     for cell in ((6, 15), (10, 14)):
         page.mouse.click(*centre(page, *cell))

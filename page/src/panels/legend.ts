@@ -36,10 +36,14 @@ const ENTRIES: Entry[] = [
   { mark: "ghost", text: "predicted reading", when: ({ ghost, reading }) => ghost.held || reading.picked !== null, may: asked },
   { mark: "path", text: "path, as wide as the robot", when: ({ decisions }) => Boolean(decisions.path), may: asked },
 ];
-/** Of the tool Where am I? alone: the dots of Look next are never seen beside them. */
+/** Of the tools Where am I? and Evidence alone: what one tool paints is never seen beside what another does. */
 const PLACES: Entry[] = [
   { mark: "belief", text: "possible pose" },
   { mark: "place", text: "95 % of a place" },
+];
+const BEAMS: Entry[] = [
+  { mark: "for", text: "speaks for it" },
+  { mark: "against", text: "speaks against it" },
 ];
 
 export function legend(ui: Ui, theme: () => Theme, scale: Scale) {
@@ -59,8 +63,9 @@ function list(ui: Ui, theme: () => Theme, scale: Scale) {
     if (mark === "path") ui.each(() => element.firstElementChild?.classList.toggle("risky", session.decisions.path?.within_risk === false));
     return element;
   });
-  const places = PLACES.map((entry) => item(entry)[0]);
+  const [places, beams] = [PLACES, BEAMS].map((entries) => entries.map((entry) => item(entry)[0]));
   for (const place of places) ui.visible(place, () => Boolean(session.where.found));
+  for (const beam of beams) ui.visible(beam, () => Boolean(session.evidence.cellShown));
   let painted = "";
   ui.each(() => {
     const { layer } = session;
@@ -71,7 +76,7 @@ function list(ui: Ui, theme: () => Theme, scale: Scale) {
     painted = key;
     ramp.style.background = gradient(doubt ? entropyRgb : (t) => probabilityRgb(theme(), t));
   });
-  return h("ul", { "aria-label": "Legend" }, h("li", {}, name, h("span", { className: "scale" }, "0", ramp, "1")), ...entries, views(ui), ...places);
+  return h("ul", { "aria-label": "Legend" }, h("li", {}, name, h("span", { className: "scale" }, "0", ramp, "1")), ...entries, views(ui), ...places, ...beams);
 }
 
 /** As much as may ever be seen with what is open, without being seen: it keeps the height. */
@@ -91,7 +96,8 @@ function room(ui: Ui) {
     return element;
   });
   const numbers = h("span", { className: "scale" }, "00.0", h("span", { className: "ramp" }), "000.0 nats");
-  const either = [h("ul", {}, h("li", {}, "one more scan tells", numbers)), h("ul", {}, ...PLACES.map((entry) => item(entry)[0]))];
+  const lists = [PLACES, BEAMS].map((list) => h("ul", {}, ...list.map((entry) => item(entry)[0])));
+  const either = [h("ul", {}, h("li", {}, "one more scan tells", numbers)), ...lists];
   const tool = h("li", { className: "either" }, ...either);
   ui.visible(tool, () => asked(session));
   const scale = h("span", { className: "scale" }, "0", h("span", { className: "ramp" }), "1");
