@@ -124,7 +124,7 @@ class WallProblem:
         if np.shape(walls)[-2:] != shape:
             self.table.check_walls(walls)
         p = self.p_wall.reshape(shape)
-        return ((np.asarray(walls) != 0) | (p == 1)) & (p != 0)
+        return np.asarray(((np.asarray(walls) != 0) | (p == 1)) & (p != 0))
 
 
 def log_odds(p_wall: NDArray[np.float64]) -> NDArray[np.float64]:
