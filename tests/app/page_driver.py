@@ -16,6 +16,9 @@ import numpy as np
 from PIL import Image
 
 from bayesmap.app.messages import unframe
+from bayesmap.app.parsing import parse_document
+from bayesmap.app.preview import Preview
+from bayesmap.app.scanning import simulated_scene
 from bayesmap.app.worlds import tutorial_document
 
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
@@ -111,6 +114,15 @@ DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/auto
 def document(**changes):
     """The tutorial's document as JSON, with changes."""
     return {**tutorial_document().to_json(), **changes}
+
+
+def propagated(json_document):
+    """The readings of a document, and what belief propagation says of them."""
+    scene = simulated_scene(parse_document(json_document))
+    preview = Preview(scene.near)
+    while not preview.converged:
+        preview.round()
+    return scene, preview
 
 
 def fragment(json_document):

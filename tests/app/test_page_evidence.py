@@ -5,12 +5,9 @@ import re
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, centre, colour_at, document, press_and_drag, settled, snapshot, until
+from page_driver import act, centre, colour_at, document, press_and_drag, propagated, settled, snapshot, until
 
 from bayesmap.app.evidence import strongest, summed, wall_ratios
-from bayesmap.app.parsing import parse_document
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulated_scene
 
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 TOLD = "s.evidence.each && s.evidence.together.x === argument[0] && s.evidence.together.y === argument[1]"
@@ -32,10 +29,7 @@ def is_nearer(colour, one, other):
 
 def test_a_click_shows_each_beam_and_its_nats(open_page, server):
     asked = document(method="propagate")
-    scene = simulated_scene(parse_document(asked))
-    preview = Preview(scene.near)
-    while not preview.converged:
-        preview.round()
+    scene, preview = propagated(asked)
     p_wall = preview.p_wall()
     x, y = map(int, np.argwhere(preview.observed() & (p_wall < 0.1))[10])
     known = wall_ratios(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y)

@@ -4,12 +4,9 @@ import re
 
 import numpy as np
 import pytest
-from page_driver import NEXT_FRAME, act, centre, document, settled, until
+from page_driver import NEXT_FRAME, act, centre, document, propagated, settled, until
 
 from bayesmap.app.evidence import summed, wall_ratios
-from bayesmap.app.parsing import parse_document
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulated_scene
 
 LABELS = """
 () => {
@@ -37,10 +34,7 @@ def number(text):
 @pytest.mark.parametrize("cell", ["wall", "free"])
 def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, server, cell):
     asked = document(method="propagate")
-    scene = simulated_scene(parse_document(asked))
-    preview = Preview(scene.near)
-    while not preview.converged:
-        preview.round()
+    scene, preview = propagated(asked)
     p_wall = preview.p_wall()
     sure = np.argwhere(preview.observed() & ((p_wall > 0.9) if cell == "wall" else (p_wall < 0.1)))
     x, y = map(int, sure[len(sure) // 2])

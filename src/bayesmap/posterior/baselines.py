@@ -165,14 +165,15 @@ def fit_baseline(
     wary = sensible | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
     starts = [sensor | dict(own) for own in baseline.starts for sensor in (sensible, wary)]
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: -(-len(folds) // THIN)]
+    whole, part = together(folds), together(rough)
     best: tuple[float, Values, float | None] | None = None
     climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISES) - 1)
     for dof, on_share in zip(NOISES, parts(on_progress, *climbs), strict=True):
         # Heavy tails start where normal noise ended: the rest is nearly the same.
         begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
         values, score = maximise(
-            partial(inner_score, together(folds), baseline, dof),
-            partial(inner_score, together(rough), baseline, dof),
+            partial(inner_score, whole, baseline, dof),
+            partial(inner_score, part, baseline, dof),
             (*SENSOR, *baseline.own),
             begin,
             on_share,
