@@ -7,11 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.kernels.line_pairs import pair_sums
+from bayesmap.kernels.match_counts import match_counts
 from bayesmap.kernels.scan_refinement import refine_scans
-from bayesmap.poses.alignment import ALIKE, Pairs
+from bayesmap.poses.alignment import ALIKE, Pairs, without_slack
+from bayesmap.poses.point_errors import PointError
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.se2 import rotation
-from bayesmap.space.planar import around, nearest
+from bayesmap.space.planar import around, between, nearest
 
 Floats = NDArray[np.float64]
 
@@ -21,10 +24,12 @@ COMPARED = 10
 PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])
 """Standard deviations of where a scan lies between the key scans around it, before its own beams are looked at."""
 
-
 CAUTION, LEAST_SIGMA_M = 2.0, 0.005
-"""Points count as if they scattered so many times as widely beside what lies between the key scans: the rough first
-steps then stay near it. What the beams tell in the end is counted with their own scatter, of at least so much."""
+"""Points count as if they scattered so many times as widely, and by at least so much, beside what lies between the key
+scans: the rough first steps then stay near it. What the beams tell in the end is counted with their own scatter."""
+
+REACH_M, SCALE_M = (0.2, 0.08), (0.1, 0.03)
+"""How far paired points may lie apart and the scale of outliers, in the first step and the last."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +47,7 @@ class Placement:
     matched: Floats
 
     def own_covariance(self, keys: NDArray[np.intp]) -> Floats:
-        """Covariance of each scan's pose given the key scans, (S, 3, 3); zero for those."""
+        """Scale matrix of a Student's t of each scan's pose given the key scans, (S, 3, 3); zero for those."""
         covariance = np.linalg.inv(self.information + np.diag(1.0 / PRIOR_SIGMA**2))
         covariance[keys] = 0.0
         return np.asarray(covariance)
@@ -55,6 +60,7 @@ def place_scans(
     key_poses: Floats,
     pairs: Pairs,
     sigma_m: float,
+    error: PointError,
     *,
     threads: int | None = None,
 ) -> Placement:
@@ -67,6 +73,7 @@ def place_scans(
         key_poses: (K, 3); the poses of key scans are kept.
         pairs: the partners of each key scan, as positions among the keys.
         sigma_m: standard deviation of a point.
+        error: how far points move scans.
         threads: to compute with; by default all cores.
     """
     count = len(poses)
@@ -87,16 +94,49 @@ def place_scans(
     flat = np.concatenate(lists).astype(np.intp)
     prior = np.diag(1.0 / PRIOR_SIGMA**2)
     turn = rotation(poses[scans, 2])
-    found, laser_information, totals = refine_scans(
+    reach, scale = geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M)
+    found, _, totals = refine_scans(
         geometry, None, scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans],
         poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), CAUTION * max(sigma_m, LEAST_SIGMA_M), 10,
-        geometry.reach_m(0.2, 0.08), geometry.scale_m(0.1, 0.03), ALIKE, threads=threads,
+        reach, scale, ALIKE, threads=threads,
     )  # fmt: skip
-    back = rotation(found[:, 2])
     result[scans] = found
-    information[scans] = CAUTION**2 * np.swapaxes(back, 1, 2) @ laser_information @ back
+    source = np.repeat(scans, np.diff(offsets)).astype(np.int32)
+    per_pair = _information(
+        geometry, source, keys[flat].astype(np.int32), between(key_poses[flat], result[source]), reach[1], scale[1],
+        error, threads,
+    )  # fmt: skip
+    information[scans] = np.add.reduceat(per_pair, offsets[:-1], axis=0)
     matched[scans] = totals[:, 2] / np.maximum(totals[:, 3], 1.0)
     return Placement(result, information, matched)
+
+
+def _information(
+    geometry: ScanGeometry,
+    source: NDArray[np.int32],
+    target: NDArray[np.int32],
+    relative: Floats,
+    reach_m: float,
+    scale_m: float,
+    error: PointError,
+    threads: int | None,
+) -> Floats:
+    """What the points of each pair of scans tell of the first's pose, in its own frame, the other's known, (M, 3, 3).
+
+    A beam that is matched with c scans has its own error once and the mean of c others': sigma^2 (1 + 1 / c), so that
+    it counts 1 / (c + 1) in each pair. Poses of pairs are
+    relative: the first's in the frame of the second, (M, 3); pairs are sorted by the first.
+    """
+    offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
+    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, ALIKE, threads)
+    weights = (1.0 / (1.0 + counts)).astype(np.float32)
+    second, slack, first, _ = pair_sums(
+        geometry, weights, source, target, relative, reach_m, scale_m, ALIKE, threads=threads
+    )
+    told = without_slack(second, slack, first, error.scatter_m)[0] / error.scatter_m**2
+    turn = rotation(relative[:, 2])
+    own = np.swapaxes(turn, 1, 2) @ told @ turn
+    return np.asarray(error.response[:, None] * own * error.response)
 
 
 def _spread(partners: NDArray[np.int32], most: int) -> NDArray[np.int32]:

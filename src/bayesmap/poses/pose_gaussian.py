@@ -30,8 +30,8 @@ class PoseGaussian:
         relative: the second's pose in the frame of the first, (M, 3).
         curvature: second derivatives of the cost by it, (M, 3, 3).
         force: first derivatives of the cost by it, (M, 3); all together they cancel. Zero where parts err one by one.
-        dof: degrees of freedom of Student's t, of which the inverse of the curvature, and what parts have wrong in
-            common (`shared_errors`), are the scale matrix.
+        dof: degrees of freedom of Student's t. Its scale matrix is the inverse of the curvature, and (dof - 2) / dof of
+            the covariance of what parts have wrong in common (`shared_errors`).
     """
 
     poses: Floats
@@ -53,20 +53,26 @@ class PoseGaussian:
         return bends(self.poses, self._part, self.precision)
 
     @property
+    def scale_of_covariance(self) -> float:
+        """Student's scale matrix over its covariance."""
+        return (self.dof - 2.0) / self.dof
+
+    @property
     def _part(self) -> Quadratic:
         return Quadratic(self.first, self.second, self.relative, self.curvature, self.force)
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
         """Covariance (scale matrix of Student's t) of between(first, second), in the first's frame, (N, 3, 3)."""
         first, second = np.asarray(first), np.asarray(second)
-        shared = bend_covariances(self.bends, self.poses, first, second)
+        shared = self.scale_of_covariance * bend_covariances(self.bends, self.poses, first, second)
         return relative_covariances(self.precision, self.poses, first, second) + shared
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t.
 
         Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, C_k C_k^T the curvature of
-        part k and e_k standard normal: then x has covariance H^-1. A normal sum of the bends is added.
+        part k and e_k standard normal: then x has covariance H^-1. A normal sum of the bends is added, with (dof - 2) /
+        dof of their covariance, and the whole is stretched.
         """
         values, vectors = np.linalg.eigh(self.curvature)
         root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
@@ -74,6 +80,7 @@ class PoseGaussian:
         to_first, to_second = np.swapaxes(by_first, 1, 2) @ root, np.swapaxes(by_second, 1, 2) @ root
         poses = len(self.poses)
         draws = np.empty((count, poses, 3))
+        bend_scale = np.sqrt(self.scale_of_covariance / len(self.bends))
         for n in range(count):
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n]))
             noise = rng.standard_normal((len(self.first), 3))
@@ -84,6 +91,6 @@ class PoseGaussian:
                 for axis in range(3):
                     own[:, axis] += np.bincount(ends, force[:, axis], poses)
             stretch = np.sqrt(self.dof / rng.chisquare(self.dof))
-            bend = np.tensordot(rng.standard_normal(len(self.bends)), self.bends, 1) / np.sqrt(len(self.bends))
+            bend = np.tensordot(rng.standard_normal(len(self.bends)), self.bends, 1) * bend_scale
             draws[n] = retract(self.poses, stretch * (self.precision.solve(own.ravel()).reshape(poses, 3) + bend))
         return draws

@@ -161,7 +161,8 @@ class _Run:
         if not self.no_odometry:
             final, scores = self.without_leaps(key_geometry, final, scores, factors, reach_m, rematch_m)
         start = poses_between_keys(track.poses, keys, final.poses, track.broken)
-        placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, threads=threads)
+        error = point_error(key_geometry, final, threads)
+        placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, error, threads=threads)
         self.progress("placing", len(scans), len(scans))
         if self.on_poses is not None:
             self.on_poses("placing", compose(self.origin, placed.poses))
@@ -177,7 +178,6 @@ class _Run:
         nearest_key = nearest(keys, np.arange(len(scans)))
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
         leaps = keys[1:][contradicted_links(track, final.poses)]
-        error = point_error(key_geometry, final, threads)
         gaussian = replace(with_point_error(final, error), poses=compose(self.origin, final.poses))
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(

@@ -70,7 +70,8 @@ class Trajectory:
         keys: indices of the key scans, (K,).
         gaussian: over the poses of the key scans.
         nearest_key: position among the keys of each scan's, (S,).
-        own_covariance: of each scan about that, in its own frame, (S, 3, 3); zero for key scans.
+        own_covariance: of each scan about that, in its own frame, (S, 3, 3), again the scale matrix of a Student's t;
+            zero for key scans.
         explained: share of each scan's points that other scans explain, from 0 to 1, (S,).
         flagged: scans that stay badly explained: their poses are not to be trusted, (S,).
         breaks: scans before which the motion is unlike any that odometry or the laser can confirm: the robot was
@@ -145,6 +146,7 @@ class Trajectory:
         draws = np.empty((count, len(self), 3))
         for n in range(count):
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n + (1 << 32)]))
-            own = np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
+            stretch = np.sqrt(self.gaussian.dof / rng.chisquare(self.gaussian.dof, (len(self), 1)))
+            own = stretch * np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
             draws[n] = retract(compose(keys[n][self.nearest_key], relative), own)
         return draws
