@@ -1,5 +1,6 @@
 """Settings for all tests; its presence also puts tests/ on the import path (`from data import intel_log`)."""
 
+import os
 import signal
 
 from hypothesis import settings
@@ -8,6 +9,10 @@ from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for t
 # A slow machine is no failure; and the examples are the same each time, so that a change fails for its own sake.
 settings.register_profile("bayesmap", deadline=None, derandomize=True)
 settings.load_profile("bayesmap")
+
+# Tests compile hundreds of small JAX programs and run each once or twice; with less optimisation that takes four fifths
+# of the time. Notebooks and GenJAX's own tests, in processes of their own, inherit it.
+os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=1")
 
 # Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to
 # ignore it, as a script's shell starts jobs in the background, it is put in force again.
