@@ -320,7 +320,7 @@ def sweeps_to_clear(keys, order):
 
         return 1 + jax.lax.scan(step, fast_start, jrand.split(key, MOST_SWEEPS))[1].argmin()
 
-    return jax.lax.map(one_chain, keys)
+    return jax.lax.map(one_chain, keys, batch_size=25)
 
 
 keys = jrand.split(jrand.key(7), N_CHAINS)
