@@ -1,4 +1,4 @@
-"""Draws survive eight cells to a byte."""
+"""Draws survive eight cells to a byte, and numbers are rounded to halves as NumPy rounds them."""
 
 import numpy as np
 from hypothesis import given
@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from bayesmap.cells import packing
-from bayesmap.cells.packing import count_walls, pack, unpack
+from bayesmap.cells.packing import as_halves, count_walls, pack, unpack
 
 maps = st.tuples(st.integers(0, 3), st.integers(0, 5), st.integers(1, 9), st.integers(1, 9)).flatmap(
     lambda shape: arrays(np.bool_, shape)
@@ -40,3 +40,18 @@ def test_counting_in_batches_gives_the_same(monkeypatch):
     walls = np.random.default_rng(1).random((100, 5, 7)) < 0.3
     monkeypatch.setattr(packing, "BATCH_BITS", 100)
     np.testing.assert_array_equal(count_walls(pack(walls), 35), walls.reshape(100, -1).sum(axis=0))
+
+
+@given(arrays(np.uint32, st.integers(0, 50)), st.sampled_from([np.float32, np.float64]))
+def test_halves_are_those_of_numpy(bits, dtype):
+    values = bits.view(np.float32).astype(dtype)
+    with np.errstate(all="ignore"):
+        np.testing.assert_array_equal(as_halves(values).view(np.uint16), values.astype(np.float16).view(np.uint16))
+
+
+def test_numbers_of_which_halves_hold_only_some_bits_are_those_of_numpy():
+    """All halves under 2^-13, what lies between two of them, and a little beside it, of both signs."""
+    steps = np.arange(2**12) / 2.0**26
+    values = np.concatenate([sign * steps * (1 + e) for sign in (-1, 1) for e in (-1e-9, 0, 1e-9)])
+    np.testing.assert_array_equal(as_halves(values).view(np.uint16), values.astype(np.float16).view(np.uint16))
+    assert len(np.unique(as_halves(values))) > 2000

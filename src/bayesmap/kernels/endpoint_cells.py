@@ -52,6 +52,7 @@ wp.set_module_options({"enable_backward": False})
 STEPS = wp.constant(6)
 """Metropolis steps of a surface in each sweep."""
 FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
+NO_LEAST = wp.constant(wp.float64(-1.0e300))
 STREAM_MET = wp.constant(wp.uint64(4 << 32))
 
 
@@ -112,21 +113,18 @@ def log_stops(
     span: wp.vec4i,
     centre: wp.vec2,
     cell: Cell,
+    least: wp.float64,
 ) -> wp.float64:
     """The formula at the top, for one surface: passing beams' incidences are listed[span[0]:span[1]], those of stopped
     beams listed[span[2]:span[3]].
+
+    A sum that comes out under ``least`` need not be finished: what is returned then is under ``least``, too. Stopped
+    beams come first, for after them every further beam makes the sum smaller.
     """
     one = wp.float32(1.0)
     total = wp.float64(0.0)
     product = one
-    dx = cell[MEAN_X] - centre[0]
-    dy = cell[MEAN_Y] - centre[1]
     m = cell[REFLECTIVITY]
-    for i in range(span[0], span[1]):
-        product = product * wp.max(one - m * crossing_probability_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
-        if product < FEWEST:
-            total += wp.log(wp.float64(product))
-            product = one
     for i in range(span[2], span[3]):
         e = listed[i]
         b = endpoints.beam[e]
@@ -136,6 +134,22 @@ def log_stops(
         if product < FEWEST or product > one / FEWEST:
             total += wp.log(wp.float64(product))
             product = one
+    total += wp.log(wp.float64(product))
+    if total < least:
+        return total
+
+    product = one
+    floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
+    for i in range(span[0], span[1]):
+        product = product * wp.max(one - m * crossing_probability_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
+        if product < floor:
+            total += wp.log(wp.float64(product))
+            if total < least:
+                return total
+            product = one
+            floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
     return total + wp.log(wp.float64(product))
 
 
@@ -241,16 +255,17 @@ def update_endpoint_cells(
 
     step = endpoints.step[u]
     framed = into_frame(cell, step, centre)
-    present = log_stops(law, state.beta, rays, endpoints, listed, span, centre, cell)
+    present = log_stops(law, state.beta, rays, endpoints, listed, span, centre, cell, NO_LEAST)
     present += log_cell_prior(prior, solid, framed)
     for i in range(STEPS):
         here_at = at + wp.uint64(256 + 32 * i)
         candidate = stepped(framed, step, key, here_at + wp.uint64(1), i)
         moved = out_of_frame(candidate, step, centre)
         if is_own(prior, centre, moved):
-            value = log_stops(law, state.beta, rays, endpoints, listed, span, centre, moved)
-            value += log_cell_prior(prior, solid, candidate)
-            if wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT))) < value - present:
+            least = present + wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT)))
+            value = log_cell_prior(prior, solid, candidate)
+            value += log_stops(law, state.beta, rays, endpoints, listed, span, centre, moved, least - value)
+            if value > least:
                 framed = candidate
                 present = value
     state.cells[here] = out_of_frame(framed, step, centre)

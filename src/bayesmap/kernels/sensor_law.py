@@ -136,6 +136,15 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
 
 
 @wp.func
+def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returned: Any):
+    """Density at a finite reading in the mixture: what comes back, as given, with random readings and objects."""
+    density = law.uniform + returned
+    if reading_m < wp.min(distance_m, law.max_m):
+        density += law.passing * decay
+    return density
+
+
+@wp.func
 def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
     """p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
 
@@ -146,23 +155,21 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
     one = type(variance)(1.0)
     wall = wp.min(distance_m, law.max_m)
     if wp.isfinite(reading_m):
-        p = law.uniform + returned_density(law, reading_m, decay, distance_m, variance)
-        if reading_m < wall:
-            p += law.passing * decay
-        return p
+        returned = returned_density(law, reading_m, decay, distance_m, variance)
+        return mixed_density(law, reading_m, decay, distance_m, returned)
     free = unblocked(law, wall)
     if distance_m > law.max_m:
         if reading_m > type(reading_m)(0.0):
             return wp.max(law.p_known * free, type(one)(LEAST))
         return wp.max(law.p_known * blocked(law, wp.min(wall, law.min_m)), type(one)(LEAST))
-    returned = free * law.p_return
+    hit = free * law.p_return
     scale = wp.sqrt(variance_at(law, wall, variance))
     if reading_m > type(reading_m)(0.0):  # no return
         above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
-        p_none = law.p_known * (free * law.p_no_return + returned * above)
+        p_none = law.p_known * (free * law.p_no_return + hit * above)
         return wp.max(p_none, type(one)(LEAST))
     below = noise_below(law, (law.min_m - wall) / scale)
-    return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + returned * below), type(one)(LEAST))
+    return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(LEAST))
 
 
 @wp.func

@@ -27,7 +27,7 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import PER_CELL, CellPrior, pseudo_counts
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
-from bayesmap.kernels.sensor_law import SensorLaw32, returned_density, stop_density, variance_at
+from bayesmap.kernels.sensor_law import SensorLaw32, mixed_density, returned_density, variance_at
 from bayesmap.kernels.stops import StopState, TracedRays
 from bayesmap.kernels.variates import beta_variate, normal
 
@@ -53,7 +53,7 @@ def stop_point_m(
     if wp.isfinite(reading):
         from_there = returned_density(law, reading, decay, distance, variance)
         u = wp.float32(to_uniform(random_bits(key, counter)))
-        if u * stop_density(law, reading, decay, distance, variance) < from_there:
+        if u * mixed_density(law, reading, decay, distance, from_there) < from_there:
             total = wp.float64(variance_at(law, distance, variance))
             mean += spread / total * (wp.float64(reading) - mean)
             spread = spread * (total - spread) / total

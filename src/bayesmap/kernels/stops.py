@@ -214,6 +214,8 @@ def draw_stops(
             if u * total < weight:
                 choice = k
             free = free * (one - a)
+            if free == wp.float32(0.0):
+                break  # the others have no weight, and behind a wall they are many
     weight = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
     total += weight
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.labels import SOLID
+from bayesmap.cells.packing import as_halves
 from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
@@ -231,6 +232,7 @@ class _Draws:
             if keep.wants(spec.name)
         }
         self._cells = problem.coordinates
+        self._among_touched = places_among(problem.rays.touched, self._cells["cell"])
         surfaces = self._cells.get("surface_cell")
         self._centres = None if surfaces is None else problem.grid.cell_centres_m(surfaces)
         self._solid: dict[int, NDArray[np.bool_]] = {}
@@ -269,7 +271,7 @@ class _Draws:
     def _put_chances(self, chain: int, number: int, found: InSquares) -> None:
         """Take the chances that squares stop beams; that of a square to which no beam can come is the prior's."""
         prior, kept = self._problem.prior, self._cells["cell"]
-        place, known = places_among(self._problem.rays.touched, kept)
+        place, known = self._among_touched
         for name, values in (("stop_chance", found.drawn), ("expected_stop_chance", found.expected)):
             chances = np.full(len(kept), prior.mean, dtype=np.float32)
             if prior.has_labels:
@@ -279,7 +281,8 @@ class _Draws:
 
     def _put(self, name: str, chain: int, number: int, values: NDArray[Any]) -> None:
         if name in self.arrays:
-            self.arrays[name][chain, number] = values
+            halves = self.arrays[name].dtype == np.float16
+            self.arrays[name][chain, number] = as_halves(values) if halves else values
 
 
 def expected_reflectivity(
