@@ -9,6 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.packing import as_halves
+
 OF_CELLS = ("cell", "surface_cell")
 """Dimensions that count some of the grid's cells."""
 
@@ -38,7 +40,9 @@ class ArraySpec:
             leading, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
             flat = np.asarray(values, dtype=np.bool_).reshape(*leading, math.prod(rest))
             return np.packbits(flat, axis=-1)
-        return np.asarray(values, dtype=np.float16 if self.storage == "half" else self.dtype)
+        if self.storage == "half":
+            return as_halves(np.asarray(values))
+        return np.asarray(values, dtype=self.dtype)
 
     def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
         """What was stored, with the sizes of its dimensions."""

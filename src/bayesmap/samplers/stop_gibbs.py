@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.labels import SOLID
-from bayesmap.cells.packing import as_halves
 from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
@@ -226,16 +226,20 @@ class _Draws:
         self._number = {sweep - 1: number for number, sweep in enumerate(kept)}
         shape = dict(zip(("x", "y"), problem.grid.shape, strict=True))
         sizes = shape | {name: len(cells) for name, cells in problem.coordinates.items()}
+        self._specs = {spec.name: spec for spec in problem.prior.arrays if keep.wants(spec.name)}
         self.arrays = {
-            spec.name: spec.empty(chains.n_chains, len(kept), tuple(sizes[dim] for dim in spec.dims))
-            for spec in problem.prior.arrays
-            if keep.wants(spec.name)
+            name: spec.empty(chains.n_chains, len(kept), tuple(sizes[dim] for dim in spec.dims))
+            for name, spec in self._specs.items()
         }
         self._cells = problem.coordinates
-        self._among_touched = places_among(problem.rays.touched, self._cells["cell"])
         surfaces = self._cells.get("surface_cell")
         self._centres = None if surfaces is None else problem.grid.cell_centres_m(surfaces)
         self._solid: dict[int, NDArray[np.bool_]] = {}
+
+    @cached_property
+    def _among_touched(self) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        """Where each kept cell stands among those that beams touch, and whether it does."""
+        return places_among(self._problem.rays.touched, self._cells["cell"])
 
     def begin(self, chain: int, sweep: int) -> None:
         """Take the cells as they stand before a sweep."""
@@ -246,7 +250,7 @@ class _Draws:
         self._put("reflectivity", chain, number, cells[self._cells["cell"], 0])
         if self._problem.prior.has_labels:
             self._solid[chain] = self._chains.solid(chain).copy()
-            self._put(SOLID.name, chain, number, np.packbits(self._solid[chain]))
+            self._put(SOLID.name, chain, number, self._solid[chain].reshape(self._problem.grid.shape))
         if self._centres is not None:
             surfaces = cells[self._cells["surface_cell"], 1:].astype(np.float64)
             surfaces[:, :2] -= self._centres
@@ -281,8 +285,7 @@ class _Draws:
 
     def _put(self, name: str, chain: int, number: int, values: NDArray[Any]) -> None:
         if name in self.arrays:
-            halves = self.arrays[name].dtype == np.float16
-            self.arrays[name][chain, number] = as_halves(values) if halves else values
+            self.arrays[name][chain, number] = self._specs[name].stored(values)
 
 
 def expected_reflectivity(
