@@ -126,6 +126,19 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
     assert shown[-1][1] > 0
 
 
+def test_ctrl_c_reaches_workers_though_another_node_has_died(cluster):
+    """What they listen to is on this process's own node, not on whichever has room."""
+    import ray
+
+    cluster.complete()
+    here = ray.get_runtime_context().get_node_id()
+    fleets = [ray_fleet.RayFleet(None, None, None) for _ in range(8)]
+    where = [fleet.flag.__ray_call__.remote(lambda flag: ray.get_runtime_context().get_node_id()) for fleet in fleets]
+    assert set(ray.get(where)) == {here}
+    for fleet in fleets:
+        ray.kill(fleet.flag)
+
+
 @pytest.mark.parametrize("several", [True, False])
 def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, short, cluster, monkeypatch, several):
     """A node that died is reported some time later, on what Python takes for standard output then."""

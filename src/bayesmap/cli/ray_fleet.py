@@ -38,8 +38,13 @@ class RayFleet:
         self.running: dict[Any, Entry] = {}
         self.readings: dict[str, Any] = {}
         self.latest: dict[str, Event] = {}
-        # An actor without a CPU of its own: workers wait for its answer while their chains go on.
-        self.flag = self.ray.remote(StopFlag).options(num_cpus=0, max_concurrency=FLAG_WAITERS).remote()
+        # An actor without a CPU of its own: workers wait for its answer while their chains go on. It is on this
+        # process's node, and on no other: on one that dies, or has just died, nobody would hear of Ctrl-C.
+        here = self.ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
+            self.ray.get_runtime_context().get_node_id(), soft=False
+        )
+        options = {"num_cpus": 0, "max_concurrency": FLAG_WAITERS, "scheduling_strategy": here}
+        self.flag = self.ray.remote(StopFlag).options(**options).remote()
         self.stopping = False
 
     def run(self, entries: list[Entry]) -> None:
