@@ -11,7 +11,7 @@ settings.register_profile("bayesmap", deadline=None, derandomize=True)
 settings.load_profile("bayesmap")
 
 # Tests compile hundreds of small JAX programs and run each once or twice; with less optimisation that takes four fifths
-# of the time. Notebooks and GenJAX's own tests, in processes of their own, inherit it.
+# of the time. Notebooks, in processes of their own, inherit it; GenJAX's own tests ask for still less.
 os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=1")
 
 # Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to

@@ -126,8 +126,8 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
     assert shown[-1][1] > 0
 
 
-def test_ctrl_c_reaches_workers_though_another_node_has_died(cluster):
-    """What they listen to is on this process's own node, not on whichever has room."""
+def test_what_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
+    """On any other they would not hear of it once that node has died."""
     import ray
 
     cluster.complete()
