@@ -6,7 +6,17 @@ from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.samplers.initial_estimate import end_cells, initial_estimate, rounds, start, steps
+from bayesmap.samplers import initial_estimate as module
+from bayesmap.samplers.initial_estimate import (
+    ALONG_WALL,
+    end_cells,
+    initial_estimate,
+    reflectivity_every,
+    rounds,
+    start,
+    steps,
+    widened,
+)
 from bayesmap.samplers.stop_problem import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05))
@@ -54,7 +64,7 @@ def test_counts_are_naive_counts(problem):
     assert passes.sum() > hits.sum()
 
 
-def test_moments_are_those_of_the_end_points_drawn_towards_the_prior(problem):
+def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened(problem):
     rays, estimate = problem.rays, problem.estimate
     cells, hits = estimate.endpoint_cells, estimate.hits[estimate.endpoint]
     ends, centres, spread = end_cells(rays), rays.grid.cell_centres_m(cells), 0.28 * rays.grid.resolution
@@ -68,7 +78,9 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior(problem):
         l11, l21, l22 = estimate.factor_m[u]
         factor = np.array([[l11, 0.0], [l21, l22]])
         np.testing.assert_allclose(estimate.mean_m[u], mean, atol=1e-6)
-        np.testing.assert_allclose(factor @ factor.T, covariance, atol=1e-7)
+        (across, along), axes = np.linalg.eigh(covariance)
+        wide = axes @ np.diag([across, along * ALONG_WALL**2]) @ axes.T
+        np.testing.assert_allclose(factor @ factor.T, wide, atol=1e-7)
 
 
 def test_endpoint_cells_step(problem):
@@ -109,6 +121,34 @@ def test_rounds_are_the_longer_the_further_readings_are(problem):
     np.testing.assert_array_equal(turns == 16, nearest == 1)
     np.testing.assert_array_equal(turns == 32, nearest > 1)
     assert set(np.unique(turns) % IN_A_ROW) == {0}  # one candidate for so many cells is enough
+
+
+def test_cells_that_few_beams_pass_draw_their_reflectivity_in_every_sweep(problem, monkeypatch):
+    estimate = problem.estimate
+    middle = int(np.median(estimate.passes[~estimate.endpoint]))
+    monkeypatch.setattr(module, "FEW_PASSES", middle)
+    every, turns = reflectivity_every(estimate).astype(int), rounds(estimate).astype(int)
+    few = estimate.passes < middle
+    free = ~estimate.endpoint
+    assert (few & free).any()
+    assert (~few & free).any()
+    assert (every[few] == 1).all()
+    np.testing.assert_array_equal(2 * every[~few & free], turns[~few & free])
+    assert every.min() == 1  # sweeps are divided by it, in endpoint cells too
+
+
+def test_surfaces_begin_wider_along_their_wall_and_as_thin_as_their_end_points_across():
+    rng = np.random.default_rng(8)
+    factors = rng.normal(size=(50, 2, 2))
+    wide, thin = (np.linalg.eigh(c) for c in (_widened(factors), factors @ factors.transpose(0, 2, 1)))
+    np.testing.assert_allclose(wide[0], thin[0] * [1.0, ALONG_WALL**2], rtol=1e-9)
+    np.testing.assert_allclose(abs(np.einsum("nij,nij->nj", wide[1], thin[1])), 1.0, rtol=1e-9)  # the same axes
+
+
+def _widened(factors):
+    covariance = factors @ factors.transpose(0, 2, 1)
+    var_x, both, var_y = widened(covariance[:, 0, 0], covariance[:, 0, 1], covariance[:, 1, 1])
+    return np.stack([np.stack([var_x, both], axis=-1), np.stack([both, var_y], axis=-1)], axis=-1)
 
 
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():

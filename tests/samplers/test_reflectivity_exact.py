@@ -13,6 +13,7 @@ from oracle.verdict import ALPHA
 from scipy import stats
 
 import bayesmap as bm
+from bayesmap.samplers import initial_estimate
 
 COPIES = 4000
 TESTS = 200  # p-values in this module, at most
@@ -77,6 +78,16 @@ def test_draws_follow_the_exact_posterior(shape, sigma_m, prior):
     exact = exact_of(scans, grid, prior, law)
     assert p_values(m, exact).min() > ALPHA / TESTS
     assert abs(exact.mean() - prior.mean).max() > 0.05  # and the data say something
+
+
+def test_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it_too(monkeypatch):
+    """As those do that many beams pass."""
+    monkeypatch.setattr(initial_estimate, "FEW_PASSES", 0)
+    shape, prior, law = (2, 2), bm.Beta(1.0, 1.0), sensor(0.1)
+    grid, scans = bm.Grid(shape, 0.5), scans_for(shape, [4, 1])
+    m, exact = drawn(scans, grid, prior, law, 600), exact_of(scans, grid, prior, law)
+    assert p_values(m, exact).min() > ALPHA / TESTS
+    assert p_values(drawn(scans, grid, prior, law, 3), exact).min() < ALPHA / TESTS  # the twin: not yet there
 
 
 def test_with_the_prior_of_logs_too_whose_draws_are_mostly_nearly_nothing():

@@ -16,6 +16,7 @@ from oracle.verdict import ALPHA
 from oracle.weighted import p_values, surface_coordinates, weighted
 
 import bayesmap as bm
+from bayesmap.samplers import initial_estimate
 
 DRAWS, AT_ONCE, COPIES = 1_000_000, 50_000, 2500
 TESTS = 1000  # p-values in this module, at most
@@ -75,6 +76,13 @@ def test_draws_follow_the_posterior(name):
     law = by_importance(*case)
     assert law.size > 8 * COPIES
     assert p_values(drawn(*case, sweeps=400), law).min() > ALPHA / TESTS
+
+
+def test_a_cell_that_holds_its_reflectivity_for_most_of_a_round_follows_it_too(monkeypatch):
+    """As one does that many beams pass."""
+    monkeypatch.setattr(initial_estimate, "FEW_PASSES", 0)
+    case = CASES["one cell without readings"]
+    assert p_values(drawn(*case, sweeps=400), by_importance(*case)).min() > ALPHA / TESTS
 
 
 @pytest.mark.parametrize("name", ["two cells", "one cell without readings"])

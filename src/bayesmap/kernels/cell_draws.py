@@ -33,8 +33,8 @@ FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
 HIDDEN = wp.constant(wp.float32(0.0))
 FRESH = wp.constant(wp.float32(1.0))
 AT_TURN = wp.constant(4)
-"""In a round of sweeps a cell in which no reading ends draws its reflectivity twice, tries a candidate once, at this
-turn, and learns nothing in the others."""
+"""In a round of sweeps a cell in which no reading ends tries a candidate once, at this turn. It draws its reflectivity
+in every so many of the others, and learns nothing in the rest."""
 
 MEAN_TRIES = wp.constant(8)
 
@@ -53,11 +53,13 @@ AT_SILENT = wp.constant(wp.uint64(448))
 class ActiveCells:
     """The cells that a sweep visits, those that beams touch, ascending, and the length of each one's round.
 
-    A round is 0 for cells in which readings end. ``ny`` and ``edge_m`` are the grid's.
+    A round is 0 for cells in which readings end. ``every`` says in every how many of its sweeps a cell draws its
+    reflectivity. ``ny`` and ``edge_m`` are the grid's.
     """
 
     cell: wp.array(dtype=wp.int32)
     round: wp.array(dtype=wp.uint8)
+    every: wp.array(dtype=wp.uint8)
     ny: int
     edge_m: wp.float64
 
@@ -258,7 +260,7 @@ def begin_sweep(
             key = sweep_key(keys[chain], sweep, 1)
             at = wp.uint64(c) * PER_CELL + AT_FRESH
             state.candidates[chain * groups_of(state) + c // IN_A_ROW] = fresh_surface(prior, centre, cell, key, at)
-        elif turn % (turns // 2) != 0:
+        elif turn % int(active.every[a]) != 0:
             fixed_m = cell[REFLECTIVITY]
     state.fixed_m[here] = fixed_m
     state.cells[here] = cell

@@ -83,6 +83,7 @@ class Plan:
     Attributes:
         rays: with flat indices of the grid's cells.
         rounds: the length of each touched cell's round of sweeps, 0 where readings end, (T,).
+        every: in every how many of them it draws its reflectivity, (T,).
         endpoints: the cells in which readings end, flat, ascending, (U,).
         steps: sizes and frames of these cells' steps, (U, 8).
         distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
@@ -91,6 +92,7 @@ class Plan:
 
     rays: Rays
     rounds: NDArray[np.uint8]
+    every: NDArray[np.uint8]
     endpoints: NDArray[np.int32]
     steps: NDArray[np.float32]
     distance_m: NDArray[np.float32] | None
@@ -130,6 +132,7 @@ class StopChains:
         active = ActiveCells()
         active.cell = devices.to_device(plan.touched, wp.int32, device)
         active.round = devices.to_device(plan.rounds, wp.uint8, device)
+        active.every = devices.to_device(plan.every, wp.uint8, device)
         active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
         self._active = active
         self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)

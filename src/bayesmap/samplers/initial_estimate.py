@@ -20,6 +20,10 @@ Floats = NDArray[np.float64]
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
 FREE_ROUND, FAR_ROUND = 16, 32
+FEW_PASSES = 32
+"""A cell that fewer beams pass draws its reflectivity in every sweep of its round but one."""
+ALONG_WALL = 1.5
+"""Of a surface's first standard deviation along its wall: so many of its end points' own."""
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
 LABEL_SWEEPS = 30
 LOGIT_STEP = 1.0
@@ -43,7 +47,8 @@ class InitialEstimate:
         far: cells in which no reading ends, nor in any of the eight around them, (T,).
         mean_m: of each of the U endpoint cells: mean of the end points, drawn towards the centre, (U, 2), metres from
             the grid's corner.
-        factor_m: likewise: Cholesky factor of their covariance, drawn towards the prior's size: l11, l21, l22, (U, 3).
+        factor_m: likewise: Cholesky factor of their covariance, drawn towards the prior's size and `widened`: l11, l21,
+            l22, (U, 3).
     """
 
     touched: NDArray[np.int32]
@@ -87,9 +92,10 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
         scatter = total(away[:, i] * away[:, j]) + CENTRE_WEIGHT * off[:, i] * off[:, j]
         return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (of_cell + 1.0))
 
-    l11 = np.sqrt(second(0, 0))
-    l21 = second(0, 1) / l11
-    l22 = np.sqrt(np.maximum(second(1, 1) - l21**2, (1e-3 * edge) ** 2))
+    var_x, both, var_y = widened(second(0, 0), second(0, 1), second(1, 1))
+    l11 = np.sqrt(var_x)
+    l21 = both / l11
+    l22 = np.sqrt(np.maximum(var_y - l21**2, (1e-3 * edge) ** 2))
     around = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
     touched = rays.touched
     return InitialEstimate(
@@ -100,6 +106,19 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
         mean_m=mean,
         factor_m=np.stack([l11, l21, l22], axis=-1),
     )
+
+
+def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
+    """Covariances with `ALONG_WALL` times the standard deviation along their longer axis, in the same parts.
+
+    Readings that lie evenly along a wall up to w to either side have a standard deviation of w / sqrt(3), and beams
+    meet a surface up to 2.2 of its own: one that is met by all of them is wider than they are scattered.
+    """
+    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
+    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
+    more = (ALONG_WALL**2 - 1.0) * (half + off)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return var_x + more * cosine**2, both + more * cosine * sine, var_y + more * sine**2
 
 
 def end_cells(rays: Rays) -> NDArray[np.int32]:
@@ -178,6 +197,15 @@ def rounds(estimate: InitialEstimate) -> NDArray[np.uint8]:
     Of free cells away from all readings little is learnt in a sweep, and they are most of what beams cross.
     """
     return np.where(estimate.endpoint, 0, np.where(estimate.far, FAR_ROUND, FREE_ROUND)).astype(np.uint8)
+
+
+def reflectivity_every(estimate: InitialEstimate) -> NDArray[np.uint8]:
+    """In every how many sweeps of its round a cell draws its reflectivity, (T,): two of a round, or all of them.
+
+    A cell that few beams pass costs little, and is not known to be free: a reflectivity at which it stops them would
+    stay until the next turn.
+    """
+    return np.where(estimate.passes < FEW_PASSES, 1, np.maximum(rounds(estimate), 2) // 2).astype(np.uint8)
 
 
 def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
