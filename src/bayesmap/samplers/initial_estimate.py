@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
 FREE_ROUND, FAR_ROUND = 16, 32
-FEW_PASSES = 32
+FEW_PASSES = 16
 """A cell that fewer beams pass draws its reflectivity in every sweep of its round but one."""
 ALONG_WALL = 1.5
 """Of a surface's first standard deviation along its wall: so many of its end points' own."""
