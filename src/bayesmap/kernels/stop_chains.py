@@ -82,8 +82,8 @@ class Plan:
 
     Attributes:
         rays: with flat indices of the grid's cells.
-        rounds: the length of each touched cell's round of sweeps, 0 where readings end, (T,).
-        every: in every how many of them it draws its reflectivity, (T,).
+        rounds, every: the length of each touched cell's round of sweeps, 0 where readings end, and in every how many
+            of these it draws its reflectivity, (T,) each.
         endpoints: the cells in which readings end, flat, ascending, (U,).
         steps: sizes and frames of these cells' steps, (U, 8).
         distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
@@ -131,8 +131,7 @@ class StopChains:
         self._endpoints = endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
         active = ActiveCells()
         active.cell = devices.to_device(plan.touched, wp.int32, device)
-        active.round = devices.to_device(plan.rounds, wp.uint8, device)
-        active.every = devices.to_device(plan.every, wp.uint8, device)
+        active.round, active.every = (devices.to_device(x, wp.uint8, device) for x in (plan.rounds, plan.every))
         active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
         self._active = active
         self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)
@@ -335,9 +334,8 @@ class StopChains:
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
         law, prior = self._packed
-        return self._squares.of_chain(
-            chain, sweep, law, prior, self._rays, self._state, self._keys, self._observed_counts, kept
-        )
+        there = (self._rays, self._state, self._keys, self._observed_counts)
+        return self._squares.of_chain(chain, sweep, law, prior, *there, kept)
 
     def observed_counts(self, chain: int) -> NDArray[np.int32]:
         """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.
