@@ -53,7 +53,7 @@ def infer(
     chains: int = 4,
     warmup: int = 100,
     draws: int | None = None,
-    thin: int = 1,
+    thin: int | None = None,
     seed: int = 0,
     start: Start | NDArray[np.bool_] | None = None,
     poses: PosePrior | None = None,
@@ -91,9 +91,10 @@ def infer(
         chains: how many Markov chains; the other methods give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
         draws: maps that each chain keeps; by default 1000, or of `Beta` and `Surface`, whose draws are larger and mix
-            in tens of sweeps, 50 to 200, the more the fewer beams there are (`CellPrior.default_draws`); but none for
+            in tens of sweeps, 75 to 200, the more the fewer beams there are (`CellPrior.default_draws`); but none for
             "propagate", whose answer is the marginals.
-        thin: sweeps from one kept map to the next.
+        thin: sweeps from one kept map to the next; by default 1, or of `Beta` and `Surface`, where draws are not given
+            either, 3.
         seed: of all random numbers.
         start: "prior", "zeros", "ones", "propagate", or a map; by default "propagate" on maps of more than 10 000
             cells and "prior" on others.
@@ -140,6 +141,8 @@ def infer(
         known = f"one method, {next(iter(prior.methods))!r}" if one else f"the methods {', '.join(prior.methods)}"
         raise BadInput(f"infer: {kind} has {known}, got {method!r}")
     chains = check_count("infer", "chains", chains, 1)
+    if thin is None:
+        thin = prior.sweeps_a_draw if draws is None else 1
     if draws is None:
         draws = 0 if method == "propagate" else prior.default_draws(scans.n_beams, grid.n_cells, chains)
     schedule = Schedule(

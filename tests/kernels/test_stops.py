@@ -13,9 +13,8 @@ from oracle.stop_worlds import centres_of, copies, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, two_sided
 
 import bayesmap as bm
-from bayesmap.kernels.cell_draws import AT_TURN
-from bayesmap.kernels.stops import IN_A_ROW
-from bayesmap.samplers.initial_estimate import rounds
+from bayesmap.kernels.cell_draws import TRIES_EVERY
+from bayesmap.samplers.initial_estimate import turn_every
 
 GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
@@ -94,14 +93,14 @@ def test_the_density_and_place_of_the_stop_are_kept(kind):
 
 def turn_of(worlds, sweep):
     """Cells whose turn to try a candidate a sweep is."""
-    turns, cells = rounds(worlds.problem.estimate).astype(int), worlds.problem.rays.touched
-    return (turns > 0) & ((sweep + cells) % np.maximum(turns, 1) == AT_TURN)
+    every, cells = turn_every(worlds.problem.estimate).astype(int), worlds.problem.rays.touched
+    length = np.maximum(every, 1)
+    return (every > 0) & (sweep % length == 0) & ((sweep // length + cells) % TRIES_EVERY == 0)
 
 
 def tried(worlds, field, sweep):
     """Cells whose turn to try a candidate the one sweep was, and every cell's candidate, if it had one."""
-    cells = worlds.problem.rays.touched
-    return turn_of(worlds, sweep), field.candidates.numpy()[cells // IN_A_ROW, :6].astype(float)
+    return turn_of(worlds, sweep), field.candidates.numpy()[worlds.problem.rays.touched, :6].astype(float)
 
 
 @pytest.mark.parametrize("kind", PRIORS)
@@ -110,7 +109,7 @@ def test_hits_are_the_stops_and_met_beams_are_binomial(kind):
 
     Cells in which readings end and others have kernels of their own: both are looked at.
     """
-    for sweep in (0, 8):  # in which some cells without readings have their turn
+    for sweep in (0, 8):  # in which cells without readings have their turn
         worlds, states, field, (hits, met) = swept(kind, count=12_000, sweep=sweep)
         rays, paths, stop = worlds.problem.rays, paths_of(worlds.problem.rays), field.stop.numpy()
         counted = met >= 0  # the others learn nothing, or try a candidate

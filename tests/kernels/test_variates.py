@@ -11,9 +11,17 @@ from oracle.verdict import ALPHA
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.kernels.cell_draws import CellPrior, fresh_surface
+from bayesmap.kernels.cell_prior import CellPrior, fresh_surface
+from bayesmap.kernels.random import random_bits
 from bayesmap.kernels.surface_crossing import Cell
-from bayesmap.kernels.variates import PER_GAMMA, beta_variate, log_gamma_variate, normal
+from bayesmap.kernels.variates import (
+    PER_GAMMA,
+    beta_or_nothing,
+    beta_variate,
+    log_gamma_variate,
+    nearly_normal,
+    normal,
+)
 
 COUNT = 100_000
 SPACING = 1024
@@ -83,6 +91,37 @@ def test_beta_variates(a, b):
     inside = sample[(sample >= inner[0]) & (sample <= inner[1])]
     low, high = law.cdf(inner)
     assert follows((law.cdf(inside) - low) / (high - low), stats.uniform.cdf)
+
+
+@wp.kernel
+def draw_beta_or_nothing(key: wp.uint64, a: wp.float64, b: wp.float64, out: wp.array(dtype=wp.float64)):
+    i = wp.tid()
+    out[i] = beta_or_nothing(a, b, key, wp.uint64(i) * wp.uint64(SPACING))
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.01, 0.2), (0.01, 3.0), (0.02, 300.0), (2.0, 3.0)])
+def test_beta_variates_under_e_to_the_minus_70_are_nothing_and_all_others_what_they_are(a, b):
+    exact, mine = drawn(draw_beta, a, b), drawn(draw_beta_or_nothing, a, b)
+    nothing = (mine == 0) & (exact > 0)
+    assert (exact[nothing] < np.exp(-70.0)).all()
+    np.testing.assert_array_equal(mine[~nothing], exact[~nothing])
+    assert nothing.any() == (a < 1 < b)
+
+
+@wp.kernel
+def draw_nearly_normal(key: wp.uint64, out: wp.array(dtype=wp.float64)):
+    i = wp.tid()
+    out[i] = wp.float64(nearly_normal(random_bits(key, wp.uint64(i))))
+
+
+def test_nearly_normal_numbers_are_symmetric_and_have_a_normal_s_first_moments():
+    """The fourth moment of a sum of four uniform numbers is 2.7, not 3."""
+    sample = drawn(draw_nearly_normal)
+    for power, expected in ((1, 0.0), (2, 1.0), (3, 0.0), (4, 2.7)):
+        error = np.std(sample**power) / np.sqrt(COUNT)
+        assert abs((sample**power).mean() - expected) < 4.5 * error
+    assert abs((sample**4).mean() - 3.0) > 4.5 * np.std(sample**4) / np.sqrt(COUNT)  # the twin: a normal's
+    assert stats.ks_2samp(sample, -sample).pvalue > ALPHA / CASES
 
 
 def test_the_counters_of_one_variate_do_not_meet_those_of_the_next():

@@ -11,10 +11,9 @@ from bayesmap.samplers.initial_estimate import (
     ALONG_WALL,
     end_cells,
     initial_estimate,
-    reflectivity_every,
-    rounds,
     start,
     steps,
+    turn_every,
     widened,
 )
 from bayesmap.samplers.stop_problem import trace_stops
@@ -109,32 +108,28 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     assert (states[0][problem.estimate.endpoint_cells] != states[1][problem.estimate.endpoint_cells]).all()
 
 
-def test_rounds_are_the_longer_the_further_readings_are(problem):
-    from bayesmap.kernels.stops import IN_A_ROW
-
+def test_turns_are_the_rarer_the_further_readings_are(problem, monkeypatch):
+    monkeypatch.setattr(module, "FEW_PASSES", 0)
     rays, ended = problem.rays, problem.estimate.endpoint
     ny = rays.grid.shape[1]
     where = np.stack([rays.touched // ny, rays.touched % ny], axis=-1)
     nearest = np.abs(where[:, None] - where[ended]).max(axis=-1).min(axis=1)
-    turns = rounds(problem.estimate)
-    np.testing.assert_array_equal(turns == 0, nearest == 0)
-    np.testing.assert_array_equal(turns == 16, nearest == 1)
-    np.testing.assert_array_equal(turns == 32, nearest > 1)
-    assert set(np.unique(turns) % IN_A_ROW) == {0}  # one candidate for so many cells is enough
+    every = turn_every(problem.estimate)
+    np.testing.assert_array_equal(every == 0, nearest == 0)
+    np.testing.assert_array_equal(every == 8, nearest == 1)
+    np.testing.assert_array_equal(every == 16, nearest > 1)
 
 
-def test_cells_that_few_beams_pass_draw_their_reflectivity_in_every_sweep(problem, monkeypatch):
+def test_cells_that_few_beams_pass_have_their_turn_in_every_other_sweep(problem, monkeypatch):
     estimate = problem.estimate
     middle = int(np.median(estimate.passes[~estimate.endpoint]))
     monkeypatch.setattr(module, "FEW_PASSES", middle)
-    every, turns = reflectivity_every(estimate).astype(int), rounds(estimate).astype(int)
-    few = estimate.passes < middle
-    free = ~estimate.endpoint
+    every = turn_every(estimate)
+    few, free = estimate.passes < middle, ~estimate.endpoint
     assert (few & free).any()
     assert (~few & free).any()
-    assert (every[few] == 1).all()
-    np.testing.assert_array_equal(2 * every[~few & free], turns[~few & free])
-    assert every.min() == 1  # sweeps are divided by it, in endpoint cells too
+    assert (every[few & free] == 2).all()
+    assert (every[~few & free] > 2).all()
 
 
 def test_surfaces_begin_wider_along_their_wall_and_as_thin_as_their_end_points_across():

@@ -62,6 +62,7 @@ class CellPrior(ABC):
         sensor_is_fitted: whether the command line fits the sensor unless one is given.
         has_interval: whether a cell's state is a number with an interval.
         has_surfaces: whether cells have surfaces.
+        sweeps_a_draw: sweeps from one draw to the next where neither these nor draws are asked for.
         has_walls: whether a cell is a wall or free: there are a wall probability, a start and an order of cells to
             choose, and a coupling that can be fitted.
         thresholds: mean stop probabilities above and below which a robot's map of occupied, free and unknown cells
@@ -75,6 +76,7 @@ class CellPrior(ABC):
     sensor_is_fitted: ClassVar[bool] = False
     has_interval: ClassVar[bool] = True
     has_surfaces: ClassVar[bool] = False
+    sweeps_a_draw: ClassVar[int] = 1
     has_walls: ClassVar[bool] = False
     thresholds: ClassVar[tuple[float, float] | None] = None
 

@@ -34,7 +34,7 @@ CELLS_AT_ONCE = 8192
 FRESH_CELLS = 1 << 16
 """States drawn from the prior, of which cells that no beam touched take theirs."""
 
-FEWEST_DRAWS, MOST_DRAWS = 50, 200
+FEWEST_DRAWS, MOST_DRAWS = 75, 200
 BEAMS_OF_FEWEST = 100_000
 MOST_DRAW_BYTES = 1 << 30
 """Of all chains' draws, if beams were to touch every cell of the grid."""
@@ -45,7 +45,7 @@ LARGEST_COUPLING = 50.0
 
 
 class KernelNumbers(NamedTuple):
-    """A prior as the kernels of `bayesmap.kernels.cell_draws` take it, lengths in metres: of reflectivities, labels,
+    """A prior as the kernels of `bayesmap.kernels.cell_prior` take it, lengths in metres: of reflectivities, labels,
     and a surface's prior as `bayesmap.cells.surface` has it.
     """
 
@@ -90,6 +90,7 @@ class Reflective(CellPrior):
 
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True
+    sweeps_a_draw: ClassVar[int] = 3
     shown: ClassVar[tuple[str, str]] = ("reflectivity", "expected")
     """Arrays of what maps, intervals and diagnostics show: as drawn, and its mean given the draw's stops."""
     thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # three beams in ten stopped is no place for a robot
@@ -185,10 +186,10 @@ class Reflective(CellPrior):
         return np.full(grid.shape, self.mean)
 
     def default_draws(self, beams: int, cells: int, chains: int) -> int:
-        """As many as take the time of 50 with 100 000 beams, up to 200.
+        """As many as take the time of 75 with 100 000 beams, up to 200.
 
         The fewer the beams, the less certain the map and the more draws its predictions need (docs/defaults.md); and
-        the sooner a sweep is over. Never fewer than 50, and no more of large grids than fit in 1 GiB.
+        the sooner a sweep is over. Never fewer than 75, and no more of large grids than fit in 1 GiB.
         """
         affordable = BEAMS_OF_FEWEST * FEWEST_DRAWS // max(beams, 1)
         fitting = MOST_DRAW_BYTES // (BYTES_A_CELL * cells * chains)

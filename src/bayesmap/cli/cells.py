@@ -48,6 +48,15 @@ def draws_for(values: dict[str, Any], beams: int, cells: int) -> int:
     return BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, values["chains"])
 
 
+def sweeps_a_draw(values: dict[str, Any]) -> int:
+    """Sweeps from one draw to the next: as many as the user says, else as many as suit the kind of cells."""
+    from bayesmap.cells.kinds import BUILT_IN
+
+    if values["thin"] is not None:
+        return int(values["thin"])
+    return BUILT_IN[values["cells"]].sweeps_a_draw if values["draws"] is None else 1
+
+
 def prior_of(values: dict[str, Any]) -> CellPrior:
     """The prior of these cells."""
     from bayesmap.cells.binary import Independent

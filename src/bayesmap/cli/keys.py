@@ -90,8 +90,8 @@ INFER = (
     Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
     Key("chains", int, 4, "Markov chains."),
     Key("warmup", int, 50, "Sweeps of each chain that are not kept."),
-    Key("draws", int, None, "Maps that each chain keeps.", "50, to 200 for few beams; binary 100"),
-    Key("thin", int, 1, "Sweeps from one kept map to the next."),
+    Key("draws", int, None, "Maps that each chain keeps.", "75, to 200 for few beams; binary 100"),
+    Key("thin", int, None, "Sweeps from one kept map to the next.", "3; binary, or with draws given, 1"),
     Key("particles", int, 100_000, "Of the method importance."),
     Key("rounds", int, 20, "Of belief propagation, at most."),
     SEED,
@@ -117,10 +117,12 @@ SLAM = (
         if key.name
         in (
             "resolution", "max_range", "no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame",
-            "deskew", "thin_scans", "cells", "chains", "warmup", "draws", "thin", "seed", "sensor", "hit_depth",
+            "deskew", "thin_scans", "cells", "chains", "warmup", "seed", "sensor", "hit_depth",
             "threads", "device", "checkpoint_every", "strict",
         )
     ),
+    Key("draws", int, None, "Maps that each chain keeps.", "50, to 133 for few beams"),
+    Key("thin", int, 1, "Sweeps from one kept map to the next."),
     Key("fast", bool, False, "Stop after the approximate trajectory: the map then takes it as known."),
     Key("no_odometry", bool, False, "Do not look at the log's poses; scans must come at 5 Hz or more."),
 )  # fmt: skip

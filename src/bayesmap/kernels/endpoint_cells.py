@@ -17,11 +17,8 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import (
-    AT_ACCEPT,
-    AT_BETA,
-    PER_CELL,
-    ActiveCells,
+from bayesmap.kernels.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
+from bayesmap.kernels.cell_prior import (
     CellPrior,
     centre_of,
     is_own,
@@ -40,9 +37,8 @@ from bayesmap.kernels.surface_crossing import (
     MEAN_Y,
     REFLECTIVITY,
     Cell,
-    cross_surface,
+    cross_at,
     crossing_probability_at,
-    ray_from,
 )
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
@@ -60,8 +56,9 @@ STREAM_MET = wp.constant(wp.uint64(4 << 32))
 class EndpointCells:
     """Incidences of the cells in which readings end: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``.
 
-    For each its entry in the rays, its beam, and how the beam passes the cell's centre: offset and direction; and for
-    each cell the frame and sizes of its steps (`bayesmap.kernels.surface_steps`).
+    For each its entry in the rays, its beam, how the beam passes the cell's centre (offset and direction), how far
+    ahead of its start that lies, and its reading; and for each cell the frame and sizes of its steps
+    (`bayesmap.kernels.surface_steps`).
     """
 
     cell: wp.array(dtype=wp.int32)
@@ -69,6 +66,7 @@ class EndpointCells:
     entry: wp.array(dtype=wp.int32)
     beam: wp.array(dtype=wp.int32)
     passing: wp.array(dtype=wp.vec3)
+    reading: wp.array(dtype=wp.vec2)  # how far ahead the centre lies, and the reading, metres
     step: wp.array(dtype=Cell)
 
 
@@ -89,6 +87,8 @@ def endpoint_cells(rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float
     there.offsets = devices.to_device(bounds, wp.int32, device)
     there.entry = devices.to_device(entry, wp.int32, device)
     there.beam = devices.to_device(beam, wp.int32, device)
+    reading = np.stack([(away * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
+    there.reading = wp.array(reading.astype(np.float32), dtype=wp.vec2, device=device)
     there.passing = wp.array(passing.astype(np.float32), dtype=wp.vec3, device=device)
     there.step = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
     return there
@@ -125,11 +125,16 @@ def log_stops(
     total = wp.float64(0.0)
     product = one
     m = cell[REFLECTIVITY]
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
     for i in range(span[2], span[3]):
         e = listed[i]
         b = endpoints.beam[e]
-        met = cross_surface(cell, ray_from(rays.start_m[b], rays.direction[b]))
-        p = hit_law(law, beta, endpoints.entry[e], rays.near[b], rays.range_m[b], rays.decay[b], met)
+        way = endpoints.passing[e]
+        offset = way[0] + way[1] * dy - way[2] * dx
+        ahead = endpoints.reading[e][0] + way[1] * dx + way[2] * dy
+        met = cross_at(offset, ahead, cell, way[1], way[2])
+        p = hit_law(law, beta, endpoints.entry[e], rays.near[b], endpoints.reading[e][1], rays.decay[b], met)
         product = product * wp.max(m * met.chance * p, LEAST)
         if product < FEWEST or product > one / FEWEST:
             total += wp.log(wp.float64(product))
@@ -140,8 +145,6 @@ def log_stops(
 
     product = one
     floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
-    dx = cell[MEAN_X] - centre[0]
-    dy = cell[MEAN_Y] - centre[1]
     for i in range(span[0], span[1]):
         product = product * wp.max(one - m * crossing_probability_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
         if product < floor:

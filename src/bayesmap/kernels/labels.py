@@ -24,7 +24,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import PER_CELL, CellPrior
+from bayesmap.kernels.cell_draws import PER_CELL
+from bayesmap.kernels.cell_prior import CellPrior
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.stops import LEARNS, StopState
 from bayesmap.kernels.sums import WIDTH

@@ -6,8 +6,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels.rays import stop_distances
-from bayesmap.kernels.stop_chains import put_rays
-from bayesmap.kernels.stops import TracedRays
+from bayesmap.kernels.stops import TracedRays, put_rays
 
 wp.set_module_options({"enable_backward": False})
 

@@ -35,6 +35,7 @@ def _law(name: str, real: Any) -> Any:
         "rate_short_per_m", "min_m", "max_m",
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
+        "peak",  # no density of a finite reading is higher
         "series",  # below it the fifth term of exp(-x) is under the precision
     )  # fmt: skip
     annotations: dict[str, Any] = {"kind": int, "table": LawTable} | dict.fromkeys(reals, real)
@@ -60,6 +61,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     model = sensor.kernel_parameters()
     if model is None:
         least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
+        packed.peak = math.inf
         packed.kind, packed.table = TABLE, put_table(tabulated(sensor, limits), device, least)
         return packed
     packed.kind = MIXTURE if model.robust else NOISE
@@ -75,6 +77,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
     packed.uniform = model.p_random / (limits.max_m - limits.min_m)
     packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
+    packed.peak = packed.uniform + packed.passing + math.exp(packed.log_constant) / model.sigma_m
     return packed
 
 
@@ -165,11 +168,34 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
     hit = free * law.p_return
     scale = wp.sqrt(variance_at(law, wall, variance))
     if reading_m > type(reading_m)(0.0):  # no return
-        above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
+        above = type(one)(0.0)
+        if law.dof > type(one)(0.0) or (law.max_m - wall) * (law.max_m - wall) < type(one)(FAR_SQ) * scale * scale:
+            above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
         p_none = law.p_known * (free * law.p_no_return + hit * above)
         return wp.max(p_none, type(one)(LEAST))
     below = noise_below(law, (law.min_m - wall) / scale)
     return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(LEAST))
+
+
+@wp.func
+def highest_density(law: Any, reading_m: Any):
+    """What `stop_density` of a reading is at most, wherever the beam stops."""
+    if wp.isfinite(reading_m):
+        return law.peak
+    return type(reading_m)(1.0)
+
+
+@wp.func
+def lowest_density(law: Any, reading_m: Any):
+    """What `stop_density` of a reading is at least in the mixture, wherever the beam stops; of other laws 0."""
+    if law.kind != MIXTURE:
+        return type(reading_m)(0.0)
+    if wp.isfinite(reading_m):
+        return law.uniform
+    least = type(reading_m)(LEAST)
+    if reading_m > type(reading_m)(0.0):
+        return wp.max(law.p_known * (type(reading_m)(1.0) - law.p_short) * law.p_no_return, least)
+    return least
 
 
 @wp.func

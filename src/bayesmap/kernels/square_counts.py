@@ -24,12 +24,13 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import PER_CELL, CellPrior, pseudo_counts
+from bayesmap.kernels.cell_draws import PER_CELL
+from bayesmap.kernels.cell_prior import CellPrior, pseudo_counts
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
 from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
 from bayesmap.kernels.sensor_law import SensorLaw32, mixed_density, returned_density, variance_at
 from bayesmap.kernels.stops import StopState, TracedRays
-from bayesmap.kernels.variates import beta_variate, normal
+from bayesmap.kernels.variates import beta_or_nothing, normal
 
 wp.set_module_options({"enable_backward": False})
 
@@ -124,7 +125,7 @@ def draw_stop_chances(
     a = counts[0] + wp.float64(stopped[c])
     b = counts[1] + wp.float64(crossings[c] - stopped[c] - behind[c])
     key = sweep_key(keys[chain], sweep, 1)
-    drawn[i] = wp.float32(beta_variate(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
+    drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
     expected[i] = wp.float32(a / (a + b))
     if kept != 0:
         observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)

@@ -20,46 +20,24 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.cell_draws import ActiveCells, begin_sweep, count_observed, put_prior, update_free_cells
+from bayesmap.kernels.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
+from bayesmap.kernels.cell_prior import put_prior
 from bayesmap.kernels.endpoint_cells import count_endpoint_cells, endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.held_cells import HeldCells, pass_held_cells
 from bayesmap.kernels.labels import draw_labels, draw_untouched, put_known, sum_label_prior
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
-from bayesmap.kernels.stops import IN_A_ROW, LEARNS, StopState, TracedRays, decay_of_readings, draw_stops
+from bayesmap.kernels.stops import LEARNS, StopState, decay_of_readings, draw_stops, put_rays
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
 from bayesmap.kernels.surface_crossing import Cell
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
 KERNELS = (
-    begin_sweep, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
+    begin_sweep, pass_held_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
     update_endpoint_cells, count_in_squares, draw_stop_chances,
 )  # fmt: skip
-
-
-def put_rays(
-    rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
-) -> Any:
-    """TracedRays where kernels read them.
-
-    Args:
-        rays: beams.
-        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
-        device: where to.
-        cells: other numbers of the cells than their places in the grid, (K,).
-    """
-    there = TracedRays()
-    there.without_surfaces = int(distance_m is not None)
-    there.offsets = devices.to_device(rays.offsets, wp.int32, device)
-    there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
-    there.near = devices.to_device(rays.near, wp.int32, device)
-    there.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
-    there.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
-    there.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
-    there.range_m = devices.to_device(rays.range_m, wp.float32, device)
-    there.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
-    return there
 
 
 def as_cells(states: NDArray[np.float32], device: str) -> Any:
@@ -82,8 +60,7 @@ class Plan:
 
     Attributes:
         rays: with flat indices of the grid's cells.
-        rounds, every: the length of each touched cell's round of sweeps, 0 where readings end, and in every how many
-            of these it draws its reflectivity, (T,) each.
+        every: in every how many sweeps it is each touched cell's turn, 0 where readings end, (T,).
         endpoints: the cells in which readings end, flat, ascending, (U,).
         steps: sizes and frames of these cells' steps, (U, 8).
         distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
@@ -91,7 +68,6 @@ class Plan:
     """
 
     rays: Rays
-    rounds: NDArray[np.uint8]
     every: NDArray[np.uint8]
     endpoints: NDArray[np.int32]
     steps: NDArray[np.float32]
@@ -128,10 +104,12 @@ class StopChains:
         chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
         self.threads = (threads or available_cores()) if device == "cpu" else 1
         self._rays = put_rays(plan.rays, plan.distance_m, device)
+        self._held = HeldCells(plan.rays, plan.every)
+        self._holds = self._held.put_watched(self._rays, device)
         self._endpoints = endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
         active = ActiveCells()
         active.cell = devices.to_device(plan.touched, wp.int32, device)
-        active.round, active.every = (devices.to_device(x, wp.uint8, device) for x in (plan.rounds, plan.every))
+        active.every = devices.to_device(plan.every, wp.uint8, device)
         active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
         self._active = active
         self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)
@@ -151,12 +129,12 @@ class StopChains:
         labels = np.zeros(chains * cells) if solid is None else solid.ravel()
         state.solid = wp.array(labels.astype(np.uint8), dtype=wp.uint8, device=device)
         state.fixed_m = wp.full(chains * cells, LEARNS, dtype=wp.float32, device=device)
-        state.candidates = empty(chains * -(-cells // IN_A_ROW), dtype=Cell)
+        state.candidates = empty(1 if self.without_surfaces else chains * cells, dtype=Cell)
         state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
         state.gain = empty((chains * parts, cells), dtype=wp.int64)
         state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
         state.where = empty(chains * beams, dtype=wp.vec2)
-        state.log_likelihood = empty(chains * beams, dtype=wp.float32)
+        state.log_likelihood, state.held_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
         self._state = state
         if counts is None:
             self._hits = empty(chains * cells, dtype=wp.int32)
@@ -217,10 +195,14 @@ class StopChains:
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
             """Kernels of a sweep in their order, with the elements of a chain."""
             number, changed = first + i, int(moved and i == 0)
+            turn, after_turn = (int(self._held.have_turn(sweep)) for sweep in (number, number - 1))
             shared = [packed, self._active, state, keys]
-            out = [
-                (begin_sweep, touched, [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]),
-                (draw_stops, beams, [number, law, self._rays, state, keys]),
+            begin = [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]
+            out = [(begin_sweep, touched, begin)]
+            if not turn and (after_turn or changed):
+                out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
+            out += [
+                (draw_stops, beams, [number, turn, law, self._rays, state, keys]),
                 (count_endpoint_cells, endpoints, [number, self._endpoints, self._active, state, self._lists,
                                                    self._passes, keys, *counts]),
             ]  # fmt: skip

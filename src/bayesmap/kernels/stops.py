@@ -10,17 +10,32 @@ stopped), which given that it passed has probability g (1 - m) / (1 - a); met an
 Beta. In sweeps in which a candidate for its surface is tried: log (1 - m g') / (1 - m g), the beam's part of the
 Metropolis ratio. Both are added up in whole numbers, so that the result does not depend on the order of beams.
 
-Most cells are free, and hundreds of beams say so in every sweep: in most sweeps they learn nothing. Where such a cell
-has a reflectivity under single precision it does nothing to T, either, and is passed without a look at its surface.
+Most cells are free, and hundreds of beams say so in every sweep: in most sweeps they learn nothing, and hold what they
+are. All have their turns in the same sweeps. In the others a beam needs of the held cells far before its reading just
+the product of their 1 - a, which stays what it was (`kernels.held_cells`), and walks its other far cells alone. A held
+cell whose reflectivity is under single precision does nothing to T, and is passed without a look at its surface.
 
 At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not
 tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
 """
 
-import warp as wp
+from typing import Any
 
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.kernels import device as devices
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.sensor_law import SensorLaw32, no_stop_density, object_decay, stop_density
+from bayesmap.kernels.sensor_law import (
+    SensorLaw32,
+    highest_density,
+    lowest_density,
+    no_stop_density,
+    object_decay,
+    stop_density,
+)
 from bayesmap.kernels.surface_crossing import TRYING, Cell, Crossing, Ray, cross_surface, crossing_probability, ray_from
 
 wp.set_module_options({"enable_backward": False})
@@ -30,12 +45,11 @@ TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
 LEAST = wp.constant(wp.float32(1.0e-30))
 TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
 
-IN_A_ROW = wp.constant(16)
-"""Of so many cells in a row at most one tries a candidate in a sweep: rounds are multiples of it."""
 FAR = wp.constant(-1)  # a stop before the near entries
 LEARNS = wp.constant(wp.float32(-1.0))
 CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
-CLEAREST = wp.constant(wp.float32(1.0e-15))  # nor is a stop here worth weighing, whatever its density
+CLEAREST = wp.constant(wp.float32(1.0e-15))  # nor does a stop here have a weight, whatever its density
+NEGLIGIBLE = wp.constant(wp.float32(2.0**-26))
 
 # Counters of a sweep's random numbers: one for each purpose and entry or beam.
 STREAM_CHOICE = wp.constant(wp.uint64(1 << 32))
@@ -56,6 +70,32 @@ class TracedRays:
     direction: wp.array(dtype=wp.vec2)
     range_m: wp.array(dtype=wp.float32)
     decay: wp.array(dtype=wp.float32)  # see `decay_of_readings`
+    watched_offsets: wp.array(dtype=wp.int32)  # of each beam, in `watched`
+    watched: wp.array(dtype=wp.int32)  # far entries whose cells are not held together with all others
+
+
+def put_rays(
+    rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
+) -> Any:
+    """TracedRays where kernels read them.
+
+    Args:
+        rays: beams.
+        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
+        device: where to.
+        cells: other numbers of the cells than their places in the grid, (K,).
+    """
+    there = TracedRays()
+    there.without_surfaces = int(distance_m is not None)
+    there.offsets = devices.to_device(rays.offsets, wp.int32, device)
+    there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
+    there.near = devices.to_device(rays.near, wp.int32, device)
+    there.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
+    there.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
+    there.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
+    there.range_m = devices.to_device(rays.range_m, wp.float32, device)
+    there.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
+    return there
 
 
 @wp.struct
@@ -73,19 +113,14 @@ class StopState:
     cells: wp.array(dtype=Cell)
     solid: wp.array(dtype=wp.uint8)  # labels; all zero where cells have none
     fixed_m: wp.array(dtype=wp.float32)  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
-    candidates: wp.array(dtype=Cell)  # one for `IN_A_ROW` cells of a chain
+    candidates: wp.array(dtype=Cell)  # for each cell's surface, while one is tried
     met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed
     hits: wp.array2d(dtype=wp.int32)  # beams that stopped
     gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate
+    held_free: wp.array(dtype=wp.float32)  # each beam's chance to come past its held far cells
     stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
     log_likelihood: wp.array(dtype=wp.float32)  # of the beam's reading, summed over all stops
-
-
-@wp.func
-def groups_of(state: StopState) -> int:
-    """Groups of `IN_A_ROW` cells in a chain."""
-    return (state.n_cells + IN_A_ROW - 1) // IN_A_ROW
 
 
 @wp.func
@@ -132,7 +167,7 @@ def pass_by(
     m = cell[0]
     row = chain * state.parts + part
     if cell[TRYING] != wp.float32(0.0):
-        other = crossing_probability(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
+        other = crossing_probability(state.candidates[chain * state.n_cells + c], ray)
         ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
         wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
         return
@@ -161,12 +196,16 @@ def draw_stops(
     first: int,
     part: int,
     sweep: int,
+    all_turn: int,
     law: SensorLaw32,
     rays: TracedRays,
     state: StopState,
     keys: wp.array(dtype=wp.uint64),
 ):
-    """One thread a chain's beam: draw where it stops, and count it in the cells."""
+    """One thread a chain's beam: draw where it stops, and count it in the cells.
+
+    ``all_turn`` says that it is the turn of cells that mostly hold what they are.
+    """
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -186,8 +225,17 @@ def draw_stops(
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
 
-    free = wp.float32(1.0)
-    for k in range(begin, near):
+    free = one
+    far_begin = begin
+    far_end = near
+    if all_turn == 0:
+        free = state.held_free[i]
+        far_begin = rays.watched_offsets[b]
+        far_end = rays.watched_offsets[b + 1]
+    for far in range(far_begin, far_end):
+        k = far
+        if all_turn == 0:
+            k = rays.watched[far]
         c = rays.cells[k]
         m_fixed = state.fixed_m[cell_0 + c]
         if m_fixed < wp.float32(0.0) or m_fixed > CLEAR:
@@ -200,26 +248,40 @@ def draw_stops(
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
+    # A stop whose weight is under single precision beside the others' is not weighed; all weights add up to at least
+    # that of the least likely stop.
+    peak = tempered(highest_density(law, reading), state.beta)
+    bound = NEGLIGIBLE * tempered(lowest_density(law, reading), state.beta) / peak
+    some_learn = int(0)
+    stopped = Crossing()
     for k in range(near, end):
         c = rays.cells[k]
-        m_fixed = state.fixed_m[cell_0 + c]
-        if m_fixed < wp.float32(0.0) or m_fixed > CLEAREST:
+        m = state.fixed_m[cell_0 + c]
+        if m < wp.float32(0.0):
+            some_learn = 1
+        if m < wp.float32(0.0) or m * free > bound or m > CLEAR:
             cell = state.cells[cell_0 + c]
-            m = cross_cell(rays, k, cell, ray)
-            a = cell[0] * m.chance
-            p = tempered(stop_density(law, reading, decay, m.distance_m, m.variance), state.beta)
-            weight = wp.float64(free * a * p)
-            total += weight
-            u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
-            if u * total < weight:
-                choice = k
-            free = free * (one - a)
-            if free == wp.float32(0.0):
+            if cell[0] * free > bound:
+                met = cross_cell(rays, k, cell, ray)
+                a = cell[0] * met.chance
+                p = tempered(stop_density(law, reading, decay, met.distance_m, met.variance), state.beta)
+                weight = wp.float64(free * a * p)
+                total += weight
+                bound = wp.max(bound, NEGLIGIBLE * wp.float32(total) / peak)
+                u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
+                if u * total < weight:
+                    choice = k
+                    stopped = met
+                free = free * (one - a)
+            elif cell[0] > CLEAR:
+                free = free * (one - cell[0] * chance_at(rays, cell, ray))
+            if free <= bound:
                 break  # the others have no weight, and behind a wall they are many
     weight = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
     total += weight
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:
         choice = end
+        some_learn = 1  # perhaps behind where the walk ended
     state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
 
     if choice == FAR:
@@ -233,9 +295,10 @@ def draw_stops(
             free = free * (one - cell[0] * g)
             if choice == FAR and (one - free >= target or k == near - 1):
                 choice = k
+                stopped = cross_cell(rays, k, cell, ray)
             if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
                 pass_by(state, chain, part, c, cell, g, ray, key, k, -1)
-    for k in range(near, wp.min(choice, end)):
+    for k in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
         c = rays.cells[k]
         if state.fixed_m[cell_0 + c] < wp.float32(0.0):
             cell = state.cells[cell_0 + c]
@@ -243,17 +306,17 @@ def draw_stops(
 
     state.stop[i] = choice
     if choice < end:
-        c = rays.cells[choice]
-        cell = state.cells[cell_0 + c]
-        stopped = cross_cell(rays, choice, cell, ray)
         state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
+        c = rays.cells[choice]
+        if state.fixed_m[cell_0 + c] >= wp.float32(0.0):
+            return  # it counts no beams now, or has a kernel that does
+        cell = state.cells[cell_0 + c]
         row = chain * state.parts + part
         wp.atomic_add(state.hits, row, c, 1)
         if cell[TRYING] != wp.float32(0.0):
-            old = cross_surface(cell, ray)
-            new = cross_surface(state.candidates[chain * groups_of(state) + c // IN_A_ROW], ray)
+            new = cross_surface(state.candidates[chain * state.n_cells + c], ray)
             after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
-            before = wp.max(old.chance * hit_law(law, state.beta, choice, near, reading, decay, old), LEAST)
+            before = wp.max(stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), LEAST)
             wp.atomic_add(state.gain, row, c, in_units(wp.log(after / before)))
 
 

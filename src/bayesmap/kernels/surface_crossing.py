@@ -79,24 +79,36 @@ def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
 
 
 @wp.func
-def cross_surface(cell: Cell, ray: Ray) -> Crossing:
-    """Chance, and distance where."""
-    rx = cell[1] - ray.x
-    ry = cell[2] - ray.y
-    offset = ray.ux * ry - ray.uy * rx
-    across_1 = cell[4] * ray.ux - cell[3] * ray.uy  # L' n
-    across_2 = cell[5] * ray.ux
-    along_1 = cell[3] * ray.ux + cell[4] * ray.uy  # L' u
-    along_2 = cell[5] * ray.uy
-    depth = wp.max(ray.ux * rx + ray.uy * ry, wp.float32(0.0))
+def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, uy: wp.float32) -> Crossing:
+    """Chance, and distance where, by the offset of the surface's mean from the beam, how far ahead it lies, and the
+    beam's direction.
+    """
+    l11 = cell[L11]
+    l21 = cell[L21]
+    l22 = cell[L22]
+    one = wp.float32(1.0)
+    across_1 = l21 * ux - l11 * uy  # L' n
+    across_2 = l22 * ux
+    along_1 = l11 * ux + l21 * uy  # L' u
+    along_2 = l22 * uy
+    depth = wp.max(ahead, wp.float32(0.0))
     body = across_1 * across_1 + across_2 * across_2
     unsure = DIRECTION_SQ * depth * depth
-    across = body + unsure
-    slope = (along_1 * across_1 + along_2 * across_2) / across
-    area = cell[3] * cell[5]
+    per_across = one / (body + unsure)
+    slope = (along_1 * across_1 + along_2 * across_2) * per_across
+    area = l11 * l22
     m = Crossing()
     m.chance = crossing_probability_at(offset, body)
-    m.distance_m = wp.max(ray.ux * rx + ray.uy * ry - slope * offset, wp.float32(0.0))
+    m.distance_m = wp.max(ahead - slope * offset, wp.float32(0.0))
     # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
-    m.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) / across
+    m.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
     return m
+
+
+@wp.func
+def cross_surface(cell: Cell, ray: Ray) -> Crossing:
+    """Chance, and distance where."""
+    rx = cell[MEAN_X] - ray.x
+    ry = cell[MEAN_Y] - ray.y
+    offset = ray.ux * ry - ray.uy * rx
+    return cross_at(offset, ray.ux * rx + ray.uy * ry, cell, ray.ux, ray.uy)

@@ -12,14 +12,14 @@ A row of steps holds: sizes for logit m, mean along, mean across, log l11, l21, 
 
 import warp as wp
 
-from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.random import random_bits
 from bayesmap.kernels.surface_crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
-from bayesmap.kernels.variates import normal
+from bayesmap.kernels.variates import nearly_normal
 
 wp.set_module_options({"enable_backward": False})
 
 COSINE, SINE = 6, 7
-SHORT = wp.constant(wp.float64(0.3))
+SHORT = wp.constant(wp.float32(0.3))
 LEAST_M = wp.constant(wp.float64(1.0e-30))
 MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))
 """Beyond these logit m takes no step, neither there nor back: single precision could not undo it."""
@@ -70,14 +70,14 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
     By turns what beams hardly say (logit m, mean along, size: a wide surface that stops few of the beams that meet it
     looks like a small one that stops many) and what they say well (mean across, slope, thickness).
     """
-    size = wp.where(to_uniform(random_bits(key, at)) < wp.float64(0.5), SHORT, wp.float64(1.0))
+    size = wp.where(random_bits(key, at) & wp.uint64(1) == wp.uint64(0), SHORT, wp.float32(1.0))
     one = wp.float64(1.0)
-    e_1 = wp.float32(size * normal(key, at + wp.uint64(1)))
-    e_2 = wp.float32(size * normal(key, at + wp.uint64(3)))
-    e_3 = size * normal(key, at + wp.uint64(5))
+    e_1 = size * nearly_normal(random_bits(key, at + wp.uint64(1)))
+    e_2 = size * nearly_normal(random_bits(key, at + wp.uint64(2)))
+    e_3 = size * nearly_normal(random_bits(key, at + wp.uint64(3)))
     if i % 2 == 0:
         m = wp.float64(cell[REFLECTIVITY])
-        odds = m / wp.max(one - m, LEAST_M) * wp.exp(e_3 * wp.float64(step[REFLECTIVITY]))
+        odds = m / wp.max(one - m, LEAST_M) * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
         other = odds / (one + odds)
         if wp.min(m, other) > LEAST_M and wp.max(m, other) < MOST_M:
             cell[REFLECTIVITY] = wp.float32(other)
@@ -86,5 +86,5 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
     else:
         cell[MEAN_Y] = cell[MEAN_Y] + e_1 * step[MEAN_Y]
         cell[L21] = cell[L21] + e_2 * step[L21]
-        cell[L22] = cell[L22] * wp.exp(wp.float32(e_3) * step[L22])
+        cell[L22] = cell[L22] * wp.exp(e_3 * step[L22])
     return cell

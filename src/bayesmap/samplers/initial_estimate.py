@@ -19,9 +19,10 @@ from bayesmap.space.grid import Grid
 Floats = NDArray[np.float64]
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
-FREE_ROUND, FAR_ROUND = 16, 32
-FEW_PASSES = 16
-"""A cell that fewer beams pass draws its reflectivity in every sweep of its round but one."""
+FREE_EVERY, FAR_EVERY = 8, 16
+"""Sweeps from one turn to the next of cells in which no reading ends, and of those around which none ends, either."""
+FEW_PASSES, FEW_EVERY = 16, 2
+"""A cell that fewer beams pass has its turn in every so many sweeps."""
 ALONG_WALL = 1.5
 """Of a surface's first standard deviation along its wall: so many of its end points' own."""
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
@@ -191,21 +192,15 @@ def start(
     return state
 
 
-def rounds(estimate: InitialEstimate) -> NDArray[np.uint8]:
-    """In how many sweeps each cell's turn comes round, (T,): 0 for endpoint cells, whose turn is always.
+def turn_every(estimate: InitialEstimate) -> NDArray[np.uint8]:
+    """In every how many sweeps it is each cell's turn, (T,): 0 for endpoint cells, whose turn is always.
 
-    Of free cells away from all readings little is learnt in a sweep, and they are most of what beams cross.
+    Of free cells, above all away from all readings, little is learnt in a sweep, and they are most of what beams cross.
+    One that few beams pass costs little, and is not known to be free: a reflectivity at which it stops them would stay
+    until its next turn.
     """
-    return np.where(estimate.endpoint, 0, np.where(estimate.far, FAR_ROUND, FREE_ROUND)).astype(np.uint8)
-
-
-def reflectivity_every(estimate: InitialEstimate) -> NDArray[np.uint8]:
-    """In every how many sweeps of its round a cell draws its reflectivity, (T,): two of a round, or all of them.
-
-    A cell that few beams pass costs little, and is not known to be free: a reflectivity at which it stops them would
-    stay until the next turn.
-    """
-    return np.where(estimate.passes < FEW_PASSES, 1, np.maximum(rounds(estimate), 2) // 2).astype(np.uint8)
+    free = np.where(estimate.passes < FEW_PASSES, FEW_EVERY, np.where(estimate.far, FAR_EVERY, FREE_EVERY))
+    return np.where(estimate.endpoint, 0, free).astype(np.uint8)
 
 
 def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:

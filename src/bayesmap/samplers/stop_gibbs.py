@@ -19,7 +19,7 @@ from bayesmap.cells.labels import SOLID
 from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import first_labels, reflectivity_every, rounds, start, steps
+from bayesmap.samplers.initial_estimate import first_labels, start, steps, turn_every
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, STREAM_LABELS, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
@@ -212,8 +212,8 @@ def _plan(problem: StopProblem) -> Plan:
 
     estimate = problem.estimate
     return Plan(
-        rays=problem.rays, rounds=rounds(estimate), every=reflectivity_every(estimate),
-        endpoints=estimate.endpoint_cells, steps=steps(estimate, problem.grid.resolution),
+        rays=problem.rays, every=turn_every(estimate), endpoints=estimate.endpoint_cells,
+        steps=steps(estimate, problem.grid.resolution),
         distance_m=None if problem.prior.has_surfaces else problem.distance_m, device=problem.device,
     )  # fmt: skip
 
