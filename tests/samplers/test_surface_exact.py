@@ -95,13 +95,13 @@ def test_no_surface_leaves_its_cell(name):
 
 
 def test_a_cell_that_stops_nothing_takes_its_surfaces_from_the_prior():
-    """In every fourth sweep, without a look at the beams; what was drawn from the prior stays so."""
+    """In every eighth sweep, without a look at the beams; what was drawn from the prior stays so."""
     worlds = copies(NOTHING, bm.Grid((1, 1), EDGE), SMALL, BLUNT, COPIES)
     centres = centres_of(worlds.problem.rays)
     states = draw_states(np.random.default_rng(7), SMALL, centres)
     states[:, 0] = 1e-20
     sampler = worlds.sampler(3, states)
-    before, after = (worlds.split(s) for s in (states, worlds.sweep(sampler, 4)))
+    before, after = (worlds.split(s) for s in (states, worlds.sweep(sampler, 8)))
     some = (abs(before[..., 3:] - after[..., 3:]) > 1e-5).any(axis=-1)
     assert 0.2 < some.mean() <= 1.0
     mine = surface_coordinates(after, np.array([[0.5, 0.5]]), 1.0)[:, 1:]
