@@ -35,7 +35,7 @@ def _law(name: str, real: Any) -> Any:
         "rate_short_per_m", "min_m", "max_m",
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
-        "peak",  # no density of a finite reading is higher
+        "peak",  # no density of a finite reading is higher in the mixture
         "series",  # below it the fifth term of exp(-x) is under the precision
     )  # fmt: skip
     annotations: dict[str, Any] = {"kind": int, "table": LawTable} | dict.fromkeys(reals, real)
@@ -61,8 +61,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     model = sensor.kernel_parameters()
     if model is None:
         least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
-        packed.peak = math.inf
-        packed.kind, packed.table = TABLE, put_table(tabulated(sensor, limits), device, least)
+        packed.kind, packed.peak, packed.table = TABLE, math.inf, put_table(tabulated(sensor, limits), device, least)
         return packed
     packed.kind = MIXTURE if model.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002
@@ -77,7 +76,8 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
     packed.uniform = model.p_random / (limits.max_m - limits.min_m)
     packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
-    packed.peak = packed.uniform + packed.passing + math.exp(packed.log_constant) / model.sigma_m
+    densest = math.exp(packed.log_constant) / model.sigma_m if model.sigma_m > 0 else math.inf
+    packed.peak = packed.uniform + packed.passing + densest if model.robust else math.inf
     return packed
 
 
@@ -179,10 +179,10 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
 
 @wp.func
 def highest_density(law: Any, reading_m: Any):
-    """What `stop_density` of a reading is at most, wherever the beam stops."""
-    if wp.isfinite(reading_m):
-        return law.peak
-    return type(reading_m)(1.0)
+    """What `stop_density` of a reading is at most in the mixture, wherever the beam stops; of other laws infinite."""
+    if law.kind == MIXTURE and not wp.isfinite(reading_m):
+        return type(reading_m)(1.0)
+    return law.peak
 
 
 @wp.func
