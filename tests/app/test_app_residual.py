@@ -24,7 +24,8 @@ def compared(run, scan, beam):
 
 @pytest.fixture(scope="module")
 def surfaces():
-    return room_run(bm.Surface(), draws=10)
+    """As many draws as it takes for a surface's mean direction to be that of its wall."""
+    return room_run(bm.Surface(), draws=100)
 
 
 def straight_ahead_on_the_lower_wall(run):
