@@ -19,9 +19,9 @@ def room_scans(count=12):
     return bm.simulate(walls, GRID, poses, ANGLES, sensor=SENSOR, max_range_m=12.0, seed=1)
 
 
-def room_run(prior, draws=20):
+def room_run(prior, draws=20, thin=1):
     """What is inferred of it."""
-    return bm.infer(room_scans(), GRID, prior=prior, sensor=SENSOR, chains=2, warmup=10, draws=draws)
+    return bm.infer(room_scans(), GRID, prior=prior, sensor=SENSOR, chains=2, warmup=10, draws=draws, thin=thin)
 
 
 def write_room_log(path, count=12):

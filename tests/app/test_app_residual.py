@@ -24,8 +24,8 @@ def compared(run, scan, beam):
 
 @pytest.fixture(scope="module")
 def surfaces():
-    """As many draws as it takes for a surface's mean direction to be that of its wall."""
-    return room_run(bm.Surface(), draws=100)
+    """Draws so far apart that the mean direction of a surface is that of its wall."""
+    return room_run(bm.Surface(), draws=10, thin=10)
 
 
 def straight_ahead_on_the_lower_wall(run):
