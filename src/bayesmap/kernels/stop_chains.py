@@ -179,7 +179,7 @@ class StopChains:
         """
         packed = put_prior(prior)
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
-        moved = self._law != (sensor, prior, beta)
+        moved, starts = self._law != (sensor, prior, beta), not self.swept
         self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
         if moved:
             self._launch(decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
@@ -199,7 +199,7 @@ class StopChains:
             shared = [packed, self._active, state, keys]
             begin = [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]
             out = [(begin_sweep, touched, begin)]
-            if not turn and (after_turn or changed):
+            if not turn and (after_turn or (starts and i == 0)):
                 out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
             out += [
                 (draw_stops, beams, [number, turn, law, self._rays, state, keys]),
