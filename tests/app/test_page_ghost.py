@@ -50,6 +50,7 @@ def test_a_dragged_ghost_shows_the_library_s_prediction(open_page, room):
     run, address = room
     page = open_page(address)
     take(page)
+    until(page, HERE)  # before it stands somewhere, a press puts it under the hand
     press_and_drag(page, [(5, 10), (9, 12), (12, 14)], steps=6)
     found = fan(page)
     pose = [found["x"], found["y"], found["yaw"]]
