@@ -91,8 +91,8 @@ def infer(
         chains: how many Markov chains; the other methods give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
         draws: maps that each chain keeps; by default 1000, or of `Beta` and `Surface`, whose draws are larger and mix
-            in tens of sweeps, 75 to 200, the more the fewer beams there are (`CellPrior.default_draws`); but none for
-            "propagate", whose answer is the marginals.
+            in tens of sweeps, 75 to 200 (50 to 200 if ``thin`` is 1), the more the fewer beams there are
+            (`CellPrior.default_draws`); but none for "propagate", whose answer is the marginals.
         thin: sweeps from one kept map to the next; by default 1, or of `Beta` and `Surface`, where draws are not given
             either, 3.
         seed: of all random numbers.
@@ -143,12 +143,13 @@ def infer(
     chains = check_count("infer", "chains", chains, 1)
     if thin is None:
         thin = prior.sweeps_a_draw if draws is None else 1
+    thin = check_count("infer", "thin", thin, 1)
     if draws is None:
-        draws = 0 if method == "propagate" else prior.default_draws(scans.n_beams, grid.n_cells, chains)
+        draws = 0 if method == "propagate" else prior.default_draws(scans.n_beams, grid.n_cells, chains, thin)
     schedule = Schedule(
         check_count("infer", "warmup", warmup, 0),
         check_count("infer", "draws", draws, 0),
-        check_count("infer", "thin", thin, 1),
+        thin,
     )
     seed = check_count("infer", "seed", seed, 0)
     particles = check_count("infer", "particles", particles, 1)

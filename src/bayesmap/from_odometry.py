@@ -114,7 +114,7 @@ def slam(
         no_odometry: do not look at the log's poses; scans must come at 5 Hz or so.
         chains: how many chains over map and poses.
         warmup: sweeps that are not kept.
-        draws: kept draws of each chain; by default two thirds of those that `infer` keeps.
+        draws: kept draws of each chain; by default those that `infer` keeps where it keeps every sweep.
         thin: sweeps from one kept draw to the next.
         seed: of all random numbers.
         threads: of the CPU; all cores if None.
@@ -174,8 +174,6 @@ def map_along(
     cells = Surface() if prior is None else prior
     poses: dict[str, Any] = {} if fast else {"poses": keys.prior, "start_poses": keys.starts}
     options.setdefault("hit_depth", cells.hit_depth)
-    if options.get("draws") is None:  # all sweeps are kept, and a sweep may draw poses, too: fewer than `infer` takes
-        options["draws"] = 2 * cells.default_draws(keys.scans.n_beams, grid.n_cells, chains) // 3
     if on_checkpoint is not None:
         options["on_checkpoint"] = lambda run: on_checkpoint(replace(run, trajectory=found))
     run = infer(keys.scans, grid, prior=cells, chains=chains, seed=seed, **poses, **options)

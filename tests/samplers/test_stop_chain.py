@@ -143,12 +143,16 @@ def test_kept_log_likelihoods_are_those_of_the_kept_draws():
 def test_the_fewer_the_beams_the_more_draws_by_default():
     grid = 300 * 300
     assert [bm.Beta().default_draws(beams, grid, 4) for beams in (0, 1, 25_000, 50_000, 100_000, 10**9)] == [
-        200, 200, 200, 150, 75, 75,
+        200, 200, 200, 100, 50, 50,
     ]  # fmt: skip
-    # On large grids no more than 1 GiB of draws, but always 75
+    # On large grids no more than 1 GiB of draws, but always 50
     assert bm.Beta().default_draws(1, 1000 * 1000, 1) == 200
-    assert bm.Beta().default_draws(1, 1000 * 1000, 4) == 75
-    assert bm.Surface().default_draws(1, 10**8, 4) == 75
+    assert bm.Beta().default_draws(1, 1000 * 1000, 4) == 67
+    assert bm.Surface().default_draws(1, 10**8, 4) == 50
+    # More where sweeps between them are not kept
+    assert [bm.Beta().default_draws(beams, grid, 4, thin=3) for beams in (25_000, 50_000, 100_000, 10**9)] == [
+        200, 150, 75, 75,
+    ]  # fmt: skip
     run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0)
     assert run.n_draws == bm.Beta().default_draws(scans().n_beams, GRID.n_cells, 1) == 200
     assert run.posterior.sweep == 3 * 200

@@ -231,8 +231,8 @@ class CellPrior(ABC):
         """
         return self.predictive_stops(draws, wanted)
 
-    def default_draws(self, beams: int, cells: int, chains: int) -> int:
-        """Draws of each chain where none are asked for."""
+    def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
+        """Draws of each chain, ``thin`` sweeps apart, where none are asked for."""
         return 1000
 
     # Files

@@ -35,6 +35,7 @@ FRESH_CELLS = 1 << 16
 """States drawn from the prior, of which cells that no beam touched take theirs."""
 
 FEWEST_DRAWS, MOST_DRAWS = 75, 200
+FEWEST_IN_A_ROW = 50  # where every sweep is kept, and neighbours say less
 BEAMS_OF_FEWEST = 100_000
 MOST_DRAW_BYTES = 1 << 30
 """Of all chains' draws, if beams were to touch every cell of the grid."""
@@ -185,15 +186,16 @@ class Reflective(CellPrior):
         """The prior's mean everywhere, (nx, ny)."""
         return np.full(grid.shape, self.mean)
 
-    def default_draws(self, beams: int, cells: int, chains: int) -> int:
-        """As many as take the time of 75 with 100 000 beams, up to 200.
+    def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
+        """As many as take the time of 75 with 100 000 beams, or of 50 where every sweep is kept, up to 200.
 
         The fewer the beams, the less certain the map and the more draws its predictions need (docs/defaults.md); and
-        the sooner a sweep is over. Never fewer than 75, and no more of large grids than fit in 1 GiB.
+        the sooner a sweep is over. Never fewer than these, and no more of large grids than fit in 1 GiB.
         """
-        affordable = BEAMS_OF_FEWEST * FEWEST_DRAWS // max(beams, 1)
+        fewest = FEWEST_IN_A_ROW if thin == 1 else FEWEST_DRAWS
+        affordable = BEAMS_OF_FEWEST * fewest // max(beams, 1)
         fitting = MOST_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
-        return max(FEWEST_DRAWS, min(affordable, fitting, MOST_DRAWS))
+        return max(fewest, min(affordable, fitting, MOST_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """The prior as kernels take it; that of surfaces is not looked at."""

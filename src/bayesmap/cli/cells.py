@@ -39,13 +39,16 @@ def with_defaults(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def draws_for(values: dict[str, Any], beams: int, cells: int) -> int:
-    """The draws of a chain: as many as the user says, else as many as suit the kind of cells, beams and grid."""
+    """The draws of a chain: as many as the user says, else as many as suit the kind of cells, beams and grid.
+
+    ``thin`` is known by then (`sweeps_a_draw`).
+    """
     from bayesmap.cells.kinds import BUILT_IN
 
     if values["draws"] is not None:
         return int(values["draws"])
     kind = BUILT_IN[values["cells"]]
-    return BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, values["chains"])
+    return BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, values["chains"], values["thin"])
 
 
 def sweeps_a_draw(values: dict[str, Any]) -> int:

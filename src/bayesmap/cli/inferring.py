@@ -138,8 +138,8 @@ def sample(
     else:
         _, grid = read_map(values["grid"])
     folder.console.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
-    draws = cells.draws_for(values, train.n_beams, grid.n_cells)
-    values = {**values, "draws": draws, "thin": cells.sweeps_a_draw(values)}
+    values = {**values, "thin": cells.sweeps_a_draw(values)}
+    values = {**values, "draws": cells.draws_for(values, train.n_beams, grid.n_cells)}
     toml = as_toml({"infer": values})
     with progress(folder.console, "tracing beams") as report:
 

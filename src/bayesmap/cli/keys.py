@@ -121,7 +121,7 @@ SLAM = (
             "threads", "device", "checkpoint_every", "strict",
         )
     ),
-    Key("draws", int, None, "Maps that each chain keeps.", "50, to 133 for few beams"),
+    Key("draws", int, None, "Maps that each chain keeps.", "50, to 200 for few beams"),
     Key("thin", int, 1, "Sweeps from one kept map to the next."),
     Key("fast", bool, False, "Stop after the approximate trajectory: the map then takes it as known."),
     Key("no_odometry", bool, False, "Do not look at the log's poses; scans must come at 5 Hz or more."),

@@ -1,8 +1,8 @@
 """Cells that hold what they are in most sweeps, and what beams need to know of them meanwhile.
 
 A free cell that many beams pass learns the same in every sweep: that it is free. It has its turn in few sweeps, and all
-such cells have theirs in the same ones. In between they hold their reflectivity, and of a surface that
-matters nothing changes either: so the product over a beam's held cells far before its reading,
+such cells have theirs in the same ones. In between they hold their reflectivity, and of a surface that matters nothing
+changes either: so the product over a beam's held cells far before its reading,
 
     prod over held far cells (1 - m g),
 
