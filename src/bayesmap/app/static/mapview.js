@@ -1101,8 +1101,8 @@ kbd { font: inherit; font-weight: 600; }
 @media (pointer: coarse) { button, select, input[type=number], input[type=text], .segmented label { min-height: 40px; } input[type=range] { height: 34px; } .che\
 ck { min-height: 40px; } }
 @container (max-width: 1000px) { header .what { display: none; } }
-@container (max-width: 1300px) { .bar .segmented label { padding: 0 8px; gap: 4px; } .bar .segmented svg { width: 16px; } }
-@container (max-width: 1200px) { .bar .segmented label:not(:has(:checked)) span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); } }
+@container (max-width: 1360px) { .bar .segmented label { padding: 0 8px; gap: 4px; } .bar .segmented svg { width: 16px; } }
+@container (max-width: 1260px) { .bar .segmented label:not(:has(:checked)) span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); } }
 @container (max-width: 900px) {
   .bar .segmented label span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); }
   .bar .segmented label { padding: 0 7px; }
@@ -1137,7 +1137,7 @@ ck { min-height: 40px; } }
   .bar .segmented label { padding: 0 12px; }
   .bar .segmented svg { width: 18px; }
 }
-@container (max-width: 420px) { .bar .segmented label { padding: 0 9px; } }
+@container (max-width: 450px) { .bar .segmented label { padding: 0 9px; } }
 @container (max-width: 380px) and (max-height: 700px) { .legend li:not(:first-child) { display: none; } }
 @container (max-width: 380px) { .bar .segmented label { padding: 0 5px; } .buttons { flex-wrap: wrap; } }
 @container (max-height: 520px) and (min-width: 560px) {
