@@ -7,9 +7,10 @@ programs cannot make that one better.
 
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from benchmarks.figure import Figure
@@ -38,6 +39,12 @@ class Baseline:
         document = json.loads(path.read_text())
         return cls(document["device"], document["figures"])
 
+    def besides(self, suites: Collection[str], device: str) -> dict[str, dict[str, Any]]:
+        """Its figures of other suites, if they are for this device."""
+        if device != self.device:
+            return {}
+        return {name: figure for name, figure in self.figures.items() if name.split("/")[0] not in suites}
+
     def factor(self, figure: Figure, device: str) -> float | None:
         """How many times worse a figure is than the baseline's; None if there is nothing to compare it with."""
         before = self.figures.get(figure.name)
@@ -46,9 +53,15 @@ class Baseline:
         return _cost(figure.to_json()) / _cost(before)
 
 
-def write(path: Path, device: str, version: str, figures: dict[str, Figure]) -> None:
-    """Figures as JSON."""
-    found = {name: figure.to_json() for name, figure in figures.items()}
+def write(
+    path: Path,
+    device: str,
+    version: str,
+    figures: Mapping[str, Figure],
+    others: Mapping[str, dict[str, Any]] = MappingProxyType({}),
+) -> None:
+    """Figures as JSON, with ``others`` that were not measured now, as a file holds them."""
+    found = dict(others) | {name: figure.to_json() for name, figure in figures.items()}
     path.write_text(json.dumps({"device": device, "version": version, "figures": found}, indent=1) + "\n")
 
 
