@@ -7,10 +7,9 @@ programs cannot make that one better.
 
 import json
 import time
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from benchmarks.figure import Figure
@@ -39,11 +38,14 @@ class Baseline:
         document = json.loads(path.read_text())
         return cls(document["device"], document["figures"])
 
-    def besides(self, suites: Collection[str], device: str) -> dict[str, dict[str, Any]]:
-        """Its figures of other suites, if they are for this device."""
+    def besides(self, measured: Collection[str], device: str) -> dict[str, dict[str, Any]]:
+        """Its figures of groups (what stands before the slash) of which none was measured, if they are for this
+        device.
+        """
         if device != self.device:
             return {}
-        return {name: figure for name, figure in self.figures.items() if name.split("/")[0] not in suites}
+        groups = {name.split("/")[0] for name in measured}
+        return {name: figure for name, figure in self.figures.items() if name.split("/")[0] not in groups}
 
     def factor(self, figure: Figure, device: str) -> float | None:
         """How many times worse a figure is than the baseline's; None if there is nothing to compare it with."""
@@ -57,11 +59,11 @@ def write(
     path: Path,
     device: str,
     version: str,
-    figures: Mapping[str, Figure],
-    others: Mapping[str, dict[str, Any]] = MappingProxyType({}),
+    figures: dict[str, Figure],
+    others: dict[str, dict[str, Any]] | None = None,
 ) -> None:
     """Figures as JSON, with ``others`` that were not measured now, as a file holds them."""
-    found = dict(others) | {name: figure.to_json() for name, figure in figures.items()}
+    found = (others or {}) | {name: figure.to_json() for name, figure in figures.items()}
     path.write_text(json.dumps({"device": device, "version": version, "figures": found}, indent=1) + "\n")
 
 

@@ -2,7 +2,7 @@
 
 Times are divided by a yardstick that is measured between their repeats. The gate fails when a figure of ours got worse
 than the baseline by more than half, and stays so when it is measured again (`benchmarks/gate.py`). `--save` writes what
-was measured into the baseline, in place of the same suites' figures there.
+was measured into the baseline, in place of the same groups' figures there.
 """
 
 import argparse
@@ -44,7 +44,7 @@ def main() -> int:
     parser.add_argument("--slow", action="store_true", help="surfaces at 20 and 5 cm, poses at full rate: many minutes")
     parser.add_argument("--json", type=Path, help="also write the figures there")
     parser.add_argument("--no-gate", action="store_true", help="compare with the baseline, but measure once, and pass")
-    parser.add_argument("--save", action="store_true", help="make these the baseline's figures of their suites")
+    parser.add_argument("--save", action="store_true", help="make these the baseline's figures of their groups")
     options = parser.parse_args()
     unknown = set(options.suites) - set(SUITES)
     if unknown:
@@ -72,8 +72,7 @@ def main() -> int:
     if options.json:
         gate.write(options.json, options.device, __version__, figures)
     if options.save:
-        others = baseline.besides(options.suites or SUITES, options.device)
-        gate.write(BASELINE, options.device, __version__, figures, others)
+        gate.write(BASELINE, options.device, __version__, figures, baseline.besides(figures, options.device))
     if worse:
         print(f"worse than the baseline by more than {gate.WORSE} x: {', '.join(worse)}")
     return 1 if worse else 0

@@ -100,7 +100,10 @@ def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, server
 
 def test_the_tools_fit_into_a_window_of_any_width(open_page, server):
     page = open_page(server, document())
-    for width in (1400, 1361, 1360, 1261, 1260, 1000, 901, 900, 761, 760, 641, 640, 451, 450, 421, 381, 380, 320):
+    for width in (
+        1400, 1361, 1360, 1300, 1280, 1261, 1260, 1201, 1200, 1000, 901, 900, 800, 761, 760, 700, 641, 640, 451, 450,
+        421, 420, 381, 380, 320,
+    ):  # fmt: skip
         page.set_viewport_size({"width": width, "height": 860})
         until(page, "true")
         assert page.evaluate("document.documentElement.scrollWidth") <= width

@@ -86,12 +86,13 @@ def test_a_baseline_is_read_as_it_was_written(tmp_path):
     assert Baseline.read(tmp_path / "none.json").factor(figure, "cpu") is None
 
 
-def test_what_is_saved_takes_the_place_of_its_own_suites_figures_alone(tmp_path):
+def test_what_is_saved_takes_the_place_of_its_own_groups_figures_alone(tmp_path):
     path, figure = tmp_path / "b.json", Figure("", 1.0, "MB")
     write(path, "cpu", "0.1", {"walls/a": figure, "poses/b": figure})
-    write(path, "cpu", "0.1", {"walls/c": figure}, Baseline.read(path).besides(["walls"], "cpu"))
+    measured = {"walls/c": figure}
+    write(path, "cpu", "0.1", measured, Baseline.read(path).besides(measured, "cpu"))
     assert set(Baseline.read(path).figures) == {"poses/b", "walls/c"}
-    assert Baseline.read(path).besides(["walls"], "cuda:0") == {}
+    assert Baseline.read(path).besides(measured, "cuda:0") == {}
 
 
 def test_the_committed_baseline_can_be_compared_with():

@@ -192,6 +192,6 @@ def run_chains(
 def pause_after(checkpoint_s: float, every_s: float) -> float:
     """Seconds to the next checkpoint, where the last one took so long: as asked, if one is asked for at every step.
 
-    The next one has more draws to write, up to twice as many as long as none has taken long.
+    It allows for twice the time, because the next one has more draws to write.
     """
     return max(every_s, 2 * checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
