@@ -210,7 +210,8 @@ class Inference:
         if name in WITHOUT_CHAINS:
             sampler, options = None, {"order": order, "start": default_start(self.model.grid)}
         else:
-            sampler, options = sampler_of(name, self.model.grid, order, start, self.asked.rounds)
+            alone = 0 if self.model.poses.unknown else self.schedule.warmup
+            sampler, options = sampler_of(name, self.model.grid, order, start, self.asked.rounds, alone)
         if sampler is not None and self.model.poses.unknown:
             sampler = WithPoses(cast(MovableSampler, sampler), self.schedule.warmup, self.start_poses)
         settings = self._settings(options)

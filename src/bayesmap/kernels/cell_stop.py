@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.rays import Line, distance_at
-from bayesmap.kernels.surface_crossing import Cell, cross_surface, ray_from
+from bayesmap.kernels.surface_crossing import Cell, cross_surface, put_cells, ray_from
 
 wp.set_module_options({"enable_backward": False})
 
@@ -62,9 +62,7 @@ def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
     maps.surfaces = int(states.ndim == 3)
     maps.depth = hit_depth
     if states.ndim == 3:
-        padded = np.zeros((*states.shape[:2], 8), dtype=np.float32)
-        padded[..., : states.shape[2]] = states
-        maps.surface = wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
+        maps.surface = put_cells(states, device)
     else:
         maps.stop = devices.to_device(states, wp.float32, device)
     return maps

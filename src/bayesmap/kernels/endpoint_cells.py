@@ -45,8 +45,10 @@ from bayesmap.kernels.variates import beta_variate
 
 wp.set_module_options({"enable_backward": False})
 
-STEPS = wp.constant(6)
+STEPS = 6
 """Metropolis steps of a surface in each sweep."""
+MOST_STEPS = 24
+"""As many as a cell has counters of random numbers for."""
 FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
 NO_LEAST = wp.constant(wp.float64(-1.0e300))
 STREAM_MET = wp.constant(wp.uint64(4 << 32))
@@ -224,6 +226,7 @@ def count_endpoint_cells(
 def update_endpoint_cells(
     first: int,
     sweep: int,
+    steps: int,
     law: SensorLaw32,
     prior: CellPrior,
     rays: TracedRays,
@@ -236,7 +239,7 @@ def update_endpoint_cells(
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
 ):
-    """One thread a chain's cell in which readings end: its reflectivity, then its surface, given lists and counts."""
+    """One thread a chain's cell in which readings end: its reflectivity, then steps of both, given lists and counts."""
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]
     u = i_cell - chain * endpoints.cell.shape[0]
@@ -260,7 +263,7 @@ def update_endpoint_cells(
     framed = into_frame(cell, step, centre)
     present = log_stops(law, state.beta, rays, endpoints, listed, span, centre, cell, NO_LEAST)
     present += log_cell_prior(prior, solid, framed)
-    for i in range(STEPS):
+    for i in range(steps):
         here_at = at + wp.uint64(256 + 32 * i)
         candidate = stepped(framed, step, key, here_at + wp.uint64(1), i)
         moved = out_of_frame(candidate, step, centre)

@@ -22,7 +22,7 @@ from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
 from bayesmap.kernels.cell_prior import put_prior
-from bayesmap.kernels.endpoint_cells import count_endpoint_cells, endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.endpoint_cells import STEPS, count_endpoint_cells, endpoint_cells, update_endpoint_cells
 from bayesmap.kernels.held_cells import HeldCells, pass_held_cells
 from bayesmap.kernels.labels import draw_labels, draw_untouched, put_known, sum_label_prior
 from bayesmap.kernels.parallel import available_cores, thread_pool
@@ -30,7 +30,7 @@ from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
 from bayesmap.kernels.stops import LEARNS, StopState, decay_of_readings, draw_stops, put_rays
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
-from bayesmap.kernels.surface_crossing import Cell
+from bayesmap.kernels.surface_crossing import Cell, put_cells
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
@@ -38,13 +38,6 @@ KERNELS = (
     begin_sweep, pass_held_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
     update_endpoint_cells, count_in_squares, draw_stop_chances,
 )  # fmt: skip
-
-
-def as_cells(states: NDArray[np.float32], device: str) -> Any:
-    """(n, 6) numbers as an array of `Cell`."""
-    padded = np.zeros((len(states), 8), dtype=np.float32)
-    padded[:, : states.shape[1]] = states
-    return wp.array(padded, dtype=Cell, device=device)
 
 
 def load_stop_kernels(device: str) -> Iterator[int]:
@@ -123,9 +116,6 @@ class StopChains:
         state = StopState()
         state.n_cells, state.n_beams, state.parts, state.beta = cells, beams, parts, 1.0
         state.cells = empty(chains * cells, dtype=Cell)
-        for chain in range(chains):
-            here = slice(chain * cells, (chain + 1) * cells)
-            wp.copy(state.cells[here], as_cells(states(chain), device))
         labels = np.zeros(chains * cells) if solid is None else solid.ravel()
         state.solid = wp.array(labels.astype(np.uint8), dtype=wp.uint8, device=device)
         state.fixed_m = wp.full(chains * cells, LEARNS, dtype=wp.float32, device=device)
@@ -136,6 +126,8 @@ class StopChains:
         state.where = empty(chains * beams, dtype=wp.vec2)
         state.log_likelihood, state.held_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
         self._state = state
+        for chain in range(chains):
+            self.put_cells(chain, states(chain))
         if counts is None:
             self._hits = empty(chains * cells, dtype=wp.int32)
             self._met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
@@ -157,6 +149,7 @@ class StopChains:
         prior: KernelNumbers,
         beta: float = 1.0,
         *,
+        steps: int = STEPS,
         observing_after: int | None = None,
         before: Callable[[int, int], None] | None = None,
         after: Callable[[int, int], None] | None = None,
@@ -169,6 +162,7 @@ class StopChains:
             sensor: the law of the readings.
             prior: of the cells.
             beta: inverse temperature.
+            steps: Metropolis steps of a surface in each of them, `bayesmap.kernels.endpoint_cells.MOST_STEPS` at most.
             observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
                 surfaces `in_squares` counts it.
             before: given chain and number of each sweep before it.
@@ -212,8 +206,8 @@ class StopChains:
                 out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
             out += [
                 (update_free_cells, touched, [number, self.without_surfaces, *shared, *counts]),
-                (update_endpoint_cells, endpoints, [number, law, packed, self._rays, self._endpoints, self._active,
-                                                    state, self._lists, self._passes, keys, *counts]),
+                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, self._endpoints,
+                                                    self._active, state, self._lists, self._passes, keys, *counts]),
             ]  # fmt: skip
             if self.without_surfaces and observing_after is not None and number >= observing_after:
                 out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
@@ -283,6 +277,14 @@ class StopChains:
         """All cells of a chain, (N, 6): on the CPU not a copy, and good until the next sweep."""
         return self._of(self._state.cells, chain)[:, :STATE_SIZE]
 
+    def put_cells(self, chain: int, states: NDArray[np.float32], solid: NDArray[np.bool_] | None = None) -> None:
+        """Let a chain go on from other cells, (N, 6), and labels, (N,), if it has any."""
+        here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
+        wp.copy(self._state.cells[here], put_cells(states, self.device))
+        if solid is not None:
+            wp.copy(self._state.solid[here], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
+        self._law, self._packed = (), None  # what was worked out of the cells before them is worthless
+
     def solid(self, chain: int) -> NDArray[np.bool_]:
         """Labels of all cells of a chain, (N,), likewise; none is solid if cells have no labels."""
         return self._of(self._state.solid, chain).view(np.bool_)
@@ -325,6 +327,16 @@ class StopChains:
         Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
         """
         return self._of(self._observed_counts, chain)
+
+    def log_likelihood(self, chain: int) -> NDArray[np.float32]:
+        """Of every beam of a chain before its last sweep, summed over all stops, (B,), likewise."""
+        return self._of(self._state.log_likelihood, chain)
+
+    def stopped_by(self, chain: int) -> NDArray[np.int32]:
+        """The cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
+        stop, rays = self._of(self._state.stop, chain), self.plan.rays
+        stopped = stop < rays.offsets[1:]
+        return np.where(stopped, rays.cells[np.where(stopped, stop, 0)], -1).astype(np.int32)
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
         """Of every beam of a chain: whether it stopped, at what distance in metres, and with what variance, (B,)."""

@@ -17,7 +17,11 @@ omega d, which spreads the readings of a wall that it grazes. So w^2 = v^2 + (om
 of the two together. The crossing probability keeps v: with w in it, held-out scans were predicted worse.
 """
 
+from typing import Any
+
+import numpy as np
 import warp as wp
+from numpy.typing import NDArray
 
 wp.set_module_options({"enable_backward": False})
 
@@ -30,6 +34,13 @@ Cell = wp.types.vector(length=8, dtype=wp.float32)
 and two flags: whether a candidate for its surface is being tried, and one to spare."""
 
 REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
+
+
+def put_cells(states: NDArray[np.float32], device: str) -> Any:
+    """States without flags, (..., 6), or without a surface, (..., 1), as an array of `Cell` on a device."""
+    padded = np.zeros((*states.shape[:-1], 8), dtype=np.float32)
+    padded[..., : states.shape[-1]] = states
+    return wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
 
 
 @wp.struct

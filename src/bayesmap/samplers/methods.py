@@ -16,6 +16,7 @@ from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.start import Start, default_start
 from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.two_starts import SEARCH_SHARE
 from bayesmap.samplers.wall_sampler import Order, WallSampler
 from bayesmap.samplers.without_chains import Asked, Found, belief_propagation, exact, importance
 from bayesmap.space.grid import Grid
@@ -33,15 +34,18 @@ def sampler_on_walls(name: str) -> WallSampler:
 
 
 def sampler_of(
-    name: str, grid: Grid, order: Order, start: Start | NDArray[np.bool_] | None, rounds: int
+    name: str, grid: Grid, order: Order, start: Start | NDArray[np.bool_] | None, rounds: int, warmup: int = 0
 ) -> tuple[Sampler[Any, Any], dict[str, Any]]:
     """A Markov chain sampler with its options, and these as a run's settings say them.
+
+    Surfaces search for where to start in the first part of ``warmup`` sweeps; without any they do not.
 
     Raises:
         BadInput: an unknown order.
     """
     if name in ON_ANY:
-        return ON_ANY[name](), {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
+        sampler = StopGibbs(int(SEARCH_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
+        return sampler, {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
     start = default_start(grid) if start is None else start
     sampler = ON_WALLS[name](order, start, rounds)
     return sampler, {"order": order, "start": start if isinstance(start, str) else "given map"}

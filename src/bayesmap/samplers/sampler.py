@@ -26,6 +26,7 @@ STREAM_SWEEPS = 1
 STREAM_START = 2
 STREAM_PARTICLES = 3
 STREAM_LABELS = 7
+STREAM_SECOND_SWEEPS, STREAM_SECOND_START = 8, 9
 """Streams of random numbers: with the seed and the chain, each makes a key of its own."""
 
 PILOT = 1 << 32

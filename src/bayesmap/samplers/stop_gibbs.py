@@ -7,7 +7,7 @@ each cell's reflectivity is a Beta, and its surface takes a Metropolis step. The
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -17,31 +17,59 @@ from numpy.typing import NDArray
 from bayesmap.cells.labels import SOLID
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import first_labels, start, steps, turn_every
+from bayesmap.samplers.initial_estimate import end_cells, first_labels, start, steps, turn_every
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, STREAM_LABELS, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.samplers.sampler import (
+    NOTHING,
+    STREAM_LABELS,
+    STREAM_SECOND_START,
+    STREAM_SECOND_SWEEPS,
+    STREAM_START,
+    STREAM_SWEEPS,
+    Info,
+    Keep,
+    Snapshot,
+)
 from bayesmap.samplers.stop_draws import StopDraws
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
+from bayesmap.samplers.two_starts import AVERAGED, evidence, take_better
 
 if TYPE_CHECKING:
     from bayesmap.kernels.stop_chains import Plan, StopChains
 
+Note = Callable[[int, int], None]
+SECOND = "second_"
+"""Before the names of what a snapshot holds of the second starts."""
+
+
 @dataclass(frozen=True, eq=False)
 class StopState:
-    """Chains between two sweeps."""
+    """Chains between two sweeps.
+
+    While they search for where to start, ``second`` are the same chains from their second starts, and ``gain`` says by
+    how much these explain the readings better so far, (C, N) (`bayesmap.samplers.two_starts`).
+    """
 
     problem: StopProblem
     chains: StopChains
     keys: Sequence[int]
     sweep: int
     statistics: Mapping[str, NDArray[np.float64]]
+    second: StopChains | None = None
+    gain: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
 class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces. A kept draw is the map that the sweep began with: its
     density, and the counts behind its expected reflectivities, are the sweep's own.
+
+    Attributes:
+        search_until: sweeps that surfaces make from two starts, with many steps in each, before they go on from the
+            better of the two in each place: a part of the warm-up. Without any a chain has one start.
     """
+
+    search_until: int = 0
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
         """Compile, trace, and estimate where to start."""
@@ -70,48 +98,78 @@ class StopGibbs:
     ) -> StopState:
         """Chains scattered about the initial estimate, or where they stood."""
         from bayesmap.kernels.random import mix
+
+        searches = problem.prior.has_surfaces and (0 if resume is None else resume.sweep) < self.search_until
+        stored = {} if resume is None else dict(resume.arrays)
+        second_stored = {name[len(SECOND) :]: stored.pop(name) for name in list(stored) if name.startswith(SECOND)}
+        gain = second_stored.pop("gain", None)
+        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
+        chains = self._chains(problem, chain_ids, seed, keys, stored)
+        state = StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
+        if not searches:
+            return state
+        keys = [mix(seed, chain, STREAM_SECOND_SWEEPS) for chain in chain_ids]
+        second = self._chains(problem, chain_ids, seed, keys, second_stored, STREAM_SECOND_START)
+        so_far = np.zeros((len(chain_ids), problem.grid.n_cells))
+        if gain is not None:
+            so_far[:, problem.estimate.endpoint_cells] = gain
+        return replace(state, second=second, gain=so_far)
+
+    def _chains(
+        self,
+        problem: StopProblem,
+        chain_ids: Sequence[int],
+        seed: int,
+        keys: Sequence[int],
+        stored: Mapping[str, NDArray[Any]],
+        stream: int = STREAM_START,
+    ) -> StopChains:
+        """Chains scattered about the initial estimate, or where they stood."""
         from bayesmap.kernels.stop_chains import StopChains
 
         estimate, kept = problem.estimate, problem.coordinates["cell"]
-        resumed = {} if resume is None else resume.arrays
-        solid = self._labels(problem, chain_ids, seed, resumed)
+        solid = self._labels(problem, chain_ids, seed, stored, stream)
 
         def states(chain: int) -> NDArray[np.float32]:
-            rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
+            rng = np.random.default_rng([seed, chain_ids[chain], stream])
             own = None if solid is None else solid[chain]
             state = start(estimate, problem.prior, problem.rays, rng, own)
-            if "state" in resumed:
-                state[kept] = resumed["state"][chain]
+            if "state" in stored:
+                state[kept] = stored["state"][chain]
             return state
 
         def on_grid(name: str) -> NDArray[np.int32] | None:
             """Two numbers for each kept cell, (C, 2, T), spread over the grid."""
-            if name not in resumed:
+            if name not in stored:
                 return None
             out = np.zeros((len(chain_ids), 2, problem.grid.n_cells), dtype=np.int32)
-            out[..., kept] = resumed[name]
+            out[..., kept] = stored[name]
             return out
 
-        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         observed_counts = on_grid("observed_counts")
-        chains = StopChains(
+        return StopChains(
             _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"), solid=solid,
             observed_counts=(
                 None if observed_counts is None else np.ascontiguousarray(observed_counts.transpose(0, 2, 1))
             ),
         )  # fmt: skip
-        return StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
 
     def _labels(
-        self, problem: StopProblem, chain_ids: Sequence[int], seed: int, resumed: Mapping[str, NDArray[Any]]
+        self,
+        problem: StopProblem,
+        chain_ids: Sequence[int],
+        seed: int,
+        stored: Mapping[str, NDArray[Any]],
+        stream: int,
     ) -> NDArray[np.bool_] | None:
         """Labels of all cells at which chains start, or where they stood, (C, N), if cells have any."""
         if not problem.prior.has_labels:
             return None
         cells = problem.grid.n_cells
-        if SOLID.name in resumed:
-            return np.unpackbits(resumed[SOLID.name], axis=-1, count=cells).view(np.bool_)
-        rngs = [np.random.default_rng([seed, chain, STREAM_LABELS]) for chain in chain_ids]
+        if SOLID.name in stored:
+            return np.unpackbits(stored[SOLID.name], axis=-1, count=cells).view(np.bool_)
+        of_labels = [STREAM_LABELS] if stream == STREAM_START else [STREAM_LABELS, stream]
+        rngs = [np.random.default_rng([seed, chain, *of_labels]) for chain in chain_ids]
         return np.stack([first_labels(problem.estimate, problem.prior, problem.grid, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
@@ -147,32 +205,85 @@ class StopGibbs:
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
+        if state.second is None:
+            return self._sweep(state, sweeps, beta, keep)
+        searched, info = self._search(state, min(sweeps, self.search_until - state.sweep), beta, keep)
+        if searched.sweep == state.sweep + sweeps:
+            return searched, info
+        then, later = self._sweep(searched, state.sweep + sweeps - searched.sweep, beta, keep)
+        both = [np.concatenate([getattr(i, n) for i in (info, later)], 1) for n in ("log_likelihood", "log_prior")]
+        draws = {name: np.concatenate([info.draws[name], later.draws[name]], axis=1) for name in info.draws}
+        return then, Info(both[0], both[1], draws)
+
+    def _sweep(
+        self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
+    ) -> tuple[StopState, Info]:
+        """The same of chains that have one start; ``note`` is told of each chain and sweep."""
+        from bayesmap.kernels.endpoint_cells import STEPS
+
         problem, chains = state.problem, state.chains
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
         draws = StopDraws(problem, chains, keep, kept)
+
+        def after(chain: int, sweep: int) -> None:
+            draws.end(chain, sweep)
+            if note is not None:
+                note(chain, sweep)
+
         log_likelihood, log_prior = chains.sweeps(
             state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
-            observing_after=keep.after if keep.every else None, before=draws.begin, after=draws.end,
+            steps=STEPS if steps is None else steps, observing_after=keep.after if keep.every else None,
+            before=draws.begin, after=after,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
+
+    def _search(self, state: StopState, sweeps: int, beta: float, keep: Keep) -> tuple[StopState, Info]:
+        """The same from both starts; after the last sweep of the search the chains go on from the better of the two."""
+        from bayesmap.kernels.endpoint_cells import MOST_STEPS
+
+        problem, chains, second = state.problem, state.chains, state.second
+        assert second is not None
+        assert state.gain is not None
+        gain, end_cell = state.gain, end_cells(problem.rays)
+
+        def noted(of: StopChains, sign: float) -> Note:
+            def note(chain: int, sweep: int) -> None:
+                if sweep >= self.search_until - AVERAGED:
+                    gain[chain] += sign / AVERAGED * evidence(of, chain, end_cell, problem.prior)
+
+            return note
+
+        there = replace(state, chains=second)
+        self._sweep(there, sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1.0))
+        state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, -1.0))
+        if state.sweep < self.search_until:
+            return state, info
+        take_better(problem, chains, second, gain, beta)
+        return replace(state, second=None, gain=None), info
 
     def snapshot(self, state: StopState) -> Snapshot:
         """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started, but for labels:
         those of all cells, packed.
         """
-        kept, chains = state.problem.coordinates["cell"], range(state.chains.n_chains)
-        counts = [np.stack(state.chains.counted(chain))[:, kept] for chain in chains]
-        labelled = state.problem.prior.has_labels
-        labels = {SOLID.name: np.packbits([state.chains.solid(chain) for chain in chains], axis=-1)} if labelled else {}
-        return Snapshot(
-            state.sweep,
-            labels
-            | {
-                "state": np.stack([state.chains.cells(chain)[kept] for chain in chains]),
-                "counts": np.stack(counts),
-                "observed_counts": np.stack([state.chains.observed_counts(chain)[kept].T for chain in chains]),
-            },
-        )
+        arrays = self._stored(state.problem, state.chains)
+        if state.second is not None:
+            assert state.gain is not None
+            second = self._stored(state.problem, state.second)
+            gain = np.ascontiguousarray(state.gain[:, state.problem.estimate.endpoint_cells])
+            arrays |= {SECOND + name: array for name, array in {**second, "gain": gain}.items()}
+        return Snapshot(state.sweep, arrays)
+
+    def _stored(self, problem: StopProblem, chains: StopChains) -> dict[str, NDArray[Any]]:
+        """What a snapshot holds of chains."""
+        kept, each, labels = problem.coordinates["cell"], range(chains.n_chains), {}
+        if problem.prior.has_labels:
+            labels[SOLID.name] = np.packbits([chains.solid(chain) for chain in each], axis=-1)
+        return {
+            "state": np.stack([chains.cells(chain)[kept] for chain in each]),
+            "counts": np.stack([np.stack(chains.counted(chain))[:, kept] for chain in each]),
+            "observed_counts": np.stack([chains.observed_counts(chain)[kept].T for chain in each]),
+            **labels,
+        }
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Kept-phase sweeps in which some beam said something of a cell, and those that counted, (2, nx, ny).
