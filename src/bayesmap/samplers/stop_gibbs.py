@@ -46,8 +46,8 @@ SECOND = "second_"
 class StopState:
     """Chains between two sweeps.
 
-    While they search for where to start, ``second`` are the same chains from their second starts, and ``gain`` says by
-    how much these explain the readings better so far, (C, N) (`bayesmap.samplers.two_starts`).
+    While they search for where to start, ``second`` are the same chains from their second starts, and ``evidence`` says
+    how well both explain the readings so far, (C, 2, N) (`bayesmap.samplers.two_starts`).
     """
 
     problem: StopProblem
@@ -56,7 +56,7 @@ class StopState:
     sweep: int
     statistics: Mapping[str, NDArray[np.float64]]
     second: StopChains | None = None
-    gain: NDArray[np.float64] | None = None
+    evidence: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class StopGibbs:
         searches = problem.prior.has_surfaces and (0 if resume is None else resume.sweep) < self.search_until
         stored = {} if resume is None else dict(resume.arrays)
         second_stored = {name[len(SECOND) :]: stored.pop(name) for name in list(stored) if name.startswith(SECOND)}
-        gain = second_stored.pop("gain", None)
+        stored_evidence = second_stored.pop("evidence", None)
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         chains = self._chains(problem, chain_ids, seed, keys, stored)
         state = StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
@@ -110,10 +110,10 @@ class StopGibbs:
             return state
         keys = [mix(seed, chain, STREAM_SECOND_SWEEPS) for chain in chain_ids]
         second = self._chains(problem, chain_ids, seed, keys, second_stored, STREAM_SECOND_START)
-        so_far = np.zeros((len(chain_ids), problem.grid.n_cells))
-        if gain is not None:
-            so_far[:, problem.estimate.endpoint_cells] = gain
-        return replace(state, second=second, gain=so_far)
+        so_far = np.zeros((len(chain_ids), 2, problem.grid.n_cells))
+        if stored_evidence is not None:
+            so_far[..., problem.estimate.endpoint_cells] = stored_evidence
+        return replace(state, second=second, evidence=so_far)
 
     def _chains(
         self,
@@ -243,23 +243,22 @@ class StopGibbs:
 
         problem, chains, second = state.problem, state.chains, state.second
         assert second is not None
-        assert state.gain is not None
-        gain, end_cell = state.gain, end_cells(problem.rays)
+        assert state.evidence is not None
+        found, end_cell = state.evidence, end_cells(problem.rays)
 
-        def noted(of: StopChains, sign: float) -> Note:
+        def noted(of: StopChains, number: int) -> Note:
             def note(chain: int, sweep: int) -> None:
                 if sweep >= self.search_until - AVERAGED:
-                    gain[chain] += sign / AVERAGED * evidence(of, chain, end_cell, problem.prior)
+                    found[chain, number] += evidence(of, chain, end_cell, problem.prior) / AVERAGED
 
             return note
 
-        there = replace(state, chains=second)
-        self._sweep(there, sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1.0))
-        state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, -1.0))
+        self._sweep(replace(state, chains=second), sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1))
+        state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, 0))
         if state.sweep < self.search_until:
             return state, info
-        take_better(problem, chains, second, gain, beta)
-        return replace(state, second=None, gain=None), info
+        take_better(problem, chains, second, found[:, 1] - found[:, 0], beta)
+        return replace(state, second=None, evidence=None), info
 
     def snapshot(self, state: StopState) -> Snapshot:
         """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started, but for labels:
@@ -267,10 +266,10 @@ class StopGibbs:
         """
         arrays = self._stored(state.problem, state.chains)
         if state.second is not None:
-            assert state.gain is not None
+            assert state.evidence is not None
             second = self._stored(state.problem, state.second)
-            gain = np.ascontiguousarray(state.gain[:, state.problem.estimate.endpoint_cells])
-            arrays |= {SECOND + name: array for name, array in {**second, "gain": gain}.items()}
+            found = np.ascontiguousarray(state.evidence[..., state.problem.estimate.endpoint_cells])
+            arrays |= {SECOND + name: array for name, array in {**second, "evidence": found}.items()}
         return Snapshot(state.sweep, arrays)
 
     def _stored(self, problem: StopProblem, chains: StopChains) -> dict[str, NDArray[Any]]:
