@@ -12,9 +12,9 @@ from bayesmap.run.runner import Job, run_chains
 from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
-from bayesmap.samplers.two_starts import SEARCH_SHARE
 
 
 @pytest.fixture(autouse=True)

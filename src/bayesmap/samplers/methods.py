@@ -15,8 +15,8 @@ from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.start import Start, default_start
+from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.two_starts import SEARCH_SHARE
 from bayesmap.samplers.wall_sampler import Order, WallSampler
 from bayesmap.samplers.without_chains import Asked, Found, belief_propagation, exact, importance
 from bayesmap.space.grid import Grid

@@ -30,9 +30,11 @@ from bayesmap.samplers.sampler import (
     Keep,
     Snapshot,
 )
+from bayesmap.samplers.start_search import settle
 from bayesmap.samplers.stop_draws import StopDraws
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
-from bayesmap.samplers.two_starts import AVERAGED, evidence, take_better
+from bayesmap.samplers.trials import evidence
+from bayesmap.samplers.two_starts import AVERAGED
 
 if TYPE_CHECKING:
     from bayesmap.kernels.stop_chains import Plan, StopChains
@@ -47,7 +49,7 @@ class StopState:
     """Chains between two sweeps.
 
     While they search for where to start, ``second`` are the same chains from their second starts, and ``evidence`` says
-    how well both explain the readings so far, (C, 2, N) (`bayesmap.samplers.two_starts`).
+    how well both explain the readings so far, (C, 2, N) (`bayesmap.samplers.start_search`).
     """
 
     problem: StopProblem
@@ -255,10 +257,10 @@ class StopGibbs:
 
         self._sweep(replace(state, chains=second), sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1))
         state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, 0))
-        if state.sweep < self.search_until:
-            return state, info
-        take_better(problem, chains, second, found[:, 1] - found[:, 0], beta)
-        return replace(state, second=None, evidence=None), info
+        if state.sweep == self.search_until:
+            settle(problem, chains, second, found[:, 1] - found[:, 0], beta)
+            state = replace(state, second=None, evidence=None)
+        return state, info
 
     def snapshot(self, state: StopState) -> Snapshot:
         """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started, but for labels:

@@ -1,0 +1,51 @@
+"""Where chains of surfaces come to stand before their draws: a search for what their sweeps cannot find.
+
+Sweeps change one cell at a time. A corner may be explained by one cell's surface and its neighbour's, by the same two
+the other way round, or by a single wide one, and a wall by few long surfaces or by many short ones: single steps do not
+lead from one to another, or do so in hundreds of sweeps. So before chains go on they try changes of several cells:
+squares of cells of a second start (`bayesmap.samplers.two_starts`), and surfaces that take in a neighbour's readings
+(`bayesmap.samplers.joined_surfaces`).
+
+It is over before a draw is kept, and no chain looks at another one: chains that come to agree do so by themselves.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bayesmap.samplers.joined_surfaces import join_surfaces
+from bayesmap.samplers.stop_problem import StopProblem
+from bayesmap.samplers.trials import ALL_TURN, Floats, Maps, look_with
+from bayesmap.samplers.two_starts import take_better
+
+if TYPE_CHECKING:
+    from bayesmap.kernels.stop_chains import StopChains
+
+SEARCH_SHARE = 0.8
+"""Of the warm-up: the part that is made from two starts."""
+
+
+def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
+    """Let chains take what is better of their second starts, and join surfaces where that is better.
+
+    Args:
+        problem: of both.
+        chains: as they stand; they go on from what is found.
+        second: likewise, from their second starts.
+        gain: by how much these explain the readings better that end in each cell, averaged over some sweeps, (C, N).
+        beta: inverse temperature.
+    """
+    grid, rays, maps = problem.grid, problem.rays, Maps.of(chains)
+    look = look_with(problem, chains, beta)
+    take_better(maps, Maps.of(second), gain.reshape(-1, *grid.shape), look)
+    seen = look(maps)
+    owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
+    range_m, known = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
+    # Of a sensor without parameters the surfaces' own thickness must do.
+    sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
+    join_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
+    look_with(problem, chains, beta, ALL_TURN)(maps)  # what cells count is that of the map as it is now
+    for chain, (cells, solid) in enumerate(zip(maps.cells, maps.solid, strict=True)):
+        chains.put_cells(chain, cells, solid)
