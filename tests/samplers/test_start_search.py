@@ -1,0 +1,97 @@
+"""Chains of surfaces go on from the better of two starts in each place, and by themselves."""
+
+import numpy as np
+import pytest
+from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, scans
+
+import bayesmap as bm
+from bayesmap.model import Model
+from bayesmap.samplers.initial_estimate import end_cells
+from bayesmap.samplers.methods import sampler_of
+from bayesmap.samplers.start_search import SEARCH_SHARE, settle
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.trials import Maps, look_with
+
+SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
+
+
+def prepared(prior, search_until=0):
+    sampler = StopGibbs(search_until)
+    return sampler, sampler.prepare(Model(scans(), GRID, prior, TRUTH, hit_depth=0.5), "cpu")
+
+
+@pytest.fixture(scope="module", params=SURFACES)
+def settled(request):
+    """Chains of which one has lost a wall, before and after they looked at second starts of theirs."""
+    sampler, problem = prepared(SURFACES[request.param])
+    state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 20)
+    other, _ = sampler.step(sampler.init(problem, [2, 3], 0), 20)
+    cells = [state.chains.cells(chain).copy() for chain in (0, 1)]
+    lost = np.zeros(GRID.shape, dtype=bool)
+    lost[:8, :8] = True
+    cells[0][lost.ravel(), 0] = 1e-20
+    for chain in (0, 1):
+        state.chains.put_cells(chain, cells[chain])
+    look = look_with(problem, state.chains, 1.0)
+    before = Maps.of(state.chains)
+    seen = look(before)
+    gain = (look(Maps.of(other.chains)) - seen).reshape(2, -1)
+    for chain in (0, 1):
+        state.chains.put_cells(chain, cells[chain])
+    settle(problem, state.chains, other.chains, gain, 1.0)
+    return before, Maps.of(state.chains), seen, look, lost
+
+
+def test_a_wall_that_a_chain_has_lost_comes_back(settled):
+    before, after, _, _, lost = settled
+    stops = [(maps.cells[0, :, 0] > 0.5).reshape(GRID.shape)[lost].sum() for maps in (before, after)]
+    assert stops[0] == 0
+    assert stops[1] >= 5
+
+
+def test_readings_are_explained_better_than_before(settled):
+    _, after, seen, look, _ = settled
+    gained = (look(after) - seen).sum(axis=(1, 2))
+    assert gained[0] > 100
+    assert gained[1] >= 0
+
+
+def test_no_surface_leaves_its_cell(settled):
+    _, after, _, _, _ = settled
+    away = after.cells[..., 1:3] - GRID.cell_centres_m(np.arange(GRID.n_cells))
+    assert abs(away).max() <= 0.5 * GRID.resolution + 1e-6
+
+
+def test_a_search_ends_when_it_is_to_and_reports_all_its_sweeps():
+    sampler, problem = prepared(PRIORS["surfaces"], 10)
+    state = sampler.init(problem, [0, 1], 0)
+    assert state.second is not None
+    state, info = sampler.step(state, 9)
+    assert state.second is not None
+    assert info.log_likelihood.shape == (2, 9)
+    state, info = sampler.step(state, 3)
+    assert state.second is None
+    assert state.evidence is None
+    assert info.log_likelihood.shape == info.log_prior.shape == (2, 3)
+    assert state.sweep == 12
+
+
+def test_second_starts_are_other_starts():
+    sampler, problem = prepared(PRIORS["surfaces"], 10)
+    state = sampler.init(problem, [0, 1], 0)
+    ends = np.unique(end_cells(problem.rays))[1:]
+    starts = [chains.cells(chain)[ends] for chains in (state.chains, state.second) for chain in (0, 1)]
+    for i, one in enumerate(starts):
+        assert all((one != other).any(axis=1).all() for other in starts[:i])
+
+
+@pytest.mark.parametrize("prior", [bm.Beta(), bm.Beta(coupling=0.5)])
+def test_cells_without_surfaces_have_one_start(prior):
+    sampler, problem = prepared(prior, 10)
+    assert sampler.init(problem, [0], 0).second is None
+
+
+def test_surfaces_search_in_the_first_part_of_the_warm_up():
+    sampler, _ = sampler_of("stop-gibbs", GRID, "radial", None, 1, 50)
+    assert sampler == StopGibbs(search_until=int(50 * SEARCH_SHARE))
+    assert sampler_of("stop-gibbs", GRID, "radial", None, 1)[0] == StopGibbs()
