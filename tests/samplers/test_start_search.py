@@ -95,3 +95,18 @@ def test_surfaces_search_in_the_first_part_of_the_warm_up():
     sampler, _ = sampler_of("stop-gibbs", GRID, "radial", None, 1, 50)
     assert sampler == StopGibbs(search_until=int(50 * SEARCH_SHARE))
     assert sampler_of("stop-gibbs", GRID, "radial", None, 1)[0] == StopGibbs()
+
+
+def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end():
+    sampler, problem = prepared(PRIORS["surfaces"])
+    state, _ = sampler.step(sampler.init(problem, [0], 0), 3)
+    ends = np.unique(end_cells(problem.rays))[1:]
+    before, numbers = Maps.of(state.chains).cells[0], problem.prior.kernel_numbers(GRID.resolution)
+    moved = []
+    for steps in (0, 6, 24):
+        state.chains.put_cells(0, before)
+        state.chains.sweeps(3, 1, TRUTH, numbers, steps=steps)
+        away = abs(state.chains.cells(0)[ends, 1:] - before[ends, 1:]).max(axis=1)
+        moved.append((away > 1e-5).mean())  # metres: turning into a surface's frame and back rounds
+    assert moved[0] == 0
+    assert 0.5 < moved[1] < moved[2]
