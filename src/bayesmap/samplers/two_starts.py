@@ -18,7 +18,7 @@ AVERAGED = 8
 HALF_WIDTHS = (4, 2, 1)
 """Squares reach so many cells to each side of their middle: large ones first, which have fewer seams for what they
 hold."""
-LEAST_NATS = 12.0
+LEAST_NATS = 20.0
 """By which the second start must be better in a square."""
 MUST_STAY = 1 / 3
 """Part of that which must be left in the very first sweep among the chain's own cells."""
