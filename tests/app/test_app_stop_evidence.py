@@ -59,12 +59,13 @@ def shown(request):
 
 
 def test_the_wall_of_a_room_is_spoken_for_and_nobody_misses_anything_on_its_floor(shown):
-    run, heard = shown
-    wall = tuple(int(i) for i in np.unravel_index(np.argmax(np.where(run.observed, run.occupancy, 0)), run.grid.shape))
-    floor = 10, 14
-    of_wall, of_floor = (heard.ask(Inspect(3, *cell))[0].header for cell in (wall, floor))
-    assert of_wall["nats_for"] > of_wall["nats_against"] + 5
-    assert of_wall["beams_for"] + of_wall["beams_against"] <= of_wall["beams"]
+    _, heard = shown
+    # A single cell of the wall may be one that its neighbour's long surface would do without.
+    of_wall = [heard.ask(Inspect(3, 20, y))[0].header for y in range(2, 18)]
+    of_floor = heard.ask(Inspect(3, 10, 14))[0].header
+    assert sum(cell["nats_for"] - cell["nats_against"] for cell in of_wall) > 30
+    assert max(cell["nats_for"] for cell in of_wall) > 5
+    assert all(cell["beams_for"] + cell["beams_against"] <= cell["beams"] for cell in of_wall)
     assert of_floor["beams"] > 20
     assert abs(of_floor["nats_for"] - of_floor["nats_against"]) < 5
 
