@@ -6,6 +6,7 @@ import pytest
 import bayesmap as bm
 from bayesmap.samplers.joined_surfaces import (
     FREE,
+    LEAST_NATS,
     MOST_BEAMS,
     axes_of,
     best_neighbours,
@@ -132,15 +133,15 @@ def test_the_one_becomes_free_and_the_other_longer():
     np.testing.assert_array_equal(new.cells[:, 1, 0], cells[new.where[:, 1], 0])
 
 
-@pytest.mark.parametrize("pays", [True, False])
-def test_what_does_not_pay_is_taken_back(pays):
+@pytest.mark.parametrize(("worth", "pays"), [(2 * LEAST_NATS, True), (LEAST_NATS / 2, False), (-LEAST_NATS, False)])
+def test_what_does_not_pay_is_taken_back(worth, pays):
     cells, owner, points = wall()
     maps = Maps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
 
     def look(maps):
-        """Every cell that stops beams costs, or is worth, a nat."""
+        """To be rid of a cell that stops beams is worth so many nats."""
         stops = (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
-        return (-1.0 if pays else 1.0) * stops
+        return -worth * stops
 
     gone = join_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
     left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)

@@ -5,12 +5,14 @@ import pytest
 from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, scans
 
 import bayesmap as bm
+from bayesmap.kernels.stop_chains import StopChains
 from bayesmap.model import Model
+from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.start_search import SEARCH_SHARE, settle
+from bayesmap.samplers.start_search import SEARCH_SHARE, join, joining_after, settle
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.trials import Maps, look_with
+from bayesmap.samplers.trials import ALL_TURN, Maps, look_with
 
 SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
 
@@ -39,6 +41,7 @@ def settled(request):
     for chain in (0, 1):
         state.chains.put_cells(chain, cells[chain])
     settle(problem, state.chains, other.chains, gain, 1.0)
+    join(problem, state.chains, 1.0)
     return before, Maps.of(state.chains), seen, look, lost
 
 
@@ -74,6 +77,34 @@ def test_a_search_ends_when_it_is_to_and_reports_all_its_sweeps():
     assert state.evidence is None
     assert info.log_likelihood.shape == info.log_prior.shape == (2, 3)
     assert state.sweep == 12
+
+
+@pytest.mark.parametrize("warmup", range(60))
+def test_surfaces_are_joined_in_the_warm_up_alone(warmup):
+    after = joining_after(int(SEARCH_SHARE * warmup))
+    assert len(after) == (0 if warmup < 2 else 1 if warmup < 13 else 3)
+    assert len(set(after)) == len(after)
+    assert max(after, default=0) <= warmup
+
+
+@pytest.mark.parametrize("cuts", [[30], [7, 3, 1, 1, 0, 1, 4, 13], [1] * 30])
+def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeypatch, cuts):
+    sampler, problem = prepared(PRIORS["surfaces"], 10)
+    made, joined, sweeps = {}, [], StopChains.sweeps
+
+    def watched(chains, first, count, *args, **options):
+        if first < ALL_TURN:  # others are trials
+            made[id(chains)] = first + count
+        return sweeps(chains, first, count, *args, **options)
+
+    monkeypatch.setattr(StopChains, "sweeps", watched)
+    monkeypatch.setattr(stop_gibbs, "join", lambda of, chains, beta: joined.append(made[id(chains)]))
+    state = sampler.init(problem, [0, 1], 0)
+    for count in cuts:
+        state, info = sampler.step(state, count)
+        assert info.log_likelihood.shape == info.log_prior.shape == (2, count)
+    assert state.sweep == 30
+    assert joined == joining_after(10) == [10, 11, 12]
 
 
 def test_second_starts_are_other_starts():

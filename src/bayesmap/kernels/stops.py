@@ -232,18 +232,19 @@ def draw_stops(
         free = state.held_free[i]
         far_begin = rays.watched_offsets[b]
         far_end = rays.watched_offsets[b + 1]
+    # Names of one loop are not used in another: Warp would carry them, and whole cells, from round to round.
     for far in range(far_begin, far_end):
-        k = far
+        k_far = far
         if all_turn == 0:
-            k = rays.watched[far]
-        c = rays.cells[k]
-        m_fixed = state.fixed_m[cell_0 + c]
-        if m_fixed < wp.float32(0.0) or m_fixed > CLEAR:
-            cell = state.cells[cell_0 + c]
-            g = chance_at(rays, cell, ray)
-            free = free * (one - cell[0] * g)
-            if m_fixed < wp.float32(0.0):
-                pass_by(state, chain, part, c, cell, g, ray, key, k, 1)
+            k_far = rays.watched[far]
+        c_far = rays.cells[k_far]
+        m_far = state.fixed_m[cell_0 + c_far]
+        if m_far < wp.float32(0.0) or m_far > CLEAR:
+            cell_far = state.cells[cell_0 + c_far]
+            g_far = chance_at(rays, cell_far, ray)
+            free = free * (one - cell_far[0] * g_far)
+            if m_far < wp.float32(0.0):
+                pass_by(state, chain, part, c_far, cell_far, g_far, ray, key, k_far, 1)
     stopped_far = one - free
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
@@ -251,35 +252,34 @@ def draw_stops(
     # A stop whose weight is under single precision beside the others' is not weighed; all weights add up to at least
     # that of the least likely stop.
     peak = tempered(highest_density(law, reading), state.beta)
-    bound = NEGLIGIBLE * tempered(lowest_density(law, reading), state.beta) / peak
+    negligible = NEGLIGIBLE / peak
+    bound = negligible * tempered(lowest_density(law, reading), state.beta)
     some_learn = int(0)
-    stopped = Crossing()
-    for k in range(near, end):
-        c = rays.cells[k]
-        m = state.fixed_m[cell_0 + c]
-        if m < wp.float32(0.0):
+    for k_near in range(near, end):
+        c_near = rays.cells[k_near]
+        m_near = state.fixed_m[cell_0 + c_near]
+        if m_near < wp.float32(0.0):
             some_learn = 1
-        if m < wp.float32(0.0) or m * free > bound or m > CLEAR:
-            cell = state.cells[cell_0 + c]
-            if cell[0] * free > bound:
-                met = cross_cell(rays, k, cell, ray)
-                a = cell[0] * met.chance
+        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > CLEAR:
+            cell_near = state.cells[cell_0 + c_near]
+            if cell_near[0] * free > bound:
+                met = cross_cell(rays, k_near, cell_near, ray)
+                a = cell_near[0] * met.chance
                 p = tempered(stop_density(law, reading, decay, met.distance_m, met.variance), state.beta)
                 weight = wp.float64(free * a * p)
                 total += weight
-                bound = wp.max(bound, NEGLIGIBLE * wp.float32(total) / peak)
-                u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k)))
+                bound = wp.max(bound, negligible * wp.float32(total))
+                u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k_near)))
                 if u * total < weight:
-                    choice = k
-                    stopped = met
+                    choice = k_near
                 free = free * (one - a)
-            elif cell[0] > CLEAR:
-                free = free * (one - cell[0] * chance_at(rays, cell, ray))
+            elif cell_near[0] > CLEAR:
+                free = free * (one - cell_near[0] * chance_at(rays, cell_near, ray))
             if free <= bound:
                 break  # the others have no weight, and behind a wall they are many
-    weight = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
-    total += weight
-    if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < weight:
+    nowhere = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
+    total += nowhere
+    if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < nowhere:
         choice = end
         some_learn = 1  # perhaps behind where the walk ended
     state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
@@ -287,37 +287,38 @@ def draw_stops(
     if choice == FAR:
         # Rare. Find the cell, and take back what was counted in those from it on.
         target = wp.float32(to_uniform(random_bits(key, STREAM_FAR + wp.uint64(b)))) * stopped_far
-        free = wp.float32(1.0)
+        past = wp.float32(1.0)
         for k in range(begin, near):
             c = rays.cells[k]
             cell = state.cells[cell_0 + c]
             g = chance_at(rays, cell, ray)
-            free = free * (one - cell[0] * g)
-            if choice == FAR and (one - free >= target or k == near - 1):
+            past = past * (one - cell[0] * g)
+            if choice == FAR and (one - past >= target or k == near - 1):
                 choice = k
-                stopped = cross_cell(rays, k, cell, ray)
             if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
                 pass_by(state, chain, part, c, cell, g, ray, key, k, -1)
-    for k in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
-        c = rays.cells[k]
-        if state.fixed_m[cell_0 + c] < wp.float32(0.0):
-            cell = state.cells[cell_0 + c]
-            pass_by(state, chain, part, c, cell, chance_at(rays, cell, ray), ray, key, k, 1)
+    for k_passed in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
+        c_passed = rays.cells[k_passed]
+        if state.fixed_m[cell_0 + c_passed] < wp.float32(0.0):
+            cell_passed = state.cells[cell_0 + c_passed]
+            g_passed = chance_at(rays, cell_passed, ray)
+            pass_by(state, chain, part, c_passed, cell_passed, g_passed, ray, key, k_passed, 1)
 
     state.stop[i] = choice
     if choice < end:
+        c_stop = rays.cells[choice]
+        cell_stop = state.cells[cell_0 + c_stop]
+        stopped = cross_cell(rays, choice, cell_stop, ray)
         state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
-        c = rays.cells[choice]
-        if state.fixed_m[cell_0 + c] >= wp.float32(0.0):
+        if state.fixed_m[cell_0 + c_stop] >= wp.float32(0.0):
             return  # it counts no beams now, or has a kernel that does
-        cell = state.cells[cell_0 + c]
         row = chain * state.parts + part
-        wp.atomic_add(state.hits, row, c, 1)
-        if cell[TRYING] != wp.float32(0.0):
-            new = cross_surface(state.candidates[chain * state.n_cells + c], ray)
+        wp.atomic_add(state.hits, row, c_stop, 1)
+        if cell_stop[TRYING] != wp.float32(0.0):
+            new = cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
             after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
             before = wp.max(stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), LEAST)
-            wp.atomic_add(state.gain, row, c, in_units(wp.log(after / before)))
+            wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(after / before)))
 
 
 @wp.func

@@ -33,6 +33,9 @@ FREE = 1e-20
 AROUND = 3
 """Cells around one that becomes free whose beams are asked."""
 LEVEL = 1e-9  # of an axis: no number is divided by less
+LEAST_NATS = 1.0
+"""By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps then
+part again; with two nats, too few."""
 ROUNDS = 10
 """Of changes that are tried together, at most."""
 
@@ -95,7 +98,7 @@ def join_surfaces(
         if not any(chosen.any() for chosen in now):
             break
         tried = [new.some(chosen) for new, chosen in zip(changes, now, strict=True)]
-        stays = try_changes(maps, tried, look, before, AROUND, 0.0)
+        stays = try_changes(maps, tried, look, before, AROUND, LEAST_NATS)
         gone = [number + int(stay.sum()) for number, stay in zip(gone, stays, strict=True)]
     return gone
 

@@ -3,8 +3,8 @@
 Sweeps change one cell at a time. A corner may be explained by one cell's surface and its neighbour's, by the same two
 the other way round, or by a single wide one, and a wall by few long surfaces or by many short ones: single steps do not
 lead from one to another, or do so in hundreds of sweeps. So before chains go on they try changes of several cells:
-squares of cells of a second start (`bayesmap.samplers.two_starts`), and surfaces that take in a neighbour's readings
-(`bayesmap.samplers.joined_surfaces`).
+squares of cells of a second start (`bayesmap.samplers.two_starts`), and then, several times, surfaces that take in a
+neighbour's readings (`bayesmap.samplers.joined_surfaces`).
 
 It is over before a draw is kept, and no chain looks at another one: chains that come to agree do so by themselves.
 """
@@ -25,10 +25,20 @@ if TYPE_CHECKING:
 
 SEARCH_SHARE = 0.8
 """Of the warm-up: the part that is made from two starts."""
+JOINED_AGAIN = 2
+"""Times that surfaces are joined once more, after tenths of so many sweeps each: what is left of those that were joined
+has moved by then, and may take in others. With the share above all of it lies in the warm-up."""
+
+
+def joining_after(search_until: int) -> list[int]:
+    """The sweeps after which surfaces are joined, of chains that have two starts for so many sweeps."""
+    apart = search_until // 10
+    again = [search_until + (i + 1) * apart for i in range(JOINED_AGAIN if apart > 0 else 0)]
+    return [search_until, *again] if search_until > 0 else []
 
 
 def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
-    """Let chains take what is better of their second starts, and join surfaces where that is better.
+    """Let chains take what is better of their second starts.
 
     Args:
         problem: of both.
@@ -37,9 +47,16 @@ def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: F
         gain: by how much these explain the readings better that end in each cell, averaged over some sweeps, (C, N).
         beta: inverse temperature.
     """
+    maps = Maps.of(chains)
+    take_better(maps, Maps.of(second), gain.reshape(-1, *problem.grid.shape), look_with(problem, chains, beta))
+    for chain, (cells, solid) in enumerate(zip(maps.cells, maps.solid, strict=True)):
+        chains.put_cells(chain, cells, solid)
+
+
+def join(problem: StopProblem, chains: StopChains, beta: float) -> None:
+    """Let surfaces of chains that stop few beams give way to neighbours' where that is better."""
     grid, rays, maps = problem.grid, problem.rays, Maps.of(chains)
     look = look_with(problem, chains, beta)
-    take_better(maps, Maps.of(second), gain.reshape(-1, *grid.shape), look)
     seen = look(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
     range_m, known = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()

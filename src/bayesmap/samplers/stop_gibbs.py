@@ -30,7 +30,7 @@ from bayesmap.samplers.sampler import (
     Keep,
     Snapshot,
 )
-from bayesmap.samplers.start_search import settle
+from bayesmap.samplers.start_search import join, joining_after, settle
 from bayesmap.samplers.stop_draws import StopDraws
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.trials import evidence
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from bayesmap.kernels.stop_chains import Plan, StopChains
 
 Note = Callable[[int, int], None]
+DENSITIES = "log_likelihood", "log_prior"
 SECOND = "second_"
 """Before the names of what a snapshot holds of the second starts."""
 
@@ -68,7 +69,8 @@ class StopGibbs:
 
     Attributes:
         search_until: sweeps that surfaces make from two starts, with many steps in each, before they go on from the
-            better of the two in each place: a part of the warm-up. Without any a chain has one start.
+            better of the two in each place: a part of the warm-up, in the rest of which they join surfaces
+            (`bayesmap.samplers.start_search.joining_after`). Without any a chain has one start.
     """
 
     search_until: int = 0
@@ -207,15 +209,20 @@ class StopGibbs:
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
-        if state.second is None:
+        end, joining = state.sweep + sweeps, joining_after(self.search_until)
+        if not state.problem.prior.has_surfaces or state.sweep >= max(joining, default=0):
             return self._sweep(state, sweeps, beta, keep)
-        searched, info = self._search(state, min(sweeps, self.search_until - state.sweep), beta, keep)
-        if searched.sweep == state.sweep + sweeps:
-            return searched, info
-        then, later = self._sweep(searched, state.sweep + sweeps - searched.sweep, beta, keep)
-        both = [np.concatenate([getattr(i, n) for i in (info, later)], 1) for n in ("log_likelihood", "log_prior")]
-        draws = {name: np.concatenate([info.draws[name], later.draws[name]], axis=1) for name in info.draws}
-        return then, Info(both[0], both[1], draws)
+        infos = []
+        while not infos or state.sweep < end:
+            now = min([end, *(sweep for sweep in joining if sweep > state.sweep)]) - state.sweep
+            advance = self._sweep if state.second is None else self._search
+            state, info = advance(state, now, beta, keep)
+            infos.append(info)
+            if now > 0 and state.sweep in joining:
+                join(state.problem, state.chains, beta)
+        likelihood, log_prior = (np.concatenate([getattr(i, n) for i in infos], 1) for n in DENSITIES)
+        draws = {name: np.concatenate([info.draws[name] for info in infos], axis=1) for name in infos[0].draws}
+        return state, Info(likelihood, log_prior, draws)
 
     def _sweep(
         self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
