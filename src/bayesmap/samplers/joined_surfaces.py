@@ -32,10 +32,10 @@ FREE = 1e-20
 """That of a cell that became free."""
 AROUND = 3
 """Cells around one that becomes free whose beams are asked."""
-LEVEL = 1e-9  # of an axis: no number is divided by less
 LEAST_NATS = 1.0
-"""By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps then
-part again; with two nats, too few."""
+"""By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps
+then part again; with two nats, too few."""
+LEVEL = 1e-9  # of an axis: no number is divided by less
 ROUNDS = 10
 """Of changes that are tried together, at most."""
 

@@ -212,7 +212,7 @@ class StopGibbs:
         end, joining = state.sweep + sweeps, joining_after(self.search_until)
         if not state.problem.prior.has_surfaces or state.sweep >= max(joining, default=0):
             return self._sweep(state, sweeps, beta, keep)
-        infos = []
+        infos: list[Info] = []
         while not infos or state.sweep < end:
             now = min([end, *(sweep for sweep in joining if sweep > state.sweep)]) - state.sweep
             advance = self._sweep if state.second is None else self._search
