@@ -172,7 +172,7 @@ def test_labels_of_unseen_cells_are_as_those_about_them():
     run = infer("labelled surfaces", scans(poses=30), sensor=TRUTH, warmup=40, draws=30)
     solid = run.posterior.draws.values("solid").mean(axis=(0, 1))
     assert solid[4:-4, 4:8].mean() < 0.1
-    assert solid[4:-4, 0].mean() > 0.5
+    assert solid[4:-4, 0].mean() > 0.3  # half of the time but for what the walls say, in large patches
 
 
 def test_the_fit_finds_both_betas():

@@ -336,7 +336,9 @@ class StopChains:
         """The cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
         stop, rays = self._of(self._state.stop, chain), self.plan.rays
         stopped = stop < rays.offsets[1:]
-        return np.where(stopped, rays.cells[np.where(stopped, stop, 0)], -1).astype(np.int32)
+        out = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all
+        out[stopped] = rays.cells[stop[stopped]]
+        return out
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
         """Of every beam of a chain: whether it stopped, at what distance in metres, and with what variance, (B,)."""
