@@ -32,9 +32,7 @@ has moved by then, and may take in others. With the share above all of it lies i
 
 def joining_after(search_until: int) -> list[int]:
     """The sweeps after which surfaces are joined, of chains that have two starts for so many sweeps."""
-    apart = search_until // 10
-    again = [search_until + (i + 1) * apart for i in range(JOINED_AGAIN if apart > 0 else 0)]
-    return [search_until, *again] if search_until > 0 else []
+    return sorted({search_until + i * (search_until // 10) for i in range(1 + JOINED_AGAIN)} - {0})
 
 
 def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
@@ -49,8 +47,7 @@ def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: F
     """
     maps = Maps.of(chains)
     take_better(maps, Maps.of(second), gain.reshape(-1, *problem.grid.shape), look_with(problem, chains, beta))
-    for chain, (cells, solid) in enumerate(zip(maps.cells, maps.solid, strict=True)):
-        chains.put_cells(chain, cells, solid)
+    maps.put(chains)
 
 
 def join(problem: StopProblem, chains: StopChains, beta: float) -> None:
@@ -64,5 +61,4 @@ def join(problem: StopProblem, chains: StopChains, beta: float) -> None:
     sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
     join_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
     look_with(problem, chains, beta, ALL_TURN)(maps)  # what cells count is that of the map as it is now
-    for chain, (cells, solid) in enumerate(zip(maps.cells, maps.solid, strict=True)):
-        chains.put_cells(chain, cells, solid)
+    maps.put(chains)

@@ -50,6 +50,11 @@ class Maps:
         each = range(chains.n_chains)
         return cls(np.stack([chains.cells(i) for i in each]), np.stack([chains.solid(i) for i in each]))
 
+    def put(self, chains: StopChains) -> None:
+        """Let chains go on from here."""
+        for chain, (cells, solid) in enumerate(zip(self.cells, self.solid, strict=True)):
+            chains.put_cells(chain, cells, solid)
+
 
 @dataclass(frozen=True, eq=False)
 class Changes:
@@ -93,8 +98,7 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float, sweep: int 
     numbers = problem.prior.kernel_numbers(problem.grid.resolution)
 
     def look(maps: Maps) -> Floats:
-        for chain in range(chains.n_chains):
-            chains.put_cells(chain, maps.cells[chain], maps.solid[chain])
+        maps.put(chains)
         chains.sweeps(sweep, 1, problem.sensor, numbers, beta, steps=0)
         each = range(chains.n_chains)
         found = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
