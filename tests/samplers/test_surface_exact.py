@@ -33,15 +33,20 @@ TWO = bm.Scans(
     [[-0.4, 0.2, 0.05], [0.45, -0.5, 1.4]], [-0.1, 0.15],
     [[0.65, 1.1], [np.inf, 0.72]], max_range_m=2.0, min_range_m=0.15,
 )  # fmt: skip
+BESIDE = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[0.93, np.inf]], max_range_m=2.0)  # a reading ends 3 cm behind it
 NOTHING = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[np.inf, 1.9]], max_range_m=2.0)  # no reading ends in the cell
+
+RARE = bm.BeamMixture(bm.Gaussian(0.12, 0.02), p_random=1e-9, p_no_return=0.15, p_short=0.0)
 
 WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
 SMALL = bm.Surface(0.02, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.25)  # most draws of a Wishart are too large
+NEARLY_FREE = bm.Surface(0.5, 1e9, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
 CASES = {
     "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
     "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
     "two cells": ((2, 1), TWO, BLUNT, bm.Surface(2.0, 1.0, wander=0.3, spread=0.3, dof=5.0)),
     "one cell without readings": ((1, 1), NOTHING, BLUNT, WEAK),
+    "one cell as unlikely to stop a beam as a reading by chance": ((1, 1), BESIDE, RARE, NEARLY_FREE),
 }
 
 
@@ -100,8 +105,17 @@ def test_no_surface_leaves_its_cell(name):
         assert p_values(mine, by_importance(*CASES[name], anywhere=True)).min() < ALPHA / TESTS
 
 
+def test_a_cell_takes_no_surface_from_the_prior_in_a_sweep_in_which_it_stops_a_beam():
+    """However small its reflectivity: the twin, surfaces of which no reading says anything, is another law."""
+    case = CASES["one cell as unlikely to stop a beam as a reading by chance"]
+    mine = drawn(*case, sweeps=100)
+    assert (mine[:, 0] < -16.6).mean() > 0.99  # logit m: those that passing beams do not tell from nothing
+    blind = by_importance(*case[:2], replace(RARE, p_random=0.9), NEARLY_FREE)
+    assert p_values(mine, blind).min() < ALPHA / TESTS
+
+
 def test_a_cell_that_stops_nothing_takes_its_surfaces_from_the_prior():
-    """In every eighth sweep, without a look at the beams; what was drawn from the prior stays so."""
+    """In every third sweep, without a look at the beams; what was drawn from the prior stays so."""
     worlds = copies(NOTHING, bm.Grid((1, 1), EDGE), SMALL, BLUNT, COPIES)
     centres = centres_of(worlds.problem.rays)
     states = draw_states(np.random.default_rng(7), SMALL, centres)

@@ -20,7 +20,7 @@ from bayesmap.kernels.cell_prior import (
     pseudo_counts,
 )
 from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.stops import CLEAREST, GAIN_UNITS, LEARNS, StopState
+from bayesmap.kernels.stops import CLEAR, GAIN_UNITS, LEARNS, StopState
 from bayesmap.kernels.surface_crossing import REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.variates import beta_or_nothing
 
@@ -33,8 +33,8 @@ TRIES_EVERY = wp.constant(4)
 """In one of so many of its turns a cell in which no reading ends tries a candidate; in the others it draws its
 reflectivity."""
 
-SILENT_EVERY = wp.constant(8)
-"""In one of so many sweeps a cell whose reflectivity is next to nothing takes another surface from the prior."""
+SILENT_EVERY = wp.constant(3)
+"""In one of so many sweeps a cell of whose surface no beam says anything takes another one from the prior."""
 
 # Counters of one cell in one sweep.
 PER_CELL = wp.constant(wp.uint64(1024))
@@ -64,15 +64,19 @@ def tries(sweep: int, every: int, c: int) -> bool:
 
 
 @wp.func
-def is_silent(sweep: int, every: int, c: int, m: wp.float32) -> bool:
-    """Whether a cell in which no reading ends takes another surface from the prior at the end of a sweep."""
-    return every != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAREST
+def is_silent(sweep: int, every: int, c: int, m: wp.float32, stopped_in: int) -> bool:
+    """Whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
+
+    It does by turns, if it stopped no beam in this sweep, and its reflectivity is so small that beams which passed say
+    nothing either.
+    """
+    return every != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
 
 
 @wp.func
 def renewed_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Another surface of a cell in which next to no beam would stop, whatever the surface: neither stops nor readings
-    say anything of it. So its conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
+    """Another surface of a cell of which neither stops nor passing beams say anything, whatever its surface. So its
+    conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
     """
     candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
     log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
@@ -108,7 +112,7 @@ def begin_sweep(
     learns = True
     if every != 0:
         learns = sweep % every == 0
-    renewed = without_surfaces == 0 and is_silent(sweep - 1, every, c, held_m)
+    renewed = without_surfaces == 0 and is_silent(sweep - 1, every, c, held_m, state.stopped_in[here])
     moved = prior_moved != 0 or every == 0 or renewed or held_m == LEARNS
     if not moved and not learns:
         return
@@ -124,8 +128,8 @@ def begin_sweep(
         if every == 0:
             learns = False  # a kernel of its own knows its beams
         elif learns and tries(sweep, every, c):
-            # One in which next to no beam would stop needs no candidate: it takes surfaces from the prior.
-            learns = cell[REFLECTIVITY] > CLEAREST
+            # One of whose surface passing beams say nothing needs no candidate: it takes surfaces from the prior.
+            learns = cell[REFLECTIVITY] > CLEAR
             if learns:
                 trying = FRESH
                 key = sweep_key(keys[chain], sweep, 1)
@@ -168,7 +172,7 @@ def update_free_cells(
     every = int(active.every[place])
     held_m = state.fixed_m[here]
     learns = held_m == LEARNS
-    if not learns and (without_surfaces != 0 or not is_silent(sweep, every, c, held_m)):
+    if not learns and (without_surfaces != 0 or not is_silent(sweep, every, c, held_m, state.stopped_in[here])):
         return
     cell = state.cells[here]
     key = sweep_key(keys[chain], sweep, 1)
@@ -197,7 +201,7 @@ def update_free_cells(
             accepted = wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio
             if accepted and is_own(prior, centre, candidate):
                 cell = candidate
-    if without_surfaces == 0 and is_silent(sweep, every, c, cell[REFLECTIVITY]):
+    if without_surfaces == 0 and is_silent(sweep, every, c, cell[REFLECTIVITY], state.stopped_in[here]):
         cell = renewed_surface(prior, centre, cell, key, at)
     cell[TRYING] = HIDDEN
     state.cells[here] = cell

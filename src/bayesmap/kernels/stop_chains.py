@@ -22,7 +22,9 @@ from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
 from bayesmap.kernels.cell_prior import put_prior
-from bayesmap.kernels.endpoint_cells import STEPS, count_endpoint_cells, endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.endpoint_beams import endpoint_cells
+from bayesmap.kernels.endpoint_cells import STEPS, count_endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.endpoint_lanes import room_for_blocks
 from bayesmap.kernels.held_cells import HeldCells, pass_held_cells
 from bayesmap.kernels.labels import draw_labels, draw_untouched, put_known, sum_label_prior
 from bayesmap.kernels.parallel import available_cores, thread_pool
@@ -124,6 +126,7 @@ class StopChains:
         state.gain = empty((chains * parts, cells), dtype=wp.int64)
         state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
         state.where = empty(chains * beams, dtype=wp.vec2)
+        state.stopped_in = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
         state.log_likelihood, state.held_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
         self._state = state
         for chain in range(chains):
@@ -137,6 +140,7 @@ class StopChains:
         self._observed_counts = wp.array(there, dtype=wp.vec2i, device=device)
         self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
         self._passes = empty((chains, len(plan.endpoints)), dtype=wp.int32)
+        self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
         slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # of labels zero where there are none
         self._slices = [empty((chains, count), dtype=wp.float64) for count in slices]
@@ -184,6 +188,7 @@ class StopChains:
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
         state, keys, counts = self._state, self._keys, [self._hits, self._met]
         shape, cells = self.plan.rays.grid.shape, state.n_cells
+        at_ends = [self._endpoints, self._active, state, self._lists, self._passes]
         beam_sums, cell_sums, label_sums = self._slices
 
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
@@ -197,17 +202,16 @@ class StopChains:
                 out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
             out += [
                 (draw_stops, beams, [number, turn, law, self._rays, state, keys]),
-                (count_endpoint_cells, endpoints, [number, self._endpoints, self._active, state, self._lists,
-                                                   self._passes, keys, *counts]),
-            ]  # fmt: skip
+                (count_endpoint_cells, endpoints, [number, *at_ends, keys, *counts]),
+            ]
             if prior.coupling > 0:
                 out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
                 labelled = [number, *shape, packed, self._known, state, keys, *counts]
                 out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
             out += [
                 (update_free_cells, touched, [number, self.without_surfaces, *shared, *counts]),
-                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, self._endpoints,
-                                                    self._active, state, self._lists, self._passes, keys, *counts]),
+                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, *at_ends, self._blocks,
+                                                    keys, *counts]),
             ]  # fmt: skip
             if self.without_surfaces and observing_after is not None and number >= observing_after:
                 out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
@@ -253,7 +257,7 @@ class StopChains:
             end = size * len(chains)
         if end > begin:
             first = chains.start * size + begin
-            inputs = [first, part, *inputs] if kernel is draw_stops else [first, *inputs]
+            inputs = [first, part, *inputs] if kernel in (draw_stops, update_endpoint_cells) else [first, *inputs]
             wp.launch(kernel, dim=end - begin, inputs=inputs, device=self.device)
 
     def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:

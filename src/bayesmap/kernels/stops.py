@@ -48,7 +48,6 @@ TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
 FAR = wp.constant(-1)  # a stop before the near entries
 LEARNS = wp.constant(wp.float32(-1.0))
 CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
-CLEAREST = wp.constant(wp.float32(1.0e-15))  # nor does a stop here have a weight, whatever its density
 NEGLIGIBLE = wp.constant(wp.float32(2.0**-26))
 
 # Counters of a sweep's random numbers: one for each purpose and entry or beam.
@@ -120,6 +119,7 @@ class StopState:
     held_free: wp.array(dtype=wp.float32)  # each beam's chance to come past its held far cells
     stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
+    stopped_in: wp.array(dtype=wp.int32)  # the last sweep in which a cell stopped a beam
     log_likelihood: wp.array(dtype=wp.float32)  # of the beam's reading, summed over all stops
 
 
@@ -310,6 +310,7 @@ def draw_stops(
         cell_stop = state.cells[cell_0 + c_stop]
         stopped = cross_cell(rays, choice, cell_stop, ray)
         state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
+        state.stopped_in[cell_0 + c_stop] = sweep
         if state.fixed_m[cell_0 + c_stop] >= wp.float32(0.0):
             return  # it counts no beams now, or has a kernel that does
         row = chain * state.parts + part

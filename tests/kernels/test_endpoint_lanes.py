@@ -1,0 +1,142 @@
+"""An endpoint cell's beams eight at a time say what they say one by one."""
+
+import numpy as np
+import pytest
+import warp as wp
+
+import bayesmap as bm
+from bayesmap.kernels.cell_draws import ActiveCells
+from bayesmap.kernels.cell_prior import centre_of
+from bayesmap.kernels.endpoint_beams import EndpointCells, log_stops
+from bayesmap.kernels.endpoint_cells import NO_LEAST, log_beams
+from bayesmap.kernels.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
+from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
+from bayesmap.kernels.stops import StopState, TracedRays
+from bayesmap.model import Model
+from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.sensors.model import RangeLimits
+
+PRIOR = bm.Surface(0.5, 1.0, wander=0.4, spread=0.3, dof=3.0)
+HARD = bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.05, p_no_return=0.1)
+CROWD = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_short=0.4, rate_short_per_m=3.0)
+SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)
+
+
+@wp.kernel
+def both_ways(
+    law: SensorLaw32, rays: TracedRays, endpoints: EndpointCells, active: ActiveCells, state: StopState,
+    lists: wp.array2d(dtype=wp.int32), passes: wp.array2d(dtype=wp.int32), blocks: Blocks,
+    hits: wp.array(dtype=wp.int32), leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
+):  # fmt: skip
+    """One by one; in lanes, those that have one; with the others; and with both cut short."""
+    u = wp.tid()
+    c = endpoints.cell[u]
+    cell = state.cells[c]
+    centre = centre_of(c, active.ny, active.edge_m)
+    begin, end = endpoints.offsets[u], endpoints.offsets[u + 1]
+    span = wp.vec4i(begin, begin + passes[0, u], end - hits[c], end)
+    listed = lists[0]
+    one = state.beta
+    out[0, u] = log_stops(law, one, rays, endpoints, listed, span, centre, cell, NO_LEAST)
+    others = put_in_blocks(blocks, 0, u, rays, endpoints, listed, span)
+    beams = wp.vec2i(span[1] - span[0], span[3] - span[2] - others)
+    out[1, u] = log_stops_in_lanes(law, blocks, 0, u, beams, centre, cell, NO_LEAST)
+    out[2, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, span, others, centre, cell, NO_LEAST)
+    out[3, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, span, others, centre, cell, leasts[u])
+    out[4, u] = wp.float64(others)
+    out[5, u] = wp.float64(span[3] - span[2])
+
+
+@wp.kernel
+def is_for_lanes(law: SensorLaw32, beta: wp.float32, out: wp.array(dtype=wp.int32)):
+    out[0] = wp.where(takes_lanes(law, beta), 1, 0)
+
+
+def scans_of_a_room(rng, scans=60, beams=90):
+    """Poses in a room of 4 m, readings about its walls; some of chance, too short, or without a return."""
+    x, y = rng.uniform(0.8, 3.2, (2, scans))
+    angle = np.linspace(-np.pi, np.pi, beams, endpoint=False)
+    ux, uy = np.cos(angle), np.sin(angle)
+    to_x = np.where(ux > 0, 4.0 - x[:, None], x[:, None]) / np.maximum(np.abs(ux), 1e-9)
+    to_y = np.where(uy > 0, 4.0 - y[:, None], y[:, None]) / np.maximum(np.abs(uy), 1e-9)
+    readings = np.minimum(to_x, to_y) + 0.02 * rng.normal(size=to_x.shape)
+    kind = rng.uniform(size=readings.shape)
+    readings = np.where(kind < 0.1, rng.uniform(0.1, 6.0, readings.shape), readings)
+    readings = np.where(kind > 0.95, np.inf, readings)
+    return bm.Scans(np.stack([x, y, np.zeros(scans)], axis=-1), angle, readings, max_range_m=6.0)
+
+
+def weighed(sensor, seed, worse=0.0):
+    """What `both_ways` says of a room's endpoint cells after a few sweeps, with random other surfaces."""
+    rng = np.random.default_rng(seed)
+    model = Model(scans_of_a_room(rng), bm.Grid((28, 28), 0.2, (-0.8, -0.8)), PRIOR, sensor)
+    sampler = StopGibbs()
+    problem = sampler.prepare(model, "cpu", 1)
+    state, _ = sampler.step(sampler.init(problem, [0], seed), 3)
+    chains = state.chains
+    there = np.array(chains.cells(0))
+    there[:, 1:3] += worse * rng.normal(size=(len(there), 2))
+    there[:, 3:] *= np.exp(0.3 * rng.normal(size=(len(there), 3)))
+    chains.put_cells(0, there)
+    law = sensor_law(problem.sensor, problem.rays.limits, "cpu", SensorLaw32)
+    cells = len(chains.plan.endpoints)
+    out = wp.zeros((6, cells), dtype=wp.float64)
+    inputs = [law, chains._rays, chains._endpoints, chains._active, chains._state, chains._lists, chains._passes,
+              chains._blocks, chains._hits]  # fmt: skip
+    wp.launch(both_ways, dim=cells, inputs=[*inputs, wp.full(cells, -1e300, dtype=wp.float64), out])
+    one_by_one = out.numpy()[0].copy()
+    least = one_by_one + rng.normal(size=cells)
+    wp.launch(both_ways, dim=cells, inputs=[*inputs, wp.array(least, dtype=wp.float64), out])
+    return one_by_one, least, out.numpy()
+
+
+@pytest.mark.parametrize("sensor", [HARD, CROWD, SHARP], ids=["hard", "crowd", "sharp"])
+@pytest.mark.parametrize("worse", [0.0, 0.05], ids=["where they stand", "beside it"])
+def test_eight_at_a_time_say_what_each_says(sensor, worse):
+    plain, least, (_, lanes, whole, cut, others, stopped) = weighed(sensor, 3, worse)
+    close = 2e-5 * (1 + np.abs(plain)) + 2e-5 * stopped
+    assert np.all(np.abs(whole - plain) <= close)
+    known = (others == 0) & (lanes != float(UNKNOWN))
+    assert known.sum() > 0.5 * (others == 0).sum() > 20
+    assert stopped[known].max() > 32
+    assert np.all(np.abs(lanes - plain)[known] <= close[known])
+    decided = np.abs(plain - least) > close
+    assert np.array_equal((cut > least)[decided], (plain > least)[decided])
+    assert np.all(np.abs(cut - plain)[plain > least] <= close[plain > least])
+
+
+def test_beams_without_a_lane_are_asked_one_by_one():
+    plain, _, (_, lanes, whole, _, others, stopped) = weighed(HARD, 4)
+    assert 0 < others.sum() < 0.1 * stopped.sum()
+    mixed = (others > 0) & (others < stopped)
+    assert mixed.any()
+    assert np.abs(lanes - plain)[mixed].min() > 0.1
+    assert np.abs(whole - plain)[mixed].max() < 1e-3
+
+
+def test_a_product_too_small_for_a_number_is_taken_one_by_one():
+    plain, _, (_, lanes, whole, _, _, _) = weighed(SHARP, 3, 0.05)
+    unknown = lanes == float(UNKNOWN)
+    assert 0 < unknown.sum() < 0.2 * unknown.size
+    assert np.array_equal(whole[unknown], plain[unknown])
+
+
+@pytest.mark.parametrize(
+    ("sensor", "beta", "takes"),
+    [
+        (HARD, 1.0, 1),
+        (HARD, 0.5, 0),
+        (bm.Gaussian(0.1), 1.0, 0),
+        (bm.BeamMixture(bm.StudentT(0.1, dof=3.0)), 1.0, 0),
+    ],
+)  # fmt: skip
+def test_lanes_are_for_mixtures_with_normal_noise(sensor, beta, takes):
+    law = sensor_law(sensor, RangeLimits(0.0, 6.0), "cpu", SensorLaw32)
+    out = wp.zeros(1, dtype=wp.int32)
+    wp.launch(is_for_lanes, dim=1, inputs=[law, beta, out])
+    assert out.numpy()[0] == takes
+
+
+def test_a_cell_put_elsewhere_is_another_cell():
+    """What `weighed` puts on the chains reaches the kernels: the same beams, worse surfaces, less likely."""
+    assert weighed(HARD, 3, 0.05)[0].sum() < weighed(HARD, 3)[0].sum() - 100
