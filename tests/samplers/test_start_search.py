@@ -10,9 +10,9 @@ from bayesmap.model import Model
 from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.start_search import SEARCH_SHARE, join, joining_after, settle
+from bayesmap.samplers.start_search import ALL_TURN, SEARCH_SHARE, join, joining_after, settle
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.trials import ALL_TURN, Maps, look_with
+from bayesmap.samplers.trials import Maps, look_with
 
 SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
 

@@ -10,7 +10,17 @@ import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.trials import Changes, Maps, apart, covered, evidence, in_squares, try_changes
+from bayesmap.samplers.trials import (
+    FEW_TURN,
+    Changes,
+    Maps,
+    apart,
+    covered,
+    evidence,
+    in_squares,
+    look_with,
+    try_changes,
+)
 
 SHAPE = (20, 15)
 
@@ -48,6 +58,22 @@ def test_a_beam_is_stopped_by_a_cell_that_it_crosses_or_by_none():
     np.testing.assert_array_equal(by >= 0, stopped)
     offsets = problem.rays.offsets
     assert all(cell in problem.rays.cells[offsets[b] : offsets[b + 1]] for b, cell in enumerate(by) if cell >= 0)
+
+
+def test_a_look_draws_the_stops_of_a_whole_sweep_and_moves_no_cell():
+    sampler = StopGibbs()
+    problem = sampler.prepare(Model(scans(), GRID, bm.Surface(), TRUTH, hit_depth=0.5), "cpu")
+    state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 3)
+    maps, look = Maps.of(state.chains), look_with(problem, state.chains, 1.0)
+    seen = look(maps)
+    assert np.array_equal(Maps.of(state.chains).cells, maps.cells)
+    stops = state.chains.stopped_by(0)
+    numbers = problem.prior.kernel_numbers(GRID.resolution)
+    state.chains.sweeps(FEW_TURN, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
+    assert np.array_equal(state.chains.stopped_by(0), stops)
+    assert not np.array_equal(Maps.of(state.chains).cells, maps.cells)
+    found = evidence(state.chains, 0, end_cells(problem.rays), problem.prior)
+    np.testing.assert_array_equal(found, seen[0].ravel())
 
 
 def worth(truth):

@@ -166,7 +166,8 @@ class StopChains:
             sensor: the law of the readings.
             prior: of the cells.
             beta: inverse temperature.
-            steps: Metropolis steps of a surface in each of them, `bayesmap.kernels.endpoint_cells.MOST_STEPS` at most.
+            steps: Metropolis steps of a surface in each sweep, `bayesmap.kernels.endpoint_cells.MOST_STEPS` at most; with
+                0 beams draw where they stop, and cells do nothing.
             observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
                 surfaces `in_squares` counts it.
             before: given chain and number of each sweep before it.
@@ -181,40 +182,43 @@ class StopChains:
         self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
         if moved:
             self._launch(decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
-        likelihood, log_prior = (
-            wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)
-        )
+        zeros = partial(wp.zeros, (self.n_chains, count), dtype=wp.float64, device=self.device)
+        likelihood, log_prior = zeros(), zeros()
         beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
         state, keys, counts = self._state, self._keys, [self._hits, self._met]
         shape, cells = self.plan.rays.grid.shape, state.n_cells
+        drawn = [state, keys, *counts]
         at_ends = [self._endpoints, self._active, state, self._lists, self._passes]
         beam_sums, cell_sums, label_sums = self._slices
 
-        def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
-            """Kernels of a sweep in their order, with the elements of a chain."""
-            number, changed = first + i, int(moved and i == 0)
-            turn, after_turn = (int(self._held.have_turn(sweep)) for sweep in (number, number - 1))
-            shared = [packed, self._active, state, keys]
-            begin = [number, self.without_surfaces, packed, changed, *shared[1:], self._log_priors]
-            out = [(begin_sweep, touched, begin)]
-            if not turn and (after_turn or (starts and i == 0)):
-                out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
-            out += [
-                (draw_stops, beams, [number, turn, law, self._rays, state, keys]),
-                (count_endpoint_cells, endpoints, [number, *at_ends, keys, *counts]),
-            ]
+        def of_cells(number: int) -> list[tuple[Any, int, list[Any]]]:
+            """Those of the cells' half, given the stops."""
+            out = [(count_endpoint_cells, endpoints, [number, *at_ends, keys, *counts])]
             if prior.coupling > 0:
                 out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
-                labelled = [number, *shape, packed, self._known, state, keys, *counts]
+                labelled = [number, *shape, packed, self._known, *drawn]
                 out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
             out += [
-                (update_free_cells, touched, [number, self.without_surfaces, *shared, *counts]),
+                (update_free_cells, touched, [number, self.without_surfaces, packed, self._active, *drawn]),
                 (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, *at_ends, self._blocks,
                                                     keys, *counts]),
             ]  # fmt: skip
             if self.without_surfaces and observing_after is not None and number >= observing_after:
                 out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
+            return out
+
+        def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
+            """Kernels of a sweep in their order, with the elements of a chain."""
+            number, changed = first + i, int(moved and i == 0)
+            turn, after_turn = (int(self._held.have_turn(sweep)) for sweep in (number, number - 1))
+            begin = [number, self.without_surfaces, packed, changed, self._active, state, keys, self._log_priors]
+            out = [(begin_sweep, touched, begin)]
+            if not turn and (after_turn or (starts and i == 0)):
+                out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
+            out.append((draw_stops, beams, [number, turn, law, self._rays, state, keys]))
+            if steps > 0:
+                out += of_cells(number)
             out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
             out.append((sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
             out.append((sum_of_slices, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
@@ -229,7 +233,7 @@ class StopChains:
             for i in range(count):
                 note(before, chains, i)
                 for phase in phases(i):
-                    self._part(phase, chains, 0)
+                    self._part(phase, (chains, 0))
                 note(after, chains, i)
 
         if self.device != "cpu":
@@ -237,21 +241,17 @@ class StopChains:
         elif self._state.parts == 1:
             self._each(all_sweeps, [range(chain, chain + 1) for chain in range(self.n_chains)])
         else:
-            parts = [(chain, part) for chain in range(self.n_chains) for part in range(self._state.parts)]
+            parts = [(range(i, i + 1), part) for i in range(self.n_chains) for part in range(self._state.parts)]
             for i in range(count):
                 note(before, range(self.n_chains), i)
                 for phase in phases(i):
-                    self._each(partial(self._part_of, phase), parts)
+                    self._each(partial(self._part, phase), parts)
                 note(after, range(self.n_chains), i)
         return likelihood.numpy(), log_prior.numpy()
 
-    def _part_of(self, phase: tuple[Any, int, list[Any]], at: tuple[int, int]) -> None:
-        """Launch a kernel over a part of the elements of one chain."""
-        self._part(phase, range(at[0], at[0] + 1), at[1])
-
-    def _part(self, phase: tuple[Any, int, list[Any]], chains: range, part: int) -> None:
+    def _part(self, phase: tuple[Any, int, list[Any]], at: tuple[range, int]) -> None:
         """Launch a kernel over a part of the elements of neighbouring chains."""
-        kernel, size, inputs = phase
+        (kernel, size, inputs), (chains, part) = phase, at
         begin, end = (size * at // self._state.parts for at in (part, part + 1))
         if len(chains) > 1:
             end = size * len(chains)

@@ -36,8 +36,8 @@ LEAST_NATS = 1.0
 """By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps
 then part again; with two nats, too few."""
 LEVEL = 1e-9  # of an axis: no number is divided by less
-ROUNDS = 10
-"""Of changes that are tried together, at most."""
+ROUNDS = 6
+"""Of changes that are tried together, at most: later ones try one in twenty of them."""
 
 
 @dataclass(frozen=True, eq=False)

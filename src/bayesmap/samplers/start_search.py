@@ -17,7 +17,7 @@ import numpy as np
 
 from bayesmap.samplers.joined_surfaces import join_surfaces
 from bayesmap.samplers.stop_problem import StopProblem
-from bayesmap.samplers.trials import ALL_TURN, Floats, Maps, look_with
+from bayesmap.samplers.trials import Floats, Maps, look_with
 from bayesmap.samplers.two_starts import take_better
 
 if TYPE_CHECKING:
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 SEARCH_SHARE = 0.8
 """Of the warm-up: the part that is made from two starts."""
+ALL_TURN = 1 << 24
+"""Number of a sweep that no chain makes, in which all cells have their turn."""
 JOINED_AGAIN = 2
 """Times that surfaces are joined once more, after tenths of so many sweeps each: what is left of those that were joined
 has moved by then, and may take in others. With the share above all of it lies in the warm-up."""
@@ -60,5 +62,6 @@ def join(problem: StopProblem, chains: StopChains, beta: float) -> None:
     # Of a sensor without parameters the surfaces' own thickness must do.
     sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
     join_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
-    look_with(problem, chains, beta, ALL_TURN)(maps)  # what cells count is that of the map as it is now
     maps.put(chains)
+    chains.sweeps(ALL_TURN, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
+    maps.put(chains)  # what cells count is now that of this map

@@ -33,8 +33,8 @@ Look = Callable[["Maps"], Floats]
 
 NUMBERS = 5
 """Of a surface: mean and covariance."""
-ALL_TURN, FEW_TURN = 1 << 24, (1 << 24) + 1
-"""Numbers of sweeps that no chain makes: in the first all cells have their turn, in the second few."""
+FEW_TURN = (1 << 24) + 1
+"""Number of a sweep that no chain makes, in which few cells have their turn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,14 +92,14 @@ def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior:
     return np.bincount(end_cell[ended], value[ended], cells).astype(np.float64)
 
 
-def look_with(problem: StopProblem, chains: StopChains, beta: float, sweep: int = FEW_TURN) -> Look:
-    """A function that puts chains on maps, makes one sweep over the beams, and gives their `evidence`, (C, nx, ny)."""
+def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
+    """A function that puts chains on maps, draws where their beams stop, and gives their `evidence`, (C, nx, ny)."""
     end_cell = end_cells(problem.rays)
     numbers = problem.prior.kernel_numbers(problem.grid.resolution)
 
     def look(maps: Maps) -> Floats:
         maps.put(chains)
-        chains.sweeps(sweep, 1, problem.sensor, numbers, beta, steps=0)
+        chains.sweeps(FEW_TURN, 1, problem.sensor, numbers, beta, steps=0)
         each = range(chains.n_chains)
         found = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
         return np.stack(found).reshape(-1, *problem.grid.shape)
