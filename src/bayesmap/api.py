@@ -91,7 +91,7 @@ def infer(
         chains: how many Markov chains; the other methods give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
         draws: maps that each chain keeps; by default 1000, or of `Beta` and `Surface`, whose draws are larger and mix
-            in tens of sweeps, 75 to 200 (50 to 200 if ``thin`` is 1), the more the fewer beams there are
+            in tens of sweeps, 100 to 200 (50 to 200 if ``thin`` is 1), the more the fewer beams there are
             (`CellPrior.default_draws`); but none for "propagate", whose answer is the marginals.
         thin: sweeps from one kept map to the next; by default 1, or of `Beta` and `Surface`, where draws are not given
             either, 3.

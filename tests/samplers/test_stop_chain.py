@@ -152,7 +152,7 @@ def test_the_fewer_the_beams_the_more_draws_by_default():
     assert bm.Surface().default_draws(1, 10**8, 4) == 50
     # More where sweeps between them are not kept
     assert [bm.Beta().default_draws(beams, grid, 4, thin=3) for beams in (25_000, 50_000, 100_000, 10**9)] == [
-        200, 150, 75, 75,
+        200, 200, 100, 100,
     ]  # fmt: skip
     run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0)
     assert run.n_draws == bm.Beta().default_draws(scans().n_beams, GRID.n_cells, 1) == 200

@@ -34,7 +34,7 @@ CELLS_AT_ONCE = 8192
 FRESH_CELLS = 1 << 16
 """States drawn from the prior, of which cells that no beam touched take theirs."""
 
-FEWEST_DRAWS, MOST_DRAWS = 75, 200
+FEWEST_DRAWS, MOST_DRAWS = 100, 200
 FEWEST_IN_A_ROW = 50  # where every sweep is kept, and neighbours say less
 BEAMS_OF_FEWEST = 100_000
 MOST_DRAW_BYTES = 1 << 30
@@ -187,7 +187,7 @@ class Reflective(CellPrior):
         return np.full(grid.shape, self.mean)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """As many as take the time of 75 with 100 000 beams, or of 50 where every sweep is kept, up to 200.
+        """As many as take the time of 100 with 100 000 beams, or of 50 where every sweep is kept, up to 200.
 
         The fewer the beams, the less certain the map and the more draws its predictions need (docs/defaults.md); and
         the sooner a sweep is over. Never fewer than these, and no more of large grids than fit in 1 GiB.

@@ -90,7 +90,7 @@ INFER = (
     Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
     Key("chains", int, 4, "Markov chains."),
     Key("warmup", int, 50, "Sweeps of each chain that are not kept."),
-    Key("draws", int, None, "Maps that each chain keeps.", "75, to 200 for few beams; binary 100"),
+    Key("draws", int, None, "Maps that each chain keeps.", "100, to 200 for few beams; binary 100"),
     Key("thin", int, None, "Sweeps from one kept map to the next.", "3; binary, or with draws given, 1"),
     Key("particles", int, 100_000, "Of the method importance."),
     Key("rounds", int, 20, "Of belief propagation, at most."),

@@ -166,7 +166,7 @@ class StopChains:
             sensor: the law of the readings.
             prior: of the cells.
             beta: inverse temperature.
-            steps: Metropolis steps of a surface in each sweep, `bayesmap.kernels.endpoint_cells.MOST_STEPS` at most; with
+            steps: Metropolis steps of a surface in a sweep, `bayesmap.kernels.endpoint_cells.MOST_STEPS` at most; with
                 0 beams draw where they stop, and cells do nothing.
             observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
                 surfaces `in_squares` counts it.
