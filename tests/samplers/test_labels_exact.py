@@ -128,9 +128,9 @@ def test_a_conditional_that_looks_at_half_of_the_cells_alone_is_rejected(monkeyp
     """The other colour keeps the labels that it had at first."""
     phases = stop_chains.StopChains._part
 
-    def one_colour(self, phase, chains, part):
+    def one_colour(self, phase, at):
         if phase[0] is not stop_chains.draw_labels or phase[2][0] == 0:
-            phases(self, phase, chains, part)
+            phases(self, phase, at)
 
     monkeypatch.setattr(stop_chains.StopChains, "_part", one_colour)
     assert least("a row", drawn("a row"), exact("a row")) < ALPHA / TESTS

@@ -252,7 +252,7 @@ class StopChains:
     def _part(self, phase: tuple[Any, int, list[Any]], at: tuple[range, int]) -> None:
         """Launch a kernel over a part of the elements of neighbouring chains."""
         (kernel, size, inputs), (chains, part) = phase, at
-        begin, end = (size * at // self._state.parts for at in (part, part + 1))
+        begin, end = (size * i // self._state.parts for i in (part, part + 1))
         if len(chains) > 1:
             end = size * len(chains)
         if end > begin:
