@@ -11,7 +11,7 @@ from bayesmap.kernels.endpoint_beams import EndpointCells, log_stops
 from bayesmap.kernels.endpoint_cells import NO_LEAST, log_beams
 from bayesmap.kernels.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
-from bayesmap.kernels.stops import StopState, TracedRays
+from bayesmap.kernels.stops import ChainArrays, TracedRays
 from bayesmap.model import Model
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.sensors.model import RangeLimits
@@ -24,7 +24,7 @@ SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)
 
 @wp.kernel
 def both_ways(
-    law: SensorLaw32, rays: TracedRays, endpoints: EndpointCells, active: ActiveCells, state: StopState,
+    law: SensorLaw32, rays: TracedRays, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays,
     lists: wp.array2d(dtype=wp.int32), passes: wp.array2d(dtype=wp.int32), blocks: Blocks,
     hits: wp.array(dtype=wp.int32), leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
 ):  # fmt: skip

@@ -22,7 +22,7 @@ from scipy import stats
 import bayesmap as bm
 from bayesmap.kernels import stop_chains as chains
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.stops import GAIN_UNITS, StopState, TracedRays
+from bayesmap.kernels.stops import GAIN_UNITS, ChainArrays, TracedRays
 from bayesmap.kernels.surface_crossing import Cell
 
 EDGE, CELLS = 0.5, 10_000
@@ -44,7 +44,7 @@ def worth(cell: Cell, centre: wp.vec2) -> float:
 
 
 @wp.func
-def tell(rays: TracedRays, state: StopState, part: int, b: int, jacobian: float):
+def tell(rays: TracedRays, state: ChainArrays, part: int, b: int, jacobian: float):
     c = rays.cells[rays.offsets[b]]
     if state.cells[c][6] != 0.0:
         centre = wp.vec2(rays.start_m[b][0] + 0.5, rays.start_m[b][1])  # the beam starts half a metre before it
@@ -55,7 +55,7 @@ def tell(rays: TracedRays, state: StopState, part: int, b: int, jacobian: float)
 
 @wp.kernel
 def speak(
-    first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: StopState,
+    first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     tell(rays, state, part, first + wp.tid(), 0.0)
@@ -63,7 +63,7 @@ def speak(
 
 @wp.kernel
 def speak_wrongly(
-    first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: StopState,
+    first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     tell(rays, state, part, first + wp.tid(), 0.5)
@@ -71,7 +71,7 @@ def speak_wrongly(
 
 @wp.kernel
 def stop_as_ever(
-    first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: StopState,
+    first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     """Beams cross one cell: those with a reading stop there, the others pass."""

@@ -8,6 +8,7 @@ from scipy import stats
 import bayesmap as bm
 from bayesmap.samplers import initial_estimate as module
 from bayesmap.samplers.initial_estimate import (
+    ACROSS,
     ALONG_WALL,
     end_cells,
     initial_estimate,
@@ -82,10 +83,19 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened
         np.testing.assert_allclose(factor @ factor.T, wide, atol=1e-7)
 
 
-def test_endpoint_cells_step(problem):
+def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thickness_across(problem):
     moved = steps(problem.estimate, problem.grid.resolution)
     assert moved.shape == (problem.estimate.endpoint.sum(), 8)
-    assert (moved[:, :6] != 0).all()
+    assert (moved[:, :6] > 0).all()
+    hits = problem.estimate.hits[problem.estimate.endpoint]
+    for (l11, l21, l22), n, row in zip(problem.estimate.factor_m, hits, moved, strict=True):
+        factor = np.array([[l11, 0.0], [l21, l22]])
+        (across, along), axes = np.linalg.eigh(factor @ factor.T)
+        frame = row[6:].astype(float)
+        assert np.linalg.norm(frame) == pytest.approx(1.0, rel=1e-5)
+        if along > 1.01 * across:  # a round one has no longer axis
+            assert abs(frame @ axes[:, 1]) == pytest.approx(1.0, abs=1e-4)
+        assert row[2] == pytest.approx(ACROSS * np.sqrt(across / (n + 1)), rel=1e-3)
 
 
 def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior():
@@ -149,8 +159,9 @@ def _widened(factors):
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():
     scans = bm.Scans([-0.5, 0.5, 0.0], [0.0, 0.4], [[7.0, 1.0]], max_range_m=9.0)
     rays = beam_rays(scans, bm.Grid((3, 1)), margin_m=0.1)
-    assert end_cells(rays)[0] == -1
-    assert initial_estimate(rays, bm.Beta()).hits.sum() <= 1
+    np.testing.assert_array_equal(end_cells(rays), [-1, 0])
+    found = initial_estimate(rays, bm.Beta())
+    np.testing.assert_array_equal(found.hits, found.touched == 0)
 
 
 def test_readings_along_the_axes_that_did_not_return_end_nowhere():

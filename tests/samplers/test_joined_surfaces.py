@@ -7,7 +7,7 @@ import bayesmap as bm
 from bayesmap.samplers.joined_surfaces import (
     FREE,
     LEAST_NATS,
-    MOST_BEAMS,
+    MOST_READINGS,
     axes_of,
     best_neighbours,
     join_surfaces,
@@ -90,7 +90,7 @@ def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
 
 
 def test_of_a_pair_only_one_gives_way_and_none_that_stops_many():
-    cells, owner, points = wall(((3, 5), (4, 5), (7, MOST_BEAMS + 1), (8, MOST_BEAMS + 2)))
+    cells, owner, points = wall(((3, 5), (4, 5), (7, MOST_READINGS + 1), (8, MOST_READINGS + 2)))
     found = readings_of(cells, owner, points, noise_of(owner), GRID)
     few, by, _ = best_neighbours(cells, found, axes_of(cells), GRID)
     np.testing.assert_array_equal(np.stack([few, by], -1), [[flat(3, 5), flat(4, 5)]])
@@ -152,6 +152,37 @@ def test_what_does_not_pay_is_taken_back(worth, pays):
     else:
         assert gone == [0]
         np.testing.assert_array_equal(maps.cells[0], cells)
+
+
+def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
+    """Of two short ones, far apart on the same wall, each would be taken in by the long one between them."""
+    cells, owner, points = wall(((3, 3), (5, 40), (7, 3)))
+    maps = Maps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+    alone = {}
+    for x, other in ((3, 7), (7, 3)):
+        one = cells.copy()
+        one[flat(other, 5), 0] = FREE
+        alone[x] = lengthened_by(one, owner, points, x)
+
+    def look(maps):
+        """Readings are explained better without a short one, by the long one next to it."""
+        stops = (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
+        return -10.0 * stops
+
+    gone = join_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+    assert gone == [1]
+    left = [x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1]
+    assert len(left) == 1
+    taken_in = 10 - left[0]
+    np.testing.assert_array_equal(maps.cells[0, flat(5, 5)], alone[taken_in])
+
+
+def lengthened_by(cells, owner, points, x):
+    """What the surface in the middle becomes when it takes in that of column x."""
+    new = joins(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
+    (at,) = np.flatnonzero(new.where[:, 0] == flat(x, 5))
+    assert new.where[at, 1] == flat(5, 5)
+    return new.cells[at, 1]
 
 
 def test_a_map_without_surfaces_that_stop_beams_stays_what_it_is():

@@ -5,6 +5,7 @@ import pytest
 from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
 
 import bayesmap as bm
+from bayesmap.cells.labels import SOLID
 from bayesmap.model import Model
 from bayesmap.run import runner
 from bayesmap.run.chains import join
@@ -12,6 +13,7 @@ from bayesmap.run.runner import Job, run_chains
 from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
@@ -170,3 +172,25 @@ def test_no_draws_is_a_fit_and_nothing_else(kind):
     assert np.isnan(run.occupancy).all()
     with pytest.raises(bm.BadInput, match="draws"):
         run.log_score(scans())
+
+
+def test_a_square_s_chance_has_the_pseudo_counts_of_the_label_that_the_draw_shows():
+    """Not of the label that the sweep went on to draw."""
+    prior = LABELLED["labelled surfaces"]
+    sampler = StopGibbs()
+    problem = sampler.prepare(Model(scans(), GRID, prior, TRUTH, hit_depth=0.5), "cpu")
+    state, info = sampler.step(sampler.init(problem, [0], 3), 6, keep=Keep(after=5, every=1))
+    shown = SOLID.values(info.draws[SOLID.name][0, 0], GRID.shape).ravel()
+    after = state.chains.solid(0)
+    found = state.chains.in_squares(0, 5, kept=False)
+    touched = problem.rays.touched
+    np.testing.assert_array_equal(problem.coordinates["cell"], touched)
+
+    def expected(solid):
+        a, b = prior.beta_given(solid[touched])
+        return (a + found.stopped) / (a + b + found.stopped + found.passed)
+
+    reported = info.draws["expected_stop_chance"][0, 0].astype(float)
+    np.testing.assert_allclose(reported, expected(shown), atol=1e-3)
+    assert (after != shown)[touched].any()
+    assert abs(reported - expected(after)).max() > 0.05

@@ -17,8 +17,8 @@ from bayesmap.samplers.trials import (
     apart,
     covered,
     evidence,
-    in_squares,
     look_with,
+    sums_over_squares,
     try_changes,
 )
 
@@ -118,7 +118,7 @@ def test_sums_over_squares_are_naive_sums():
     for half in (0, 1, 3):
         padded = np.pad(values, half)
         naive = [[padded[x : x + 2 * half + 1, y : y + 2 * half + 1].sum() for y in range(15)] for x in range(20)]
-        np.testing.assert_allclose(in_squares(values, half), naive, atol=1e-9)
+        np.testing.assert_allclose(sums_over_squares(values, half), naive, atol=1e-9)
 
 
 @pytest.mark.parametrize("cells", [1, 4])

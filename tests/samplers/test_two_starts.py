@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bayesmap.samplers.trials import Maps
-from bayesmap.samplers.two_starts import LEAST_NATS, cells_of, squares, take_better
+from bayesmap.samplers.two_starts import HALF_WIDTHS, LEAST_NATS, MARGIN, cells_of, squares, take_better
 
 SHAPE = (40, 30)
 GOOD = np.zeros(SHAPE)
@@ -56,6 +56,17 @@ def test_too_little_is_not_looked_for():
     found = squares(0, maps_of(GOOD), gain, 1)
     assert len(found.middle) == 1
     assert abs(found.middle[0] - 10).max() <= 1
+
+
+@pytest.mark.parametrize("half", HALF_WIDTHS)
+def test_no_beam_is_asked_about_two_squares(half):
+    gain = np.random.default_rng(half).uniform(0, 2 * LEAST_NATS, SHAPE)
+    found = squares(0, maps_of(GOOD), gain, half).middle
+    assert len(found) > 1
+    asked = np.zeros(SHAPE, dtype=int)
+    for x, y in found:
+        asked[max(0, x - half - MARGIN) : x + half + MARGIN + 1, max(0, y - half - MARGIN) : y + half + MARGIN + 1] += 1
+    assert asked.max() == 1
 
 
 @pytest.mark.parametrize("half", [1, 2])

@@ -19,8 +19,8 @@ from bayesmap.kernels.cell_prior import (
     log_surface_prior,
     pseudo_counts,
 )
-from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.stops import CLEAR, GAIN_UNITS, LEARNS, StopState
+from bayesmap.kernels.random import CELLS, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
 from bayesmap.kernels.surface_crossing import REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.variates import beta_or_nothing
 
@@ -30,13 +30,13 @@ FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
 HIDDEN = wp.constant(wp.float32(0.0))
 FRESH = wp.constant(wp.float32(1.0))
 TRIES_EVERY = wp.constant(4)
-"""In one of so many of its turns a cell in which no reading ends tries a candidate; in the others it draws its
-reflectivity."""
+"""In one of so many of its turns a cell in which no reading ends tries a candidate, unless it stops next to no beam; in
+the others it draws its reflectivity."""
 
 SILENT_EVERY = wp.constant(3)
 """In one of so many sweeps a cell of whose surface no beam says anything takes another one from the prior."""
 
-# Counters of one cell in one sweep.
+# Counters of one cell in one sweep, of the part CELLS; others follow in `square_counts` and `labels`.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT = wp.constant(wp.uint64(0))
 AT_BETA = wp.constant(wp.uint64(32))
@@ -94,7 +94,7 @@ def begin_sweep(
     prior: CellPrior,
     prior_moved: int,
     active: ActiveCells,
-    state: StopState,
+    state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
     log_prior: wp.array(dtype=wp.float32),
 ):
@@ -132,7 +132,7 @@ def begin_sweep(
             learns = cell[REFLECTIVITY] > CLEAR
             if learns:
                 trying = FRESH
-                key = sweep_key(keys[chain], sweep, 1)
+                key = sweep_key(keys[chain], sweep, CELLS)
                 at = wp.uint64(c) * PER_CELL + AT_FRESH
                 state.candidates[here] = fresh_surface(prior, centre, cell, key, at)
     if learns:
@@ -154,7 +154,7 @@ def update_free_cells(
     without_surfaces: int,
     prior: CellPrior,
     active: ActiveCells,
-    state: StopState,
+    state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
@@ -175,7 +175,7 @@ def update_free_cells(
     if not learns and (without_surfaces != 0 or not is_silent(sweep, every, c, held_m, state.stopped_in[here])):
         return
     cell = state.cells[here]
-    key = sweep_key(keys[chain], sweep, 1)
+    key = sweep_key(keys[chain], sweep, CELLS)
     at = wp.uint64(c) * PER_CELL
     centre = centre_of(c, active.ny, active.edge_m)
     if learns:

@@ -4,8 +4,8 @@ Such a cell knows its incidences. Given where the beams stopped, it counts those
 labels are drawn, if cells have any, and the cell draws its reflectivity; then reflectivity and surface move together by
 a few Metropolis steps that no longer know who met what (`bayesmap.kernels.endpoint_beams`).
 
-The steps have sizes that are fixed beforehand: one that looked at where this chain's beams stopped would depend on what
-the acceptance conditions on.
+The steps have sizes that are fixed beforehand, by where readings end. They may not look at the cell that they change:
+the way back would then have another size.
 """
 
 import warp as wp
@@ -21,9 +21,9 @@ from bayesmap.kernels.cell_prior import (
 )
 from bayesmap.kernels.endpoint_beams import EndpointCells, crossing_probability_of, log_stops
 from bayesmap.kernels.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
-from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
+from bayesmap.kernels.random import CELLS, MEETINGS, SURFACES, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.stops import StopState, TracedRays
+from bayesmap.kernels.stops import ChainArrays, TracedRays
 from bayesmap.kernels.surface_crossing import MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 from bayesmap.kernels.surface_steps import into_frame, out_of_frame, stepped
 from bayesmap.kernels.variates import beta_variate
@@ -35,7 +35,8 @@ STEPS = 6
 MOST_STEPS = 24
 """As many as a cell has counters of random numbers for."""
 NO_LEAST = wp.constant(wp.float64(-1.0e300))
-STREAM_MET = wp.constant(wp.uint64(4 << 32))
+AT_STEP = wp.constant(wp.uint64(32))
+"""Counters of a step of a cell's surface, of the part SURFACES."""
 
 
 @wp.func
@@ -82,7 +83,7 @@ def count_endpoint_cells(
     sweep: int,
     endpoints: EndpointCells,
     active: ActiveCells,
-    state: StopState,
+    state: ChainArrays,
     lists: wp.array2d(dtype=wp.int32),
     passes: wp.array2d(dtype=wp.int32),
     keys: wp.array(dtype=wp.uint64),
@@ -103,7 +104,7 @@ def count_endpoint_cells(
     beam_0 = chain * state.n_beams
     listed = lists[chain]
     one = wp.float32(1.0)
-    key = sweep_key(keys[chain], sweep, 1)
+    key = sweep_key(keys[chain], sweep, MEETINGS)
     cell = state.cells[here]
     centre = centre_of(c, active.ny, active.edge_m)
     m = cell[REFLECTIVITY]
@@ -126,7 +127,7 @@ def count_endpoint_cells(
     for i in range(begin, passed):
         e = listed[i]
         g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
-        x = wp.float32(to_uniform(random_bits(key, STREAM_MET + wp.uint64(e))))
+        x = wp.float32(to_uniform(random_bits(key, wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
     passes[chain, u] = passed - begin
     hits[here] = end - stopped
@@ -144,7 +145,7 @@ def update_endpoint_cells(
     rays: TracedRays,
     endpoints: EndpointCells,
     active: ActiveCells,
-    state: StopState,
+    state: ChainArrays,
     lists: wp.array2d(dtype=wp.int32),
     passes: wp.array2d(dtype=wp.int32),
     blocks: Blocks,
@@ -159,7 +160,7 @@ def update_endpoint_cells(
     c = endpoints.cell[u]
     here = chain * state.n_cells + c
     listed = lists[chain]
-    key = sweep_key(keys[chain], sweep, 1)
+    key = sweep_key(keys[chain], sweep, SURFACES)
     at = wp.uint64(c) * PER_CELL
     cell = state.cells[here]
     solid = state.solid[here]
@@ -170,7 +171,7 @@ def update_endpoint_cells(
     counts = pseudo_counts(prior, solid)
     a = counts[0] + wp.float64(hits[here])
     b = counts[1] + wp.float64(met[here])
-    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, key, at + AT_BETA))
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at + AT_BETA))
 
     step = endpoints.step[u]
     framed = into_frame(cell, step, centre)
@@ -184,7 +185,7 @@ def update_endpoint_cells(
     for i in range(steps + 1):  # round 0 asks for the cell as it is: one call of a long function, not two
         least = NO_LEAST
         if i > 0:
-            here_at = at + wp.uint64(224 + 32 * i)
+            here_at = at + AT_STEP * wp.uint64(i)
             candidate = stepped(framed, step, key, here_at + wp.uint64(1), i - 1)
             moved = out_of_frame(candidate, step, centre)
             least = present + wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT)))

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.stops import CLEAR, StopState, TracedRays, chance_at
+from bayesmap.kernels.stops import CLEAR, ChainArrays, TracedRays, chance_at
 from bayesmap.kernels.surface_crossing import REFLECTIVITY, ray_from
 
 OFTEN = 2
@@ -28,7 +28,7 @@ wp.set_module_options({"enable_backward": False})
 
 
 @wp.kernel
-def pass_held_cells(first: int, holds: wp.array(dtype=wp.uint8), rays: TracedRays, state: StopState):
+def pass_held_cells(first: int, holds: wp.array(dtype=wp.uint8), rays: TracedRays, state: ChainArrays):
     """One thread a chain's beam: the product above, over the cells that ``holds`` marks."""
     i = first + wp.tid()
     chain = i // state.n_beams

@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import PER_CELL
 from bayesmap.kernels.cell_prior import CellPrior
-from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
-from bayesmap.kernels.stops import LEARNS, StopState
+from bayesmap.kernels.random import CELLS, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.stops import LEARNS, ChainArrays
 from bayesmap.kernels.sums import WIDTH
 from bayesmap.kernels.surface_crossing import REFLECTIVITY, TRYING
 from bayesmap.kernels.variates import beta_variate
@@ -39,7 +39,7 @@ UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2
 """What is known of a cell: no beam touches it; beams do; or a kernel of its own has counted these beforehand."""
 
 AT_LABEL = wp.constant(wp.uint64(800))
-AT_UNTOUCHED = wp.constant(wp.uint64(832))  # counters of a cell that no other variate of its sweep takes
+AT_UNTOUCHED = wp.constant(wp.uint64(832))  # of the counters of a cell in a sweep
 
 HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
 LARGE = wp.constant(wp.float64(10.0))
@@ -101,7 +101,7 @@ def draw_labels(
     ny: int,
     prior: CellPrior,
     known: wp.array(dtype=wp.uint8),
-    state: StopState,
+    state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
     hits: wp.array(dtype=wp.int32),
     met: wp.array(dtype=wp.int32),
@@ -137,7 +137,7 @@ def draw_labels(
         n = wp.float64(n_met)
         log_odds += log_beta(prior.a_solid + h, prior.b_solid + n) - prior.log_beta_solid
         log_odds -= log_beta(prior.a + h, prior.b + n) - prior.log_beta
-    key = sweep_key(keys[chain], sweep, 1)
+    key = sweep_key(keys[chain], sweep, CELLS)
     is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(c) * PER_CELL + AT_LABEL)))
     state.solid[here] = wp.uint8(wp.where(is_solid, 1, 0))
 
@@ -148,7 +148,7 @@ def draw_untouched(
     sweep: int,
     prior: CellPrior,
     known: wp.array(dtype=wp.uint8),
-    state: StopState,
+    state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
 ):
     """One thread a chain's cell: the reflectivity of one that no beam touches, given its label."""
@@ -162,7 +162,7 @@ def draw_untouched(
     a = wp.where(solid, prior.a_solid, prior.a)
     b = wp.where(solid, prior.b_solid, prior.b)
     cell = state.cells[here]
-    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, 1), at))
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at))
     state.cells[here] = cell
 
 
@@ -172,7 +172,7 @@ def sum_label_prior(
     nx: int,
     ny: int,
     prior: CellPrior,
-    state: StopState,
+    state: ChainArrays,
     slices: wp.array2d(dtype=wp.float64),
 ):
     """One thread a slice of a chain's cells: what their pairs with the next cell in x and in y add to the log prior."""

@@ -89,6 +89,12 @@ def in_space(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32,
 
 
 @wp.func
+def readings_scale_m(table: LawTable, distance_m: wp.float32, max_m: wp.float32) -> wp.float32:
+    """On what scale readings scatter about a stop at the distance."""
+    return interpolated(table.scale_m, distance_m / max_m)
+
+
+@wp.func
 def spread_node(scale: wp.float32, variance: wp.float32) -> wp.float32:
     """Place of a spread among its nodes."""
     spread = wp.min(wp.sqrt(variance) / scale, WIDEST_SPREAD)

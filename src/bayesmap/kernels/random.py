@@ -30,10 +30,15 @@ def to_uniform(bits: wp.uint64) -> wp.float64:
     return (wp.float64(bits >> wp.uint64(11)) + wp.float64(0.5)) * TO_UNIT
 
 
+BEAMS, CELLS, MEETINGS, SURFACES = (wp.constant(part) for part in range(4))
+"""Parts of a sweep: stops of beams; reflectivities, labels and free cells' surfaces; which passing beams met the
+surface of a cell in which readings end; and the steps of these cells' surfaces."""
+
+
 @wp.func
 def sweep_key(key: wp.uint64, sweep: int, part: int) -> wp.uint64:
-    """A key of its own for each of the two parts of a chain's sweep: of beams (0), and of cells (1)."""
-    return random_bits(key, wp.uint64(2) * wp.uint64(sweep) + wp.uint64(part))
+    """A key of its own for each of the four parts of a chain's sweep, whose counters may then be the same numbers."""
+    return random_bits(key, wp.uint64(4) * wp.uint64(sweep) + wp.uint64(part))
 
 
 def mix(*words: int) -> int:

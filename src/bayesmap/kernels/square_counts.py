@@ -2,18 +2,14 @@ r"""How many beams are stopped inside each square of the grid, and how many pass
 
 A surface need not lie in the square of the cell that it belongs to, and which of two neighbouring cells a piece of wall
 belongs to is a label. So the beams' stops are counted in the squares in which the points lie at which they were
-stopped. Of a beam that the cell k stops at about t* with variance s^2 (`kernels.surface_crossing`) the point is
-drawn from its law given the reading z: if z is what came back from there, with the sensor's variance sigma^2,
-
-    t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)),
-
-and otherwise (a passing object, chance, no return) t ~ N(t*, s^2). Squares that the beam crosses before that point it
+stopped, drawn given the readings (`bayesmap.kernels.stop_points`). Squares that the beam crosses before that point it
 passes; of those behind it the beam says nothing. With S beams stopped in a square and P beams that pass it, the
 chance q that a beam which comes to the square is stopped inside it is drawn from
 
     q | stops ~ Beta(a + S, b + P)
 
-with a and b of the label of the square's own cell, where cells have labels.
+with a and b of the label of the square's own cell, where cells have labels: that of the map which the sweep began with,
+as it is the map that a kept draw shows.
 """
 
 from typing import NamedTuple
@@ -26,40 +22,17 @@ from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import PER_CELL
 from bayesmap.kernels.cell_prior import CellPrior, pseudo_counts
-from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
+from bayesmap.kernels.random import BEAMS, CELLS, sweep_key
 from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
-from bayesmap.kernels.sensor_law import SensorLaw32, mixed_density, returned_density, variance_at
-from bayesmap.kernels.stops import StopState, TracedRays
-from bayesmap.kernels.variates import beta_or_nothing, normal
+from bayesmap.kernels.sensor_law import SensorLaw32
+from bayesmap.kernels.stop_points import stop_point_m
+from bayesmap.kernels.stops import ChainArrays, TracedRays
+from bayesmap.kernels.variates import beta_or_nothing
 
 wp.set_module_options({"enable_backward": False})
 
-AT_SQUARE = wp.constant(wp.uint64(640))  # counters of a cell that no other variate of its sweep takes
+AT_SQUARE = wp.constant(wp.uint64(640))  # of the counters of a cell in a sweep
 STREAM_POINT = wp.constant(wp.uint64(5 << 32))
-
-
-@wp.func
-def stop_point_m(
-    law: SensorLaw32,
-    reading: wp.float32,
-    decay: wp.float32,
-    distance: wp.float32,
-    variance: wp.float32,
-    key: wp.uint64,
-    counter: wp.uint64,
-) -> wp.float64:
-    """The distance at which a beam was stopped, drawn given its reading; never behind the beam's start."""
-    mean = wp.float64(distance)
-    spread = wp.float64(variance)
-    if wp.isfinite(reading):
-        from_there = returned_density(law, reading, decay, distance, variance)
-        u = wp.float32(to_uniform(random_bits(key, counter)))
-        if u * mixed_density(law, reading, decay, distance, from_there) < from_there:
-            total = wp.float64(variance_at(law, distance, variance))
-            mean += spread / total * (wp.float64(reading) - mean)
-            spread = spread * (total - spread) / total
-    point = mean + wp.sqrt(wp.max(spread, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
-    return wp.max(point, wp.float64(0.0))
 
 
 @wp.kernel
@@ -69,7 +42,7 @@ def count_in_squares(
     law: SensorLaw32,
     lines: Lines,
     rays: TracedRays,
-    state: StopState,
+    state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
     stopped: wp.array(dtype=wp.int32),
     behind: wp.array(dtype=wp.int32),
@@ -84,7 +57,7 @@ def count_in_squares(
         return
     counter = STREAM_POINT + wp.uint64(b) * wp.uint64(4)
     where = state.where[i]
-    key = sweep_key(keys[chain], sweep, 0)
+    key = sweep_key(keys[chain], sweep, BEAMS)
     point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
     line = line_of(lines, b)
     k = end - 1
@@ -111,20 +84,21 @@ def draw_stop_chances(
     drawn: wp.array(dtype=wp.float32),
     expected: wp.array(dtype=wp.float32),
     kept: int,
-    state: StopState,
+    n_cells: int,
+    solid: wp.array(dtype=wp.uint8),
     observed_counts: wp.array(dtype=wp.vec2i),
 ):
-    """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P).
+    """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P). ``solid`` are the labels.
 
     If the draw is kept, ``observed_counts`` counts it, and whether some beam comes to the square in it.
     """
     i = wp.tid()
     c = touched[i]
-    here = chain * state.n_cells + c
-    counts = pseudo_counts(prior, state.solid[here])
+    here = chain * n_cells + c
+    counts = pseudo_counts(prior, solid[c])
     a = counts[0] + wp.float64(stopped[c])
     b = counts[1] + wp.float64(crossings[c] - stopped[c] - behind[c])
-    key = sweep_key(keys[chain], sweep, 1)
+    key = sweep_key(keys[chain], sweep, CELLS)
     drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
     expected[i] = wp.float32(a / (a + b))
     if kept != 0:
@@ -162,10 +136,11 @@ class Squares:
         law: SensorLaw32,
         prior: CellPrior,
         rays: TracedRays,
-        state: StopState,
+        state: ChainArrays,
         keys: wp.array,
         observed_counts: wp.array,
         kept: bool,
+        solid: NDArray[np.bool_] | None = None,
     ) -> InSquares:
         """Count a chain's stops, and draw the chances given the counts.
 
@@ -179,15 +154,20 @@ class Squares:
             keys: of all chains' random numbers.
             observed_counts: draws in which a beam says something of each square, and draws, of all chains so far.
             kept: whether this draw counts there.
+            solid: labels of all cells when the sweep began, (N,); those that the chain has now if None.
         """
         stopped, behind, drawn, expected = self._room[chain]
         for counts in (stopped, behind):
             counts.zero_()
         inputs = [chain, sweep, law, self._lines, rays, state, keys, stopped, behind]
         wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
+        cells = self._rays.grid.n_cells
+        labels = state.solid[chain * cells : (chain + 1) * cells]
+        if solid is not None:
+            labels = devices.to_device(solid, wp.uint8, self._device)
         inputs = [
             chain, sweep, prior, self._touched, keys, self._crossings_there, stopped, behind, drawn, expected,
-            int(kept), state, observed_counts,
+            int(kept), cells, labels, observed_counts,
         ]  # fmt: skip
         wp.launch(draw_stop_chances, dim=len(self._rays.touched), inputs=inputs, device=self._device)
         touched = self._rays.touched

@@ -30,12 +30,12 @@ from bayesmap.kernels.labels import draw_labels, draw_untouched, put_known, sum_
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
-from bayesmap.kernels.stops import LEARNS, StopState, decay_of_readings, draw_stops, put_rays
+from bayesmap.kernels.stops import LEARNS, ChainArrays, decay_of_readings, draw_stops, put_rays
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
 from bayesmap.kernels.surface_crossing import Cell, put_cells
 from bayesmap.sensors.model import SensorModel
 
-STATE_SIZE = 6  # of a Cell's eight numbers: the other two live for one sweep
+STATE_SIZE = 6  # of a Cell's eight numbers: the others are no part of a state
 KERNELS = (
     begin_sweep, pass_held_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
     update_endpoint_cells, count_in_squares, draw_stop_chances,
@@ -115,7 +115,7 @@ class StopChains:
 
         empty = partial(wp.zeros, device=device)
         parts = max(1, -(-self.threads // chains))
-        state = StopState()
+        state = ChainArrays()
         state.n_cells, state.n_beams, state.parts, state.beta = cells, beams, parts, 1.0
         state.cells = empty(chains * cells, dtype=Cell)
         labels = np.zeros(chains * cells) if solid is None else solid.ravel()
@@ -294,7 +294,7 @@ class StopChains:
         return self._of(self._state.solid, chain).view(np.bool_)
 
     def draw_untouched(self, sweep: int) -> None:
-        """Draw the reflectivities of cells that no beam touches given their labels, after the sweep with this number.
+        """Draw the reflectivities of cells that no beam touches given their labels, before the sweep with this number.
 
         No sweep does: until beams may come to such cells they say nothing.
         """
@@ -314,16 +314,16 @@ class StopChains:
         """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
         return self._packed is not None
 
-    def in_squares(self, chain: int, sweep: int, kept: bool) -> InSquares:
+    def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Where the beams of a chain with surfaces were stopped in the sweep with this number, its last.
 
-        ``kept`` says that the draw counts in `observed_counts`.
+        ``kept``: the draw counts in `observed_counts`. ``solid``: cells' labels before the sweep, (N,), if they have any.
         """
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
         law, prior = self._packed
         there = (self._rays, self._state, self._keys, self._observed_counts)
-        return self._squares.of_chain(chain, sweep, law, prior, *there, kept)
+        return self._squares.of_chain(chain, sweep, law, prior, *there, kept, solid)
 
     def observed_counts(self, chain: int) -> NDArray[np.int32]:
         """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.

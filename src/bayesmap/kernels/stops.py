@@ -3,7 +3,7 @@
 A beam walks its cells in order. In each it meets the surface with chance g, and is then stopped with probability m; so
 with a = m g it stops there with probability T a, T being the product of 1 - a over the cells before, and its stop has
 the posterior probability proportional to T a p(z | stop). Far before the reading p(z | stop) is the constant density of
-a random reading, and the sum over those cells telescopes to floor (1 - T): they cost a multiplication each.
+a random reading, and the sum over those cells is that density times (1 - T): they cost a multiplication each.
 
 A cell that a beam passes learns one of two things. In most sweeps: whether the beam *met* the surface (and was not
 stopped), which given that it passed has probability g (1 - m) / (1 - a); met and stopped beams make its reflectivity's
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.random import random_bits, sweep_key, to_uniform
+from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import (
     SensorLaw32,
     highest_density,
@@ -98,7 +98,7 @@ def put_rays(
 
 
 @wp.struct
-class StopState:
+class ChainArrays:
     """All chains: their cells, what beams say of these in this sweep, and where the beams stopped.
 
     Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the
@@ -115,7 +115,7 @@ class StopState:
     candidates: wp.array(dtype=Cell)  # for each cell's surface, while one is tried
     met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed
     hits: wp.array2d(dtype=wp.int32)  # beams that stopped
-    gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate
+    gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate, in units of 2^-24 nats
     held_free: wp.array(dtype=wp.float32)  # each beam's chance to come past its held far cells
     stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
@@ -133,13 +133,13 @@ def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
 
 @wp.func
 def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
-    """Chance, distance and variance of a stop at entry k."""
+    """The chance of meeting the surface in the cell of entry k, one if cells have none, and where a stop would lie."""
     if rays.without_surfaces != 0:
-        m = Crossing()
-        m.chance = wp.float32(1.0)
-        m.distance_m = rays.distance_m[k]
-        m.variance = wp.float32(0.0)
-        return m
+        met = Crossing()
+        met.chance = wp.float32(1.0)
+        met.distance_m = rays.distance_m[k]
+        met.variance = wp.float32(0.0)
+        return met
     return cross_surface(cell, ray)
 
 
@@ -151,7 +151,7 @@ def in_units(log_ratio: wp.float32) -> wp.int64:
 
 @wp.func
 def pass_by(
-    state: StopState,
+    state: ChainArrays,
     chain: int,
     part: int,
     c: int,
@@ -199,7 +199,7 @@ def draw_stops(
     all_turn: int,
     law: SensorLaw32,
     rays: TracedRays,
-    state: StopState,
+    state: ChainArrays,
     keys: wp.array(dtype=wp.uint64),
 ):
     """One thread a chain's beam: draw where it stops, and count it in the cells.
@@ -210,7 +210,7 @@ def draw_stops(
     chain = i // state.n_beams
     b = i - chain * state.n_beams
     cell_0 = chain * state.n_cells
-    key = sweep_key(keys[chain], sweep, 0)
+    key = sweep_key(keys[chain], sweep, BEAMS)
     one = wp.float32(1.0)
     reading = rays.range_m[b]
     begin = rays.offsets[b]
@@ -324,9 +324,9 @@ def draw_stops(
 
 @wp.func
 def hit_law(
-    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, m: Crossing
+    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, met: Crossing
 ) -> wp.float32:
     """p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
     if k < near:
         return tempered(law.uniform, beta)
-    return tempered(stop_density(law, reading, decay, m.distance_m, m.variance), beta)
+    return tempered(stop_density(law, reading, decay, met.distance_m, met.variance), beta)

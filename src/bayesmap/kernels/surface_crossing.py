@@ -4,9 +4,9 @@ A cell's surface is a normal distribution N(mu, Sigma) of the points where beams
 with normal n, passes the mean at the offset o = n . (mu - p); across the beam the surface has the standard deviation
 v = sqrt(n' Sigma n). The beam meets the surface with probability
 
-    g = 1 / (1 + (o / (w v))^6)
+    g = 1 / (1 + (o / (2.2 v))^6)
 
-which is nearly one where it crosses the surface's body and nearly zero where it passes beside it; w = 2.2 was measured
+which is nearly one where it crosses the surface's body and nearly zero where it passes beside it; 2.2 was measured
 (docs/surfaces.md). If it meets it, and is stopped, that happens at the distance t ~ N(t*, s^2), the law of a point of
 the surface *given that it lies on the beam*:
 
@@ -14,7 +14,7 @@ the surface *given that it lies on the beam*:
 
 A beam's direction is known up to an angle omega only: at the mean's distance d = u . (mu - p) its line may lie off by
 omega d, which spreads the readings of a wall that it grazes. So w^2 = v^2 + (omega d)^2, the variance across the beam
-of the two together. The crossing probability keeps v: with w in it, held-out scans were predicted worse.
+of the two together. The crossing probability keeps v: with w in its place, held-out scans were predicted worse.
 """
 
 from typing import Any
@@ -31,13 +31,13 @@ DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
 
 Cell = wp.types.vector(length=8, dtype=wp.float32)
 """A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,
-and two flags: whether a candidate for its surface is being tried, and one to spare."""
+whether a candidate for its surface is being tried, and a number that is not used."""
 
 REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
 
 
 def put_cells(states: NDArray[np.float32], device: str) -> Any:
-    """States without flags, (..., 6), or without a surface, (..., 1), as an array of `Cell` on a device."""
+    """States alone, (..., 6), or without a surface, (..., 1), as an array of `Cell` on a device."""
     padded = np.zeros((*states.shape[:-1], 8), dtype=np.float32)
     padded[..., : states.shape[-1]] = states
     return wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
@@ -83,9 +83,9 @@ def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float3
 @wp.func
 def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
     """The chance that the beam meets the cell's surface."""
-    offset = ray.ux * (cell[2] - ray.y) - ray.uy * (cell[1] - ray.x)
-    across_1 = cell[4] * ray.ux - cell[3] * ray.uy
-    across_2 = cell[5] * ray.ux
+    offset = ray.ux * (cell[MEAN_Y] - ray.y) - ray.uy * (cell[MEAN_X] - ray.x)
+    across_1 = cell[L21] * ray.ux - cell[L11] * ray.uy
+    across_2 = cell[L22] * ray.ux
     return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
@@ -108,12 +108,12 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
     per_across = one / (body + unsure)
     slope = (along_1 * across_1 + along_2 * across_2) * per_across
     area = l11 * l22
-    m = Crossing()
-    m.chance = crossing_probability_at(offset, body)
-    m.distance_m = wp.max(ahead - slope * offset, wp.float32(0.0))
+    met = Crossing()
+    met.chance = crossing_probability_at(offset, body)
+    met.distance_m = wp.max(ahead - slope * offset, wp.float32(0.0))
     # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
-    m.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
-    return m
+    met.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
+    return met
 
 
 @wp.func

@@ -115,11 +115,16 @@ def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats,
     Readings that lie evenly along a wall up to w to either side have a standard deviation of w / sqrt(3), and beams
     meet a surface up to 2.2 of its own: one that is met by all of them is wider than they are scattered.
     """
-    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
-    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
-    more = (ALONG_WALL**2 - 1.0) * (half + off)
+    angle, along = longer_axis(var_x, both, var_y)
+    more = (ALONG_WALL**2 - 1.0) * along
     cosine, sine = np.cos(angle), np.sin(angle)
     return var_x + more * cosine**2, both + more * cosine * sine, var_y + more * sine**2
+
+
+def longer_axis(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats]:
+    """Of covariances, in parts: the angle of the longer axis, in radians from the first, and the variance along it."""
+    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
+    return angle, 0.5 * (var_x + var_y) + np.hypot(0.5 * (var_x - var_y), both)
 
 
 def end_cells(rays: Rays) -> NDArray[np.int32]:
@@ -210,10 +215,8 @@ def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
     """
     l11, l21, l22 = estimate.factor_m.T
     hits, passes = estimate.hits[estimate.endpoint], estimate.passes[estimate.endpoint]
-    var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
-    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
-    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
-    thickness = np.sqrt(np.maximum(half - off, (1e-3 * edge_m) ** 2))
+    angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
+    thickness = np.maximum(l11 * l22 / np.sqrt(along), 1e-3 * edge_m)  # the factor's determinant over the longer axis
     few = 1.0 / np.sqrt(hits + 1.0)
     logit = np.sqrt(1.0 / (hits + 1.0) + 1.0 / (0.5 * passes + 1.0))
     across = ACROSS * thickness * few

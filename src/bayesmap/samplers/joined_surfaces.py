@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.samplers.initial_estimate import ALONG_WALL, INSIDE
+from bayesmap.samplers.initial_estimate import ALONG_WALL, INSIDE, longer_axis
 from bayesmap.samplers.trials import Changes, Floats, Look, Maps, apart, try_changes
 from bayesmap.space.grid import Grid
 
-MOST_BEAMS = 12
-"""A cell that stops more of them is seldom better off without its surface."""
+MOST_READINGS = 12
+"""A surface that explains more of them is seldom better gone."""
 REACH = 2
 """Neighbours are cells up to so far away, in each direction."""
 CLOSE = 3.0
@@ -36,7 +36,7 @@ LEAST_NATS = 1.0
 """By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps
 then part again; with two nats, too few."""
 LEVEL = 1e-9  # of an axis: no number is divided by less
-ROUNDS = 6
+ROUNDS = 8
 """Of changes that are tried together, at most: later ones try one in twenty of them."""
 
 
@@ -85,21 +85,22 @@ def join_surfaces(
         How many surfaces each chain is rid of.
     """
     changes = [joins(*of, end_points_m, noise, grid) for of in zip(maps.cells, maps.solid, owners, strict=True)]
-    left, gone = [np.ones(len(new.middle), dtype=np.bool_) for new in changes], [0] * len(changes)
-    before = before.copy()
+    changed = np.zeros(maps.solid.shape, dtype=np.bool_)
+    gone, before = [0] * len(changes), before.copy()
     for _ in range(ROUNDS):
-        now = []
-        for chain, new in enumerate(changes):
-            both = (maps.cells[chain][new.where, 0] >= SOLID_FROM).all(axis=1)  # still stop beams
-            waiting = np.flatnonzero(left[chain] & both)
-            chosen = waiting[apart(new.middle[waiting], AROUND + 1, grid.shape)]
-            now.append(np.isin(np.arange(len(both)), chosen))
-            left[chain] &= both & ~now[-1]
-        if not any(chosen.any() for chosen in now):
+        tried = []
+        for chain, waiting in enumerate(changes):
+            # A surface that has taken in a neighbour is not what another change was made from.
+            valid = waiting.some(~changed[chain][waiting.where].any(axis=1))
+            now = apart(valid.middle, 2 * AROUND, grid.shape)
+            tried.append(valid.some(now))
+            changes[chain] = valid.some(~now)
+        if not any(len(new.middle) for new in tried):
             break
-        tried = [new.some(chosen) for new, chosen in zip(changes, now, strict=True)]
         stays = try_changes(maps, tried, look, before, AROUND, LEAST_NATS)
-        gone = [number + int(stay.sum()) for number, stay in zip(gone, stays, strict=True)]
+        for chain, (new, stay) in enumerate(zip(tried, stays, strict=True)):
+            changed[chain][new.where[stay]] = True
+            gone[chain] += int(stay.sum())
     return gone
 
 
@@ -146,11 +147,9 @@ def readings_of(
 def axes_of(cells: NDArray[np.float32]) -> Axes:
     """Axes of the surfaces of cells, (N, 6)."""
     l11, l21, l22 = cells[:, 3:6].T.astype(np.float64)
-    var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
-    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
-    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
-    across = (l11 * l22) ** 2 / (half + off)  # |Sigma| over the larger one: no difference of large numbers
-    return Axes(np.stack([np.cos(angle), np.sin(angle)], axis=-1), half + off, across)
+    angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
+    across = (l11 * l22) ** 2 / along  # |Sigma| over the larger one: no difference of large numbers
+    return Axes(np.stack([np.cos(angle), np.sin(angle)], axis=-1), along, across)
 
 
 def variance_in(moments: Floats, direction: Floats) -> Floats:
@@ -166,7 +165,7 @@ def best_neighbours(
     and their root mean square distance from it, (n,) each; without cells that have none within `MOST_OFF`.
     """
     stops = (cells[:, 0] >= SOLID_FROM) & (found.count > 0)
-    few = np.flatnonzero(stops & (found.count <= MOST_BEAMS))
+    few = np.flatnonzero(stops & (found.count <= MOST_READINGS))
     x, y = np.divmod(few, grid.shape[1])
     least, by = np.full(len(few), np.inf), few.copy()
     for step_x in range(-REACH, REACH + 1):

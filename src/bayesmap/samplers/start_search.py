@@ -64,4 +64,4 @@ def join(problem: StopProblem, chains: StopChains, beta: float) -> None:
     join_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
     maps.put(chains)
     chains.sweeps(ALL_TURN, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
-    maps.put(chains)  # what cells count is now that of this map
+    maps.put(chains)  # cells have counted beams under this map, but for those whose turn was to try a surface

@@ -68,7 +68,8 @@ class StopDraws:
         if number is None:
             return
         if self._centres is not None:
-            self._put_chances(chain, number, self._chains.in_squares(chain, sweep, kept=True))
+            found = self._chains.in_squares(chain, sweep, True, self._solid.get(chain))
+            self._put_chances(chain, number, found)
         if "expected" not in self.arrays:
             return
         hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))

@@ -185,7 +185,8 @@ class StopGibbs:
         return replace(there, kept=problem.kept)
 
     def moved(self, state: StopState, problem: StopProblem) -> StopState:
-        """The chains as they are, under another problem."""
+        """The chains as they are, under another problem. Chains that search for where to start have no other."""
+        assert state.second is None, "beams move while chains have a second start"
         from bayesmap.kernels.stop_chains import StopChains
 
         old, chains = state.chains, range(state.chains.n_chains)
@@ -253,12 +254,12 @@ class StopGibbs:
         problem, chains, second = state.problem, state.chains, state.second
         assert second is not None
         assert state.evidence is not None
-        found, end_cell = state.evidence, end_cells(problem.rays)
+        found, end_cell, averaged = state.evidence, end_cells(problem.rays), min(AVERAGED, self.search_until)
 
         def noted(of: StopChains, number: int) -> Note:
             def note(chain: int, sweep: int) -> None:
-                if sweep >= self.search_until - AVERAGED:
-                    found[chain, number] += evidence(of, chain, end_cell, problem.prior) / AVERAGED
+                if sweep >= self.search_until - averaged:
+                    found[chain, number] += evidence(of, chain, end_cell, problem.prior) / averaged
 
             return note
 
@@ -270,8 +271,8 @@ class StopGibbs:
         return state, info
 
     def snapshot(self, state: StopState) -> Snapshot:
-        """The kept cells' states and counts: (C, T, 6) and (C, 2, T). All others are as they started, but for labels:
-        those of all cells, packed.
+        """The kept cells' states and counts: (C, T, 6) and (C, 2, T), and labels of all cells, packed. States of the
+        others can be drawn anew: no beam says anything of them.
         """
         arrays = self._stored(state.problem, state.chains)
         if state.second is not None:

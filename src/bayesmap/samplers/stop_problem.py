@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,6 @@ from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
-
-if TYPE_CHECKING:
-    pass
 
 CELLS_AROUND = 1.5
 SIGMAS_AROUND = 6.0

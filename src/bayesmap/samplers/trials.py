@@ -131,7 +131,7 @@ def try_changes(
     for chain, old in enumerate(olds):
         shape = before.shape[1:]
         x, y = old.middle.T
-        stay = in_squares(after[chain] - before[chain], half)[x, y] >= least
+        stay = sums_over_squares(after[chain] - before[chain], half)[x, y] >= least
         back = old.some(~stay)
         maps.cells[chain][back.where], maps.solid[chain][back.where] = back.cells, back.solid
         there = covered(old.middle[stay], half, (shape[0], shape[1]))
@@ -140,7 +140,7 @@ def try_changes(
     return stays
 
 
-def in_squares(values: Floats, half: int) -> Floats:
+def sums_over_squares(values: Floats, half: int) -> Floats:
     """Sums over the squares of cells around each cell, ``half`` to each side, (nx, ny)."""
     return np.asarray(ndimage.uniform_filter(values, 2 * half + 1, mode="constant") * (2 * half + 1) ** 2)
 

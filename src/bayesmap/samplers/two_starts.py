@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.samplers.trials import Changes, Floats, Look, Maps, apart, covered, in_squares, try_changes
+from bayesmap.samplers.trials import Changes, Floats, Look, Maps, apart, covered, sums_over_squares, try_changes
 
 AVERAGED = 8
 """The last sweeps from two starts, over which the readings of each are averaged."""
@@ -45,11 +45,13 @@ def take_better(maps: Maps, second: Maps, gain: Floats, look: Look) -> None:
 
 
 def squares(chain: int, second: Maps, gain: Floats, half: int) -> Changes:
-    """The squares of a chain that gain more than `LEAST_NATS`, the best first, none closer than a cell to another."""
-    total, shape = in_squares(gain, half), (gain.shape[0], gain.shape[1])
+    """The squares of a chain that gain more than `LEAST_NATS`, the best first, so far apart that no two ask the same
+    cell's beams.
+    """
+    total, shape = sums_over_squares(gain, half), (gain.shape[0], gain.shape[1])
     middle = np.argwhere(total > LEAST_NATS)
     middle = middle[np.argsort(-total[tuple(middle.T)], kind="stable")]
-    middle = middle[apart(middle, 2 * half + 1, shape)]
+    middle = middle[apart(middle, 2 * (half + MARGIN), shape)]
     where = cells_of(middle, half, shape)
     return Changes(middle, where, second.cells[chain][where], second.solid[chain][where])
 

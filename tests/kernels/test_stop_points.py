@@ -1,0 +1,110 @@
+"""Points at which beams were stopped follow their law given the readings, under any sensor's law.
+
+False alarms: `ALPHA` = 1e-4 over this module. The kernel reads the law from a table, off by up to a hundredth.
+"""
+
+import numpy as np
+import pytest
+from oracle.verdict import ALPHA
+from scipy import stats
+from stop_point_draws import draw_points
+
+import bayesmap as bm
+from bayesmap.sensors.model import RangeLimits, SensorModel
+
+LIMITS = RangeLimits(0.05, 8.0)
+DRAWS, TESTS = 3000, 20
+
+
+class Late(SensorModel):
+    """Readings that come late, by a gamma distributed delay, one in ten anywhere; more are lost from far away."""
+
+    def __init__(self, delay_m):
+        self.delay = stats.gamma(3.0, scale=delay_m / 3.0)
+
+    def lost(self, d, limits):
+        """The chance of no return, but for readings past the limit."""
+        return 0.02 + 0.1 * np.minimum(d, limits.max_m) / limits.max_m
+
+    def log_likelihood(self, range_m, distance_m, limits):
+        z, d = np.broadcast_arrays(np.asarray(range_m, dtype=float), np.asarray(distance_m, dtype=float))
+        there, read = np.isfinite(d), np.isfinite(z)
+        wall = np.where(there, d, 0.0)
+        comes = np.where(there, 1 - self.lost(wall, limits), 0.0)
+        density = 0.9 * self.delay.pdf(np.where(read, z - wall, -1.0)) + 0.1 / (limits.max_m - limits.min_m)
+        density = np.where((z < limits.min_m) | (z > limits.max_m), 0.0, comes * density)
+        never = 1 - comes * (0.1 + 0.9 * self.delay.cdf(limits.max_m - wall))
+        close = 0.9 * comes * self.delay.cdf(limits.min_m - wall)
+        with np.errstate(divide="ignore"):
+            out = np.log(np.where(read, density, np.where(z > 0, never, close)))
+        return np.where(np.isnan(z), 0.0, out)
+
+    def reach_m(self, range_m, limits):
+        return np.full_like(np.asarray(range_m, dtype=float), np.inf)
+
+    def sample(self, rng, distance_m, limits):
+        d = np.asarray(distance_m, dtype=float)
+        late = d + self.delay.rvs(d.shape, rng)
+        reading = np.where(rng.random(d.shape) < 0.1, rng.uniform(limits.min_m, limits.max_m, d.shape), late)
+        lost = ~np.isfinite(d) | (rng.random(d.shape) < self.lost(d, limits)) | (reading > limits.max_m)
+        return np.where(lost, np.inf, np.where(reading < limits.min_m, -np.inf, reading))
+
+
+def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
+    """Distances, and the cumulative distribution there: a normal law times the reading's likelihood, added up."""
+    t = np.linspace(distance_m - 7 * spread_m, distance_m + 7 * spread_m, 20_001)
+    log_p = stats.norm.logpdf(t, distance_m, spread_m)
+    if given_reading:
+        log_p = log_p + sensor.log_likelihood(np.full_like(t, reading_m), t, LIMITS)
+    p = np.exp(log_p - log_p.max())
+    below = np.cumsum(p)
+    return t, below / below[-1]
+
+
+CASES = {
+    "a thick surface and a sharp sensor": (0.02, 3.05, 3.0, 0.06),
+    "a thin surface and a blunt sensor": (0.3, 3.05, 2.95, 0.02),
+    "both alike": (0.1, 2.1, 2.0, 0.1),
+    "the surface's far end": (0.05, 3.25, 3.0, 0.08),
+    "a reading from elsewhere": (0.05, 6.0, 2.0, 0.08),
+    "a reading before the surface": (0.05, 1.0, 2.0, 0.08),
+    "no return": (0.05, np.inf, 4.0, 0.1),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
+    delay_m, reading_m, distance_m, spread_m = CASES[case]
+    sensor = Late(delay_m)
+    found = draw_points(sensor, LIMITS, reading_m, distance_m, spread_m, DRAWS)
+
+    def p_value(given_reading):
+        t, below = plain_law(sensor, reading_m, distance_m, spread_m, given_reading)
+        return stats.kstest(found, lambda x: np.interp(x, t, below)).pvalue
+
+    assert p_value(True) > ALPHA / TESTS
+    if abs(reading_m - distance_m) < 4 * spread_m:  # else it says nothing of the point
+        assert p_value(False) < ALPHA / TESTS
+
+
+def test_a_surface_without_thickness_has_one_point():
+    assert (draw_points(Late(0.05), LIMITS, 3.0, 2.9, 0.0, 10) == np.float32(2.9)).all()
+
+
+def test_no_point_lies_behind_the_beam_s_start():
+    assert draw_points(Late(0.05), LIMITS, 0.1, 0.02, 0.05, 500).min() >= 0
+
+
+def test_points_of_a_mixture_lie_between_surface_and_reading_if_it_came_from_there():
+    sensor = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.2, p_no_return=0.1)
+    found = draw_points(sensor, LIMITS, 3.1, 3.0, 0.05, DRAWS)
+    density = sensor.stop_log_likelihood(np.array([3.1]), np.array([3.0]), np.array([0.05]), LIMITS)
+    chance = 0.2 / (LIMITS.max_m - LIMITS.min_m)
+    by_chance = chance / np.exp(density[0])
+
+    def below(x):
+        there = stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))
+        return by_chance * stats.norm.cdf(x, 3.0, 0.05) + (1 - by_chance) * there
+
+    assert stats.kstest(found, below).pvalue > ALPHA / TESTS
+    assert stats.kstest(found, lambda x: stats.norm.cdf(x, 3.0, 0.05)).pvalue < ALPHA / TESTS
