@@ -52,7 +52,7 @@ def is_for_lanes(law: SensorLaw32, beta: wp.float32, out: wp.array(dtype=wp.int3
     out[0] = wp.where(takes_lanes(law, beta), 1, 0)
 
 
-def scans_of_a_room(rng, scans=60, beams=90):
+def scans_of_a_room(rng, scans=100, beams=90):
     """Poses in a room of 4 m, readings about its walls; some of chance, too short, or without a return."""
     x, y = rng.uniform(0.8, 3.2, (2, scans))
     angle = np.linspace(-np.pi, np.pi, beams, endpoint=False)

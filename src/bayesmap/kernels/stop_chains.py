@@ -317,7 +317,7 @@ class StopChains:
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Where the beams of a chain with surfaces were stopped in the sweep with this number, its last.
 
-        ``kept``: the draw counts in `observed_counts`. ``solid``: cells' labels before the sweep, (N,), if they have any.
+        ``kept``: it counts in `observed_counts`. ``solid``: cells' labels before the sweep, (N,), if they have any.
         """
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
