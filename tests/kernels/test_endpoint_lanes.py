@@ -52,7 +52,7 @@ def is_for_lanes(law: SensorLaw32, beta: wp.float32, out: wp.array(dtype=wp.int3
     out[0] = wp.where(takes_lanes(law, beta), 1, 0)
 
 
-def scans_of_a_room(rng, scans=100, beams=90):
+def scans_of_a_room(rng, scans=60, beams=90):
     """Poses in a room of 4 m, readings about its walls; some of chance, too short, or without a return."""
     x, y = rng.uniform(0.8, 3.2, (2, scans))
     angle = np.linspace(-np.pi, np.pi, beams, endpoint=False)
@@ -93,12 +93,12 @@ def weighed(sensor, seed, worse=0.0):
 @pytest.mark.parametrize("sensor", [HARD, CROWD, SHARP], ids=["hard", "crowd", "sharp"])
 @pytest.mark.parametrize("worse", [0.0, 0.05], ids=["where they stand", "beside it"])
 def test_eight_at_a_time_say_what_each_says(sensor, worse):
-    plain, least, (_, lanes, whole, cut, others, stopped) = weighed(sensor, 3, worse)
+    plain, least, (_, lanes, whole, cut, others, stopped) = weighed(sensor, 10, worse)
     close = 2e-5 * (1 + np.abs(plain)) + 2e-5 * stopped
     assert np.all(np.abs(whole - plain) <= close)
     known = (others == 0) & (lanes != float(UNKNOWN))
     assert known.sum() > 0.5 * (others == 0).sum() > 20
-    assert stopped[known].max() > 32
+    assert stopped[known].max() > 16  # more than two blocks of them
     assert np.all(np.abs(lanes - plain)[known] <= close[known])
     decided = np.abs(plain - least) > close
     assert np.array_equal((cut > least)[decided], (plain > least)[decided])
