@@ -20,6 +20,7 @@ from bayesmap.result import Run
 from bayesmap.run.chains import Chains
 from bayesmap.run.executor import Executor, ThreadExecutor
 from bayesmap.run.interrupt import stop_on_interrupt
+from bayesmap.run.memory import check_memory
 from bayesmap.run.resuming import RANDOM_STREAMS, check_same, fingerprint
 from bayesmap.run.runner import Job
 from bayesmap.run.schedule import Schedule
@@ -207,6 +208,9 @@ class Inference:
         """Fit, sample, and make a run of it."""
         began = time.perf_counter()
         name = self.model.cells.methods[self.method]
+        if name == "stop-gibbs" and self.device == "cpu":
+            here = self.asked.chains if isinstance(executor, ThreadExecutor) else 1  # of others the pilot alone
+            check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
         if name in WITHOUT_CHAINS:
             sampler, options = None, {"order": order, "start": default_start(self.model.grid)}
         else:

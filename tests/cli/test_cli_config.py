@@ -27,7 +27,13 @@ def test_the_printed_configuration_is_the_effective_one(tmp_path):
 
 
 def test_every_kind_of_value_survives_the_round_trip(tmp_path):
-    set_ = ["no_return=inf", "max_range=20", "sensor=student-t:0.1,dof=4", "skip_bad_lines=true", 'world=my "map".txt']
+    set_ = [
+        "no_return=inf",
+        "max_range=20",
+        "sensor=student-t:0.1,dof=4",
+        "skip_bad_lines=true",
+        'world=my "map" 🗺\x7f.txt',
+    ]
     arguments = [part for pair in set_ for part in ("--set", pair)]
     printed = call("config", *arguments).stdout
     again = call("config", "-c", write(tmp_path, printed)).stdout
@@ -35,7 +41,7 @@ def test_every_kind_of_value_survives_the_round_trip(tmp_path):
     values = tomllib.loads(printed)["infer"]
     assert values["no_return"] == float("inf")
     assert values["max_range"] == 20.0
-    assert tomllib.loads(printed)["simulate"]["world"] == 'my "map".txt'
+    assert tomllib.loads(printed)["simulate"]["world"] == 'my "map" 🗺\x7f.txt'
 
 
 def test_json_is_one_document():

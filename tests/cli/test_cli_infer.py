@@ -103,6 +103,14 @@ def test_strict_exits_4_but_leaves_everything(office, tmp_path, short):
     assert {path.name for path in (tmp_path / "run").iterdir()} == FILES
 
 
+@pytest.mark.parametrize("cells", ["surface", "binary"])
+def test_strict_does_not_pass_what_nothing_says_anything_of(office, tmp_path, short, cells):
+    options = (*short, "--cells", cells, "--draws", "3", "--strict", "--json")
+    result = call("infer", office, "-o", tmp_path / "run", *options)
+    assert result.exit_code == 4, result.stderr
+    assert any("nothing can be judged" in problem for problem in json.loads(result.stdout)["problems"])
+
+
 @pytest.mark.parametrize("method", ["block", "propagate", "importance"])
 def test_other_methods_of_binary_walls(office, tmp_path, short, method):
     options = ("--cells", "binary", "--method", method, "--particles", "500", "--json")

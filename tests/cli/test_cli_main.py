@@ -74,7 +74,9 @@ def test_a_mistyped_command_gets_a_suggestion():
     [
         (RuntimeError("a loose wire"), 1, "unexpected RuntimeError: a loose wire; -v shows where"),
         (OSError(28, "No space left on device", "run.nc"), 1, "run.nc: No space left on device"),
+        (PermissionError(13, "Permission denied", "x.log"), 3, "x.log: Permission denied; name another file or folder"),
         (MemoryError(), 1, "out of memory"),
+        (RuntimeError("Failed to allocate 99 bytes on device 'cpu'"), 1, "out of memory"),
         (KeyboardInterrupt(), 130, "interrupted"),
         (bayesmap.BadInput("two\nlines"), 3, "two lines"),
     ],

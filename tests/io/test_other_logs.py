@@ -152,6 +152,10 @@ def test_a_table_of_one_row_a_beam(tmp_path, moving):
         (("# angle_increment", "# step"), "the directions of 41 beams are not said"),
         (("# range_max: 42.0", "# range_max: far"), "line 4: range_max must be a number"),
         (("r_3,", "r_99,"), "must be r_0 to r_40, without gaps"),
+        (
+            (f"# angle_increment: {float(ANGLES[1] - ANGLES[0])!r}", "# angle_increment: 0"),
+            "all 41 beams point the same",
+        ),
     ],
 )
 def test_tables_that_cannot_be_used(tmp_path, change, message):

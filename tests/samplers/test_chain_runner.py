@@ -84,7 +84,7 @@ def test_resumed_chains_equal_uninterrupted_ones_bit_for_bit(method, order, monk
         before = -1 if part is None else part.sweep
         answers = iter([False, True])
         part = chains_of(problem, method, order, resume=part, should_stop=lambda answers=answers: next(answers))
-        assert part.sweep > before
+        assert part.sweep > before or part.finished
         stops += 1
     assert stops > 20
     assert_same(part, whole)
@@ -104,6 +104,15 @@ def test_a_stop_keeps_what_there_is_and_says_so(monkeypatch):
         np.testing.assert_array_equal(packed(part), packed(whole)[:, :kept])
         np.testing.assert_array_equal(part.log_joint, whole.log_joint[:, :kept])
         np.testing.assert_array_equal(part.warmup_log_joint, whole.warmup_log_joint[:, :warmed])
+
+
+def test_a_stop_in_the_last_step_is_a_stop_and_resumed_there_is_nothing_left_to_do(monkeypatch):
+    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
+    problem, asked = problem_8x8(), iter(range(100))
+    whole = chains_of(problem, "gibbs", "radial")
+    part = chains_of(problem, "gibbs", "radial", should_stop=lambda: next(asked) >= SCHEDULE.sweeps)
+    assert (part.sweep, part.finished) == (SCHEDULE.sweeps, False)
+    assert_same(chains_of(problem, "gibbs", "radial", resume=part), whole)
 
 
 def test_a_finished_run_is_not_run_again():

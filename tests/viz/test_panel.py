@@ -61,5 +61,6 @@ def test_values_of_another_shape_are_refused():
 
 
 def test_a_draw_of_reflectivities_is_drawn_in_shades():
-    figure, _ = picture("draw", np.linspace(0, 1, 48).reshape(GRID.shape), label="reflectivity")
+    figure, _ = picture("draw", np.linspace(0, 1, 48).reshape(GRID.shape), label="mean reflectivity")
+    assert not any("mean" in axes.get_ylabel() for axes in figure.axes[1:])  # it is one draw
     assert any("reflectivity" in axes.get_ylabel() for axes in figure.axes[1:])

@@ -49,3 +49,7 @@ def test_around_leaves_out_the_empty_borders():
 def test_a_window_that_shows_nothing_is_refused(x_m, y_m, says):
     with pytest.raises(BadInput, match=says):
         window(GRID, x_m, y_m)
+
+
+def test_a_window_wider_than_any_map_is_all_of_it():
+    assert window(GRID, (-1e308, 1e308), (-1e308, 1e308))[0] == GRID

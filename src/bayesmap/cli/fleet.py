@@ -58,7 +58,8 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
 
     def check(entry: Entry) -> bool:
         need_file(entry.log, LOG, runs=False)
-        entry.values = cells.with_defaults(call.values(inferring.settings_of(entry.folder) if resume else None))
+        began = (inferring.settings_of(entry.folder) or inferring.settings_in(kept)) if resume else None
+        entry.values = cells.with_defaults(call.values(began))
         named = entry.values["sensor"]
         entry.sensor = "fit" if named == "fit" else sensors.sensor_of(named)
         entry.folder.check(force=force)
@@ -70,10 +71,11 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
     ready = [entry for entry in entries if attempt(entry, functools.partial(check, entry))]
     if ready:  # before the first begins: the others may have to be begun by the process that resumes
         output.mkdir(parents=True, exist_ok=True)
+        toml = as_toml({"infer": values})
         with write_whole(kept) as partial:
-            partial.write_text(as_toml({"infer": values}), encoding="utf-8")
+            partial.write_text(toml, encoding="utf-8")
         for entry in ready:
-            entry.folder.wait()
+            entry.folder.wait(toml)
     interrupted = False
     try:
         if on_ray:
@@ -134,7 +136,7 @@ def _infer_here(call: Call, entry: Entry) -> bool:
     run = inferring.sample(folder, reading.scans, train, values, entry.sensor, saved)
     if not run.finished:
         if run.posterior.sweep > 0:
-            run.save(folder.run)
+            folder.save(run)
         return False
     entry.document = inferring.finish(folder, run, reading, heldout, values["holdout"])
     inferring.report(call.console, entry.document)

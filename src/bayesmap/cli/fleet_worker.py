@@ -139,7 +139,7 @@ def infer_log(
                     sent.put(Sent(files(), document, last=True))
                     return
                 if run.posterior.sweep > 0:
-                    run.save(folder.run)
+                    folder.save(run)
                 sent.put(Sent(files(), last=True))
             except BaseException as error:
                 sent.put(error)

@@ -26,6 +26,8 @@ DERIVED = (
 class Folder:
     """Where `infer` writes. Nothing in it changes before `begin`, which a run that cannot start never reaches.
 
+    A run that is to be replaced stays until `save` has something to put in its place.
+
     Attributes:
         path: the folder.
         console: for details and warnings.
@@ -36,6 +38,7 @@ class Folder:
     console: Console
     resuming: bool = False
     begun: bool = field(default=False, init=False)
+    _toml: str = field(default="", init=False)
 
     def __post_init__(self) -> None:
         self.resuming = self.resuming and not self.outdated.exists()
@@ -52,7 +55,7 @@ class Folder:
 
     @property
     def outdated(self) -> Path:
-        """Stands beside a run that is to be replaced and has not been: a fleet was stopped before its turn came."""
+        """Stands beside a run that is to be replaced and has not been, and holds the settings of the one to come."""
         return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:
@@ -74,42 +77,64 @@ class Folder:
                     raise BadInput(f"{place}: no permission to write there; choose another folder with -o")
                 break
 
-    def wait(self) -> None:
+    def wait(self, toml: str) -> None:
         """The run in the folder, if there is one, is to be replaced later, even if that is by another process."""
         if self.run.exists() and not self.resuming:
-            self.outdated.touch()
+            self._write(self.outdated, toml)
 
     def begin(self, toml: str) -> None:
         """The run has started: keep its settings, so that it can be resumed without saying them again.
 
-        Unless resuming, an older run goes, with all that was made from it. Only when its settings are kept the run has
-        begun: before, there is nothing that could be resumed.
-
         Raises:
             BadInput: the folder cannot be written.
         """
-        from bayesmap.io.atomic import write_whole
-
         if self.begun:
             return
+        self._toml = toml
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            for name in DERIVED if self.resuming else (self.run.name, self.config.name, *DERIVED):
-                (self.path / name).unlink(missing_ok=True)
-            self.outdated.unlink(missing_ok=True)
+            if self.run.exists() and not self.resuming:
+                self._write(self.outdated, toml)
+            else:
+                self.replace()
         except OSError as error:
             raise BadInput(
                 f"{error.filename or self.path}: cannot be written: {error.strerror or error}; "
                 "choose another folder with -o"
             ) from None
-        with write_whole(self.config) as partial:
-            partial.write_text(toml, encoding="utf-8")
         self.begun = True
+
+    def replace(self) -> None:
+        """The run that has begun takes the place of an older one, with all that was made from it."""
+        self._write(self.config, self._toml)
+        for name in DERIVED:
+            (self.path / name).unlink(missing_ok=True)
+        self.outdated.unlink(missing_ok=True)
+
+    @staticmethod
+    def _write(path: Path, text: str) -> None:
+        from bayesmap.io.atomic import write_whole
+
+        with write_whole(path) as partial:
+            partial.write_text(text, encoding="utf-8")
+
+    def save(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
+        """Save the run, which has begun, in the place of an older one if it is to replace one."""
+        try:
+            run.save(self.run, on_progress)
+        except OSError as error:
+            if not self.run.exists():
+                raise
+            kept = "the run to be replaced" if self.outdated.exists() else "what was saved before, and --resume goes on"
+            reason = f"{error.strerror or error}; {self.run.name} still holds {kept}"
+            raise OSError(error.errno, reason, error.filename) from error
+        if self.outdated.exists():
+            self.replace()
 
     def checkpoint(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run so far; a full disk is no reason to lose the hours to come."""
         try:
-            run.save(self.run, on_progress)
+            self.save(run, on_progress)
             self.console.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
         except OSError as error:
             self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
@@ -123,7 +148,7 @@ class Folder:
         from bayesmap.viz.figure import write_figure
 
         with stage(self.console, "save") as report:
-            run.save(self.run, report)
+            self.save(run, report)
         picture = self.path / "posterior.png"
         with progress(self.console, "drawing the map"):
             write_figure(run.plot(), picture)
@@ -131,7 +156,4 @@ class Folder:
 
     def write_document(self, document: dict[str, Any]) -> None:
         """Keep the JSON document."""
-        from bayesmap.io.atomic import write_whole
-
-        with write_whole(self.path / "summary.json") as partial:
-            partial.write_text(as_json(document), encoding="utf-8")
+        self._write(self.path / "summary.json", as_json(document))

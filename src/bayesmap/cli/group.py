@@ -7,6 +7,7 @@ problem, 130 interrupted.
 from __future__ import annotations
 
 import difflib
+import errno
 import importlib
 from typing import Any
 
@@ -37,6 +38,12 @@ COMMANDS = {
 
 EPILOG = """Results go to standard output, progress and messages to standard error. Exit codes: 0 fine, 1 failure,
 2 usage, 3 bad input, 4 with --strict: the diagnostics found a problem, 130 interrupted."""
+
+NO_PLACE = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
+"""Of the system's errors those that say that a file cannot be where it was asked for."""
+
+NO_ROOM = "Failed to allocate"
+"""How Warp's error begins where there is no memory for an array."""
 
 
 class Commands(click.Group):
@@ -89,9 +96,11 @@ def explain(error: BaseException) -> tuple[int, str]:
         return BAD_INPUT, str(error)
     if isinstance(error, KeyboardInterrupt | click.Abort):
         return INTERRUPTED, "interrupted"
+    if isinstance(error, OSError) and error.filename and error.errno in NO_PLACE:
+        return BAD_INPUT, f"{_of_system(error)}; name another file or folder, or see who may write there"
     if isinstance(error, OSError):
         return FAILURE, _of_system(error)
-    if isinstance(error, MemoryError):
+    if isinstance(error, MemoryError) or str(error).startswith(NO_ROOM):
         return FAILURE, "out of memory; use a coarser --resolution, fewer chains, or fewer draws"
     return FAILURE, f"unexpected {type(error).__name__}: {error}"
 

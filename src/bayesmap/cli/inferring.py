@@ -34,7 +34,7 @@ PASSED_ON = (
 """Settings that `bayesmap.infer` has under the same name."""
 
 FLEET_SETTINGS = "fleet.toml"
-"""In the folder of several runs' folders: the settings of those that have not begun."""
+"""In the folder of several runs' folders: what the last fleet there was started with."""
 
 DEFAULTS = {key.name: key.default for key in SECTIONS["infer"]}
 
@@ -53,10 +53,8 @@ def stem(log: str) -> str:
 
 
 def settings_of(folder: Folder, section: str = "infer") -> Settings:
-    """What the run in the folder was started with; where it had not begun, what its fleet was."""
-    fleet = folder.path.parent / FLEET_SETTINGS
-    config = fleet if folder.outdated.exists() or not folder.config.exists() else folder.config
-    return settings_in(config, section)
+    """What the run in the folder was started with, or the one that is to replace it; nothing if there is neither."""
+    return settings_in(folder.outdated if folder.outdated.exists() else folder.config, section)
 
 
 def settings_in(config: Path, section: str = "infer") -> Settings:
@@ -132,7 +130,9 @@ def sample(
     from bayesmap.io.map_server import read_map
     from bayesmap.space.grid import Grid
 
-    if values["grid"] is None:
+    if saved is not None and values["grid"] is not None and not os.path.exists(values["grid"]):
+        grid = saved.grid  # the map that named the cells has gone, or the path was one from elsewhere
+    elif values["grid"] is None:
         # It holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.
         grid = Grid.covering(scans, values["resolution"])
     else:
@@ -166,7 +166,8 @@ def sample(
             executor=executor,
             **{name: values[name] for name in PASSED_ON},
         )
-    folder.begin(toml)
+    if run.finished or run.posterior.sweep > 0 or not folder.run.exists():
+        folder.begin(toml)  # else there is nothing that could take an older run's place
     return run
 
 
@@ -216,12 +217,14 @@ def leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
     if run.posterior.sweep > 0:
         with stage(folder.console, "save") as report:
-            run.save(folder.run, report)
+            folder.save(run, report)
         kept = [folder.run]
         done = counted(run.posterior.sweep, "sweep")
         folder.console.say(f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}")
     elif folder.resuming and folder.run.exists():
         folder.console.say(f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}")
+    elif folder.run.exists() and not folder.begun:
+        folder.console.say(f"interrupted before there was anything to save; {folder.run} is as it was")
     else:
         folder.console.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
     folder.console.result(document_of(run, reading, None, kept), kept)

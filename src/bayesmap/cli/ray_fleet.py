@@ -115,7 +115,7 @@ class RayFleet:
 
     def _submit(self, entry: Entry, *, resuming: bool) -> None:
         folder, before = entry.folder, {}
-        if resuming and folder.run.exists():
+        if resuming and folder.run.exists() and not folder.outdated.exists():
             before = {path.name: path.read_bytes() for path in (folder.run, folder.config) if path.exists()}
         cpus = self._cpus(entry)
         options = {
@@ -158,6 +158,8 @@ class RayFleet:
             return
         folder, files = entry.folder, dict(sent.files)
         folder.begin(files.pop(folder.config.name).decode())
+        if folder.run.name in files and folder.outdated.exists():
+            folder.replace()
         if sent.document is not None:
             folder_of = {name: str(folder.path / name) for name in sent.document["outputs"]}
             entry.document = {**sent.document, "outputs": folder_of}

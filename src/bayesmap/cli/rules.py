@@ -54,7 +54,7 @@ RULES = {
     "beam_weight": Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most"),
     "hit_depth": SHARE,
     "holdout": EVERY,
-    "threads": ONE_OR_MORE,
+    "threads": Rule(lambda n: 1 <= n <= 1024, "a whole number from 1 to 1024"),
     "checkpoint_every": DURATION,
     "scans": ONE_OR_MORE,
     "speed": SPEED,

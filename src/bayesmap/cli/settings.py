@@ -169,7 +169,8 @@ def _typed(text: str) -> Any:
 
 def _toml(value: bool | int | float | str) -> str:
     if isinstance(value, str):
-        return json.dumps(value)  # a JSON string is a TOML string
+        # A JSON string is a TOML string, unless it escapes a character in two halves, or holds a bare DEL.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
     return json.dumps(value)

@@ -63,19 +63,19 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
 
     reading = inferring.read(call.console, log, values)
     _check(call.console, reading, values)
-    saved = inferring.saved(folder) if resume else None
+    saved = inferring.saved(folder) if folder.resuming else None
     if force:
         _forget(folder)
     found: list[Trajectory] = []
     try:
         run = _slam(folder, reading, values, sensor, saved, found)
+        if not run.finished:
+            inferring.leave(folder, run, reading, go_on)
+        outputs = [*folder.write_products(run), *_write_trajectory(folder, reading, run)]
     except KeyboardInterrupt:
         if folder.begun or resume:
             call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
         raise
-    if not run.finished:
-        inferring.leave(folder, run, reading, go_on)
-    outputs = [*folder.write_products(run), *_write_trajectory(folder, reading, run)]
     document = inferring.document_of(run, reading, None, [*outputs, folder.path / "summary.json", folder.config])
     document["trajectory"] = summary(run)
     folder.write_document(document)
@@ -117,11 +117,20 @@ def _slam(
     toml = as_toml({"slam": {name: values[name] for name in inferring.names_of("slam")}})
     with progress(folder.console, "matching scans") as show:
 
+        def on_progress(event: Event) -> None:
+            if event.stage in ("warm-up", "draws"):
+                folder.begin(toml)
+            show(event)
+
         def on_checkpoint(run: Run) -> None:
+            folder.begin(toml)
             folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
 
-        folder.begin(toml)  # before the first stage: whatever is finished from here on is resumed with these settings
-        return slam(
+        if saved is None:
+            folder.begin(
+                toml
+            )  # before the first stage: whatever is finished from now on is resumed with these settings
+        run = slam(
             reading.scans,
             resolution=values["resolution"],
             prior=cells.prior_of(values),
@@ -129,12 +138,15 @@ def _slam(
             draws=values["draws"],
             checkpoint=_stages(folder),
             resume=saved,
-            on_progress=show,
+            on_progress=on_progress,
             on_trajectory=found.append,
             on_checkpoint=on_checkpoint,
             checkpoint_every_s=values["checkpoint_every"],
             **{name: values[name] for name in PASSED_ON},
         )
+        if run.finished or run.posterior.sweep > 0:
+            folder.begin(toml)  # one that had finished makes no sweep, of which it would be told
+        return run
 
 
 def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:

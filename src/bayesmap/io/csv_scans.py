@@ -255,6 +255,8 @@ def _angles(name: str, settings: dict[str, list[float]], beams: int) -> NDArray[
             f"{name}: the directions of {beams} beams are not said: add comment lines '# angle_min: RADIANS' and "
             f"'# angle_increment: RADIANS', or '# angles:' with {beams} numbers"
         )
+    if beams > 1 and not np.ptp(angles):
+        raise BadInput(f"{name}: all {beams} beams point the same way; '# angle_increment:' is the step in radians")
     return angles
 
 

@@ -11,6 +11,9 @@ import numpy as np
 from bayesmap.posterior.diagnostics import ESS_LIMIT, RHAT_LIMIT, bulk_ess, diagnose_cells, rhat, tail_ess
 from bayesmap.posterior.posterior import Posterior
 
+FEWEST_DRAWS = 4
+"""Of a chain, so that its halves have a variance."""
+
 CHANCE_SHARE = 0.01
 """Of the cells that may be over a limit without a warning. Of independent draws, 50 of each of four chains, one cell in
 a thousand has an R-hat over 1.05, and four in a thousand have an estimated effective sample size under 100, by chance;
@@ -86,6 +89,9 @@ class Summary:
         if self.ess_low_cells > allowed:
             least = f"the least is {self.ess_min:.0f}"
             found.append(f"effective sample size of {self.ess_low_cells} cells is under {ESS_LIMIT:.0f}; {least}")
+        swept = not math.isnan(self.microseconds_per_sweep)
+        if self.finished and swept and math.isnan(self.rhat_log_joint):
+            found.append(f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ")
         if self.effective_sample_size < ESS_LIMIT:
             found.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
         return found
@@ -96,7 +102,7 @@ def summarise(posterior: Posterior) -> Summary:
     nan = float("nan")
     markov, log_joint = posterior.has_chains, posterior.log_joint
     chains, draws = log_joint.shape
-    enough = markov and draws >= 4
+    enough = markov and draws >= FEWEST_DRAWS
     cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed) if markov else None
     weights = posterior.log_weights
     sweeps = posterior.sweep * max(1, chains)

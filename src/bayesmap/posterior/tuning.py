@@ -32,6 +32,10 @@ ROUGH, FINE = 1e-4, 1e-6
 """Relative gain in score at which a climb ends: from every start, and then from the best place found."""
 
 
+MOST_STEPS = 100
+"""Of a climb, each with its gradient."""
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A number to be fitted.
@@ -114,7 +118,7 @@ def maximise(
             np.array([p.inner(start[p.name]) for p in parameters]),
             method="L-BFGS-B",
             bounds=[(p.inner(p.low), p.inner(p.high)) for p in parameters],
-            options={"eps": STEP, "ftol": tolerance, "maxiter": 100, "maxfun": 3000},
+            options={"eps": STEP, "ftol": tolerance, "maxiter": MOST_STEPS, "maxfun": 3000},
         )
         on_share(1.0)
         return values_at(found.x), -float(found.fun)

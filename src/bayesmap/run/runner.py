@@ -137,7 +137,7 @@ def run_chains(
         checkpoint_every_s: see above.
 
     Returns:
-        The chains; with ``finished`` false if they were stopped early.
+        The chains; with ``finished`` false if they were asked to stop, be it in the last step.
     """
     schedule, keep, chains = job.schedule, job.schedule.keep, len(job.chain_ids)
     state, seconds = start_chains(job, resume, watch)
@@ -168,7 +168,8 @@ def run_chains(
     )
     saved_at, pause_s = time.monotonic(), checkpoint_every_s
     began, before = time.perf_counter(), state.sweep
-    while not watch.should_stop():
+    stopped = watch.should_stop()
+    while not stopped:
         state, info = next(steps, (state, None))
         if info is None:
             break
@@ -185,8 +186,9 @@ def run_chains(
             on_checkpoint(replace(so_far(state), finished=False) if last else so_far(state))
             saved_at = time.monotonic()
             pause_s = pause_after(saved_at - now, checkpoint_every_s)
-        began = time.perf_counter()
-    return so_far(state)
+        began, stopped = time.perf_counter(), watch.should_stop()
+    # Whoever asked in the last step shall not have to wait for what follows the chains.
+    return replace(so_far(state), finished=False) if stopped else so_far(state)
 
 
 def pause_after(checkpoint_s: float, every_s: float) -> float:

@@ -75,6 +75,11 @@ class Scans:
             stamps = _as_floats(self.stamps_s, "stamps_s")
             if stamps.shape != (len(poses),):
                 raise BadInput(f"scans: stamps_s has shape {stamps.shape}, expected ({len(poses)},)")
+            if not np.isfinite(stamps).all():
+                scan = int(np.flatnonzero(~np.isfinite(stamps))[0])
+                raise BadInput(
+                    f"scans: stamp of scan {scan} is not finite: {stamps[scan]}; leave stamps_s out if there are none"
+                )
             object.__setattr__(self, "stamps_s", stamps)
         if self.beam_poses is not None:
             beam_poses = _as_floats(self.beam_poses, "beam_poses")

@@ -59,7 +59,7 @@ def panel_figure(
     elif np.isin(values, (0, 1)).all():
         image, words = maps.draw_sample(axes, grid, values, observed), ""
     else:
-        image, words = maps.draw_probability(axes, grid, values, observed), label
+        image, words = maps.draw_probability(axes, grid, values, observed), label.removeprefix("mean ")
     if not words:
         figure.set_figwidth(width_in - NO_BAR_IN)
     else:

@@ -32,9 +32,12 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
     for axis, (low, high) in enumerate((x_m, y_m)):
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
             raise BadInput(f"picture: the window's edges must be finite, and the lower first, got {low:g} to {high:g}")
-        start = math.floor((low - grid.origin[axis]) / grid.resolution + 1e-9)
-        stop = math.ceil((high - grid.origin[axis]) / grid.resolution - 1e-9)
-        start, stop = max(start, 0), min(stop, grid.shape[axis])
+        cells = grid.shape[axis]
+        # Cut to the map before they become whole numbers, which have no infinity.
+        first, last = (
+            min(max((edge - grid.origin[axis]) / grid.resolution, -1.0), cells + 1.0) for edge in (low, high)
+        )
+        start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)
         if start >= stop:
             edges = grid.extent_m[2 * axis : 2 * axis + 2]
             raise BadInput(

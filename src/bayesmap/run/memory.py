@@ -1,0 +1,62 @@
+"""Whether a map fits into this machine's memory: better one error at once than a process that the system kills."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+from bayesmap.space.outlying import outlying, why_outlying
+from bayesmap.space.scans import Scans
+
+OF_A_CELL = {True: (200, 280), False: (120, 75)}
+"""Bytes for each cell of the grid, once and for each chain, of cells with surfaces and without: nine tenths of what was
+measured of maps of 2 million cells. Beams and draws come on top."""
+
+GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Where Linux says how much memory a container may take."""
+
+
+def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
+    """Refuse a grid whose chains do not fit into memory.
+
+    Args:
+        grid: of the map.
+        scans: those that it covers.
+        surfaces: whether cells have surfaces.
+        chains: that run on this machine together.
+
+    Raises:
+        BadInput: they take more than the machine has; if single scans lie so far out that it must be their fault, the
+            message names the worst of them.
+    """
+    once, each = OF_A_CELL[surfaces]
+    needed, there = grid.n_cells * (once + chains * each), memory_bytes()
+    if there is None or needed <= there:
+        return
+    nx, ny = grid.shape
+    wrong = outlying(scans)
+    remedy = (
+        why_outlying(scans, int(wrong[0]))
+        if len(wrong)
+        else "use a coarser resolution, or fewer chains, or a smaller map"
+    )
+    raise BadInput(
+        f"grid: {chains} chains of {nx} x {ny} cells take at least {needed / 1e9:.0f} GB of memory, and there are "
+        f"{there / 1e9:.0f}: {remedy}"
+    )
+
+
+def memory_bytes() -> int | None:
+    """How much memory this machine has, or this container may take; None where the system does not say."""
+    try:
+        found = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+    except (AttributeError, OSError, ValueError):
+        found = []
+    for path in GROUP_LIMITS:
+        try:
+            found.append(int(Path(path).read_text()))
+        except (OSError, ValueError):
+            continue
+    return min(found, default=None)

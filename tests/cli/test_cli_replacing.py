@@ -1,0 +1,163 @@
+"""A run that is to be replaced stays until there is something in its place, whatever happens before."""
+
+import contextlib
+import os
+import signal
+
+import pytest
+from shell import call
+
+import bayesmap as bm
+import bayesmap.from_odometry
+
+SLAM = ("--fast", "--resolution", "0.5", "--threads", "2")
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+@pytest.fixture
+def finished(office, tmp_path, short):
+    folder = tmp_path / "run"
+    assert call("infer", office, "-o", folder, *short).exit_code == 0
+    return folder
+
+
+def test_interrupted_before_the_first_sweep_it_is_as_it_was(office, finished, short, monkeypatch):
+    before = contents(finished)
+    monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
+    result = call("infer", office, "-o", finished, *short, "--seed", 5, "--force")
+    assert result.exit_code == 130
+    assert "interrupted before there was anything to save" in result.stderr
+    assert "is as it was" in result.stderr
+    assert contents(finished) == before
+
+
+@pytest.mark.parametrize("where", ["propagate", "warm-up"])
+def test_out_of_memory_before_the_first_checkpoint_it_is_as_it_was(office, finished, short, monkeypatch, where):
+    before, real = contents(finished), bm.api.infer
+
+    def infer(*given, on_progress, **options):
+        def told(event):
+            on_progress(event)
+            if event.stage == where:
+                raise MemoryError
+
+        return real(*given, on_progress=told, **options)
+
+    monkeypatch.setattr("bayesmap.api.infer", infer)
+    options = ("--cells", "binary", "--start", "propagate") if where == "propagate" else ()
+    result = call("infer", office, "-o", finished, *short, *options, "--seed", 5, "--force")
+    assert result.exit_code == 1
+    assert "out of memory" in result.stderr
+    after = contents(finished)
+    assert {name: after[name] for name in before} == before
+    # What had begun goes on with its own settings.
+    monkeypatch.setattr("bayesmap.api.infer", real)
+    assert call("infer", office, "-o", finished, "--resume").exit_code == 0
+    assert bm.load(finished / "run.nc").posterior.settings["seed"] == 5
+    assert contents(finished).keys() == before.keys()
+
+
+def test_at_the_first_checkpoint_it_goes_with_all_that_was_made_of_it(office, finished, short, monkeypatch):
+    from bayesmap.cli.folder import Folder
+
+    save = Folder.checkpoint
+
+    def checkpoint(self, run, *told):
+        save(self, run)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
+    long = ("--warmup", "20", "--draws", "400", "--checkpoint-every", "0")
+    result = call("infer", office, "-o", finished, *short, *long, "--seed", 5, "--force")
+    assert result.exit_code == 130
+    assert sorted(contents(finished)) == ["config.toml", "run.nc"]
+    assert "seed = 5" in (finished / "config.toml").read_text()
+
+
+def test_a_full_disk_says_what_is_kept(office, finished, short, monkeypatch):
+    def full(self, path, *told):
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr(bm.FieldRun, "save", full)
+    result = call("infer", office, "-o", finished, *short, "--seed", 5, "--force")
+    assert result.exit_code == 1
+    assert "No space left on device; run.nc still holds the run to be replaced" in result.stderr
+    result = call("infer", office, "-o", finished, "--resume")
+    assert result.exit_code == 1
+
+
+def test_the_map_that_names_the_cells_may_be_the_folder_s_own(office, finished, short, monkeypatch):
+    from bayesmap.cli.folder import Folder
+
+    save = Folder.checkpoint
+
+    def checkpoint(self, run, *told):
+        save(self, run)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    long = ("--warmup", "20", "--draws", "400", "--checkpoint-every", "0")
+    grid = bm.load(finished / "run.nc").grid
+    with monkeypatch.context() as patch:
+        patch.setattr(Folder, "checkpoint", checkpoint)
+        options = (*short, *long, "--grid", finished / "map.yaml", "--force")
+        assert call("infer", office, "-o", finished, *options).exit_code == 130
+    result = call("infer", office, "-o", finished, "--resume")
+    assert result.exit_code == 0, result.stderr
+    assert bm.load(finished / "run.nc").grid == grid
+
+
+def test_a_refused_resume_of_a_trajectory_s_run_changes_nothing(tmp_path):
+    log, folder = tmp_path / "office.log", tmp_path / "run"
+    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "30", "--odometry", "typical",
+                "--fov", "360", "--angles", "90", "--seed", "4", "-o", log)  # fmt: skip
+    assert made.exit_code == 0, made.stderr
+    assert call("slam", log, "-o", folder, *SLAM).exit_code == 0
+    before = contents(folder)
+    for changed in (("--chains", "3"), ("--resolution", "0.4"), ("--seed", "9")):
+        result = call("slam", log, "-o", folder, "--resume", *changed)
+        assert result.exit_code == 3, result.stderr
+        assert contents(folder) == before
+    assert call("slam", log, "-o", folder, "--resume").exit_code == 0
+    assert bm.load(folder / "run.nc").finished
+
+
+def test_a_run_of_infer_is_not_resumed_as_one_of_slam(office, finished):
+    before = contents(finished)
+    assert call("slam", office, "-o", finished, "--resume", "--no-odometry").exit_code == 3
+    assert contents(finished) == before
+    assert call("infer", office, "-o", finished, "--resume").exit_code == 0
+
+
+def test_settings_of_a_fleet_are_not_those_of_a_log_that_was_not_in_it(office, tmp_path, short):
+    output, other = tmp_path / "runs", tmp_path / "other.log"
+    other.write_text(office.read_text())
+    third = tmp_path / "third.log"
+    third.write_text(office.read_text())
+    assert call("infer", office, other, "-o", output, *short, "--seed", 7).exit_code == 0
+    result = call("infer", third, "-o", output / "third", *short, "--resume")
+    assert result.exit_code == 0, result.stderr
+    assert bm.load(output / "third" / "run.nc").posterior.settings["seed"] == 0
+
+
+def test_slam_is_stopped_in_its_stages_beside_the_run_that_it_replaces(tmp_path, monkeypatch):
+    log, folder = tmp_path / "office.log", tmp_path / "run"
+    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "30", "--odometry", "typical",
+                "--fov", "360", "--angles", "90", "--seed", "4", "-o", log)  # fmt: skip
+    assert made.exit_code == 0, made.stderr
+    assert call("slam", log, "-o", folder, *SLAM).exit_code == 0
+    before, real = contents(folder), bayesmap.from_odometry.slam
+
+    def slam(*given, on_progress, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(bayesmap.from_odometry, "slam", slam)
+    assert call("slam", log, "-o", folder, *SLAM, "--seed", "3", "--force").exit_code == 130
+    after = contents(folder)
+    assert {name: after[name] for name in before} == before
+    monkeypatch.setattr(bayesmap.from_odometry, "slam", real)
+    assert call("slam", log, "-o", folder, "--resume").exit_code == 0
+    assert bm.load(folder / "run.nc").posterior.settings["seed"] == 3
+    assert not (folder / "outdated").exists()
