@@ -198,6 +198,10 @@ def test_worlds_that_are_none(tmp_path):
         assert message in refuse("simulate", "-o", tmp_path / "my.log", "--world", world, "--pose", "0.5,0.5,0")
 
 
+def test_a_folder_s_name_that_no_file_of_netcdf_can_have(office, tmp_path):
+    assert "the name is not UTF-8; choose another folder" in refuse("infer", office, "-o", f"{tmp_path}/run\udcff")
+
+
 def test_a_file_in_the_way_of_a_folder(office, tmp_path):
     (tmp_path / "run").write_text("mine")
     assert "not a folder" in refuse("infer", office, "-o", tmp_path / "run")

@@ -62,8 +62,12 @@ class Folder:
         """Refuse to touch a run that nobody said to replace.
 
         Raises:
-            BadInput: there is a run already, or something that is no folder.
+            BadInput: there is a run already, or something that is no folder, or whose name netCDF could not take.
         """
+        try:
+            str(self.path).encode()
+        except UnicodeEncodeError:
+            raise BadInput(f"{str(self.path)!a}: the name is not UTF-8; choose another folder with -o") from None
         if self.run.exists() and not (force or self.resuming or self.outdated.exists()):
             raise BadInput(
                 f"{self.run}: there is a run already; --resume goes on with it, --force replaces it, "
