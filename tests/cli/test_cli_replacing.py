@@ -8,7 +8,6 @@ import pytest
 from shell import call
 
 import bayesmap as bm
-import bayesmap.from_odometry
 
 SLAM = ("--fast", "--resolution", "0.5", "--threads", "2")
 
@@ -140,24 +139,3 @@ def test_settings_of_a_fleet_are_not_those_of_a_log_that_was_not_in_it(office, t
     result = call("infer", third, "-o", output / "third", *short, "--resume")
     assert result.exit_code == 0, result.stderr
     assert bm.load(output / "third" / "run.nc").posterior.settings["seed"] == 0
-
-
-def test_slam_is_stopped_in_its_stages_beside_the_run_that_it_replaces(tmp_path, monkeypatch):
-    log, folder = tmp_path / "office.log", tmp_path / "run"
-    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "30", "--odometry", "typical",
-                "--fov", "360", "--angles", "90", "--seed", "4", "-o", log)  # fmt: skip
-    assert made.exit_code == 0, made.stderr
-    assert call("slam", log, "-o", folder, *SLAM).exit_code == 0
-    before, real = contents(folder), bayesmap.from_odometry.slam
-
-    def slam(*given, on_progress, **options):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(bayesmap.from_odometry, "slam", slam)
-    assert call("slam", log, "-o", folder, *SLAM, "--seed", "3", "--force").exit_code == 130
-    after = contents(folder)
-    assert {name: after[name] for name in before} == before
-    monkeypatch.setattr(bayesmap.from_odometry, "slam", real)
-    assert call("slam", log, "-o", folder, "--resume").exit_code == 0
-    assert bm.load(folder / "run.nc").posterior.settings["seed"] == 3
-    assert not (folder / "outdated").exists()

@@ -84,13 +84,17 @@ def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_p
 def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch):
     folder = tmp_path / "run"
     assert call("slam", log, "-o", folder, *OTHERS).exit_code == 0
+    before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, "front end")
         stopped = call("slam", log, "-o", folder, *SETTINGS, "--force")
     assert stopped.exit_code == 130, stopped.stderr
-    assert {path.name for path in folder.iterdir()} == {"stages", "config.toml"}
+    left = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+    assert left.pop("outdated")
+    assert left == before
     assert call(*printed(stopped.stderr)).exit_code == 0
     assert_same(folder, whole)
+    assert not (folder / "outdated").exists()
 
 
 def test_an_older_run_stays_where_nothing_can_be_inferred(log, whole):
