@@ -53,15 +53,30 @@ def test_labels_come_with_their_cells():
 def test_too_little_is_not_looked_for():
     gain = np.zeros(SHAPE)
     gain[10, 10], gain[25, 25] = LEAST_NATS + 0.1, LEAST_NATS - 0.1
-    found = squares(0, maps_of(GOOD), gain, 1)
+    tried = np.zeros(SHAPE, dtype=bool)
+    found = squares(0, maps_of(GOOD), gain, 1, tried)
     assert len(found.middle) == 1
     assert abs(found.middle[0] - 10).max() <= 1
+    tried[9:12, 9:12] = True
+    assert len(squares(0, maps_of(GOOD), gain, 1, tried).middle) == 0
+
+
+def test_squares_side_by_side_are_tried_one_after_the_other():
+    row = np.zeros(SHAPE)
+    row[3:5, 3:27:6] = 1.0  # further apart than small squares are wide, and closer than beams are asked
+
+    def look(maps):
+        return 10.0 * (maps.cells[..., 0].reshape(-1, *SHAPE) == row)
+
+    first, second = maps_of(np.zeros(SHAPE)), maps_of(row)
+    take_better(first, second, look(second) - look(first), look)
+    np.testing.assert_array_equal(first.cells[0, :, 0].reshape(SHAPE), row)
 
 
 @pytest.mark.parametrize("half", HALF_WIDTHS)
 def test_no_beam_is_asked_about_two_squares(half):
     gain = np.random.default_rng(half).uniform(0, 2 * LEAST_NATS, SHAPE)
-    found = squares(0, maps_of(GOOD), gain, half).middle
+    found = squares(0, maps_of(GOOD), gain, half, np.zeros(SHAPE, dtype=bool)).middle
     assert len(found) > 1
     asked = np.zeros(SHAPE, dtype=int)
     for x, y in found:

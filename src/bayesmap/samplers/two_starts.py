@@ -22,6 +22,8 @@ LEAST_NATS = 20.0
 """By which the second start must be better in a square."""
 MUST_STAY = 1 / 3
 """Part of that which must be left in the very first sweep among the chain's own cells."""
+ROUNDS = 3
+"""Of squares of one size that are tried together, at most."""
 MARGIN = 2
 """Cells around a square whose beams are asked, too."""
 
@@ -36,20 +38,27 @@ def take_better(maps: Maps, second: Maps, gain: Floats, look: Look) -> None:
             ny).
         look: at maps.
     """
-    gain = gain.copy()
+    gain, shape = gain.copy(), (gain.shape[1], gain.shape[2])
     for half in HALF_WIDTHS:
-        changes = [squares(chain, second, one, half) for chain, one in enumerate(gain)]
-        stays = try_changes(maps, changes, look, look(maps), half + MARGIN, MUST_STAY * LEAST_NATS)
-        for one, new, stay in zip(gain, changes, stays, strict=True):
-            one[covered(new.middle[stay], half, (one.shape[0], one.shape[1]))] = 0.0
+        before, tried = look(maps), np.zeros(gain.shape, dtype=np.bool_)
+        for _ in range(ROUNDS):
+            changes = [
+                squares(i, second, one, half, done) for i, (one, done) in enumerate(zip(gain, tried, strict=True))
+            ]
+            if not any(len(new.middle) for new in changes):
+                break
+            stays = try_changes(maps, changes, look, before, half + MARGIN, MUST_STAY * LEAST_NATS)
+            for i, (new, stay) in enumerate(zip(changes, stays, strict=True)):
+                gain[i][covered(new.middle[stay], half, shape)] = 0.0
+                tried[i] |= covered(new.middle, half, shape)
 
 
-def squares(chain: int, second: Maps, gain: Floats, half: int) -> Changes:
+def squares(chain: int, second: Maps, gain: Floats, half: int, tried: NDArray[np.bool_]) -> Changes:
     """The squares of a chain that gain more than `LEAST_NATS`, the best first, so far apart that no two ask the same
-    cell's beams.
+    cell's beams; none about a cell that is in ``tried``, (nx, ny).
     """
     total, shape = sums_over_squares(gain, half), (gain.shape[0], gain.shape[1])
-    middle = np.argwhere(total > LEAST_NATS)
+    middle = np.argwhere((total > LEAST_NATS) & ~tried)
     middle = middle[np.argsort(-total[tuple(middle.T)], kind="stable")]
     middle = middle[apart(middle, 2 * (half + MARGIN), shape)]
     where = cells_of(middle, half, shape)
