@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from bayesmap.samplers import two_starts
 from bayesmap.samplers.trials import Maps
 from bayesmap.samplers.two_starts import HALF_WIDTHS, LEAST_NATS, MARGIN, cells_of, squares, take_better
 
@@ -61,7 +62,8 @@ def test_too_little_is_not_looked_for():
     assert len(squares(0, maps_of(GOOD), gain, 1, tried).middle) == 0
 
 
-def test_squares_side_by_side_are_tried_one_after_the_other():
+def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
+    monkeypatch.setattr(two_starts, "HALF_WIDTHS", (1,))
     row = np.zeros(SHAPE)
     row[3:5, 3:27:6] = 1.0  # further apart than small squares are wide, and closer than beams are asked
 
