@@ -65,7 +65,7 @@ def test_too_little_is_not_looked_for():
 def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
     monkeypatch.setattr(two_starts, "HALF_WIDTHS", (1,))
     row = np.zeros(SHAPE)
-    row[3:5, 3:27:6] = 1.0  # further apart than small squares are wide, and closer than beams are asked
+    row[3:6, 3:27:6] = 1.0  # further apart than small squares are wide, and closer than beams are asked
 
     def look(maps):
         return 10.0 * (maps.cells[..., 0].reshape(-1, *SHAPE) == row)
