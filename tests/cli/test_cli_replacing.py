@@ -8,12 +8,24 @@ import pytest
 from shell import call
 
 import bayesmap as bm
+from bayesmap.cli.folder import Folder
 
 SLAM = ("--fast", "--resolution", "0.5", "--threads", "2")
 
 
 def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+def interrupt_at_checkpoint(monkeypatch):
+    """Press Ctrl-C as soon as the first checkpoint is there."""
+    save = Folder.checkpoint
+
+    def checkpoint(self, run, *told):
+        save(self, run)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
 
 @pytest.fixture
@@ -60,15 +72,7 @@ def test_out_of_memory_before_the_first_checkpoint_it_is_as_it_was(office, finis
 
 
 def test_at_the_first_checkpoint_it_goes_with_all_that_was_made_of_it(office, finished, short, monkeypatch):
-    from bayesmap.cli.folder import Folder
-
-    save = Folder.checkpoint
-
-    def checkpoint(self, run, *told):
-        save(self, run)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
+    interrupt_at_checkpoint(monkeypatch)
     long = ("--warmup", "20", "--draws", "400", "--checkpoint-every", "0")
     result = call("infer", office, "-o", finished, *short, *long, "--seed", 5, "--force")
     assert result.exit_code == 130
@@ -89,18 +93,10 @@ def test_a_full_disk_says_what_is_kept(office, finished, short, monkeypatch):
 
 
 def test_the_map_that_names_the_cells_may_be_the_folder_s_own(office, finished, short, monkeypatch):
-    from bayesmap.cli.folder import Folder
-
-    save = Folder.checkpoint
-
-    def checkpoint(self, run, *told):
-        save(self, run)
-        os.kill(os.getpid(), signal.SIGINT)
-
     long = ("--warmup", "20", "--draws", "400", "--checkpoint-every", "0")
     grid = bm.load(finished / "run.nc").grid
     with monkeypatch.context() as patch:
-        patch.setattr(Folder, "checkpoint", checkpoint)
+        interrupt_at_checkpoint(patch)
         options = (*short, *long, "--grid", finished / "map.yaml", "--force")
         assert call("infer", office, "-o", finished, *options).exit_code == 130
     result = call("infer", office, "-o", finished, "--resume")

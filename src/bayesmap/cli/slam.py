@@ -127,9 +127,8 @@ def _slam(
             folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
 
         if saved is None:
-            folder.begin(
-                toml
-            )  # before the first stage: whatever is finished from now on is resumed with these settings
+            # Before the first stage: whatever is finished from here on is resumed with these settings.
+            folder.begin(toml)
         run = slam(
             reading.scans,
             resolution=values["resolution"],

@@ -25,6 +25,7 @@ from bayesmap.kernels.variates import normal
 wp.set_module_options({"enable_backward": False})
 
 CANDIDATES, HALF, PER_HALF = wp.constant(32), wp.constant(16), wp.constant(wp.float64(1.0 / 16.0))
+"""How many candidates there are, how many in each half, and one over that."""
 LOGISTIC = wp.constant(wp.float64(0.6))
 """Scale of the logistic distribution that stands for a standard normal one: its quantiles have a formula, and its tails
 are the longer ones."""
