@@ -129,7 +129,7 @@ def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, vari
             return type(reading_m)(table.log_typed_nowhere[wp.where(z > wp.float32(0.0), 1, 0)])
         return type(reading_m)(interpolated(table.log_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
     along = d / top
-    scale = interpolated(table.scale_m, along)
+    scale = readings_scale_m(table, d, top)
     part = spread_node(scale, wp.float32(variance))
     if typed:
         return type(reading_m)(in_plane(table.log_typed[wp.where(z > wp.float32(0.0), 1, 0)], part, along))
@@ -149,7 +149,7 @@ def table_cumulative(table: LawTable, reading_m: Any, distance_m: Any, variance:
     if d > top:
         return type(reading_m)(interpolated(table.below_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
     along = d / top
-    scale = interpolated(table.scale_m, along)
+    scale = readings_scale_m(table, d, top)
     width = wp.sqrt(scale * scale + wp.float32(variance))
     off = offset_node(table, (z - d) / width)
     return type(reading_m)(in_space(table.below, spread_node(scale, wp.float32(variance)), along, off))
