@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal, cast
 
 import numpy as np
@@ -32,8 +33,9 @@ from bayesmap.samplers.progress import Event as Event
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.start import Start, default_start
+from bayesmap.samplers.stop_problem import StopProblem
 from bayesmap.samplers.wall_sampler import Order
-from bayesmap.samplers.with_poses import MovableSampler, WithPoses
+from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 from bayesmap.samplers.without_chains import Asked
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
@@ -233,12 +235,16 @@ class Inference:
         model, parameters, problem = self.model, None, None
         if self.fitted and name == "stop-gibbs":
             assert sampler is not None
-            problem = sampler.prepare(model, self.device, self.threads, watch)
+            prepare = partial(sampler.prepare, device=self.device, threads=self.threads, watch=watch)
             if resume is not None:
                 parameters = Parameters.from_description(resume.settings["fitted"])
-            else:
-                cells = problem.cells if self.model.poses.unknown else problem
+            if parameters is None or model.poses.unknown:
+                problem = prepare(model)
+            if parameters is None:
+                cells = cast(PoseProblem, problem).cells if model.poses.unknown else cast(StopProblem, problem)
                 parameters = fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.schedule.warmup), watch)
+            if not model.poses.unknown:  # beams are followed as far as the fitted noise reaches
+                problem = prepare(replace(model, sensor=parameters.sensor))
             settings["fitted"] = parameters.describe()
         elif self.fitted:
             sensor = fit_sensor(model, self.device, seed=self.asked.seed, threads=self.threads, watch=watch)

@@ -20,6 +20,7 @@ PRIOR = bm.Surface(0.5, 1.0, wander=0.4, spread=0.3, dof=3.0)
 HARD = bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.05, p_no_return=0.1)
 CROWD = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_short=0.4, rate_short_per_m=3.0)
 SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)
+TAILS = bm.BeamMixture(bm.StudentT(0.01, 5.0, 0.005), p_random=0.02, p_no_return=0.05)
 
 
 @wp.kernel
@@ -90,7 +91,7 @@ def weighed(sensor, seed, worse=0.0):
     return one_by_one, least, out.numpy()
 
 
-@pytest.mark.parametrize("sensor", [HARD, CROWD, SHARP], ids=["hard", "crowd", "sharp"])
+@pytest.mark.parametrize("sensor", [HARD, CROWD, SHARP, TAILS], ids=["hard", "crowd", "sharp", "heavy tails"])
 @pytest.mark.parametrize("worse", [0.0, 0.05], ids=["where they stand", "beside it"])
 def test_eight_at_a_time_say_what_each_says(sensor, worse):
     plain, least, (_, lanes, whole, cut, others, stopped) = weighed(sensor, 10, worse)
@@ -127,10 +128,12 @@ def test_a_product_too_small_for_a_number_is_taken_one_by_one():
         (HARD, 1.0, 1),
         (HARD, 0.5, 0),
         (bm.Gaussian(0.1), 1.0, 0),
-        (bm.BeamMixture(bm.StudentT(0.1, dof=3.0)), 1.0, 0),
+        (TAILS, 1.0, 1),
+        (bm.BeamMixture(bm.StudentT(0.1, dof=4.0)), 1.0, 0),
+        (bm.BeamMixture(bm.StudentT(0.1, dof=33.0)), 1.0, 0),
     ],
 )  # fmt: skip
-def test_lanes_are_for_mixtures_with_normal_noise(sensor, beta, takes):
+def test_lanes_are_for_mixtures_with_normal_noise_or_few_and_odd_degrees_of_freedom(sensor, beta, takes):
     law = sensor_law(sensor, RangeLimits(0.0, 6.0), "cpu", SensorLaw32)
     out = wp.zeros(1, dtype=wp.int32)
     wp.launch(is_for_lanes, dim=1, inputs=[law, beta, out])

@@ -10,6 +10,7 @@ from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((60, 50), 0.1, (-1.0, 2.0))
 LASER = bm.BeamMixture(bm.Gaussian(0.02, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
+TAILS = bm.BeamMixture(bm.StudentT(0.02, 9.0, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
 ANGLES = np.radians(np.arange(60) * 6.0)
 
 
@@ -28,8 +29,9 @@ def states(kind, rng):
     return out
 
 
+@pytest.mark.parametrize("laser", [LASER, TAILS], ids=["normal", "heavy tails"])
 @pytest.mark.parametrize("kind", ["plain", "surfaces"])
-def test_the_fast_law_is_the_plain_one(kind):
+def test_the_fast_law_is_the_plain_one(kind, laser):
     rng = np.random.default_rng(1)
     maps = states(kind, rng)
     poses = np.column_stack([rng.uniform(-1.5, 5.5, 40), rng.uniform(1.5, 7.5, 40), rng.uniform(-4, 4, 40)])
@@ -38,9 +40,9 @@ def test_the_fast_law_is_the_plain_one(kind):
     scans = bm.Scans(np.zeros((2, 3)), ANGLES, ranges, 6.0, 0.1)
     which = rng.integers(0, 2, 40)
     fast = scan_log_likelihood(
-        pack_map(maps, GRID, 0.5), poses, ANGLES, ranges, LASER, RangeLimits(0.1, 6.0), scan=which
+        pack_map(maps, GRID, 0.5), poses, ANGLES, ranges, laser, RangeLimits(0.1, 6.0), scan=which
     )
-    plain = ScanLikelihood(scans, GRID, LASER, 0.5)
+    plain = ScanLikelihood(scans, GRID, laser, 0.5)
     for draw in range(3):
         expected = plain(maps, poses, which, np.full(40, draw))
         np.testing.assert_allclose(fast[:, draw], expected, rtol=2e-5, atol=2e-3)

@@ -81,11 +81,18 @@ def stop_probabilities(stopped):
     return before * np.concatenate([stopped, np.ones_like(passed[..., :1])], axis=-1)
 
 
+def noise_of(sensor, wall, variance):
+    """Scale of the noise about stops, and its standard law."""
+    numbers = sensor.noise.kernel_parameters()
+    scale = np.sqrt((numbers.sigma_m + numbers.sigma_per_m * wall) ** 2 + variance)
+    return scale, stats.t(numbers.dof) if numbers.dof else stats.norm()
+
+
 def reading_law(z, distance, variance, sensor, limits):
     """p(z | the beam stops at about the distance); an infinite distance means nowhere. A density where z is finite."""
     z, distance, variance = np.broadcast_arrays(z, distance, variance)
     wall = np.minimum(distance, limits.max_m)
-    scale = np.sqrt((sensor.noise.sigma_m + sensor.noise.sigma_per_m * wall) ** 2 + variance)
+    scale, noise = noise_of(sensor, wall, variance)
     rate, shorts = sensor.rate_short_per_m, sensor.p_short
     clear = 1 - shorts * (1 - np.exp(-rate * wall))
     echo = np.where(distance <= limits.max_m, clear * (1 - sensor.p_no_return), 0.0)
@@ -94,10 +101,10 @@ def reading_law(z, distance, variance, sensor, limits):
     x = (inside - wall) / scale
     short = np.where(inside < wall, shorts * rate * np.exp(-rate * inside), 0.0)
     finite = sensor.p_random / (limits.max_m - limits.min_m)
-    finite = finite + known * (short + echo * np.exp(-0.5 * x**2) / scale / np.sqrt(2 * np.pi))
-    silent = known * (clear - echo * special.ndtr((limits.max_m - wall) / scale))
+    finite = finite + known * (short + echo * noise.pdf(x) / scale)
+    silent = known * (clear - echo * noise.cdf((limits.max_m - wall) / scale))
     blocked = shorts * (1 - np.exp(-rate * np.minimum(wall, limits.min_m)))
-    close = known * (blocked + echo * special.ndtr((limits.min_m - wall) / scale))
+    close = known * (blocked + echo * noise.cdf((limits.min_m - wall) / scale))
     return np.select([np.isposinf(z), np.isneginf(z), np.isfinite(z)], [silent, close, finite], 1.0)
 
 
@@ -188,8 +195,8 @@ def draw_readings(rng, paths, state, sensor, plain):
     distance = np.where(nowhere, np.inf, distance[beams, at])
     variance = np.where(nowhere, 0.0, variance[beams, at])
     wall = np.minimum(distance, limits.max_m)
-    scale = np.sqrt((sensor.noise.sigma_m + sensor.noise.sigma_per_m * wall) ** 2 + variance)
-    reading = wall + scale * rng.standard_normal(wall.shape)
+    scale, noise = noise_of(sensor, wall, variance)
+    reading = wall + scale * noise.rvs(wall.shape, random_state=rng)
     reading[(distance > limits.max_m) | (rng.random(wall.shape) < sensor.p_no_return)] = np.inf
     thing = rng.exponential(1 / sensor.rate_short_per_m, wall.shape)
     reading = np.where((rng.random(wall.shape) < sensor.p_short) & (thing < wall), thing, reading)

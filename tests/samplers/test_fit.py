@@ -33,7 +33,10 @@ SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_sho
 
 
 def numbers(sensor):
-    return np.array([getattr(sensor.noise if "sigma" in name else sensor, name) for name in SIX])
+    """Of a noise with many degrees of freedom those of a normal one that scatters as much."""
+    of_noise = sensor.noise.kernel_parameters()
+    wider = np.sqrt(of_noise.dof / (of_noise.dof - 2.0)) if of_noise.dof else 1.0
+    return np.array([wider * getattr(of_noise, name) if "sigma" in name else getattr(sensor, name) for name in SIX])
 
 
 def fitted_to_known_stops(seed, least_m, count=12_000):

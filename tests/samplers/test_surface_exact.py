@@ -24,6 +24,7 @@ EDGE = 0.5
 
 BLUNT = bm.BeamMixture(bm.Gaussian(0.12, 0.02), p_random=0.1, p_no_return=0.15, p_short=0.1, rate_short_per_m=0.8)
 SHARP = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.05, p_no_return=0.05, p_short=0.05)
+TAILS = bm.BeamMixture(bm.StudentT(0.04, 3.0, 0.01), p_random=0.05, p_no_return=0.05, p_short=0.05)
 
 ONE = bm.Scans(
     [[-0.4, 0.25, 0.0], [0.2, -0.6, np.pi / 2]], [-0.12, 0.1],
@@ -44,6 +45,7 @@ NEARLY_FREE = bm.Surface(0.5, 1e9, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
 CASES = {
     "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
     "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
+    "one cell, heavy tails": ((1, 1), ONE, TAILS, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
     "two cells": ((2, 1), TWO, BLUNT, bm.Surface(2.0, 1.0, wander=0.3, spread=0.3, dof=5.0)),
     "one cell without readings": ((1, 1), NOTHING, BLUNT, WEAK),
     "one cell as unlikely to stop a beam as a reading by chance": ((1, 1), BESIDE, RARE, NEARLY_FREE),

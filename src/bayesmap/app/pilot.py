@@ -87,4 +87,4 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
         draws = joined(draws, latest, math.ceil(sweep / 2))
         show(Pilot(model, draws, sweep, PILOT_SWEEPS))
         yield
-    return model, sampler, problem
+    return model, sampler, sampler.prepare(model, "cpu")  # beams are followed as far as the fitted noise reaches

@@ -3,7 +3,8 @@
 `bayesmap.kernels.endpoint_beams.log_stops` asks each beam for itself, through lists, whatever the sensor. A cell asks
 the same beams for every step of its surface, so they are copied side by side first, and eight of them are weighed by
 the same arithmetic: what a processor with wide registers does at once. That is for what nearly all beams are, hits of a
-mixture with normal noise that end near the cell; the others are asked one by one.
+mixture that end near the cell, with noise that is normal or Student's t of few and odd degrees of freedom; the others
+are asked one by one.
 
 A *block* is eight beams: one `Lanes` for each number that is needed of them. Lanes that are left over hold beams that
 count nothing.
@@ -75,7 +76,7 @@ def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> Blocks:
 @wp.func
 def takes_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
     """Whether hits of this law can be weighed in lanes."""
-    return law.kind == MIXTURE and law.dof == wp.float32(0.0) and beta == wp.float32(1.0)
+    return law.kind == MIXTURE and (law.dof == wp.float32(0.0) or law.power > 0) and beta == wp.float32(1.0)
 
 
 @wp.func
@@ -134,19 +135,30 @@ def chance_of(offset: Lanes, across: Lanes) -> Lanes:
 
 @wp.func
 def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, variance: Lanes) -> Lanes:
-    """`stop_density` of finite readings, of a mixture with normal noise."""
+    """`stop_density` of finite readings, of a mixture that `takes_lanes`."""
     one = Lanes(wp.float32(1.0))
     scale = Lanes(law.sigma_m) + law.sigma_per_m * distance
     total = wp.cw_mul(scale, scale) + variance
     error = reading - distance
     square = wp.cw_mul(error, error)
     limit = Lanes(law.max_m)
-    known = wp.cw_mul(positive(wp.float32(FAR_SQ) * total - square), positive(limit - distance))
+    known = positive(limit - distance)
     precision = wp.cw_div(one, total)
-    normal = wp.cw_mul(exponential(wp.float32(-0.5) * wp.cw_mul(square, precision)), square_root(precision))
+    standard_sq = wp.cw_mul(square, precision)
+    noise = one
+    if law.power > 0:
+        base = one + (wp.float32(1.0) / law.dof) * standard_sq
+        product = base
+        for _ in range(1, law.power):
+            product = wp.cw_mul(product, base)
+        noise = wp.cw_div(one, product)
+    else:
+        known = wp.cw_mul(known, positive(wp.float32(FAR_SQ) * total - square))
+        noise = exponential(wp.float32(-0.5) * standard_sq)
+    noise = wp.cw_mul(noise, square_root(precision))
     past = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
     unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * past
-    returned = law.p_known * law.p_return * wp.exp(law.log_constant) * wp.cw_mul(unblocked, wp.cw_mul(known, normal))
+    returned = law.p_known * law.p_return * wp.exp(law.log_constant) * wp.cw_mul(unblocked, wp.cw_mul(known, noise))
     before = positive(wp.min(distance, limit) - reading)
     return Lanes(law.uniform) + returned + law.passing * wp.cw_mul(before, decay)
 

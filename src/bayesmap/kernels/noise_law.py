@@ -8,6 +8,7 @@ wp.set_module_options({"enable_backward": False})
 
 FAR = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
+INV_PI = wp.constant(wp.float64(0.3183098861837907))
 MOST_TERMS = wp.constant(wp.float64(16.0))
 ROUNDS = wp.constant(200)  # of the continued fraction, at most; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))
@@ -22,6 +23,30 @@ def noise_log_density(law: Any, x: Any):
         one = type(x)(1.0)
         return law.log_constant - half * (law.dof + one) * wp.log(one + x * x / law.dof)
     return law.log_constant - half * x * x
+
+
+MOST_POWER = 16
+"""Of a Student-t density: beyond it, at 31 degrees of freedom, it is nearly normal."""
+
+
+def whole_power(power: float) -> int:
+    """(dof + 1) / 2 if that is a whole number of multiplications that is worth its while, else 0."""
+    return int(power) if power == int(power) and power <= MOST_POWER else 0
+
+
+@wp.func
+def noise_density(law: Any, x: Any):
+    """Density of the standard noise of a sensor's law.
+
+    Of Student's t with an odd number of degrees of freedom c / (1 + x^2 / dof)^power, without logarithms.
+    """
+    if law.power > 0:
+        base = type(x)(1.0) + x * x / law.dof
+        product = base
+        for _ in range(1, law.power):
+            product = product * base
+        return wp.exp(law.log_constant) / product
+    return wp.exp(noise_log_density(law, x))
 
 
 @wp.func
@@ -77,7 +102,7 @@ def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
 def student_below(dof: wp.float64, log_constant: wp.float64, t: wp.float64) -> wp.float64:
     """P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2).
 
-    For even dof it is a finite sum (Abramowitz and Stegun 26.7.4), which is ten times as fast.
+    For whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
     """
     half = wp.float64(0.5)
     one = wp.float64(1.0)
@@ -93,6 +118,14 @@ def student_below(dof: wp.float64, log_constant: wp.float64, t: wp.float64) -> w
             term = term * x * (one - half / wp.float64(j))
             series += term
         return half + half * series * wp.sign(t) * wp.sqrt(y)
+    if dof == wp.floor(dof) and a <= MOST_TERMS:
+        angle = wp.atan(wp.abs(t) / wp.sqrt(dof))
+        term_odd = wp.where(dof > one, wp.sqrt(x), wp.float64(0.0))
+        series_odd = term_odd
+        for j_odd in range(1, int(a)):
+            term_odd = term_odd * x * (one - one / wp.float64(2 * j_odd + 1))
+            series_odd += term_odd
+        return half + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series_odd)
     # log 1 / B(dof / 2, 1 / 2) = log_constant + log(dof) / 2
     front = wp.exp(log_constant + half * wp.log(dof) + a * wp.log(x) + half * wp.log(y))
     tail = wp.float64(0.0)

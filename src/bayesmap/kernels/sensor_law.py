@@ -13,7 +13,7 @@ from typing import Any
 import warp as wp
 
 from bayesmap.kernels.law_table import LawTable, put_table, table_cumulative, table_log_density
-from bayesmap.kernels.noise_law import noise_below, noise_log_density
+from bayesmap.kernels.noise_law import noise_below, noise_density, noise_log_density, whole_power
 from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
@@ -38,7 +38,8 @@ def _law(name: str, real: Any) -> Any:
         "peak",  # no density of a finite reading is higher in the mixture
         "series",  # below it the fifth term of exp(-x) is under the precision
     )  # fmt: skip
-    annotations: dict[str, Any] = {"kind": int, "table": LawTable} | dict.fromkeys(reals, real)
+    whole = {"kind": int, "power": int}  # power: see `noise_density`
+    annotations: dict[str, Any] = whole | {"table": LawTable} | dict.fromkeys(reals, real)
     return wp.struct(type(name, (), {"__annotations__": annotations, "__module__": __name__, "__qualname__": name}))
 
 
@@ -68,6 +69,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     packed.sigma_m, packed.sigma_per_m, packed.dof = model.sigma_m, model.sigma_per_m, model.dof
     if model.dof > 0:
         half = 0.5 * (model.dof + 1)
+        packed.power = whole_power(half)
         packed.log_constant = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
     else:
         packed.log_constant = -0.5 * math.log(2 * math.pi)
@@ -134,7 +136,7 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
     if far or distance_m > law.max_m:
         return type(total)(0.0)
     scale = wp.sqrt(total)
-    density = wp.exp(noise_log_density(law, error / scale)) / scale
+    density = noise_density(law, error / scale) / scale
     return law.p_known * unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
 
 

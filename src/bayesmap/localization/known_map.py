@@ -15,7 +15,7 @@ from bayesmap.localization.field import Field, likelihood_field
 from bayesmap.localization.particles import log_sum
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.noise import Gaussian, StudentT
 
 if TYPE_CHECKING:
     from bayesmap.kernels.pose_weights import PackedMap
@@ -163,10 +163,9 @@ class KnownMap:
         """Where end points of beams fall on surfaces, for proposals."""
         from bayesmap.kernels.pose_weights import unpacked
 
-        noise = self.sensor.noise if isinstance(self.sensor, BeamMixture) else self.sensor
-        assert isinstance(noise, Gaussian)
-        sigma_m = noise.sigma_m + noise.sigma_per_m * self.typical_m
-        return endpoint_field(unpacked(self.packed), self.grid, sigma_m, self.unknown, self.unknown_chance)
+        assert isinstance(self.sensor, BeamMixture)
+        scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_m)))
+        return endpoint_field(unpacked(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
 
     @cached_property
     def free_area_m2(self) -> float:
@@ -253,13 +252,13 @@ def _anywhere(scans: Scans) -> Floats:
 
 
 def _compilable(sensor: SensorModel) -> SensorModel:
-    """A mixture with Gaussian noise: noise alone gets the least outliers that keep every pose possible.
+    """A mixture: noise alone gets the least outliers that keep every pose possible.
 
     Raises:
-        BadInput: heavy-tailed noise, or a model of the user's own.
+        BadInput: a model of the user's own.
     """
-    if isinstance(sensor, Gaussian):
+    if isinstance(sensor, Gaussian | StudentT):
         return BeamMixture(sensor, p_random=0.01, p_no_return=0.01, p_short=0.01)
-    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian):
+    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
         return sensor
-    raise BadInput(f"localize: the sensor must be Gaussian or a BeamMixture with Gaussian noise, not {sensor!r}")
+    raise BadInput(f"localize: the sensor must be Gaussian, StudentT or a BeamMixture with such noise, not {sensor!r}")

@@ -13,7 +13,7 @@ from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.sensors.model import RangeLimits
 
-RANDOM_STREAMS = 7
+RANDOM_STREAMS = 8
 """Version of how random numbers are dealt out: chains that were begun under another cannot go on."""
 
 NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")

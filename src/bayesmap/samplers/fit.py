@@ -2,8 +2,9 @@
 
 After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell; the
 expectation step splits readings into those of walls, passing objects and chance, the maximisation step is in closed
-form but for the noise and the Beta. Parameters move a shrinking part of the way (Delyon, Lavielle and Moulines, 1999).
-With 10^5 beams their posterior is a point beside everything else that is unknown.
+form but for the noise (`bayesmap.samplers.noise_fit`) and the Beta. Parameters move a shrinking part of the way
+(Delyon, Lavielle and Moulines, 1999). With 10^5 beams their posterior is a point beside everything else that is
+unknown.
 
 The pilot is a short chain whose number no other chain has. It is over before the chains begin, which run under what it
 found: so what is fitted depends on the seed and on how many sweeps the pilot makes, and not on how many chains follow.
@@ -26,6 +27,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
+from bayesmap.samplers.noise_fit import Residuals, refit_noise
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
@@ -45,7 +47,6 @@ SPREAD_WITHOUT_SURFACE = 0.3
 starts from."""
 FIRST_SWEEP, WHOLE_UNTIL = 3, 20
 PRIOR_EVERY = 2
-LEAST_SIGMA_M = 1e-3
 LEAST_SHARE = 1e-5
 LEAST_RANDOM = 5e-4
 """Where scans are few, a map can explain every reading that it was made from; those to come are not so obliging."""
@@ -194,7 +195,7 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
     unblocked = sensor.unblocked(t)
     returned = np.where(
         wall,
-        known * unblocked * (1 - sensor.p_no_return) * np.exp(-0.5 * standard**2) / scale / math.sqrt(2 * math.pi),
+        known * unblocked * (1 - sensor.p_no_return) * np.exp(sensor.noise.log_density(standard)) / scale,
         0.0,
     )
     total = np.where(hit, anything + passing + returned, 1.0)
@@ -205,7 +206,7 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
     p_random = _share(by_chance.sum(), valid, sensor.p_random)
     # A stop within reach that did not return was missed, or its reading lay out of range.
     reached = stops.stopped & (stops.distance_m <= limits.max_m)
-    out_of_range = (1.0 - sensor.p_no_return) * special.ndtr((t - limits.max_m) / scale)
+    out_of_range = (1.0 - sensor.p_no_return) * sensor.noise.tail((limits.max_m - t) / scale)
     share_missed = sensor.p_no_return / np.maximum(sensor.p_no_return + out_of_range, LEAST_SHARE)
     missing = float((silent & reached) @ share_missed)
     p_no_return = _share(missing, missing + by_wall.sum(), sensor.p_no_return)
@@ -220,17 +221,13 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
     metres = (by_object * reading).sum() + (behind * (t + 1.0 / rate)).sum()
     metres += further * (too_close / rate - limits.min_m)
     rate_new = (objects + PSEUDO_BEAMS) / (metres + PSEUDO_BEAMS / rate)
-    noise = _refit_noise(sensor.noise, reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
+    residuals = Residuals(reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
 
     def moved(old: float, new: float) -> float:
         return float(math.exp((1 - step) * math.log(old) + step * math.log(new)))
 
-    assert isinstance(sensor.noise, Gaussian)
     return BeamMixture(
-        noise=Gaussian(
-            moved(sensor.noise.sigma_m, noise.sigma_m),
-            moved(max(sensor.noise.sigma_per_m, 1e-6), max(noise.sigma_per_m, 1e-6)),
-        ),
+        noise=refit_noise(sensor.noise, residuals, step),
         p_random=max(moved(sensor.p_random, p_random), LEAST_RANDOM),
         p_no_return=moved(max(sensor.p_no_return, LEAST_SHARE), p_no_return),
         p_short=moved(max(sensor.p_short, LEAST_SHARE), p_short),
@@ -242,30 +239,6 @@ def _share(part: float, whole: float, present: float) -> float:
     """A share, drawn a little towards its present value."""
     share = (part + PSEUDO_BEAMS * present) / (whole + PSEUDO_BEAMS)
     return float(min(max(share, LEAST_SHARE), 0.5))
-
-
-def _refit_noise(
-    noise: object,
-    residual_m: NDArray[np.float64],
-    distance_m: NDArray[np.float64],
-    variance: NDArray[np.float64],
-    weight: NDArray[np.float64],
-) -> Gaussian:
-    """The likeliest sigma and its growth, where surfaces add their own variance to each residual."""
-    assert isinstance(noise, Gaussian)
-    if weight.sum() < 10:
-        return noise
-
-    def cost(log_sigmas: NDArray[np.float64]) -> float:
-        near, per_m = np.exp(log_sigmas)
-        v = (near + per_m * distance_m) ** 2 + variance
-        return float(0.5 * (weight * (np.log(v) + residual_m**2 / v)).sum() / weight.sum())
-
-    first = np.log([noise.sigma_m, max(noise.sigma_per_m, 1e-5)])
-    bounds = [(math.log(LEAST_SIGMA_M), math.log(10.0)), (math.log(1e-6), 0.0)]
-    found = optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
-    sigma_m, sigma_per_m = np.exp(found.x)
-    return Gaussian(float(sigma_m), float(sigma_per_m))
 
 
 def refit_prior(

@@ -18,13 +18,16 @@ from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.noise import Gaussian, StudentT
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 CELLS_AROUND = 1.5
 SIGMAS_AROUND = 6.0
 """A stop further from its reading than so many cells and standard deviations counts as a random reading's."""
+
+SHARE_AROUND = 0.1
+"""Of the density of a random reading: heavy tails, which have no last standard deviation, are followed down to it."""
 
 CELLS_MOVED = 2
 """How far readings are expected to move when poses do, in cells: surfaces further from where readings end at first are
@@ -141,9 +144,22 @@ def _spans(
     scans: Scans, sensor: SensorModel, resolution_m: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     """How far beams are followed, and from where on a stop can explain their readings (from the start if None)."""
-    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian):
-        ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0)
-        margin_m = CELLS_AROUND * resolution_m + SIGMAS_AROUND * sensor.noise.scale_at(ranges).ravel()
-        return around_readings(scans, margin_m, resolution_m)
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
+        ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()
+        floor = SHARE_AROUND * sensor.p_random / (limits.max_m - limits.min_m)
+        margin_m = CELLS_AROUND * resolution_m + _tail_m(sensor.noise, ranges, floor)
+        return around_readings(scans, margin_m, resolution_m)
     return sensor.reach_m(scans.ranges_m.ravel(), limits) + CELLS_AROUND * resolution_m, None
+
+
+def _tail_m(noise: Gaussian | StudentT, range_m: NDArray[np.float64], floor: float) -> NDArray[np.float64]:
+    """How far from a stop at a distance its readings are worth looking at: up to `SIGMAS_AROUND` of normal noise, and
+    of Student's t as far as its density, c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), is over ``floor``.
+    """
+    scale = noise.scale_at(range_m)
+    if isinstance(noise, Gaussian):
+        return SIGMAS_AROUND * scale
+    highest = np.exp(noise.log_density(np.zeros(()))) / scale
+    fall = np.maximum(highest / floor, 1.0) ** (2.0 / (noise.dof + 1.0))
+    return np.asarray(np.maximum(scale * np.sqrt(noise.dof * (fall - 1.0)), SIGMAS_AROUND * scale))

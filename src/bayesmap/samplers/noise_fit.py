@@ -1,0 +1,84 @@
+"""The likeliest noise of readings about where their beams stopped: its scale, its growth, and how heavy its tails are.
+
+Real readings scatter more at times than a normal law allows: poses are off by more in one scan than in another, walls
+are hit at a slant, and an edge is half wall and half what lies behind it. Student's t is a mixture of normal laws of
+all scales, and with many degrees of freedom normal itself.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import optimize
+
+from bayesmap.sensors.noise import AdditiveNoise, Gaussian, StudentT
+
+SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
+"""Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""
+LEAST_SCALE_M = 1e-3
+LEAST_GROWTH = 1e-6
+LEAST_WEIGHT = 10.0
+"""Readings that it takes to change anything."""
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """Readings of beams that were stopped, (N,) each.
+
+    Attributes:
+        residual_m: reading less where the beam was stopped.
+        distance_m: where that was.
+        variance: of the surface along the beam, which adds to the noise's, square metres.
+        weight: the chance that the reading came from there.
+    """
+
+    residual_m: NDArray[np.float64]
+    distance_m: NDArray[np.float64]
+    variance: NDArray[np.float64]
+    weight: NDArray[np.float64]
+
+    def cost(self, dof: float, scale_m: float, per_m: float) -> float:
+        """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
+        scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
+        log_density = _noise(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
+        return float(-(self.weight @ log_density) / self.weight.sum())
+
+    def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
+        """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
+        first = np.log([scale_m, max(per_m, 1e-5)])
+        bounds = [(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)]
+        found = optimize.minimize(lambda logs: self.cost(dof, *np.exp(logs)), first, method="L-BFGS-B", bounds=bounds)
+        return float(found.fun), found.x
+
+
+def refit_noise(noise: AdditiveNoise, residuals: Residuals, step: float) -> AdditiveNoise:
+    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
+    to the next of `SHAPES`.
+    """
+    if residuals.weight.sum() < LEAST_WEIGHT:
+        return noise
+    dof, scale_m, per_m = _numbers(noise)
+    place = SHAPES.index(dof)
+    tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
+    found = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
+    readings = residuals.weight.sum()
+    a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
+    best = min(tried, key=lambda shape: found[shape][0] + (a_number_more if shape < math.inf else 0.0))
+    present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
+    return _noise(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())
+
+
+def _numbers(noise: AdditiveNoise) -> tuple[float, float, float]:
+    """Degrees of freedom, scale in metres and its growth per metre."""
+    if isinstance(noise, StudentT):
+        return noise.dof, noise.scale_m, noise.scale_per_m
+    assert isinstance(noise, Gaussian)
+    return math.inf, noise.sigma_m, noise.sigma_per_m
+
+
+def _noise(dof: float, scale_m: float, per_m: float) -> AdditiveNoise:
+    """And back."""
+    return Gaussian(scale_m, per_m) if dof == math.inf else StudentT(scale_m, dof, per_m)
