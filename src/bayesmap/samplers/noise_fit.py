@@ -44,7 +44,7 @@ class Residuals:
         """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
         scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
         log_density = _noise(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
-        return float(-(self.weight @ log_density) / self.weight.sum())
+        return float(-(self.weight * log_density).sum() / self.weight.sum())
 
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
         """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
