@@ -48,7 +48,7 @@ def fitted_to_known_stops(seed, least_m, count=12_000):
     stopped = np.isfinite(distance)
     stops = Stops(TRUTH.sample(rng, distance + spread, limits), stopped, np.where(stopped, distance, 0.0), variance)
     sensor = bm.BeamMixture(bm.Gaussian(0.1, 0.001), p_random=0.2, p_no_return=0.2, p_short=0.2, rate_short_per_m=2.0)
-    for _ in range(60):
+    for _ in range(40):
         sensor = refit_sensor(sensor, stops, limits, 1.0)
     return numbers(sensor)
 

@@ -20,6 +20,8 @@ SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
 """Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""
 LEAST_SCALE_M = 1e-3
 LEAST_GROWTH = 1e-6
+FIRST_STEP, CLOSE = 0.1, 1e-3
+"""Of the search, in logarithms: where it looks first, and how close to the likeliest it comes."""
 LEAST_WEIGHT = 10.0
 """Readings that it takes to change anything."""
 
@@ -49,8 +51,13 @@ class Residuals:
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
         """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
         first = np.log([scale_m, max(per_m, 1e-5)])
-        bounds = [(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)]
-        found = optimize.minimize(lambda logs: self.cost(dof, *np.exp(logs)), first, method="L-BFGS-B", bounds=bounds)
+        found = optimize.minimize(
+            lambda logs: self.cost(dof, *np.exp(logs)),
+            first,
+            method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra
+            bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
+            options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
+        )
         return float(found.fun), found.x
 
 
