@@ -5,6 +5,7 @@ import json
 import pytest
 from shell import call
 
+import bayesmap as bm
 from bayesmap.io.logs import read_log
 
 
@@ -74,6 +75,15 @@ def test_info_on_a_carmen_log_and_on_a_saved_run(office, office_run):
     assert "12 of 60 beams" in shown
     assert "cells of 0.25 m, reflectivities and surfaces" in shown
     assert "fitted sensor: noise " in shown
+
+
+def test_info_says_so_where_the_fitted_noise_has_heavy_tails(office_run, tmp_path):
+    run = bm.load(office_run / "run.nc")
+    noise = {"kind": "student-t", "scale_m": 0.01, "dof": 9.0, "scale_per_m": 0.002}
+    run.posterior.settings["fitted"]["sensor"]["noise"] = noise
+    run.save(tmp_path / "run.nc")
+    shown = call("info", tmp_path / "run.nc").stdout
+    assert "noise 1 cm + 0.2 cm per metre (Student's t, 9 degrees of freedom); chance" in shown
 
 
 @pytest.mark.parametrize("content", [None, b"", b"prose\n", b"\x89HDF\r\n\x1a\n"])

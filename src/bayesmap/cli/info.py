@@ -126,9 +126,14 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
     """A beam mixture's numbers, as one would say them."""
-    noise = sensor["noise"]
+    from bayesmap.sensors.describe import from_description
+
+    model = from_description(sensor)
+    noise = None if model is None else model.kernel_parameters()
+    assert noise is not None
+    tails = f" (Student's t, {noise.dof:g} degrees of freedom)" if noise.dof else ""
     return (
-        f"noise {100 * noise['sigma_m']:.2g} cm + {100 * noise['sigma_per_m']:.2g} cm per metre; "
+        f"noise {100 * noise.sigma_m:.2g} cm + {100 * noise.sigma_per_m:.2g} cm per metre{tails}; "
         f"chance {sensor['p_random']:.2g}, no return {sensor['p_no_return']:.2g}, objects {sensor['p_short']:.2g}"
     )
 
