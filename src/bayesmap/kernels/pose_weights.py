@@ -1,10 +1,9 @@
 """What a pose is weighed by, fast: the log-likelihood of a scan at many poses under many draws of a map.
 
-The law is that of `bayesmap.kernels.scan_likelihood`, in single precision, for mixtures. The map
-stays where kernels read it from call to call, one thread does a whole scan, and a beam's walk ends where its reading is
-behind it: from there on all that stops have in common remains, the density of a beam that meets nothing. On the way to
-the reading it matters whether the beam is stopped, not where; cells that hardly ever stop one, most of a floor, are
-passed by.
+The law is that of `bayesmap.kernels.scan_likelihood`, in single precision, for mixtures. The map stays where kernels
+read it from call to call, one thread does a whole scan, and a beam's walk ends where its reading is behind it: from
+there on all that stops have in common remains, the density of a beam that meets nothing. On the way to the reading it
+matters whether the beam is stopped, not where; cells that hardly ever stop one, most of a floor, are passed by.
 """
 
 from dataclasses import dataclass
