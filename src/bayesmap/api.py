@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any, Literal, cast
 
 import numpy as np
@@ -32,10 +31,10 @@ from bayesmap.samplers.problem import trace_walls
 from bayesmap.samplers.progress import Event as Event
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
+from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.start import Start, default_start
-from bayesmap.samplers.stop_problem import StopProblem
 from bayesmap.samplers.wall_sampler import Order
-from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
+from bayesmap.samplers.with_poses import MovableSampler, WithPoses
 from bayesmap.samplers.without_chains import Asked
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
@@ -232,19 +231,13 @@ class Inference:
         def total() -> float:
             return time.perf_counter() - began + spent
 
-        model, parameters, problem = self.model, None, None
+        model, parameters = self.model, None
         if self.fitted and name == "stop-gibbs":
             assert sampler is not None
-            prepare = partial(sampler.prepare, device=self.device, threads=self.threads, watch=watch)
             if resume is not None:
                 parameters = Parameters.from_description(resume.settings["fitted"])
-            if parameters is None or model.poses.unknown:
-                problem = prepare(model)
-            if parameters is None:
-                cells = cast(PoseProblem, problem).cells if model.poses.unknown else cast(StopProblem, problem)
-                parameters = fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.schedule.warmup), watch)
-            if not model.poses.unknown:  # beams are followed as far as the fitted noise reaches
-                problem = prepare(replace(model, sensor=parameters.sensor))
+            else:
+                parameters = self._fit(sampler, watch)
             settings["fitted"] = parameters.describe()
         elif self.fitted:
             sensor = fit_sensor(model, self.device, seed=self.asked.seed, threads=self.threads, watch=watch)
@@ -272,7 +265,7 @@ class Inference:
 
         job = Job(
             model, sampler, self.schedule, self.asked.seed, tuple(range(self.asked.chains)), self.device, self.threads,
-            parameters, problem,
+            parameters,
         )  # fmt: skip
         return as_run(
             executor.run(
@@ -283,6 +276,12 @@ class Inference:
                 checkpoint_every_s,
             )
         )
+
+    def _fit(self, sampler: Sampler[Any, Any], watch: Watch) -> Parameters:
+        """Sensor and prior, by a pilot over the cells; what it needed for that is gone afterwards."""
+        problem = sampler.prepare(self.model, self.device, self.threads, watch)
+        cells = problem.cells if self.model.poses.unknown else problem
+        return fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.schedule.warmup), watch)
 
     def _settings(self, options: dict[str, Any]) -> dict[str, Any]:
         asked, schedule = self.asked, self.schedule

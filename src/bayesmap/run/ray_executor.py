@@ -270,15 +270,11 @@ class _RayRun:
     def _share(self) -> None:
         """Put the model and what the sampler prepares of it into the object store."""
         job, ray, beams = self.job, self.ray, self.job.model.scans.n_beams
-        shared = replace(job, problem=None, threads=self.executor.cpus_per_task)
-        model = ray.put(shared)
-        if job.problem is not None:
-            problem = ray.put(job.problem)
-        else:
-            self.watch.report("trace", 0, beams)
-            problem, seconds = self.remote(ray_worker.prepare, num_returns=2)(model, __version__)
-            self.trace_s = outcome(ray, seconds)
-            self.watch.report("trace", beams, beams)
+        model = ray.put(replace(job, threads=self.executor.cpus_per_task))
+        self.watch.report("trace", 0, beams)
+        problem, seconds = self.remote(ray_worker.prepare, num_returns=2)(model, __version__)
+        self.trace_s = outcome(ray, seconds)
+        self.watch.report("trace", beams, beams)
         self.shared = (model, [problem])
 
     def _note(self, group: Group, segment: Segment, snapshot: Snapshot) -> None:

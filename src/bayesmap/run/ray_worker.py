@@ -50,7 +50,7 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
             f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; install one on all nodes"
         )
     began = time.perf_counter()
-    return job.sampler.prepare(job.model, job.device, job.threads), time.perf_counter() - began
+    return job.sampler.prepare(job.model_to_trace, job.device, job.threads), time.perf_counter() - began
 
 
 def held(run: str, job: Job, problem: list[Any]) -> Held:

@@ -58,6 +58,11 @@ class Job:
     parameters: Parameters | None = None
     problem: Any = None
 
+    @property
+    def model_to_trace(self) -> Model:
+        """The model under the sensor that was fitted: beams are followed as far as its noise reaches."""
+        return self.model if self.parameters is None else replace(self.model, sensor=self.parameters.sensor)
+
 
 def sweeps(
     sampler: Sampler[Any, Any],
@@ -103,7 +108,7 @@ def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) 
     began = time.perf_counter()
     problem = job.problem
     if problem is None:
-        problem = job.sampler.prepare(job.model, job.device, job.threads, watch)
+        problem = job.sampler.prepare(job.model_to_trace, job.device, job.threads, watch)
     if job.parameters is not None:
         problem = problem.under(job.parameters.sensor, job.parameters.prior)
     traced = time.perf_counter()
