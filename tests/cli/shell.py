@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 from typing import Any
 
+import pytest
 from click.testing import CliRunner, Result
 
+from bayesmap.cli.folder import Folder
 from bayesmap.cli.group import cli
+from bayesmap.result import Run
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 COMMAND = [sys.executable, "-m", "bayesmap.cli.main"]
@@ -42,6 +46,17 @@ def start(*arguments: object, first: str | None = None, **options: Any) -> subpr
         env=environment,
         **options,
     )
+
+
+def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Press Ctrl-C as soon as the first checkpoint is there."""
+    save = Folder.checkpoint
+
+    def checkpoint(self: Folder, run: Run, *told: object) -> None:
+        save(self, run)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
 
 def wait_for(path: Path, process: subprocess.Popen[str], seconds: float = 60.0) -> None:

@@ -1,31 +1,17 @@
 """A run that is to be replaced stays until there is something in its place, whatever happens before."""
 
 import contextlib
-import os
-import signal
 
 import pytest
-from shell import call
+from shell import call, interrupt_at_checkpoint
 
 import bayesmap as bm
-from bayesmap.cli.folder import Folder
 
 SLAM = ("--fast", "--resolution", "0.5", "--threads", "2")
 
 
 def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
-
-
-def interrupt_at_checkpoint(monkeypatch):
-    """Press Ctrl-C as soon as the first checkpoint is there."""
-    save = Folder.checkpoint
-
-    def checkpoint(self, run, *told):
-        save(self, run)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import signal
 
 import numpy as np
 import pytest
-from shell import call, start, wait_for
+from shell import call, interrupt_at_checkpoint, start, wait_for
 
 import bayesmap as bm
 from bayesmap.cli.folder import Folder
@@ -60,17 +60,6 @@ OTHER_CELLS = {
     "surface": "the saved run is one over reflectivities and surfaces",
     "binary": "the saved run is one over walls",
 }
-
-
-def interrupt_at_checkpoint(monkeypatch):
-    """Press Ctrl-C as soon as the first checkpoint is there."""
-    save = Folder.checkpoint
-
-    def checkpoint(self, run, *told):
-        save(self, run)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
 
 def infer_until_checkpoint(monkeypatch, *arguments):

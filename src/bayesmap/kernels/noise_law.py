@@ -13,6 +13,8 @@ MOST_TERMS = wp.constant(wp.float64(16.0))
 ROUNDS = wp.constant(200)  # of the continued fraction, at most; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))
 CLOSE = wp.constant(wp.float64(1.0e-14))
+MOST_POWER = 16
+"""Of a Student-t density: beyond it, at 31 degrees of freedom, it is nearly normal."""
 
 
 @wp.func
@@ -23,10 +25,6 @@ def noise_log_density(law: Any, x: Any):
         one = type(x)(1.0)
         return law.log_constant - half * (law.dof + one) * wp.log(one + x * x / law.dof)
     return law.log_constant - half * x * x
-
-
-MOST_POWER = 16
-"""Of a Student-t density: beyond it, at 31 degrees of freedom, it is nearly normal."""
 
 
 def whole_power(power: float) -> int:

@@ -15,7 +15,7 @@ from scipy import optimize
 
 from bayesmap.posterior.progress_shares import OnShare, ignored, parts
 from bayesmap.sensors.mixture import BeamMixture
-from bayesmap.sensors.noise import AdditiveNoise, Gaussian, StudentT
+from bayesmap.sensors.noise import noise_with
 
 Values = dict[str, float]
 
@@ -76,7 +76,7 @@ SENSOR = (
 def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
     """The beam model of some values: Student-t noise with ``dof`` degrees of freedom, or Gaussian noise if None."""
     scale, growth = values["scale_m"], values["scale_per_m"]
-    noise: AdditiveNoise = Gaussian(scale, growth) if dof is None else StudentT(scale, dof, growth)
+    noise = noise_with(math.inf if dof is None else dof, scale, growth)
     names = ("p_random", "p_no_return", "p_short", "rate_short_per_m")
     return BeamMixture(noise, **{name: values[name] for name in names})
 

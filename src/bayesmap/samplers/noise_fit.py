@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from bayesmap.sensors.noise import AdditiveNoise, Gaussian, StudentT
+from bayesmap.sensors.noise import AdditiveNoise, noise_with
 
 SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
 """Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""
@@ -45,7 +45,7 @@ class Residuals:
     def cost(self, dof: float, scale_m: float, per_m: float) -> float:
         """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
         scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
-        log_density = _noise(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
+        log_density = noise_with(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
         return float(-(self.weight * log_density).sum() / self.weight.sum())
 
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
@@ -65,27 +65,16 @@ def refit_noise(noise: AdditiveNoise, residuals: Residuals, step: float) -> Addi
     """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
     to the next of `SHAPES`.
     """
-    if residuals.weight.sum() < LEAST_WEIGHT:
+    readings = residuals.weight.sum()
+    if readings < LEAST_WEIGHT:
         return noise
-    dof, scale_m, per_m = _numbers(noise)
+    numbers = noise.kernel_parameters()
+    assert numbers is not None
+    dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
     place = SHAPES.index(dof)
     tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
     found = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
-    readings = residuals.weight.sum()
     a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
     best = min(tried, key=lambda shape: found[shape][0] + (a_number_more if shape < math.inf else 0.0))
     present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
-    return _noise(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())
-
-
-def _numbers(noise: AdditiveNoise) -> tuple[float, float, float]:
-    """Degrees of freedom, scale in metres and its growth per metre."""
-    if isinstance(noise, StudentT):
-        return noise.dof, noise.scale_m, noise.scale_per_m
-    assert isinstance(noise, Gaussian)
-    return math.inf, noise.sigma_m, noise.sigma_per_m
-
-
-def _noise(dof: float, scale_m: float, per_m: float) -> AdditiveNoise:
-    """And back."""
-    return Gaussian(scale_m, per_m) if dof == math.inf else StudentT(scale_m, dof, per_m)
+    return noise_with(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())

@@ -149,6 +149,11 @@ class StudentT(AdditiveNoise):
         return KernelParameters(sigma_m=self.scale_m, sigma_per_m=self.scale_per_m, dof=self.dof)
 
 
+def noise_with(dof: float, scale_m: float, scale_per_m: float) -> Gaussian | StudentT:
+    """Student-t noise, which is Gaussian where its degrees of freedom are infinitely many."""
+    return Gaussian(scale_m, scale_per_m) if dof == math.inf else StudentT(scale_m, dof, scale_per_m)
+
+
 def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
     if not (math.isfinite(scale_m) and scale_m > 0):
         raise BadInput(f"{model}: {name} must be a positive number of metres, got {scale_m!r}")
