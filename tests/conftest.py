@@ -6,6 +6,8 @@ import signal
 from hypothesis import settings
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
 
+from bayesmap.kernels.parallel import available_cores
+
 # A slow machine is no failure; and the examples are the same each time, so that a change fails for its own sake.
 settings.register_profile("bayesmap", deadline=None, derandomize=True)
 settings.load_profile("bayesmap")
@@ -18,3 +20,8 @@ os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=1")
 # ignore it, as a script's shell starts jobs in the background, it is put in force again.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_xdist_auto_num_workers(config):
+    """One more than there are cores: a fifth of the time tests wait for browsers and for other processes."""
+    return available_cores() + 1

@@ -35,6 +35,12 @@ def one_path(z, *, angle=0.1, start=(-0.3, 0.15)):
     return Paths(np.arange(3)[None], ~no, plain, no, np.array([start]), direction, np.array([z]), LIMITS)
 
 
+def law_at(z, plain):
+    """The density, or the probability, of each of some readings of that beam."""
+    beams = Paths(*(np.repeat(part, len(z), axis=0) for part in one_path(0.0)[:-1]), LIMITS)
+    return np.exp(log_likelihoods(beams._replace(range_m=np.asarray(z)), STATES, SENSOR, plain))
+
+
 @pytest.mark.parametrize("z", [0.21, 0.9, 1.0, 2.49, np.inf, -np.inf])
 @pytest.mark.parametrize("d", [0.0, 0.1, 0.9, 1.1, 2.45, 2.6, np.inf])
 def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s(z, d):
@@ -71,9 +77,8 @@ def test_the_gate_is_one_through_the_middle_and_a_half_at_its_width():
 @pytest.mark.parametrize("plain", [True, False])
 def test_readings_add_up_to_one(plain):
     z = np.linspace(LIMITS.min_m, LIMITS.max_m, 20_001)
-    p = [np.exp(log_likelihoods(one_path(x), STATES, SENSOR, plain))[0] for x in z]
-    typed = sum(np.exp(log_likelihoods(one_path(x), STATES, SENSOR, plain))[0] for x in (np.inf, -np.inf))
-    assert np.trapezoid(p, z) + typed == pytest.approx(1.0, abs=2e-4)  # the density jumps at every stop
+    typed = law_at([np.inf, -np.inf], plain).sum()
+    assert np.trapezoid(law_at(z, plain), z) + typed == pytest.approx(1.0, abs=2e-4)  # the density jumps at every stop
 
 
 @pytest.mark.parametrize("plain", [True, False])
@@ -83,9 +88,9 @@ def test_drawn_readings_follow_the_density(plain):
     many = Paths(*(np.repeat(part, count, axis=0) for part in path[:-1]), LIMITS)
     drawn = draw_readings(np.random.default_rng(1), many, STATES, SENSOR, plain)
     z = np.linspace(edges[0], edges[-1], 46 * 200 + 1)
-    p = np.array([np.exp(log_likelihoods(one_path(x), STATES, SENSOR, plain))[0] for x in z])
+    p = law_at(z, plain)
     mass = ((p[1:] + p[:-1]) / 2 * np.diff(z)).reshape(46, 200).sum(axis=1)
-    typed = [np.exp(log_likelihoods(one_path(x), STATES, SENSOR, plain))[0] for x in (np.inf, -np.inf)]
+    typed = law_at([np.inf, -np.inf], plain)
     counts = [*np.histogram(drawn, edges)[0], np.isposinf(drawn).sum(), np.isneginf(drawn).sum()]
     law = np.array([*mass, *typed])
     assert goodness_of_fit(np.array(counts), law / law.sum()) > ALPHA / 2

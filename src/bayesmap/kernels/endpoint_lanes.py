@@ -158,7 +158,7 @@ def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, 
     noise = wp.cw_mul(noise, square_root(precision))
     past = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
     unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * past
-    returned = law.p_known * law.p_return * wp.exp(law.log_constant) * wp.cw_mul(unblocked, wp.cw_mul(known, noise))
+    returned = law.p_known * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(known, noise))
     before = positive(wp.min(distance, limit) - reading)
     return Lanes(law.uniform) + returned + law.passing * wp.cw_mul(before, decay)
 

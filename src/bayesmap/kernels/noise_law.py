@@ -18,13 +18,13 @@ MOST_POWER = 16
 
 
 @wp.func
-def noise_log_density(law: Any, x: Any):
-    """Log density of the standard noise of a sensor's law."""
-    half = type(x)(0.5)
-    if law.dof > type(x)(0.0):
-        one = type(x)(1.0)
-        return law.log_constant - half * (law.dof + one) * wp.log(one + x * x / law.dof)
-    return law.log_constant - half * x * x
+def noise_log_density(law: Any, square: Any):
+    """Log density of the standard noise of a sensor's law, at a squared distance."""
+    half = type(square)(0.5)
+    if law.dof > type(square)(0.0):
+        one = type(square)(1.0)
+        return law.log_height - half * (law.dof + one) * wp.log(one + square / law.dof)
+    return law.log_height - half * square
 
 
 def whole_power(power: float) -> int:
@@ -33,25 +33,25 @@ def whole_power(power: float) -> int:
 
 
 @wp.func
-def noise_density(law: Any, x: Any):
-    """Density of the standard noise of a sensor's law.
+def noise_density(law: Any, square: Any):
+    """Density of the standard noise of a sensor's law, at a squared distance.
 
-    Of Student's t with an odd number of degrees of freedom c / (1 + x^2 / dof)^power, without logarithms.
+    Of Student's t with an odd number of degrees of freedom height / (1 + square / dof)^power, without logarithms.
     """
     if law.power > 0:
-        base = type(x)(1.0) + x * x / law.dof
+        base = type(square)(1.0) + square / law.dof
         product = base
         for _ in range(1, law.power):
             product = product * base
-        return wp.exp(law.log_constant) / product
-    return wp.exp(noise_log_density(law, x))
+        return law.height / product
+    return wp.exp(noise_log_density(law, square))
 
 
 @wp.func
 def noise_below(law: Any, x: Any):
     """P(standard noise <= x)."""
     if law.dof > type(x)(0.0):
-        return type(x)(student_below(wp.float64(law.dof), wp.float64(law.log_constant), wp.float64(x)))
+        return type(x)(student_below(wp.float64(law.dof), wp.float64(law.log_height), wp.float64(x)))
     if x > type(x)(FAR):
         return type(x)(1.0)
     if x < -type(x)(FAR):
@@ -97,7 +97,7 @@ def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
 
 
 @wp.func
-def student_below(dof: wp.float64, log_constant: wp.float64, t: wp.float64) -> wp.float64:
+def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.float64:
     """P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2).
 
     For whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
@@ -124,8 +124,8 @@ def student_below(dof: wp.float64, log_constant: wp.float64, t: wp.float64) -> w
             term_odd = term_odd * x * (one - one / wp.float64(2 * j_odd + 1))
             series_odd += term_odd
         return half + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series_odd)
-    # log 1 / B(dof / 2, 1 / 2) = log_constant + log(dof) / 2
-    front = wp.exp(log_constant + half * wp.log(dof) + a * wp.log(x) + half * wp.log(y))
+    # log 1 / B(dof / 2, 1 / 2) = log_height + log(dof) / 2
+    front = wp.exp(log_height + half * wp.log(dof) + a * wp.log(x) + half * wp.log(y))
     tail = wp.float64(0.0)
     if x < (a + one) / (a + wp.float64(2.5)):
         tail = half * front * beta_fraction(a, half, x) / a

@@ -31,8 +31,9 @@ THIRD = wp.constant(wp.float64(1.0 / 3.0))
 def _law(name: str, real: Any) -> Any:
     """A struct of a sensor's numbers in a precision."""
     reals = (
-        "sigma_m", "sigma_per_m", "dof", "log_constant", "p_random", "p_known", "p_return", "p_no_return", "p_short",
+        "sigma_m", "sigma_per_m", "dof", "p_random", "p_known", "p_return", "p_no_return", "p_short",
         "rate_short_per_m", "min_m", "max_m",
+        "log_height", "height",  # of the standard noise at 0
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
         "peak",  # no density of a finite reading is higher in the mixture
@@ -70,15 +71,16 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     if model.dof > 0:
         half = 0.5 * (model.dof + 1)
         packed.power = whole_power(half)
-        packed.log_constant = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
+        packed.log_height = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
     else:
-        packed.log_constant = -0.5 * math.log(2 * math.pi)
+        packed.log_height = -0.5 * math.log(2 * math.pi)
+    packed.height = math.exp(packed.log_height)
     packed.p_random, packed.p_known = model.p_random, 1.0 - model.p_random
     packed.p_return, packed.p_no_return = 1.0 - model.p_no_return, model.p_no_return
     packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
     packed.uniform = model.p_random / (limits.max_m - limits.min_m)
     packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
-    densest = math.exp(packed.log_constant) / model.sigma_m if model.sigma_m > 0 else math.inf
+    densest = packed.height / model.sigma_m if model.sigma_m > 0 else math.inf
     packed.peak = packed.uniform + packed.passing + densest if model.robust else math.inf
     return packed
 
@@ -132,11 +134,12 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
     """Density at a finite reading of what comes back from a stop at the distance, in the mixture."""
     total = variance_at(law, distance_m, variance)
     error = reading_m - distance_m
-    far = law.dof == type(total)(0.0) and error * error > type(total)(FAR_SQ) * total
+    square = error * error
+    far = law.dof == type(total)(0.0) and square > type(total)(FAR_SQ) * total
     if far or distance_m > law.max_m:
         return type(total)(0.0)
-    scale = wp.sqrt(total)
-    density = noise_density(law, error / scale) / scale
+    precision = type(total)(1.0) / total
+    density = noise_density(law, square * precision) * wp.sqrt(precision)
     return law.p_known * unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
 
 
@@ -210,7 +213,7 @@ def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, 
         z = wp.where(reading_m > type(reading_m)(0.0), law.max_m, law.min_m)
     wall = wp.min(distance_m, law.max_m)
     total = variance_at(law, wall, variance)
-    return noise_log_density(law, (z - wall) / wp.sqrt(total)) - type(total)(0.5) * wp.log(total)
+    return noise_log_density(law, (z - wall) * (z - wall) / total) - type(total)(0.5) * wp.log(total)
 
 
 @wp.func
