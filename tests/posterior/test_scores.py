@@ -145,6 +145,12 @@ def test_the_summary_is_json_and_names_problems(run):
         rhat_high_cells=1, ess_low_cells=1, judged_cells=100,
     )  # fmt: skip
     assert good.problems() == []  # one cell in a hundred, by chance
+    remedy = "cells agree, so take means over all"
+    for high, said in ((1, True), (2, False)):
+        [first, *_] = dataclasses.replace(good, rhat_log_likelihood=1.2, rhat_high_cells=high).problems()
+        assert first.startswith("R-hat of the log likelihood is 1.200, over 1.05")
+        assert (remedy in first) == said
+    assert remedy not in " ".join(dataclasses.replace(good, rhat_log_joint=1.2).problems())
 
 
 @pytest.mark.parametrize("method", ["exact", "importance", "propagate"])
