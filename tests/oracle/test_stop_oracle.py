@@ -35,10 +35,15 @@ def one_path(z, *, angle=0.1, start=(-0.3, 0.15)):
     return Paths(np.arange(3)[None], ~no, plain, no, np.array([start]), direction, np.array([z]), LIMITS)
 
 
+def same_path(z):
+    """That beam as often as there are readings."""
+    beams = Paths(*(np.repeat(part, len(z), axis=0) for part in one_path(0.0)[:-1]), LIMITS)
+    return beams._replace(range_m=np.asarray(z))
+
+
 def law_at(z, plain):
     """The density, or the probability, of each of some readings of that beam."""
-    beams = Paths(*(np.repeat(part, len(z), axis=0) for part in one_path(0.0)[:-1]), LIMITS)
-    return np.exp(log_likelihoods(beams._replace(range_m=np.asarray(z)), STATES, SENSOR, plain))
+    return np.exp(log_likelihoods(same_path(z), STATES, SENSOR, plain))
 
 
 @pytest.mark.parametrize("z", [0.21, 0.9, 1.0, 2.49, np.inf, -np.inf])
@@ -84,9 +89,7 @@ def test_readings_add_up_to_one(plain):
 @pytest.mark.parametrize("plain", [True, False])
 def test_drawn_readings_follow_the_density(plain):
     count, edges = 200_000, np.linspace(LIMITS.min_m, LIMITS.max_m, 47)
-    path = one_path(0.0)
-    many = Paths(*(np.repeat(part, count, axis=0) for part in path[:-1]), LIMITS)
-    drawn = draw_readings(np.random.default_rng(1), many, STATES, SENSOR, plain)
+    drawn = draw_readings(np.random.default_rng(1), same_path(np.zeros(count)), STATES, SENSOR, plain)
     z = np.linspace(edges[0], edges[-1], 46 * 200 + 1)
     p = law_at(z, plain)
     mass = ((p[1:] + p[:-1]) / 2 * np.diff(z)).reshape(46, 200).sum(axis=1)

@@ -77,12 +77,15 @@ class Summary:
         found = []
         if not self.finished:
             found.append("the run was stopped before it had finished")
-        for name, value in (("log joint", self.rhat_log_joint), ("log likelihood", self.rhat_log_likelihood)):
-            if value > RHAT_LIMIT:
-                found.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}")
         allowed = CHANCE_SHARE * self.judged_cells
-        if self.rhat_log_likelihood > RHAT_LIMIT and self._cells_agree(allowed):
-            found[-1] += ": in some places chains explain the readings differently; cells agree, so take means over all"
+        cells_agree = self.judged_cells > 0 and self.rhat_high_cells <= allowed and not self.disagreeing_cells
+        places = ": in some places chains explain the readings differently; cells agree, so take means over all"
+        for name, value, remedy in (
+            ("log joint", self.rhat_log_joint, ""),
+            ("log likelihood", self.rhat_log_likelihood, places if cells_agree else ""),
+        ):
+            if value > RHAT_LIMIT:
+                found.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}{remedy}")
         if self.rhat_max > RHAT_LIMIT and self.rhat_high_cells > allowed:
             worst = f"the worst is {self.rhat_max:.3f}"
             found.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
@@ -97,10 +100,6 @@ class Summary:
         if self.effective_sample_size < ESS_LIMIT:
             found.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
         return found
-
-    def _cells_agree(self, allowed: float) -> bool:
-        """Whether no more cells than ``allowed`` differ between chains, of some that can be judged."""
-        return self.judged_cells > 0 and self.rhat_high_cells <= allowed and not self.disagreeing_cells
 
 
 def summarise(posterior: Posterior) -> Summary:
