@@ -21,6 +21,12 @@ class Heard:
             steps = None if steps is None else steps - 1
         return self.last("field") if steps is None else None
 
+    def infer_until_chains_run(self, document):
+        """Do a job until its chains have made a step; how many pieces come before depends on the machine."""
+        self.infer(document, steps=0)
+        while self.engine._result is None or self.engine._result.stream is None:
+            self.engine.advance()
+
     def ask(self, task):
         """Its answers to a question."""
         before = len(self.reports)

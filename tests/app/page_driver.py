@@ -49,6 +49,17 @@ READ = """
 """
 
 
+BRIEFLY = """
+() => {
+  const s = window.bayesmap?.snapshot();
+  const { generation, connected, worker, running, seq, status, stage, painted, events } = s ?? {};
+  const { trace, traced, ...shown } = painted ?? {};
+  const { method, cells, sweeps } = s?.document ?? {};
+  return JSON.stringify({ generation, connected, worker, running, seq, status, stage, shown, method, cells, sweeps, events });
+}
+"""
+"""What a wait in vain tells."""
+
 NEXT_FRAME = "() => new Promise((done) => requestAnimationFrame(() => done()))"
 """What is known is painted in the next frame, and callbacks run in the order in which they were asked for."""
 
@@ -153,7 +164,7 @@ def until(page, condition, argument=None):
     wrapped = f"(argument) => {{ const s = window.bayesmap?.snapshot(); return Boolean(s && ({condition})); }}"
     deadline = time.monotonic() + WAIT_SECONDS
     while not page.evaluate(wrapped, argument):
-        assert time.monotonic() < deadline, f"never: {condition}"
+        assert time.monotonic() < deadline, f"never: {condition}; the page knows {page.evaluate(BRIEFLY)}"
         page.wait_for_timeout(15)
     page.evaluate(NEXT_FRAME)
 

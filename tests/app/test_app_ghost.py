@@ -120,18 +120,20 @@ def test_without_a_posterior_it_says_so():
     assert (header["type"], header["of"]) == ("undecided", "ghost")
 
 
-def test_chains_rest_while_it_is_moved():
+def test_chains_rest_while_it_is_moved(monkeypatch):
+    monkeypatch.setattr("bayesmap.app.engine.GHOST_SECONDS", 60.0)  # this process may be kept waiting
     heard = Heard()
-    heard.infer(replace(tutorial_document(), sweeps=100_000), steps=20)
+    heard.infer_until_chains_run(replace(tutorial_document(), sweeps=100_000))
     asked(heard, 6.0, 15.0, 0.0)
     before = heard.engine._result.stream.sweep
     heard.engine.advance()
     assert heard.engine._result.stream.sweep == before
 
 
-def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done():
+def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch):
+    monkeypatch.setattr("bayesmap.app.ghost.STALE_SECONDS", 60.0)
     heard = Heard()
-    heard.infer(replace(tutorial_document(), sweeps=2000), steps=20)
+    heard.infer_until_chains_run(replace(tutorial_document(), sweeps=2000))
     asked(heard, 6.0, 15.0, 0.0)
     held = heard.engine._answers._ghost._predictor
     asked(heard, 6.1, 15.0, 0.0)
