@@ -25,3 +25,10 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 def pytest_xdist_auto_num_workers(config):
     """One more than there are cores: a fifth of the time tests wait for browsers and for other processes."""
     return available_cores() + 1
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Say why a test needed its second try: what passes then may be a fault that is rare."""
+    for report in terminalreporter.stats.get("rerun", ()):
+        terminalreporter.section(f"first try of {report.nodeid}", sep="_")
+        terminalreporter.write_line(report.longreprtext)
