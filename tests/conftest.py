@@ -2,6 +2,7 @@
 
 import os
 import signal
+import tempfile
 
 from hypothesis import settings
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
@@ -15,6 +16,16 @@ settings.load_profile("bayesmap")
 # Tests compile hundreds of small JAX programs and run each once or twice; with less optimisation that takes four fifths
 # of the time. Notebooks, in processes of their own, inherit it; GenJAX's own tests ask for still less.
 os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=1")
+
+# And what one process has compiled the others need not: many of the programs are the same. The folder is this run's.
+if "JAX_COMPILATION_CACHE_DIR" not in os.environ:
+    compiled = tempfile.TemporaryDirectory(prefix="bayesmap-tests-")  # removed when the process that leads them ends
+    os.environ |= {
+        "JAX_COMPILATION_CACHE_DIR": compiled.name,
+        "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
+        "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",
+        "JAX_PERSISTENT_CACHE_ENABLE_XLA_CACHES": "none",
+    }
 
 # Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to
 # ignore it, as a script's shell starts jobs in the background, it is put in force again.

@@ -55,7 +55,8 @@ BRIEFLY = """
   const { generation, connected, worker, running, seq, status, stage, painted, events } = s ?? {};
   const { trace, traced, ...shown } = painted ?? {};
   const { method, cells, sweeps } = s?.document ?? {};
-  return JSON.stringify({ generation, connected, worker, running, seq, status, stage, shown, method, cells, sweeps, events });
+  const known = { generation, connected, worker, running, seq, status, stage, shown, method, cells, sweeps, events };
+  return JSON.stringify(known);
 }
 """
 """What a wait in vain tells."""

@@ -69,12 +69,11 @@ def enumerate_posterior(scans, grid, p_wall, log_likelihood, coupling=0.0):
     for z, to_cell in zip(scans.ranges_m.ravel(), metres, strict=True):
         if np.isnan(z):
             continue
-        d = np.full(len(maps), np.inf)
+        first = np.full(len(maps), n)  # the cell that a map's beam meets first, n for none
         for c in np.argsort(to_cell)[::-1]:  # the nearest is written last
             if np.isfinite(to_cell[c]):
-                d[maps[:, c]] = to_cell[c]
-        which, back = np.unique(d, return_inverse=True)
-        log_joint = log_joint + log_likelihood(z, which)[back]
+                first[maps[:, c]] = c
+        log_joint = log_joint + log_likelihood(z, np.append(to_cell, np.inf))[first]
     return Exact(n, log_joint)
 
 

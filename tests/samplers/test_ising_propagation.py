@@ -9,7 +9,7 @@ import bayesmap as bm
 from bayesmap.kernels.trace import trace
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate, propagate_to_start
-from bayesmap.samplers.start import start_map
+from bayesmap.samplers.start import start_maps
 
 
 def row(p_wall, coupling, noise=0.5):
@@ -78,7 +78,7 @@ def test_a_warm_start_is_what_beams_say_and_elsewhere_like_the_prior():
     scans = bm.Scans([0.5, 0.5, 0.0], np.linspace(0.2, 1.3, 8), np.full((1, 8), 4.0), max_range_m=6.0)
     problem = WallProblem(trace(scans, grid, bm.Gaussian(0.1)), prior, scans.poses)
     found = propagate_to_start(problem, 40)
-    maps = np.stack([start_map(problem, "propagate", chain, 1, found) for chain in range(60)])
+    maps = start_maps(problem, "propagate", range(60), 1, found)
     sure = (abs(found.p_wall - found.prior) > 0.01) & (abs(found.p_wall - 0.5) > 0.05)
     assert sure[:5, :5].any()
     assert (maps[:, sure] == (found.p_wall > 0.5)[sure]).all()

@@ -15,7 +15,7 @@ from bayesmap.kernels.trace import trace
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import propagate
-from bayesmap.samplers.start import default_start, start_map
+from bayesmap.samplers.start import default_start, start_maps
 
 SINGLE = 2e-4  # log-odds: messages are kept in single precision, and some dozens are added
 
@@ -132,7 +132,7 @@ def test_maps_of_more_than_ten_thousand_cells_start_warm(shape, start):
 def test_a_warm_start_is_the_beliefs_where_they_say_something_and_the_prior_elsewhere():
     problem = problem_of_cells((40, 40))
     found = propagate(problem)
-    maps = np.stack([start_map(problem, "propagate", chain, 1, found) for chain in range(200)])
+    maps = start_maps(problem, "propagate", range(200), 1, found)
     sure = abs(found.p_wall - 0.3) > 0.01
     assert (maps[:, sure] == (found.p_wall > 0.5)[sure]).all()
     silent = ~problem.table.observed()
@@ -143,19 +143,19 @@ def test_a_warm_start_is_the_beliefs_where_they_say_something_and_the_prior_else
 
 def test_starts_of_every_kind_have_a_map_for_each_chain():
     problem = make_case(1).problem()
-    assert not start_map(problem, "zeros", 3, 1).any()
-    assert start_map(problem, "ones", 3, 1).all()
-    prior = np.stack([start_map(problem, "prior", chain, 1) for chain in range(3)])
+    assert not start_maps(problem, "zeros", range(2), 1).any()
+    assert start_maps(problem, "ones", range(2), 1).all()
+    prior = start_maps(problem, "prior", range(3), 1)
     assert (prior[0] != prior[1]).any()
-    for chain in range(3):
-        np.testing.assert_array_equal(start_map(problem, prior, chain, 1), prior[chain])
-        np.testing.assert_array_equal(start_map(problem, prior[1], chain, 1), prior[1])
+    np.testing.assert_array_equal(start_maps(problem, "prior", [2, 0], 1), prior[[2, 0]])
+    np.testing.assert_array_equal(start_maps(problem, prior, [2, 0], 1), prior[[2, 0]])
+    np.testing.assert_array_equal(start_maps(problem, prior[1], [2, 0], 1), prior[[1, 1]])
     with pytest.raises(bm.BadInput, match=r"shape \(2, 2\), expected \(4, 4\)"):
-        start_map(problem, np.zeros((2, 2)), 0, 1)
+        start_maps(problem, np.zeros((2, 2)), [0], 1)
     with pytest.raises(bm.BadInput, match="a map for each chain"):
-        start_map(problem, prior, 3, 1)
+        start_maps(problem, prior, [3, 0], 1)
     with pytest.raises(bm.BadInput, match="start must be one of prior, zeros, ones, propagate or a map, got 'ones!'"):
-        start_map(problem, "ones!", 3, 1)
+        start_maps(problem, "ones!", [3], 1)
 
 
 @pytest.mark.parametrize("beta", [0.0, 0.4])

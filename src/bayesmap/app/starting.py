@@ -11,7 +11,7 @@ from bayesmap.app.preview import Preview
 from bayesmap.app.stream import CHAINS, POSE_CHAINS
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import Marginals
-from bayesmap.samplers.start import Start, start_map
+from bayesmap.samplers.start import Start, start_maps
 
 
 def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
@@ -25,7 +25,7 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
     chains = CHAINS if pose_prior(document) is None else POSE_CHAINS
 
     def maps(kind: Start, marginals: Marginals | None = None) -> NDArray[np.bool_]:
-        return np.stack([start_map(problem, kind, chain, document.seed, marginals) for chain in range(chains)])
+        return start_maps(problem, kind, range(chains), document.seed, marginals)
 
     if document.start == "empty":
         return maps("zeros")

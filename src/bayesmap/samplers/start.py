@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, get_args
 
 import numpy as np
@@ -24,14 +25,14 @@ def default_start(grid: Grid) -> Start:
     return "propagate" if grid.n_cells > WARM_START_CELLS else "prior"
 
 
-def start_map(
+def start_maps(
     problem: WallProblem,
     start: Start | NDArray[np.bool_],
-    chain: int,
+    chains: Sequence[int],
     seed: int,
     marginals: Marginals | None = None,
 ) -> NDArray[np.bool_]:
-    """Where a chain starts, (nx, ny).
+    """Where chains start, (C, nx, ny).
 
     A warm start is the thresholded marginals of belief propagation, the same for all chains wherever it is sure, with
     prior draws, different in each chain, in cells of which it says no more than the prior. Chains that start alike
@@ -40,27 +41,29 @@ def start_map(
 
     Args:
         problem: table and prior.
-        start: the kind of start, or a map of shape (nx, ny), or one a chain, (chains, nx, ny).
-        chain: its number.
+        start: the kind of start, or a map of shape (nx, ny), or one for each number of a chain, (N, nx, ny).
+        chains: their numbers, C of them.
         seed: of prior draws.
         marginals: needed for "propagate".
 
     Raises:
-        BadInput: an unknown kind, or maps of another shape than the grid's.
+        BadInput: an unknown kind, or maps of another shape than the grid's, or fewer than chains.
     """
-    grid = problem.grid
+    grid, shape = problem.grid, (len(chains), *problem.grid.shape)
     if not isinstance(start, str):
         given = np.asarray(start)
-        if given.shape[-2:] != grid.shape or given.ndim not in (2, 3) or (given.ndim == 3 and chain >= len(given)):
+        each = given.ndim == 3
+        if given.shape[-2:] != grid.shape or given.ndim not in (2, 3) or (each and max(chains) >= len(given)):
             raise BadInput(
                 f"infer: the start has shape {given.shape}, expected {grid.shape}, or a map for each chain before that"
             )
-        return np.asarray((given if given.ndim == 2 else given[chain]) != 0)
+        return np.asarray(given[list(chains)] != 0 if each else np.broadcast_to(given != 0, shape))
     if start in ("zeros", "ones"):
-        return np.full(grid.shape, start == "ones")
+        return np.full(shape, start == "ones")
     if start not in get_args(Start):
         raise BadInput(f"infer: start must be one of {', '.join(get_args(Start))} or a map, got {start!r}")
-    prior = problem.prior.start(np.random.default_rng([seed, chain, STREAM_START]), grid)
+    rngs = (np.random.default_rng([seed, chain, STREAM_START]) for chain in chains)
+    prior = np.stack([problem.prior.start(rng, grid) for rng in rngs])
     if start == "prior":
         return prior
     assert marginals is not None, "a warm start needs marginals"

@@ -17,7 +17,7 @@ from bayesmap.samplers.problem import WallProblem, trace_walls
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.propagate import ROUNDS, propagate_to_start
 from bayesmap.samplers.sampler import NOTHING, STREAM_SWEEPS, Info, Keep, Snapshot
-from bayesmap.samplers.start import Start, default_start, start_map
+from bayesmap.samplers.start import Start, default_start, start_maps
 
 if TYPE_CHECKING:
     from bayesmap.kernels.chains import WallChains
@@ -91,7 +91,7 @@ class WallSampler(ABC):
             if isinstance(start, str) and start == "propagate":
                 marginals = propagate_to_start(problem, self.rounds, watch)
                 statistics["belief_changes"] = marginals.changes
-            maps = np.stack([start_map(problem, start, chain, seed, marginals) for chain in chain_ids])
+            maps = start_maps(problem, start, chain_ids, seed, marginals)
         else:
             maps = resume.arrays["walls"].reshape(len(chain_ids), *problem.grid.shape) != 0
         maps = problem.admit(maps).reshape(len(maps), -1)
