@@ -30,7 +30,7 @@ demo: .venv/core          ## infer the tutorial's map; pictures, the saved run a
 	$(BIN)/bayesmap demo --output runs/demo --force
 
 test: .venv/dev           ## all tests, on all cores
-	$(BIN)/python -m pytest -n auto --dist loadgroup
+	$(BIN)/python -m pytest -n auto --dist loadgroup --no-loadscope-reorder
 
 lint: .venv/dev           ## style and types; the page's too where there is npm
 	$(BIN)/ruff check .

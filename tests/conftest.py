@@ -6,6 +6,7 @@ import tempfile
 
 from hypothesis import settings
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
+from xdist.scheduler import LoadGroupScheduling
 
 from bayesmap.kernels.parallel import available_cores
 
@@ -36,6 +37,18 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 def pytest_xdist_auto_num_workers(config):
     """One more than there are cores: a fifth of the time tests wait for browsers and for other processes."""
     return available_cores() + 1
+
+
+class ByFile(LoadGroupScheduling):
+    """A file's tests are one worker's, so that what they have in common is made once; a marked group stays a group."""
+
+    def _split_scope(self, nodeid):
+        return super()._split_scope(nodeid).split("::", 1)[0]
+
+
+def pytest_xdist_make_scheduler(config, log):
+    """Of the command in the Makefile."""
+    return ByFile(config, log) if config.option.dist == "loadgroup" else None
 
 
 def pytest_terminal_summary(terminalreporter):

@@ -5,6 +5,7 @@ counted through the effective sample size, halved to be on the safe side: keep i
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import stats
@@ -21,34 +22,44 @@ class Weighted:
     def size(self):
         return 0.5 / (self.weight**2).sum()
 
+    @cached_property
+    def sorted(self):
+        """Of each number: the values in order, the weight up to each, and every draw's rank less a half, (D, N)."""
+        ladders, ranks = [], np.empty(self.values.T.shape)
+        for values, rank in zip(self.values.T, ranks, strict=True):
+            order = np.argsort(values)
+            upto = np.cumsum(self.weight[order])
+            upto = np.append(0.0, upto / upto[-1])
+            ladders.append((values[order], upto))
+            rank[order] = upto[1:] - 0.5
+        return ladders, ranks
+
 
 def weighted(values, log_weight):
     weight = np.exp(log_weight - log_weight.max())
-    return Weighted(np.asarray(values, dtype=float), weight / weight.sum())
+    weight /= weight.sum()
+    counts = weight > 1e-8 / len(weight)  # the others, mostly many, add up to less than 1e-8
+    return Weighted(np.asfortranarray(np.asarray(values, dtype=float)[counts]), weight[counts])
 
 
 def p_values(draws, law):
     """Of the Kolmogorov-Smirnov distance of every marginal, and of the mean product of every pair of ranks."""
     n, width = draws.shape
     size = 1 / (1 / n + 1 / law.size)
-    mine, theirs, out = np.empty_like(draws), np.empty_like(law.values), []
-    for i in range(width):
-        order = np.argsort(law.values[:, i])
-        at, upto = law.values[order, i], np.cumsum(law.weight[order])
-        upto = np.append(0.0, upto / upto[-1])
+    ladders, theirs = law.sorted
+    mine, out = np.empty((width, n)), []
+    for i, (at, upto) in enumerate(ladders):
         x = np.sort(draws[:, i])
         below, above = upto[np.searchsorted(at, x, side="left")], upto[np.searchsorted(at, x, side="right")]
         step = np.arange(n + 1) / n
         distance = max((below - step[:-1]).max(), (step[1:] - above).max())
         out.append(stats.kstwobign.sf(max(distance, 0.0) * np.sqrt(size)))
-        mine[:, i] = upto[np.searchsorted(at, draws[:, i], side="right")] - 0.5
-        theirs[order, i] = upto[1:] - 0.5
-    for i in range(width):
-        for j in range(i):
-            drawn, all_of = mine[:, i] * mine[:, j], theirs[:, i] * theirs[:, j]
-            mean = law.weight @ all_of
-            variance = drawn.var() / n + law.weight @ (all_of - mean) ** 2 / law.size
-            out.append(2 * stats.norm.sf(abs(drawn.mean() - mean) / np.sqrt(variance)))
+        mine[i] = upto[np.searchsorted(at, draws[:, i], side="right")] - 0.5
+    i, j = np.tril_indices(width, -1)
+    drawn, drawn_sq = ((of @ of.T)[i, j] / n for of in (mine, mine**2))
+    mean, mean_sq = (((of * law.weight) @ of.T)[i, j] for of in (theirs, theirs**2))
+    variance = (drawn_sq - drawn**2) / n + (mean_sq - mean**2) / law.size
+    out.extend(2 * stats.norm.sf(abs(drawn - mean) / np.sqrt(variance)))
     return np.array(out)
 
 

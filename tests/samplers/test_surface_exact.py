@@ -60,6 +60,7 @@ def prior_states(shape, prior, anywhere=False):
     return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,), anywhere=anywhere), centres
 
 
+@cache
 def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
     """Draws from the prior, weighted by their likelihood."""
     states, centres = prior_states(shape, prior, anywhere)
