@@ -49,7 +49,7 @@ class EndpointCells:
     step: wp.array(dtype=Cell)
 
 
-def endpoint_cells(rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str) -> EndpointCells:
+def put_endpoint_cells(rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str) -> EndpointCells:
     """List the incidences of some cells, by flat index, ascending, (U,); ``steps`` are these cells', (U, 8)."""
     wanted = np.zeros(rays.grid.n_cells, dtype=np.bool_)
     wanted[cells] = True

@@ -6,7 +6,7 @@ import warp as wp
 
 wp.set_module_options({"enable_backward": False})
 
-FAR = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
+SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
 MOST_TERMS = wp.constant(wp.float64(16.0))
@@ -52,9 +52,9 @@ def noise_below(law: Any, x: Any):
     """P(standard noise <= x)."""
     if law.dof > type(x)(0.0):
         return type(x)(student_below(wp.float64(law.dof), wp.float64(law.log_height), wp.float64(x)))
-    if x > type(x)(FAR):
+    if x > type(x)(SIGMAS_TO_CERTAINTY):
         return type(x)(1.0)
-    if x < -type(x)(FAR):
+    if x < -type(x)(SIGMAS_TO_CERTAINTY):
         return type(x)(0.0)
     return type(x)(0.5) * wp.erfc(-x * type(x)(INV_SQRT_2))
 

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels.rays import stop_distances
-from bayesmap.kernels.stops import TracedRays, put_rays
+from bayesmap.kernels.stops import TracedRays, put_traced_rays
 
 wp.set_module_options({"enable_backward": False})
 
@@ -29,6 +29,6 @@ def passes_of(rays: Rays, end_cell: NDArray[np.int32], device: str) -> NDArray[n
     """How many beams pass each cell of the grid before they end, (N,)."""
     passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
     distance_m = stop_distances(rays, 0.0, device)
-    inputs = [0, put_rays(rays, distance_m, device), wp.array(end_cell, dtype=wp.int32, device=device), passes]
+    inputs = [0, put_traced_rays(rays, distance_m, device), wp.array(end_cell, dtype=wp.int32, device=device), passes]
     wp.launch(count_passes, dim=rays.n_beams, inputs=inputs, device=device)
     return np.array(passes.numpy())

@@ -22,7 +22,7 @@ from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
 from bayesmap.kernels.cell_prior import put_prior
-from bayesmap.kernels.endpoint_beams import endpoint_cells
+from bayesmap.kernels.endpoint_beams import put_endpoint_cells
 from bayesmap.kernels.endpoint_cells import STEPS, count_endpoint_cells, update_endpoint_cells
 from bayesmap.kernels.endpoint_lanes import room_for_blocks
 from bayesmap.kernels.held_cells import HeldCells, pass_held_cells
@@ -30,7 +30,7 @@ from bayesmap.kernels.labels import draw_labels, draw_untouched, put_known, sum_
 from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
-from bayesmap.kernels.stops import LEARNS, ChainArrays, decay_of_readings, draw_stops, put_rays
+from bayesmap.kernels.stops import LEARNS, ChainArrays, decay_of_readings, draw_stops, put_traced_rays
 from bayesmap.kernels.sums import SLICE, sum_of_slices, sum_slices
 from bayesmap.kernels.surface_crossing import Cell, put_cells
 from bayesmap.sensors.model import SensorModel
@@ -98,10 +98,10 @@ class StopChains:
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
         chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
         self.threads = (threads or available_cores()) if device == "cpu" else 1
-        self._rays = put_rays(plan.rays, plan.distance_m, device)
+        self._rays = put_traced_rays(plan.rays, plan.distance_m, device)
         self._held = HeldCells(plan.rays, plan.every)
         self._holds = self._held.put_watched(self._rays, device)
-        self._endpoints = endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
+        self._endpoints = put_endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
         active = ActiveCells()
         active.cell = devices.to_device(plan.touched, wp.int32, device)
         active.every = devices.to_device(plan.every, wp.uint8, device)

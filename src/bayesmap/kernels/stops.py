@@ -73,7 +73,7 @@ class TracedRays:
     watched: wp.array(dtype=wp.int32)  # far entries whose cells are not held together with all others
 
 
-def put_rays(
+def put_traced_rays(
     rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
 ) -> Any:
     """TracedRays where kernels read them.

@@ -27,7 +27,7 @@ ANCHOR = 1e8
 RIDGE = 1e-4
 """Information added to every pose, so that one that nothing holds does not spoil the others."""
 
-FAR = 11.3
+DOUBTFUL_SQ = 11.3
 """Squared Mahalanobis distance beyond which a loop is rather wrong than far off: 99 % of chi-squared with 3 degrees."""
 
 
@@ -149,12 +149,12 @@ def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> 
         poses (N, 3), and the final weight of each loop, from 0 to 1.
     """
     poses = poses.copy()
-    relaxed = max(1.0, 2.0 * float(loops.squares(poses).max()) / FAR) if len(loops) else 1.0
+    relaxed = max(1.0, 2.0 * float(loops.squares(poses).max()) / DOUBTFUL_SQ) if len(loops) else 1.0
     weights = np.ones(len(loops))
     converged = 0
     for _ in range(steps):
         if len(loops):
-            weights = (relaxed * FAR / (loops.squares(poses) + relaxed * FAR)) ** 2
+            weights = (relaxed * DOUBTFUL_SQ / (loops.squares(poses) + relaxed * DOUBTFUL_SQ)) ** 2
         step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, weights)])
         poses = retract(poses, step)
         converged = converged + 1 if np.abs(step).max() < 1e-4 and relaxed <= 1.0 else 0

@@ -14,7 +14,7 @@ from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odomet
 from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
 from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
-from bayesmap.poses.graph import FAR, Factors
+from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.next_scans import chained
@@ -290,7 +290,7 @@ class _Run:
         """Where poses leap over a step on which odometry and front end agree, no wheel has slipped: align once more."""
         assert self.track is not None
         leaps = contradicted_links(self.track, aligned.poses)
-        firm = leaps & (factors.squares(self.track.poses[self.track.keys]) < FAR)
+        firm = leaps & (factors.squares(self.track.poses[self.track.keys]) < DOUBTFUL_SQ)
         if not firm.any():
             return aligned, scores
         held = self.align("aligned-rematched", geometry, aligned.poses, factors, reach_m, 8, wide=True, firm=firm)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from bayesmap.space.scans import Scans
 
-FAR = 20.0
+FARTHER = 20.0
 """Times as far from the middle as half of all scans reach."""
 
 MOST = 0.1
@@ -15,12 +15,12 @@ MOST = 0.1
 
 
 def outlying(scans: Scans) -> NDArray[np.intp]:
-    """Scans whose pose, or longest hit, is `FAR` times as far out as half of the scans reach, the furthest first.
+    """Scans whose pose, or longest hit, is `FARTHER` times as far out as half of the scans reach, the furthest first.
 
     Empty if that would be more than `MOST` of them (but one may be of any), so that there is no majority to go by.
     """
     reach = reach_m(scans)
-    far = np.nonzero(reach > FAR * np.median(reach))[0]
+    far = np.nonzero(reach > FARTHER * np.median(reach))[0]
     if len(far) > max(1.0, MOST * len(scans)):
         return np.empty(0, dtype=np.intp)
     return far[np.argsort(-reach[far], kind="stable")]
