@@ -243,7 +243,7 @@ class StopGibbs:
         log_likelihood, log_prior = chains.sweeps(
             state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
             steps=STEPS if steps is None else steps, observing_after=keep.after if keep.every else None,
-            before=draws.begin, after=after,
+            before=draws.begin if kept else None, after=after if kept or note is not None else None,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
