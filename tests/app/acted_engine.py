@@ -25,6 +25,7 @@ class Heard:
         """Do a job until its chains have made a step; how many pieces come before depends on the machine."""
         self.infer(document, steps=0)
         while self.engine._result is None or self.engine._result.stream is None:
+            assert self.engine.busy, "the job ended without chains"
             self.engine.advance()
 
     def ask(self, task):
