@@ -17,7 +17,7 @@ from benchmarks import gate
 from benchmarks.figure import Figure
 
 BASELINE = Path(__file__).with_name("baseline.json")
-SUITES = ("ranges", "tutorial", "scaling", "building", "surfaces", "walls", "poses", "programs", "generative")
+SUITES = ("ranges", "tutorial", "scaling", "chains", "building", "surfaces", "walls", "poses", "programs", "generative")
 HAVE_SLOW_PARTS = {"surfaces", "poses"}
 
 
