@@ -20,7 +20,7 @@ HOPPER = 90
 @pytest.mark.full
 @pytest.mark.parametrize("name", MODULES)
 def test_every_kernel_compiles_for_cuda(name, tmp_path):
-    """No GPU is needed: Warp brings the compiler. Modules that hold functions alone compile with those that call them."""
+    """No GPU is needed: Warp brings the compiler. A module without kernels is compiled with those that call it."""
     import warp as wp
 
     from bayesmap.kernels import device
@@ -94,7 +94,7 @@ def test_a_gpu_draws_what_the_cpu_draws(name, gpu):
 
 @pytest.mark.parametrize("name", ["gibbs, radial", "reflectivity", "surfaces"])
 def test_a_gpu_scores_as_the_cpu_does(name, gpu):
-    scans, grid, _ = room()
+    scans, *_ = room()
     run = inferred("cpu", *METHODS[name])
     assert run.log_score(scans, device=gpu) == pytest.approx(run.log_score(scans), abs=1e-4)
     where = [bm.localize(run, scans, device=device, seed=2) for device in ("cpu", gpu)]
