@@ -5,8 +5,8 @@ False alarms: `ALPHA` = 1e-4 over this module. The kernel reads the law from a t
 
 import numpy as np
 import pytest
+import scipy
 from oracle.verdict import ALPHA
-from scipy import stats
 from stop_point_draws import draw_points
 
 import bayesmap as bm
@@ -20,7 +20,7 @@ class Late(SensorModel):
     """Readings that come late, by a gamma distributed delay, one in ten anywhere; more are lost from far away."""
 
     def __init__(self, delay_m):
-        self.delay = stats.gamma(3.0, scale=delay_m / 3.0)
+        self.delay = scipy.stats.gamma(3.0, scale=delay_m / 3.0)
 
     def lost(self, d, limits):
         """The chance of no return, but for readings past the limit."""
@@ -53,7 +53,7 @@ class Late(SensorModel):
 def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
     """Distances, and the cumulative distribution there: a normal law times the reading's likelihood, added up."""
     t = np.linspace(distance_m - 7 * spread_m, distance_m + 7 * spread_m, 20_001)
-    log_p = stats.norm.logpdf(t, distance_m, spread_m)
+    log_p = scipy.stats.norm.logpdf(t, distance_m, spread_m)
     if given_reading:
         log_p = log_p + sensor.log_likelihood(np.full_like(t, reading_m), t, LIMITS)
     p = np.exp(log_p - log_p.max())
@@ -80,7 +80,7 @@ def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
 
     def p_value(given_reading):
         t, below = plain_law(sensor, reading_m, distance_m, spread_m, given_reading)
-        return stats.kstest(found, lambda x: np.interp(x, t, below)).pvalue
+        return scipy.stats.kstest(found, lambda x: np.interp(x, t, below)).pvalue
 
     assert p_value(True) > ALPHA / TESTS
     if abs(reading_m - distance_m) < 4 * spread_m:  # else it says nothing of the point
@@ -103,8 +103,8 @@ def test_points_of_a_mixture_lie_between_surface_and_reading_if_it_came_from_the
     by_chance = chance / np.exp(density[0])
 
     def below(x):
-        there = stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))
-        return by_chance * stats.norm.cdf(x, 3.0, 0.05) + (1 - by_chance) * there
+        there = scipy.stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))
+        return by_chance * scipy.stats.norm.cdf(x, 3.0, 0.05) + (1 - by_chance) * there
 
-    assert stats.kstest(found, below).pvalue > ALPHA / TESTS
-    assert stats.kstest(found, lambda x: stats.norm.cdf(x, 3.0, 0.05)).pvalue < ALPHA / TESTS
+    assert scipy.stats.kstest(found, below).pvalue > ALPHA / TESTS
+    assert scipy.stats.kstest(found, lambda x: scipy.stats.norm.cdf(x, 3.0, 0.05)).pvalue < ALPHA / TESTS

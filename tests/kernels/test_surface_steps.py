@@ -12,12 +12,12 @@ cells at once are as many independent chains. False alarms: `ALPHA` = 1e-4 over 
 
 import numpy as np
 import pytest
+import scipy
 import warp as wp
 from oracle import weighted
 from oracle.stop_law import draw_states, paths_of, reading_law, stops
 from oracle.stop_worlds import build_worlds, centres_of, copies
 from oracle.verdict import ALPHA
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels import stop_chains as chains
@@ -84,7 +84,7 @@ def stop_as_ever(
 
 def inside_the_cell(mean, spread):
     """A normal distribution of an offset from the cell's centre, within the cell."""
-    return stats.truncnorm((-EDGE / 2 - mean) / spread, (EDGE / 2 - mean) / spread, mean, spread)
+    return scipy.stats.truncnorm((-EDGE / 2 - mean) / spread, (EDGE / 2 - mean) / spread, mean, spread)
 
 
 def closed_form_p_values(surfaces):
@@ -97,13 +97,13 @@ def closed_form_p_values(surfaces):
     slope = (l21 / l11 - p12 / p11) * np.sqrt(p11) / l22
     one, two = p11 / l11**2, (p22 - p12**2 / p11) / l22**2
     tests = [
-        stats.kstest(x, inside_the_cell(weight * float(MEAN_X), spread).cdf),
-        stats.kstest(y, inside_the_cell(weight * float(MEAN_Y), spread).cdf),
-        stats.kstest(one, stats.chi2(nu - 1).cdf),
-        stats.kstest(two, stats.chi2(nu).cdf),
-        stats.kstest(slope, stats.norm.cdf),
+        scipy.stats.kstest(x, inside_the_cell(weight * float(MEAN_X), spread).cdf),
+        scipy.stats.kstest(y, inside_the_cell(weight * float(MEAN_Y), spread).cdf),
+        scipy.stats.kstest(one, scipy.stats.chi2(nu - 1).cdf),
+        scipy.stats.kstest(two, scipy.stats.chi2(nu).cdf),
+        scipy.stats.kstest(slope, scipy.stats.norm.cdf),
     ]
-    tests += [stats.spearmanr(a, b) for a, b in ((x, y), (one, two), (one, slope), (two, slope), (x, slope))]
+    tests += [scipy.stats.spearmanr(a, b) for a, b in ((x, y), (one, two), (one, slope), (two, slope), (x, slope))]
     return np.array([test.pvalue for test in tests])
 
 

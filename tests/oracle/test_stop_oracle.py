@@ -5,13 +5,13 @@ False alarms: `ALPHA` = 1e-4 over this module.
 
 import numpy as np
 import pytest
+import scipy
 from oracle import density
 from oracle.stop_exact import exact_reflectivities
 from oracle.stop_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
 from oracle.stop_worlds import build_worlds, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit
 from oracle.worlds import bm_limits
-from scipy import special, stats
 
 import bayesmap as bm
 
@@ -63,7 +63,7 @@ def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says(
     for state in STATES:
         factor = np.array([[state[3], 0.0], [state[4], state[5]]])
         across = np.outer([-u[1], u[0]], [-u[1], u[0]]) * (0.005 * (state[1:3] - start) @ u) ** 2
-        weight = stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
+        weight = scipy.stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
         mean = np.average(t, weights=weight)
         _, distance, variance = cross_surface(state, start, u)
         assert distance == pytest.approx(mean, abs=1e-6)
@@ -115,9 +115,9 @@ def test_the_prior_of_surfaces_has_the_jacobian_of_its_coordinates():
     s11, s12, s22 = sigma(*at)
     expected = (
         np.log(abs(np.linalg.det(columns)))
-        + stats.invwishart(3.5, (0.4 * 0.5) ** 2 * np.eye(2)).logpdf([[s11, s12], [s12, s22]])
-        + stats.norm(0.25, 0.25).logpdf(state[1:3]).sum()
-        + stats.beta(0.7, 1.3).logpdf(0.6)
+        + scipy.stats.invwishart(3.5, (0.4 * 0.5) ** 2 * np.eye(2)).logpdf([[s11, s12], [s12, s22]])
+        + scipy.stats.norm(0.25, 0.25).logpdf(state[1:3]).sum()
+        + scipy.stats.beta(0.7, 1.3).logpdf(0.6)
         + np.log(0.6 * 0.4)  # d m / d logit m
         - (s11 + s22) / (2 * 0.3**2)
     )
@@ -137,7 +137,7 @@ def test_the_enumeration_of_stops_equals_quadrature_over_reflectivities(prior):
         cells = worlds.cells()[w]
         mine = mine._replace(cell=np.where(mine.there, np.searchsorted(cells, mine.cell), 0))
         exact = exact_reflectivities(mine, 4, prior, SENSOR)
-        nodes, weights = special.roots_jacobi(8, prior.b - 1, prior.a - 1)
+        nodes, weights = scipy.special.roots_jacobi(8, prior.b - 1, prior.a - 1)
         m = np.stack(np.meshgrid(*[(nodes + 1) / 2] * 4, indexing="ij"), axis=-1).reshape(-1, 4)
         states = np.zeros((len(m), 4, 6))
         states[..., 0] = m

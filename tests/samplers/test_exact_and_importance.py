@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+import scipy
 from oracle.enumeration import all_maps, marginals, number_of, pairs
 from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
 from oracle.worlds import make_case
 from sampler_cases import NAMES, WORLDS, world
-from scipy import special
 
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
@@ -107,7 +107,7 @@ def test_each_weight_is_its_map_s_likelihood():
     problem = case.problem()
     found = sample_importance(problem, 500, seed=4)
     plain = [problem.table.log_likelihood(walls) for walls in found.maps(np.arange(500))]
-    np.testing.assert_allclose(found.log_weights, plain - special.logsumexp(plain), rtol=1e-6, atol=1e-4)
+    np.testing.assert_allclose(found.log_weights, plain - scipy.special.logsumexp(plain), rtol=1e-6, atol=1e-4)
 
 
 def test_the_effective_sample_size_collapses_where_readings_are_sharp():

@@ -10,11 +10,11 @@ from functools import cache
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_exact import exact_reflectivities
 from oracle.stop_law import draw_states, log_likelihoods, paths_of
 from oracle.stop_worlds import beam_rays, build_worlds, copies, touching
 from oracle.verdict import ALPHA
-from scipy import stats
 from stop_rooms import PRIORS, infer, scans
 
 import bayesmap as bm
@@ -24,7 +24,7 @@ from bayesmap.samplers.sampler import Keep
 
 EDGE, COPIES, DRAWS, FROM_PRIOR = 0.5, 2000, 4, 100_000
 TESTS = 200  # p-values in this module, at most
-LIMIT = stats.norm.isf(ALPHA / TESTS / 2)
+LIMIT = -scipy.special.ndtri(ALPHA / TESTS / 2)
 
 LAW = bm.BeamMixture(bm.Gaussian(0.1, 0.02), p_random=0.1, p_no_return=0.15, p_short=0.15, rate_short_per_m=0.8)
 SCANS = bm.Scans(

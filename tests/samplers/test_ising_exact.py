@@ -9,12 +9,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+import scipy
 from oracle.enumeration import log_prior_of_all, marginals, pairs
 from oracle.transitions import sweeps
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
 from sampler_cases import BOTH, LATTICE, SAMPLERS, draw_maps, problem_of, run_sweeps
-from scipy import special
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -104,7 +104,7 @@ def test_at_an_inverse_temperature_the_likelihood_is_tempered_and_the_coupling_i
     log_prior = log_prior_of_all(case.grid.shape, case.prior.p_wall, case.prior.coupling)
 
     def tempered(power):
-        return special.softmax(log_prior + power * (case.exact.log_joint - log_prior))
+        return scipy.special.softmax(log_prior + power * (case.exact.log_joint - log_prior))
 
     found = p_value_after(case, case.problem(), method, order, LONG, 4, tempered(beta), beta)
     assert found > ALPHA / TESTS

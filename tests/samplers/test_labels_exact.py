@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+import scipy
 from oracle.enumeration import all_maps, log_prior_of_all
 from oracle.stop_exact import exact_labels
 from oracle.stop_law import draw_states, log_likelihoods, paths_of
@@ -17,7 +18,6 @@ from oracle.stop_worlds import build_worlds
 from oracle.verdict import ALPHA, least_p_value
 from oracle.weighted import p_values as weighted_p_values
 from oracle.weighted import surface_coordinates, weighted
-from scipy import stats
 from test_reflectivity_exact import scans_for, sensor
 from test_surface_exact import BLUNT, NOTHING, TWO
 
@@ -90,10 +90,10 @@ def least(name, found, law):
     """The least p-value of labels, reflectivities and products, corrected for how many there are."""
     (m, solid), (mixture, p) = found, law
     out = [least_p_value(solid, p)]
-    out += [stats.kstest(m[:, i], mixture.cdf(i)).pvalue for i in range(m.shape[1])]
+    out += [scipy.stats.kstest(m[:, i], mixture.cdf(i)).pvalue for i in range(m.shape[1])]
     products = np.einsum("ni,nj->nij", m, m)
     z = (products.mean(axis=0) - mixture.pairs()) / (products.std(axis=0) / np.sqrt(len(m)))
-    out += list(2 * stats.norm.sf(abs(z[np.triu_indices(m.shape[1])])))
+    out += list(2 * scipy.stats.norm.sf(abs(z[np.triu_indices(m.shape[1])])))
     return min(out)
 
 
@@ -216,7 +216,7 @@ def test_the_sampler_s_log_prior_is_that_of_the_formula():
     for chain in range(40):
         solid, m = state.chains.solid(chain), state.chains.cells(chain)[touched, 0].astype(float)
         a, b = prior.beta_given(solid[touched])
-        density = np.log(m * (1 - m)) + stats.beta.logpdf(m, a, b)
+        density = np.log(m * (1 - m)) + scipy.stats.beta.logpdf(m, a, b)
         pairs = [(0, 1), (1, 2), (3, 4), (4, 5), (0, 3), (1, 4), (2, 5)]
         expected.append(density.sum() + prior.coupling * sum(solid[i] == solid[j] for i, j in pairs))
     _, info = sampler.step(state, 1)
