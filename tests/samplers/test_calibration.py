@@ -70,7 +70,7 @@ def p_values(true_sensor, sensor, options, worlds=WORLDS):
 @pytest.mark.parametrize(
     ("method", "sensor"),
     [
-        ("gibbs", bm.Gaussian(0.4)),
+        pytest.param("gibbs", bm.Gaussian(0.4), marks=pytest.mark.full),
         ("block", bm.BeamMixture(bm.Gaussian(0.2))),
         ("gibbs started by belief propagation", bm.Gaussian(0.4)),
     ],

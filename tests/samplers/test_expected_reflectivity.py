@@ -16,6 +16,7 @@ from oracle.stop_law import draw_states, log_likelihoods, paths_of
 from oracle.stop_worlds import beam_rays, build_worlds, copies, touching
 from oracle.verdict import ALPHA
 from stop_rooms import PRIORS, infer, scans
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.cells.surface import PARTS
@@ -132,8 +133,7 @@ def met_counted_twice(hits, met, prior, drawn, solid=None):
     return (prior.a + hits) / (prior.a + prior.b + hits + 2 * met)
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("twin", [without_b, met_counted_twice])
+@pytest.mark.parametrize(("case", "twin"), latin(2, list(CASES), [without_b, met_counted_twice]))
 def test_wrong_twins_are_rejected(case, twin, monkeypatch):
     monkeypatch.setattr(stop_draws, "expected_reflectivity", twin)
     expected, _ = predicted(case)

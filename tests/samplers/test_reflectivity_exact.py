@@ -11,6 +11,7 @@ from oracle.stop_exact import exact_reflectivities
 from oracle.stop_law import Paths, paths_of
 from oracle.stop_worlds import build_worlds, copies
 from oracle.verdict import ALPHA
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.samplers import initial_estimate
@@ -70,8 +71,9 @@ def p_values(m, exact):
     return np.array([*out, *2 * scipy.stats.norm.sf(abs(z[np.triu_indices(m.shape[1])]))])
 
 
-@pytest.mark.parametrize(("shape", "sigma_m", "prior"), CASES)
-def test_draws_follow_the_exact_posterior(shape, sigma_m, prior):
+@pytest.mark.parametrize("case", full_but(CASES, CASES[0], CASES[2], CASES[5], CASES[6]), ids=str)
+def test_draws_follow_the_exact_posterior(case):
+    shape, sigma_m, prior = case
     grid, law = bm.Grid(shape, 0.5), sensor(sigma_m)
     scans = scans_for(shape, [sum(shape), 1])
     m = drawn(scans, grid, prior, law, 150)
@@ -117,7 +119,7 @@ def test_beams_along_lines_and_through_corners():
     assert p_values(m, exact).min() > ALPHA / TESTS
 
 
-@pytest.mark.parametrize("beta", [0.0, 0.3, 0.7])
+@pytest.mark.parametrize("beta", full_but([0.0, 0.3, 0.7], 0.3))
 def test_at_an_inverse_temperature_draws_follow_the_tempered_posterior(beta):
     shape, prior, law = (2, 2), bm.Beta(1.0, 1.0), sensor(0.1)
     grid, scans = bm.Grid(shape, 0.5), scans_for(shape, [4, 1])
