@@ -3,6 +3,8 @@
 False alarms: `ALPHA` = 1e-4 over this module.
 """
 
+from itertools import product
+
 import numpy as np
 import pytest
 import scipy
@@ -46,13 +48,14 @@ def law_at(z, plain):
     return np.exp(log_likelihoods(same_path(z), STATES, SENSOR, plain))
 
 
-@pytest.mark.parametrize("z", [0.21, 0.9, 1.0, 2.49, np.inf, -np.inf])
-@pytest.mark.parametrize("d", [0.0, 0.1, 0.9, 1.1, 2.45, 2.6, np.inf])
-def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s(z, d):
-    expected = density.mixture(
-        z, d, sigma=0.06, per_m=0.02, min_m=0.2, max_m=2.5, p_random=0.08, p_no_return=0.15, p_short=0.2, rate=0.7
-    )
-    assert np.log(reading_law(z, d, 0.0, SENSOR, LIMITS)) == pytest.approx(expected, rel=1e-9)
+def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s():
+    numbers = {
+        "sigma": 0.06, "per_m": 0.02, "min_m": 0.2, "max_m": 2.5,
+        "p_random": 0.08, "p_no_return": 0.15, "p_short": 0.2, "rate": 0.7,
+    }  # fmt: skip
+    cases = list(product([0.21, 0.9, 1.0, 2.49, np.inf, -np.inf], [0.0, 0.1, 0.9, 1.1, 2.45, 2.6, np.inf]))
+    found = {case: np.log(reading_law(*case, 0.0, SENSOR, LIMITS)) for case in cases}
+    assert found == pytest.approx({case: density.mixture(*case, **numbers) for case in cases}, rel=1e-9)
 
 
 def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says():
