@@ -111,6 +111,7 @@ def test_the_intel_log_is_read_as_its_description_says():
     assert reading.skipped == ()
 
 
+@pytest.mark.full
 def test_both_intel_logs_hold_the_same_readings():
     corrected = read_log(intel_log("intel-corrected.log.gz"))
     odometry = read_log(intel_log("intel-odometry.log.gz"))

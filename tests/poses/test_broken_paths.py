@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 from simulated import odometry_of, off, path_around, recording, ring, scans_of
 
 from bayesmap.poses.front_end import follow
@@ -89,15 +90,24 @@ def test_a_part_that_saw_no_place_of_the_others_is_named():
     assert found.breaks[0] in (70, 71)
 
 
-def test_a_motion_that_no_robot_can_have_made_breaks_the_path():
-    recorded, driven = uneven_recording()
+def leapt():
+    """Scans whose odometry leaps by 30 m before one of them."""
+    recorded, _ = uneven_recording()
     poses = recorded.poses.copy()
     poses[60:] = compose(np.array([30.0, -8.0, 1.0]), poses[60:])
-    scans = replace(recorded, poses=poses)
+    return replace(recorded, poses=poses)
+
+
+def test_a_motion_that_no_robot_can_have_made_breaks_the_path():
+    scans = leapt()
     assert stated_motions(scans.poses, scans.stamps_s)[1][59]
     _, track = followed(scans)
     assert track.broken[60]
-    assert worst_m(infer_trajectory(scans, threads=1).poses, driven) < 0.05
+
+
+@pytest.mark.full
+def test_a_path_that_such_a_motion_broke_is_put_together_again():
+    assert worst_m(infer_trajectory(leapt(), threads=1).poses, uneven_recording()[1]) < 0.05
 
 
 def test_a_long_motion_over_a_long_time_is_believed():

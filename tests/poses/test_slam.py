@@ -47,6 +47,7 @@ def test_the_map_stands_where_odometry_began(trajectory):
     np.testing.assert_allclose(trajectory.poses[0], recorded.poses[0], atol=1e-6)
 
 
+@pytest.mark.full
 def test_the_result_is_the_same_for_any_number_of_threads(trajectory):
     recorded, _ = loop_recording()
     again = infer_trajectory(recorded, threads=3)
@@ -55,6 +56,7 @@ def test_the_result_is_the_same_for_any_number_of_threads(trajectory):
     np.testing.assert_array_equal(again.gaussian.curvature, trajectory.gaussian.curvature)
 
 
+@pytest.mark.full
 def test_scans_out_of_order_give_the_same_poses(trajectory):
     recorded, _ = loop_recording()
     shuffled = np.random.default_rng(3).permutation(len(recorded))
@@ -101,6 +103,7 @@ def test_a_robot_that_stands_still_stays_where_it_is():
     assert np.abs(between(result.poses[:1], result.poses)).max() < 0.01
 
 
+@pytest.mark.full
 def test_odometry_that_never_goes_backwards_while_the_robot_does():
     """Wheels without a sense of direction: motions are stated ahead, whichever way they were."""
     recorded, driven = loop_recording()
@@ -138,9 +141,10 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
 
 
 def test_poses_are_told_at_every_stage_and_come_nearer_the_truth(trajectory):
+    """And are those of a run in which nobody is told, with another number of threads."""
     recorded, _ = loop_recording()
     told = []
-    result = infer_trajectory(recorded, threads=1, on_poses=lambda stage, poses: told.append((stage, poses.copy())))
+    result = infer_trajectory(recorded, threads=3, on_poses=lambda stage, poses: told.append((stage, poses.copy())))
     np.testing.assert_array_equal(result.poses, trajectory.poses)
     stages = [stage for stage, _ in told]
     in_order = [stage for stage in dict.fromkeys(stages) if stage != "aligned-rematched"]  # where nothing was moved
