@@ -1,6 +1,7 @@
 // The page without paint: its session, hand and panels, and a server on paper that says what a test wants.
 
 import { Element, page } from "./dom";
+import { mock } from "node:test";
 import { Editor } from "../src/input/editor";
 import { Hand, type Tool } from "../src/input/hand";
 import { MapKeys, pageKey } from "../src/input/keys";
@@ -9,7 +10,7 @@ import { Viewport } from "../src/layers/viewport";
 import { toBase64, packBits } from "../src/geometry/bits";
 import { Ui } from "../src/panels/ui";
 import { Player } from "../src/panels/view";
-import type { Buffers, Field, MapDocument, Message, Pair, State, Transport } from "../src/protocol";
+import type { Buffers, Field, MapDocument, Message, Pair, Quantity, State, Transport } from "../src/protocol";
 import { Session } from "../src/state/session";
 
 export const SHAPE: Pair = [21, 21];
@@ -200,7 +201,7 @@ export class Panel {
     const all = this.element.all(() => true);
     const named = all.filter((one) => one.tagName === "label" && one.textContent === label);
     const found = [
-      ...all.filter((one) => one.getAttribute("aria-label") === label),
+      ...all.filter((one) => one.getAttribute("aria-label") === label || (one.tagName === "button" && one.textContent === label)),
       ...named.flatMap((one) => [one.all((child) => child.tagName === "input")[0], one.parent?.all(({ tagName }) => /input|select/.test(tagName))[0]]),
     ].find((one) => one && (!type || one.type === type));
     if (!found) throw new Error(`no ${type || "control"} ${label} in: ${this.element.textContent}`);
@@ -216,5 +217,31 @@ export class Panel {
   find(wanted: (element: Element) => boolean) {
     this.desk.ui.refresh();
     return this.element.all(wanted);
+  }
+}
+
+export const SURFACES: Quantity = { kind: "surface", mean: "mean reflectivity", value: "reflectivity", interval: true };
+
+/** A panel of a connected page. */
+export function panel(make: (ui: Ui) => HTMLElement, document: Partial<MapDocument> = {}): [Desk, Panel] {
+  const desk = new Desk(document);
+  return [desk, new Panel(desk, make)];
+}
+
+/** A page with a tool in the hand. */
+export function holding(tool: Tool, document: Partial<MapDocument> = { walls: wallsOf([]) }) {
+  const desk = new Desk(document);
+  desk.choose(tool);
+  desk.sent.length = 0;
+  return desk;
+}
+
+/** Runs with timers that only the test moves on. */
+export function timed(body: () => void) {
+  mock.timers.enable({ apis: ["setTimeout"] });
+  try {
+    body();
+  } finally {
+    mock.timers.reset();
   }
 }

@@ -96,7 +96,7 @@ export class Element {
       composedPath: () => [this],
       ...fields,
     };
-    for (const listener of this.listeners.get(type) ?? []) listener(event);
+    for (let at: Element | null = this; at; at = at.parent) for (const listener of at.listeners.get(type) ?? []) listener(event);
     return event;
   }
   click() {
@@ -132,8 +132,8 @@ export class Element {
 /** The element that has the focus. */
 export const page: { activeElement: Element | null } = { activeElement: null };
 
-/** What the browser keeps, and whether who looks wants nothing to move by itself. */
-export const browser = { kept: new Map<string, string>(), still: false };
+/** What the browser keeps, whether who looks wants nothing to move by itself, and whether the system is dark. */
+export const browser = { kept: new Map<string, string>(), still: false, dark: false };
 
 class Select extends Element {}
 class Input extends Element {}
@@ -153,7 +153,11 @@ Object.assign(globalThis, {
   },
   location: { protocol: "http:", hash: "", pathname: "/", search: "" },
   history: { replaceState: (_: unknown, __: string, address: string) => Object.assign(location, { hash: /#.*/.exec(address)?.[0] ?? "" }) },
-  matchMedia: (query: string) => ({ matches: query.includes("reduced-motion") && browser.still }),
+  matchMedia: (query: string) => ({
+    matches: (query.includes("reduced-motion") && browser.still) || (query.includes("dark") && browser.dark),
+    addEventListener: () => {},
+    removeEventListener: () => {},
+  }),
   localStorage: {
     getItem: (key: string) => browser.kept.get(key) ?? null,
     setItem: (key: string, value: string) => browser.kept.set(key, value),

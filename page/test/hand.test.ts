@@ -1,35 +1,17 @@
-import { browser, Element } from "./dom";
+import "./dom";
 import assert from "node:assert/strict";
 import { mock, test } from "node:test";
 import type { Tool } from "../src/input/hand";
 import { placeOf } from "../src/layers/sensors";
 import type { Pair } from "../src/protocol";
-import { Desk, LOG, wallsOf } from "./desk";
+import { Desk, LOG, holding, timed, wallsOf } from "./desk";
 
 const NO_WALLS = { walls: wallsOf([]) };
 const SHIFT = { shiftKey: true };
 const finger = (pointerId: number) => ({ pointerType: "touch", pointerId });
 
-/** A desk with a tool in the hand. */
-function with_(tool: Tool, document: object = NO_WALLS) {
-  const desk = new Desk(document);
-  desk.choose(tool);
-  desk.sent.length = 0;
-  return desk;
-}
-
-/** With timers that only the test moves on. */
-function timed(body: () => void) {
-  mock.timers.enable({ apis: ["setTimeout"] });
-  try {
-    body();
-  } finally {
-    mock.timers.reset();
-  }
-}
-
 test("a fast drag leaves no gaps, and all of it is one stroke", () => {
-  const desk = with_("draw");
+  const desk = holding("draw");
   desk.drag([[0, 4], [6, 4], [19, 4]]); // the browser says where the hand was only twice
   assert.deepEqual(desk.walls, Array.from({ length: 20 }, (_, x): Pair => [x, 4]));
   const strokes = new Set(desk.asked("walls").map(({ stroke }) => stroke));
@@ -40,7 +22,7 @@ test("a fast drag leaves no gaps, and all of it is one stroke", () => {
 });
 
 test("an oblique stroke is connected by edges or corners", () => {
-  const desk = with_("draw", { ...NO_WALLS, sensors: [{ id: 1, x: 20, y: 0, yaw: 0 }] });
+  const desk = holding("draw", { ...NO_WALLS, sensors: [{ id: 1, x: 20, y: 0, yaw: 0 }] });
   desk.drag([[1, 1], [14, 6], [3, 19]]);
   const cells = desk.walls;
   const reached = [cells[0]];
@@ -50,7 +32,7 @@ test("an oblique stroke is connected by edges or corners", () => {
 });
 
 test("all places that the browser knows of a fast hand are taken", () => {
-  const desk = with_("draw");
+  const desk = holding("draw");
   const between: Pair[] = [[5, 5], [5, 9]];
   desk.pointer("down", [3, 3]);
   const coalesced = between.map(([x, y]) => ({ clientX: desk.at(x, y).x, clientY: desk.at(x, y).y }));
@@ -59,7 +41,7 @@ test("all places that the browser knows of a fast hand are taken", () => {
 });
 
 test("no wall is drawn onto the robot, nor outside the map, and what is as wanted is not sent", () => {
-  const desk = with_("draw", { walls: wallsOf([[6, 10]]) });
+  const desk = holding("draw", { walls: wallsOf([[6, 10]]) });
   desk.drag([[5, 10], [15, 10]]);
   assert.deepEqual(desk.walls, [5, 6, 7, 8, 9, 11, 12, 13, 14, 15].map((x): Pair => [x, 10]));
   assert(!desk.asked("walls").some(({ cells }) => cells.some(([x]: Pair) => x === 6)));
@@ -71,19 +53,19 @@ test("no wall is drawn onto the robot, nor outside the map, and what is as wante
 test("the eraser, the right button and Shift erase", () => {
   const walls = { walls: wallsOf([[3, 3], [4, 3], [5, 3], [6, 3]]) };
   const erased = (tool: Tool, fields: object) => {
-    const desk = with_(tool, walls);
+    const desk = holding(tool, walls);
     desk.drag([[3, 3], [4, 3]], fields);
     return desk.walls;
   };
   const left: Pair[] = [[5, 3], [6, 3]];
   for (const [tool, fields] of [["erase", {}], ["draw", { button: 2 }], ["draw", SHIFT]] as const) assert.deepEqual(erased(tool, fields), left, tool);
-  const desk = with_("erase", walls);
+  const desk = holding("erase", walls);
   desk.drag([[8, 8], [9, 8]], SHIFT); // and with the eraser it draws
   assert.deepEqual(desk.walls.slice(-2), [[8, 8], [9, 8]]);
 });
 
 test("a click on a wall removes it, on a free cell draws it, and a stroke from a wall draws on", () => {
-  const desk = with_("draw", { walls: wallsOf([[12, 4]]) });
+  const desk = holding("draw", { walls: wallsOf([[12, 4]]) });
   desk.drag([[12, 4]]);
   assert.deepEqual(desk.walls, []);
   desk.drag([[12, 4]]);
@@ -93,7 +75,7 @@ test("a click on a wall removes it, on a free cell draws it, and a stroke from a
 });
 
 test("the robot comes where the hand takes it, and the whole drag is one step", () => {
-  const desk = with_("sensor");
+  const desk = holding("sensor");
   const grip = desk.at(10.2, 10.1); // not in its middle
   desk.pointer("down", grip);
   for (let k = 1; k <= 10; k++) desk.pointer("move", desk.at(10.2 - 0.3 * k, 10.1 - 0.2 * k));
@@ -108,7 +90,7 @@ test("the robot comes where the hand takes it, and the whole drag is one step", 
 
 test("the robot does not enter walls nor leave the map, and why is said until it stands again", () => {
   for (const [cell, why] of [[[12, 5], "in a wall."], [[-2, 10], "outside the map."]] as [Pair, string][]) {
-    const desk = with_("sensor", { walls: wallsOf([[12, 5]]) });
+    const desk = holding("sensor", { walls: wallsOf([[12, 5]]) });
     desk.pointer("down", [10, 10]);
     desk.pointer("move", cell);
     assert.equal(desk.status, `A sensor cannot stand ${why}`);
@@ -120,7 +102,7 @@ test("the robot does not enter walls nor leave the map, and why is said until it
 });
 
 test("its handle turns the robot", () => {
-  const desk = with_("sensor");
+  const desk = holding("sensor");
   const { point, handle } = placeOf(desk.session.document!.sensors[0], desk.session.document!.grid, desk.view);
   desk.pointer("down", handle);
   desk.pointer("move", { x: point.x, y: point.y - 60 });
@@ -131,7 +113,7 @@ test("its handle turns the robot", () => {
 });
 
 test("of several sensors the nearest is taken, and Shift adds one where the hand is", () => {
-  const desk = with_("sensor", { ...NO_WALLS, sensors: [{ id: 1, x: 10, y: 10, yaw: 0 }, { id: 4, x: 10.4, y: 10, yaw: 0 }] });
+  const desk = holding("sensor", { ...NO_WALLS, sensors: [{ id: 1, x: 10, y: 10, yaw: 0 }, { id: 4, x: 10.4, y: 10, yaw: 0 }] });
   desk.pointer("down", desk.at(10.35, 10));
   assert.equal(desk.hand.selected, 4);
   desk.pointer("up", desk.at(10.35, 10));
@@ -153,7 +135,7 @@ test("there are at most as many sensors as the server takes", () => {
 
 test("the middle button, the pan tool and any tool on a file pan", () => {
   for (const [tool, document, fields] of [["draw", NO_WALLS, { button: 1 }], ["pan", NO_WALLS, {}], ["draw", LOG, {}]] as const) {
-    const desk = with_(tool, document);
+    const desk = holding(tool, document);
     const { x, y } = desk.view.transform;
     desk.pointer("down", { x: 400, y: 400 }, fields);
     desk.pointer("move", { x: 450, y: 440 }, fields);
@@ -164,7 +146,7 @@ test("the middle button, the pan tool and any tool on a file pan", () => {
 });
 
 test("the wheel zooms about the pointer", () => {
-  const desk = with_("draw");
+  const desk = holding("draw");
   const before = desk.view.transform.scale;
   const at = desk.at(10, 12);
   desk.canvas.dispatch("wheel", { clientX: at.x, clientY: at.y, deltaX: 0, deltaY: -240, deltaMode: 0, ctrlKey: false, shiftKey: false });
@@ -174,7 +156,7 @@ test("the wheel zooms about the pointer", () => {
 
 test("a finger draws, and a tap draws one cell", () =>
   timed(() => {
-    const desk = with_("draw");
+    const desk = holding("draw");
     desk.drag([[3, 3], [5, 3], [9, 3], [13, 3]], finger(1));
     assert.equal(desk.walls.length, 11);
     desk.drag([[5, 17]], finger(1));
@@ -183,7 +165,7 @@ test("a finger draws, and a tap draws one cell", () =>
 
 test("a finger that rests draws, once no second one can follow", () =>
   timed(() => {
-    const desk = with_("draw");
+    const desk = holding("draw");
     desk.pointer("down", [5, 5], finger(1));
     mock.timers.tick(80);
     assert.deepEqual(desk.walls, []);
@@ -193,7 +175,7 @@ test("a finger that rests draws, once no second one can follow", () =>
 
 test("two fingers zoom and pan, and draw nothing", () =>
   timed(() => {
-    const desk = with_("draw");
+    const desk = holding("draw");
     const { x, y } = desk.at(10, 10);
     const before = desk.view.transform.scale;
     desk.pointer("down", { x: x - 30, y }, finger(1));
@@ -212,7 +194,7 @@ test("two fingers zoom and pan, and draw nothing", () =>
 
 test("a finger reaches the robot from farther than a mouse", () => {
   for (const [type, taken] of [["touch", true], ["mouse", false]] as const) {
-    const desk = with_("draw");
+    const desk = holding("draw");
     const { x, y } = desk.at(10, 10);
     desk.pointer("down", { x: x + 20, y }, { pointerType: type });
     desk.pointer("move", { x: x + 90, y }, { pointerType: type });
@@ -221,7 +203,7 @@ test("a finger reaches the robot from farther than a mouse", () => {
 });
 
 test("a click gives a path its points, a drag with that tool pans", () => {
-  const desk = with_("path");
+  const desk = holding("path");
   desk.drag([[6, 15]]);
   desk.drag([[10, 14]]);
   const { start, goal } = desk.session.decisions;
@@ -234,11 +216,11 @@ test("a click gives a path its points, a drag with that tool pans", () => {
 
 test("a click on the map of views places a sensor there, and on a file's map says what it would tell", () => {
   const views = { pose: Float32Array.of(3, 3, 0.5, 8, 9, 1), nats: Float32Array.of(2, 7) };
-  const drawn = with_("look");
+  const drawn = holding("look");
   drawn.says("views", { spacing: 1 }, views);
   drawn.drag([[7, 9]]);
   assert.deepEqual(drawn.asked("sensor"), [{ type: "sensor", op: "add", x: 8, y: 9, yaw: 1 }]);
-  const file = with_("look", LOG);
+  const file = holding("look", LOG);
   file.says("views", { spacing: 1 }, views);
   file.drag([[7, 9]]);
   assert.deepEqual(file.asked("sensor"), []);
@@ -246,14 +228,14 @@ test("a click on the map of views places a sensor there, and on a file's map say
 });
 
 test("a click with the evidence's tool asks about that cell", () => {
-  const desk = with_("evidence");
+  const desk = holding("evidence");
   desk.drag([[7, 9]]);
   assert.deepEqual(desk.session.evidence.cell, { x: 7, y: 9 });
   assert.deepEqual(desk.asked("inspect"), [{ type: "inspect", x: 7, y: 9, each: true }]);
 });
 
 test("the ghost moves as far as the hand that took hold of it, comes to a press beside it, and turns by its handle", () => {
-  const desk = with_("ghost", LOG);
+  const desk = holding("ghost", LOG);
   const { ghost } = desk.session;
   desk.drag([[5, 10]]);
   assert(Math.hypot(ghost.pose!.x - 5, ghost.pose!.y - 10) < 1e-9);
@@ -277,7 +259,7 @@ test("the ghost moves as far as the hand that took hold of it, comes to a press 
 
 test("the beams through a cell are asked for once the pointer rests, and not while it draws", () =>
   timed(() => {
-    const desk = with_("draw");
+    const desk = holding("draw");
     desk.pointer("move", [3, 3]);
     mock.timers.tick(100);
     desk.pointer("move", [4, 3]);
@@ -291,270 +273,3 @@ test("the beams through a cell are asked for once the pointer rests, and not whi
     desk.canvas.dispatch("pointerleave");
     assert.equal(desk.hand.hover, null);
   }));
-
-test("walls are drawn, undone and inferred by keys alone", () => {
-  const desk = with_("pan");
-  desk.key("d");
-  for (const key of ["ArrowUp", "ArrowUp", "ArrowUp", "ArrowLeft"]) desk.key(key);
-  desk.key(" ");
-  desk.key("ArrowLeft");
-  desk.key(" ");
-  assert.deepEqual(desk.walls, [[8, 13], [9, 13]]);
-  desk.key(" "); // again: free
-  assert.deepEqual(desk.walls, [[9, 13]]);
-  desk.key("e");
-  desk.key("ArrowRight");
-  desk.key(" ");
-  assert.deepEqual(desk.walls, []);
-  desk.key("z", { ctrlKey: true });
-  desk.key("y", { metaKey: true });
-  desk.key("Z", { ctrlKey: true, shiftKey: true });
-  desk.key("r");
-  assert.deepEqual(desk.sent.slice(-4).map(({ type }) => type), ["undo", "redo", "redo", "run"]);
-});
-
-test("the robot is moved, turned, added and removed by keys", () => {
-  const desk = with_("sensor");
-  desk.key("ArrowDown");
-  desk.key("ArrowLeft", SHIFT);
-  desk.key("[");
-  const { x, y, yaw } = desk.session.document!.sensors[0];
-  assert.deepEqual([x, y], [5, 9]);
-  assert(Math.abs(yaw - Math.PI / 12) < 1e-12);
-  desk.key("a");
-  desk.key("Delete");
-  assert.deepEqual(desk.asked("sensor").slice(-2).map(({ op }) => op), ["add", "remove"]);
-});
-
-test("Space takes the next sensor, and its name is said", () => {
-  const desk = with_("sensor", { ...NO_WALLS, sensors: [{ id: 1, x: 1, y: 1, yaw: 0 }, { id: 5, x: 3, y: 3, yaw: 0 }] });
-  const said: string[] = [];
-  desk.hand.announce = (text) => said.push(text);
-  desk.key(" ");
-  desk.key(" ");
-  assert.deepEqual(said, ["Sensor 5", "Sensor 1"]);
-});
-
-test("Space erases no wall with a tool that does not draw, and chooses where such a tool asks for a place", () => {
-  for (const tool of ["look", "ghost", "where", "pan", "evidence", "path"] as const) {
-    const desk = with_(tool, { walls: wallsOf([[10, 10]]), sensors: [{ id: 1, x: 3, y: 3, yaw: 0 }] });
-    desk.key(" ");
-    desk.key(" ");
-    assert.deepEqual(desk.walls, [[10, 10]]);
-    assert.deepEqual(desk.asked("walls"), [], tool);
-    if (tool === "evidence") assert.deepEqual(desk.session.evidence.cell, { x: 10, y: 10 });
-    if (tool === "path") assert.deepEqual(desk.session.decisions.start, { x: 10, y: 10 });
-  }
-});
-
-test("the cursor stays on the map, the map comes after it, and Escape puts it away", () => {
-  const desk = with_("draw");
-  for (let i = 0; i < 30; i++) desk.key("ArrowRight");
-  assert.deepEqual(desk.hand.cursor, { x: 20, y: 10 });
-  for (let i = 0; i < 12; i++) desk.view.zoom(1.4, { x: 100, y: 100 }, [21, 21]);
-  desk.key("ArrowDown");
-  const at = desk.at(20, 9);
-  assert(at.x > 0 && at.x < 960 && at.y > 0 && at.y < 800);
-  desk.key("Escape");
-  assert.equal(desk.hand.cursor, null);
-});
-
-test("the cell under the cursor is said once the hand rests", () =>
-  timed(() => {
-    const desk = with_("draw");
-    const said: string[] = [];
-    desk.hand.announce = (text) => said.push(text);
-    desk.hand.describe = ({ x, y }) => `Cell ${x}, ${y}`;
-    desk.key("ArrowRight");
-    desk.key("ArrowRight");
-    mock.timers.tick(200);
-    assert.deepEqual(said, ["Cell 12, 10"]);
-  }));
-
-test("letters choose tools and layers, and what a file or a recording has not got they leave alone", () => {
-  const letters: [string, Tool][] = [["d", "draw"], ["e", "erase"], ["s", "sensor"], ["p", "pan"], ["g", "path"], ["l", "look"], ["w", "where"], ["o", "ghost"], ["v", "evidence"]];
-  const chosen = (desk: Desk, [letter]: [string, Tool]) => {
-    desk.hand.tool = "pan";
-    desk.key(letter.toUpperCase());
-    return desk.hand.tool;
-  };
-  assert.deepEqual(letters.map((entry) => chosen(new Desk(), entry)), letters.map(([, tool]) => tool));
-  assert.deepEqual(letters.map((entry) => chosen(new Desk(LOG), entry)), letters.map(([, tool], i) => (i < 3 ? "pan" : tool)));
-  const recorded = () => {
-    const desk = new Desk(LOG);
-    desk.session.recorded = true;
-    return desk;
-  };
-  assert.deepEqual(letters.map((entry) => chosen(recorded(), entry)), letters.map(() => "pan"));
-  const silent = recorded();
-  silent.sent.length = 0;
-  for (const key of ["r", "Escape"]) silent.key(key);
-  silent.key("z", { ctrlKey: true });
-  assert.deepEqual(silent.sent, []);
-  const desk = new Desk();
-  desk.sent.length = 0;
-  for (const key of ["m", "n", "h"]) desk.key(key);
-  assert.deepEqual(desk.asked("view").map(({ layer }) => layer), ["mean", "draw", "entropy"]);
-});
-
-test("H shows the width where entropy would mean nothing", () => {
-  const desk = new Desk();
-  desk.field({ quantity: { kind: "surface", mean: "m", value: "v", interval: true } });
-  desk.key("h");
-  assert.equal(desk.asked("view").at(-1)!.layer, "width");
-});
-
-test("Escape cancels what runs, and + - 0 ? are the page's commands", () => {
-  const desk = new Desk();
-  desk.key("Escape");
-  assert.deepEqual(desk.asked("cancel"), []);
-  desk.state({ running: true, working: true });
-  desk.key("Escape");
-  assert.deepEqual(desk.asked("cancel"), [{ type: "cancel" }]);
-  for (const key of ["+", "=", "-", "0", "?"]) desk.key(key);
-  assert.deepEqual(desk.commands, ["in", "in", "out", "fit", "help"]);
-});
-
-test("what is typed into a field is no key of the page, and a slider's is", () => {
-  const desk = new Desk();
-  const typed = (element: Element, key: string, fields = {}) => desk.pageKey(element.dispatch("keydown", { key, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...fields }));
-  const input = (type: string) => Object.assign(document.createElement("input") as unknown as Element, { type });
-  desk.sent.length = 0;
-  typed(input("number"), "r");
-  typed(input("number"), "z", { ctrlKey: true });
-  typed(document.createElement("select") as unknown as Element, "m");
-  assert.deepEqual(desk.sent, []);
-  typed(input("range"), "r");
-  assert.deepEqual(desk.asked("run"), [{ type: "run" }]);
-});
-
-/** A desk with some draws. */
-function drawn(count = 4) {
-  const desk = new Desk();
-  desk.field();
-  desk.state({ draws: { chains: 2, count } });
-  desk.sent.length = 0;
-  return desk;
-}
-/** The server shows what was asked for last. */
-const answer = (desk: Desk) => {
-  const { layer, chain, draw } = desk.asked("view").at(-1) as any;
-  desk.state({ draws: desk.session.draws, view: { layer, chain, draw } });
-  desk.field({ layer, chain, draw: layer === "draw" ? (draw ?? desk.session.draws.count - 1) : undefined });
-};
-const lastView = (desk: Desk) => {
-  const { layer, draw } = desk.asked("view").at(-1) ?? ({} as any);
-  return [layer, draw];
-};
-
-test("draws are played one after another, and it stops at the last", () =>
-  timed(() => {
-    const desk = drawn();
-    const { player } = desk;
-    player.play(true);
-    const seen = [];
-    for (let i = 0; i < 12 && player.playing; i++) {
-      answer(desk);
-      seen.push(desk.session.shown!.draw);
-      mock.timers.tick(100);
-    }
-    assert.deepEqual(seen, [0, 1, 2, 3]);
-    assert.equal(player.playing, false);
-  }));
-
-test("no draw is asked for before the last one was painted", () =>
-  timed(() => {
-    const desk = drawn();
-    desk.player.play(true);
-    mock.timers.tick(5000);
-    assert.equal(desk.asked("view").length, 1);
-  }));
-
-test("over the mean draws have no end", () =>
-  timed(() => {
-    const desk = drawn();
-    const { player } = desk;
-    player.over(true);
-    answer(desk);
-    assert(desk.session.flicker.under);
-    player.play(true);
-    const seen = [];
-    for (let i = 0; i < 9; i++) {
-      answer(desk);
-      seen.push(desk.session.shown!.draw);
-      mock.timers.tick(100);
-    }
-    assert.deepEqual(seen, [0, 1, 2, 3, 0, 1, 2, 3, 0]);
-    player.play(false);
-    answer(desk);
-    const asked = desk.asked("view").length;
-    mock.timers.tick(5000);
-    assert.equal(desk.asked("view").length, asked);
-  }));
-
-test("without draws over the mean, the layer before is back; one that was chosen since stays", () => {
-  for (const before of ["mean", "entropy", "draw"] as const) {
-    const desk = drawn();
-    desk.player.showLayer(before);
-    answer(desk);
-    desk.player.over(true);
-    answer(desk);
-    assert.deepEqual([desk.session.view.layer, Boolean(desk.session.flicker.under)], ["draw", true], before);
-    desk.player.over(false);
-    answer(desk);
-    assert.deepEqual([desk.session.view.layer, desk.session.flicker.under], [before, null]);
-  }
-  const desk = drawn();
-  desk.player.over(true);
-  answer(desk);
-  desk.player.showLayer("entropy");
-  answer(desk);
-  desk.player.over(false);
-  assert.equal(desk.session.view.layer, "entropy");
-});
-
-test("a page that has seen no mean of this picture fetches it before draws lie on it", () => {
-  const desk = new Desk();
-  desk.confirm({ prior: 0.2 }, { draws: { chains: 1, count: 4 }, view: { layer: "draw", chain: 0, draw: 2 } });
-  desk.field({ layer: "draw", chain: 0, draw: 2 });
-  desk.player.over(true);
-  assert.deepEqual(lastView(desk)[0], "mean");
-  answer(desk);
-  assert.equal(lastView(desk)[0], "draw");
-  answer(desk);
-  assert(desk.session.flicker.under);
-});
-
-test("who wants nothing to move by itself is shown one draw at a time", () =>
-  timed(() => {
-    browser.still = true;
-    try {
-      const desk = drawn(3);
-      desk.player.showDraw(1);
-      answer(desk);
-      for (const draw of [2, 0, 1]) {
-        desk.player.play(true);
-        assert.deepEqual(lastView(desk), ["draw", draw]);
-        answer(desk);
-      }
-      const asked = desk.asked("view").length;
-      mock.timers.tick(5000);
-      assert.equal(desk.asked("view").length, asked);
-      assert.equal(desk.player.playing, false);
-    } finally {
-      browser.still = false;
-    }
-  }));
-
-test("the first sweeps of a chain are played from the first draw", () => {
-  const desk = drawn();
-  desk.player.playFromStart();
-  assert.deepEqual([lastView(desk), desk.player.playing], [["draw", 0], true]);
-});
-
-test("draws cannot be shown where none can be", () => {
-  const desk = new Desk({ method: "propagate" });
-  desk.sent.length = 0;
-  desk.player.showLayer("draw");
-  assert.deepEqual(desk.asked("view"), []);
-});

@@ -25,7 +25,7 @@ try {
     logLevel: "warning",
   });
   const bundles = tests.map((name) => join(folder, name.replace(/ts$/, "mjs")));
-  const { status } = spawnSync(process.execPath, ["--enable-source-maps", "--test", "--test-reporter=spec", ...process.argv.slice(2), ...bundles], { stdio: "inherit" });
+  const { status } = spawnSync(process.execPath, ["--enable-source-maps", "--no-warnings", "--test", "--test-reporter=spec", ...process.argv.slice(2), ...bundles], { stdio: "inherit" });
   process.exitCode = status ?? 1;
 } finally {
   await rm(folder, { recursive: true });
