@@ -56,8 +56,8 @@ def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
     playwright.expect(said).to_contain_text("One more scan would tell")
 
 
-def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
-    page = open_page(server, document(noise=0.1, prior=0.1))
+def test_a_wall_drawn_across_is_decided_about_anew(open_page):
+    page = open_page(document(noise=0.1, prior=0.1))
     settled(page)
     page.get_by_role("radio", name="Path").check()
     click(page, 6, 15)

@@ -21,15 +21,15 @@ from page_driver import (
 from PIL import Image
 
 
-def blank(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS))
+def blank(open_page):
+    page = open_page(document(walls=NO_WALLS))
     page.get_by_role("radio", name="Draw", exact=True).check()
     settled(page)
     return page
 
 
-def test_a_fast_drag_over_twenty_cells_leaves_no_gaps_and_one_undo_restores(open_page, server):
-    page = blank(open_page, server)
+def test_a_fast_drag_over_twenty_cells_leaves_no_gaps_and_one_undo_restores(open_page):
+    page = blank(open_page)
     before = snapshot(page)
     assert before["walls"].sum() == 0
     press_and_drag(page, [(0, 4), (6, 4), (19, 4)])  # the browser says where the hand was only twice
@@ -45,8 +45,8 @@ def test_a_fast_drag_over_twenty_cells_leaves_no_gaps_and_one_undo_restores(open
     assert settled(page)["walls"].sum() == 20
 
 
-def test_an_oblique_stroke_is_connected_by_edges_or_corners(open_page, server):
-    page = blank(open_page, server)
+def test_an_oblique_stroke_is_connected_by_edges_or_corners(open_page):
+    page = blank(open_page)
     press_and_drag(page, [(1, 1), (14, 6), (3, 19)])
     until(page, "s.seq.confirmed === s.seq.sent")
     cells = np.argwhere(settled(page)["walls"])
@@ -60,8 +60,8 @@ def test_an_oblique_stroke_is_connected_by_edges_or_corners(open_page, server):
     assert len(reached) == len(cells) > 25
 
 
-def test_the_wall_is_on_the_screen_before_the_server_has_said_so(open_page, server):
-    page = blank(open_page, server)
+def test_the_wall_is_on_the_screen_before_the_server_has_said_so(open_page):
+    page = blank(open_page)
     page.mouse.move(*centre(page, 3, 3))
     page.mouse.down()
     page.mouse.move(*centre(page, 3, 12))
@@ -123,8 +123,8 @@ def test_a_click_shows_no_frame_around_the_map_and_a_key_does(page):
     assert page.evaluate(outline) != "none"
 
 
-def test_no_wall_is_drawn_onto_the_robot(open_page, server):
-    page = blank(open_page, server)
+def test_no_wall_is_drawn_onto_the_robot(open_page):
+    page = blank(open_page)
     press_and_drag(page, [(5, 10), (15, 10)])
     until(page, "s.seq.confirmed === s.seq.sent")
     walls = settled(page)["walls"]
@@ -223,8 +223,8 @@ def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
 
 
 @pytest.mark.parametrize("height", [860, 861, 777])
-def test_zoom_and_cursors_leave_nothing_behind(open_page, server, height):
-    page = open_page(server, document(), viewport={"width": 1280, "height": height})
+def test_zoom_and_cursors_leave_nothing_behind(open_page, height):
+    page = open_page(document(), viewport={"width": 1280, "height": height})
     settled(page)
     still(page)
     stage = page.locator("main.stage")
@@ -244,8 +244,8 @@ def test_zoom_and_cursors_leave_nothing_behind(open_page, server, height):
     assert np.abs(picture_of(page, stage) - before).max() <= 3
 
 
-def test_a_cursor_that_stays_would_be_noticed(open_page, server):
-    page = open_page(server, document())
+def test_a_cursor_that_stays_would_be_noticed(open_page):
+    page = open_page(document())
     settled(page)
     stage = page.locator("main.stage")
     before = picture_of(page, stage)

@@ -27,7 +27,7 @@ def is_nearer(colour, one, other):
     return np.abs(colour - one).sum() < np.abs(colour - other).sum()
 
 
-def test_a_click_shows_each_beam_and_its_nats(open_page, server):
+def test_a_click_shows_each_beam_and_its_nats(open_page):
     asked = document(method="propagate")
     scene, preview = propagated(asked)
     p_wall = preview.p_wall()
@@ -56,8 +56,8 @@ def test_a_click_shows_each_beam_and_its_nats(open_page, server):
     assert not page.locator("canvas.rays").is_visible()  # the others would hide them
 
 
-def test_beams_for_are_blue_and_against_orange(open_page, server):
-    page = open_page(server, document(method="propagate"))
+def test_beams_for_are_blue_and_against_orange(open_page):
+    page = open_page(document(method="propagate"))
     before = settled(page)
     for label in ("True walls", "Readings"):
         page.get_by_role("checkbox", name=label).uncheck()
@@ -74,8 +74,8 @@ def test_beams_for_are_blue_and_against_orange(open_page, server):
         assert is_nearer(colour, own, other), colour
 
 
-def test_the_keyboard_asks_too_and_another_tool_puts_it_away(open_page, server):
-    page = open_page(server, document(method="propagate"))
+def test_the_keyboard_asks_too_and_another_tool_puts_it_away(open_page):
+    page = open_page(document(method="propagate"))
     settled(page)
     page.locator("canvas[role=application]").press("v")
     for _ in range(2):

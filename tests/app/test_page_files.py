@@ -110,7 +110,7 @@ CUT_ONCE = """
 """
 
 
-def test_a_link_to_another_file_says_what_to_start(open_page, server):
+def test_a_link_to_another_file_says_what_to_start(open_page):
     elsewhere = document(source={"kind": "log", "name": "office.log.gz", "scans": 910}, walls="", sensors=[])
     page = open_page(server + fragment(elsewhere))
     page.get_by_role("status").get_by_text("start bayesmap app with office.log.gz").wait_for()

@@ -122,8 +122,8 @@ def test_it_follows_a_live_posterior(page):
     assert fan(page)["draws"] > 0
 
 
-def test_without_a_posterior_the_page_says_so(open_page, server):
-    page = open_page(server, document())
+def test_without_a_posterior_the_page_says_so(open_page):
+    page = open_page(document())
     settled(page)
     page.get_by_role("button", name="Clear inference").click()
     settled_by = "s.painted.method === 'none' && s.painted.generation === s.generation"

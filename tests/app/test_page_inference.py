@@ -11,8 +11,8 @@ def run(page):
     page.get_by_role("button", name="Run", exact=True).click()
 
 
-def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, server):
-    page = open_page(server, document(sweeps=20))
+def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page):
+    page = open_page(document(sweeps=20))
     run(page)
     until(
         page, "!s.running && s.draws.count === 20 && s.painted.sweeps === 20 && s.painted.generation === s.generation"
@@ -37,8 +37,8 @@ def test_the_last_draw_is_valid_and_the_mean_is_the_draws_average(open_page, ser
     until(page, "s.painted.layer === 'mean'")
 
 
-def test_draws_are_played_one_after_another(open_page, server):
-    page = open_page(server, document(sweeps=6))
+def test_draws_are_played_one_after_another(open_page):
+    page = open_page(document(sweeps=6))
     run(page)
     until(page, "!s.running && s.draws.count === 6")
     watch(page, "s.painted.layer === 'draw' ? s.painted.draw : -1")
@@ -48,8 +48,8 @@ def test_draws_are_played_one_after_another(open_page, server):
     show_layer(page, "Mean")
 
 
-def test_cancel_keeps_the_partial_chain(open_page, server):
-    page = open_page(server, document(sweeps=100_000, angles=1000))
+def test_cancel_keeps_the_partial_chain(open_page):
+    page = open_page(document(sweeps=100_000, angles=1000))
     run(page)
     until(page, "s.running && s.painted.method === 'gibbs' && s.painted.generation === s.generation")
     assert page.get_by_role("progressbar").evaluate("(bar) => bar.value") < 1
@@ -61,8 +61,8 @@ def test_cancel_keeps_the_partial_chain(open_page, server):
     assert snapshot(page)["painted"]["sweeps"] == partial["painted"]["sweeps"]
 
 
-def test_editing_during_inference_paints_no_old_generation(open_page, server):
-    page = open_page(server, document(sweeps=100_000, angles=400, walls=NO_WALLS))
+def test_editing_during_inference_paints_no_old_generation(open_page):
+    page = open_page(document(sweeps=100_000, angles=400, walls=NO_WALLS))
     run(page)
     until(page, "s.running && s.painted.sweeps > 0")
     page.evaluate("""() => {
@@ -90,7 +90,7 @@ def test_editing_during_inference_paints_no_old_generation(open_page, server):
     page.get_by_role("button", name="Cancel").click()
 
 
-def test_three_by_three_equals_exact_enumeration(open_page, server):
+def test_three_by_three_equals_exact_enumeration(open_page):
     """Worst of 8 cells, sweeps counted as 1/4 independent: 5 standard errors, a false alarm in 200 000 runs."""
     small = document(
         grid={"shape": [3, 3], "resolution": 1.0, "origin": [-0.5, -0.5]},
@@ -126,8 +126,8 @@ def test_entropy_is_highest_where_nothing_is_known(page):
     until(page, "s.painted.layer === 'mean'")
 
 
-def test_progress_is_said_in_words(open_page, server):
-    page = open_page(server, document(sweeps=100_000, angles=1000))
+def test_progress_is_said_in_words(open_page):
+    page = open_page(document(sweeps=100_000, angles=1000))
     run(page)
     page.get_by_text(" of 100000 sweeps").wait_for()
     page.get_by_text("s left").wait_for()

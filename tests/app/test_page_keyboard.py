@@ -4,8 +4,8 @@ import numpy as np
 from page_driver import NO_WALLS, act, document, settled, snapshot, until
 
 
-def test_a_map_is_drawn_undone_and_inferred_by_keys_alone(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS))
+def test_a_map_is_drawn_undone_and_inferred_by_keys_alone(open_page):
+    page = open_page(document(walls=NO_WALLS))
     settled(page)
     page.keyboard.press("d")  # draw, and the map has the focus
     for key in ("ArrowUp", "ArrowUp", "ArrowUp", "ArrowLeft"):

@@ -51,8 +51,8 @@ def test_the_map_stays_where_it_is_while_the_legend_of_a_run_grows(open_page, ro
     unmoved("width of the 90 % interval")
 
 
-def test_it_stays_on_a_drawn_map_too(open_page, server, legend):
-    page = open_page(server, document(), viewport={"width": 1000, "height": 860})
+def test_it_stays_on_a_drawn_map_too(open_page, legend):
+    page = open_page(document(), viewport={"width": 1000, "height": 860})
     settled(page)
     heights = page.evaluate(HEIGHTS)
     for tool, known, words in (

@@ -37,8 +37,8 @@ def help_of(page):
     return dialog
 
 
-def test_help_and_share_speak_of_what_is_open(open_page, server, log, room):
-    drawn, of_log, of_run = open_page(server, document()), open_page(log), open_page(room[1])
+def test_help_and_share_speak_of_what_is_open(open_page, log, room):
+    drawn, of_log, of_run = open_page(document()), open_page(log), open_page(room[1])
     for page, wanted, unwanted in (
         (drawn, ["Draw walls", "draw, erase, sensor", "run, cancel", "Shift or the right"], ["this log", "saved run"]),
         (of_log, ["scans of this log", "run, cancel", "pan, path"], ["Draw walls", "draw, erase", "add, remove"]),
@@ -77,8 +77,8 @@ def test_the_bar_on_a_runs_trace_is_at_the_draw_on_show(open_page, room):
     assert middle == pytest.approx(right, abs=3)  # the last draw is at the axis's end
 
 
-def test_chains_that_were_cancelled_are_said_to_have_stopped(open_page, server):
-    page = open_page(server, document(sweeps=100_000))
+def test_chains_that_were_cancelled_are_said_to_have_stopped(open_page):
+    page = open_page(document(sweeps=100_000))
     until(page, "s.painted.sweeps > 20")
     cancel = page.get_by_role("button", name="Cancel")
     cancel.click()
@@ -115,8 +115,8 @@ def test_a_new_map_where_a_log_was_opened_is_its_own(open_page, log):
     until(page, "s.document.source.kind === 'log' && s.overlay?.trajectory === 12")
 
 
-def test_space_chooses_where_to_look_from(open_page, server):
-    page = open_page(server, document())
+def test_space_chooses_where_to_look_from(open_page):
+    page = open_page(document())
     settled(page)
     page.keyboard.press("l")
     until(page, "s.decisions.views?.nats.length > 5")
@@ -125,8 +125,8 @@ def test_space_chooses_where_to_look_from(open_page, server):
     assert len(settled(page)["sensors"]) == 2
 
 
-def test_space_erases_no_wall_with_a_tool_that_does_not_draw(open_page, server):
-    page = open_page(server, document())
+def test_space_erases_no_wall_with_a_tool_that_does_not_draw(open_page):
+    page = open_page(document())
     before = settled(page)
     wall = next((x, 10) for x in range(11, 21) if before["walls"][x, 10])
     page.keyboard.press("l")
@@ -141,8 +141,8 @@ def test_space_erases_no_wall_with_a_tool_that_does_not_draw(open_page, server):
     assert snapshot(page)["seq"]["sent"] == before["seq"]["sent"]
 
 
-def test_the_legend_names_what_each_tool_paints(open_page, server):
-    page = open_page(server, document())
+def test_the_legend_names_what_each_tool_paints(open_page):
+    page = open_page(document())
     settled(page)
     legend = page.get_by_role("list", name="Legend")
     for key, words, known in (

@@ -66,8 +66,8 @@ CUT = """
 """
 
 
-def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_meanwhile(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS))
+def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_meanwhile(open_page):
+    page = open_page(document(walls=NO_WALLS))
     settled(page)
     page.get_by_role("radio", name="Draw", exact=True).check()
     page.evaluate(CUT)
@@ -93,8 +93,8 @@ def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_mea
     assert np.array_equal(snapshot(open_page(server))["walls"], after)  # the server has it too
 
 
-def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_page, server):
-    page = open_page(server, document(prior=0.3), quiet=False)
+def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_page):
+    page = open_page(document(prior=0.3), quiet=False)
     settled(page)
     page.evaluate("""() => {
       const send = WebSocket.prototype.send;

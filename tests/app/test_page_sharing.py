@@ -77,7 +77,7 @@ def test_a_token_that_is_refused_is_not_tried_for_ever(browser, server):
 
 
 @pytest.mark.parametrize("damage", ["nonsense", "eyJ2ZXJzaW9uIjoxfQ", None])
-def test_a_damaged_link_says_so_and_the_page_works(open_page, server, damage):
+def test_a_damaged_link_says_so_and_the_page_works(open_page, damage):
     damaged = fragment({"version": 1, "grid": "none"}) if damage is None else f"#m={damage}"
     page = open_page(server + damaged)
     page.get_by_role("status").get_by_text("cannot be read" if damage else "Grid: not an object").wait_for()

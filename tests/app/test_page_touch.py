@@ -9,8 +9,8 @@ PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobil
 
 
 @pytest.fixture
-def phone(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS), **PHONE)
+def phone(open_page):
+    page = open_page(document(walls=NO_WALLS), **PHONE)
     settled(page)
     return page
 
@@ -79,8 +79,8 @@ SIZES = pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], i
 
 
 @SIZES
-def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, height):
-    page = open_page(server, document(), **{**PHONE, "viewport": {"width": width, "height": height}})
+def test_the_map_is_large_and_every_tool_is_there(open_page, width, height):
+    page = open_page(document(), **{**PHONE, "viewport": {"width": width, "height": height}})
     settled(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     for role, name in (

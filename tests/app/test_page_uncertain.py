@@ -13,8 +13,8 @@ def sure(shown):
     return shown["probability"][(shown["walls"] > 0) & (shown["observed"] > 0)].mean() / 255
 
 
-def test_walls_blur_while_the_slider_is_moved_and_0_gives_the_same_bits_again(open_page, server):
-    page = open_page(server, document(sweeps=60))
+def test_walls_blur_while_the_slider_is_moved_and_0_gives_the_same_bits_again(open_page):
+    page = open_page(document(sweeps=60))
     known = settled(page)
     slider = page.get_by_role("slider", name="Position \u00b1")
     blurred = []
@@ -53,8 +53,8 @@ def test_a_method_that_takes_poses_as_known_says_so(page):
     put(page, "Position", 0)
 
 
-def test_while_the_slider_is_dragged_no_picture_of_known_poses_comes_between(open_page, server):
-    page = open_page(server, document(sweeps=200, pose_sigma=0.6))
+def test_while_the_slider_is_dragged_no_picture_of_known_poses_comes_between(open_page):
+    page = open_page(document(sweeps=200, pose_sigma=0.6))
     settled(page)
     slider = page.get_by_role("slider", name="Position \u00b1")
     methods = set()

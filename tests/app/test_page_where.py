@@ -47,8 +47,8 @@ def test_the_robot_of_the_tutorial_has_one_place(page):
     until(page, "!s.where.found")
 
 
-def test_a_square_room_has_four_places_with_probabilities(open_page, server):
-    page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
+def test_a_square_room_has_four_places_with_probabilities(open_page):
+    page = open_page(document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
     settled(page)
     ask(page)
     answer = found(page)
@@ -67,8 +67,8 @@ def sensor(x, y, yaw=0.2):
     return {"id": 1, "x": x, "y": y, "yaw": yaw}
 
 
-def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page, server):
-    page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8, 9)]))
+def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page):
+    page = open_page(document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8, 9)]))
     settled(page)
     ask(page)
     found(page)
@@ -90,8 +90,8 @@ def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page, server):
     assert found(page)["pose"][0] == pytest.approx(13.0, abs=0.05)
 
 
-def test_a_room_that_loses_its_symmetry_loses_places(open_page, server):
-    page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
+def test_a_room_that_loses_its_symmetry_loses_places(open_page):
+    page = open_page(document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
     settled(page)
     page.get_by_role("radio", name="Draw", exact=True).check()
     page.mouse.click(*centre(page, 13, 6))

@@ -32,7 +32,7 @@ def number(text):
 
 
 @pytest.mark.parametrize("cell", ["wall", "free"])
-def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, server, cell):
+def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, cell):
     asked = document(method="propagate")
     scene, preview = propagated(asked)
     p_wall = preview.p_wall()
@@ -70,8 +70,8 @@ def labels(page, part):
 
 
 @pytest.mark.parametrize("noise", [0.2, 0.002], ids=["short numbers", "long numbers"])
-def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, server, noise):
-    page = open_page(server, document(noise=noise, method="gibbs", start="prior", sweeps=1000))
+def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, noise):
+    page = open_page(document(noise=noise, method="gibbs", start="prior", sweeps=1000))
     settled(page)
     page.evaluate(LABELS)
     act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
