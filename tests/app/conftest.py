@@ -29,9 +29,7 @@ def browser():
     playwright = pytest.importorskip("playwright.sync_api")
     playwright.expect.set_options(timeout=1000 * WAIT_SECONDS)
     with playwright.sync_playwright() as started:
-        launched = started.chromium.launch(
-            executable_path=CHROMIUM, args=list(ARGUMENTS), timeout=1000 * WAIT_SECONDS
-        )
+        launched = started.chromium.launch(executable_path=CHROMIUM, args=list(ARGUMENTS), timeout=1000 * WAIT_SECONDS)
         yield launched
         launched.close()
 

@@ -2,14 +2,14 @@
 
 import os
 import signal
-import subprocess
-import sys
 
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, fragment, pid_of_worker, served, snapshot, until, watch
+from click.testing import CliRunner
+from page_driver import act, fragment, served, snapshot, until, watch
 
+from bayesmap.cli.group import cli
 from bayesmap.space.planar import between
 
 WORDS = {
@@ -26,8 +26,8 @@ def log(tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "raw.log"
     size = ["--size", "14x10", "--scans", "110", "--angles", "120", "--max-range", "10"]
     raw = ["--odometry", "typical,drift_rad_per_m=0.04"]
-    command = [sys.executable, "-m", "bayesmap", "simulate", "--world", "building", *size, *raw, "-o", path]
-    subprocess.run(command, check=True, capture_output=True)
+    done = CliRunner().invoke(cli, ["simulate", "--world", "building", *size, *raw, "-o", str(path)])
+    assert done.exit_code == 0, done.output
     return path
 
 
@@ -40,8 +40,8 @@ def heard():
 @pytest.fixture
 def raw(open_page, log, heard):
     """The page of such a log, and the server's process."""
-    with served(log) as (address, process):
-        yield open_page(address, heard=heard), process, address
+    with served(log) as (address, server):
+        yield open_page(address, heard=heard), server, address
 
 
 def stages(heard):
@@ -110,6 +110,7 @@ def test_run_shows_every_stage_and_ends_where_the_robot_was(raw, log, heard):
     assert np.array_equal(again["probability"], after["probability"])
 
 
+@pytest.mark.full
 def test_cancel_is_prompt_and_what_there_is_stays(raw):
     page, _, _ = raw
     few_sweeps(page)
@@ -125,17 +126,18 @@ def test_cancel_is_prompt_and_what_there_is_stays(raw):
     assert done(page)["status"]["text"].startswith("Trajectory inferred")
 
 
+@pytest.mark.full
 def test_a_worker_that_is_killed_on_the_way_begins_anew(raw, heard):
-    page, process, _ = raw
+    page, server, _ = raw
     few_sweeps(page)
     run(page)
     until(page, "s.stage")
-    os.kill(pid_of_worker(process), signal.SIGKILL)
+    os.kill(server.worker, signal.SIGKILL)
     page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
     first = done(page)
     # Killed afterwards, the next one knows the trajectory.
     heard.clear()
-    os.kill(pid_of_worker(process), signal.SIGKILL)
+    os.kill(server.worker, signal.SIGKILL)
     page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
     until(page, "s.worker === 'ready' && s.generation > argument", first["generation"])
     until(page, "s.painted.method === 'gibbs' && s.painted.generation === s.generation")
@@ -146,6 +148,7 @@ def test_a_worker_that_is_killed_on_the_way_begins_anew(raw, heard):
 CONFIRMED = "s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation"
 
 
+@pytest.mark.full
 def test_the_choice_is_undone_and_travels_in_links(raw):
     page, _, _ = raw
     few_sweeps(page)
@@ -168,6 +171,7 @@ def test_the_choice_is_undone_and_travels_in_links(raw):
     assert snapshot(page)["document"]["grid"] == inferred["document"]["grid"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_it_can_be_read_in_light_and_dark(open_page, log, scheme):
     from axe_playwright_python.sync_playwright import Axe
