@@ -35,6 +35,13 @@ def browser():
 
 
 @pytest.fixture
+def server(browser):
+    """The address of a server."""
+    with served() as (address, _):
+        yield address
+
+
+@pytest.fixture
 def open_page(browser):
     """Opens addresses, and documents in servers of their own, in contexts of their own.
 

@@ -15,6 +15,7 @@ from page_driver import (
     act,
     centre,
     document,
+    fragment,
     press_and_drag,
     served,
     settled,
@@ -26,7 +27,7 @@ from page_socket import serving
 
 def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(open_page, browser):
     with served() as (address, server):
-        page = open_page(address, document())
+        page = open_page(address + fragment(document()))
         page.get_by_role("radio", name="Draw", exact=True).check()
         act(page, lambda: press_and_drag(page, [(7, 7), (9, 7)]))
         before = settled(page)
@@ -43,7 +44,7 @@ def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(ope
 @pytest.mark.full
 def test_a_worker_that_hangs_is_replaced_and_the_map_is_as_it_was(open_page, browser):
     with served() as (address, server):
-        page = open_page(address, document())
+        page = open_page(address + fragment(document()))
         before = settled(page)
         hanging = server.worker
         os.kill(hanging, signal.SIGSTOP)
@@ -117,7 +118,7 @@ def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_pag
 def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_meanwhile(open_page, browser):
     """The command itself, killed as by a machine that is switched off."""
     with serving() as (process, address):
-        page = open_page(address, document(walls=NO_WALLS), quiet=False)
+        page = open_page(address + fragment(document(walls=NO_WALLS)), quiet=False)
         settled(page)
         process.kill()
         process.wait()
@@ -140,7 +141,7 @@ def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_m
 @pytest.mark.full
 def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
     with served() as (address, server):
-        page = open_page(address, document(walls=NO_WALLS), quiet=False)
+        page = open_page(address + fragment(document(walls=NO_WALLS)), quiet=False)
         settled(page)
         server.stop()
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
@@ -160,7 +161,7 @@ def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
 @pytest.mark.full
 def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_there(open_page, browser, tmp_path):
     with served() as (address, server):
-        page = open_page(address, document(walls=NO_WALLS, sweeps=100_000), quiet=False)
+        page = open_page(address + fragment(document(walls=NO_WALLS, sweeps=100_000)), quiet=False)
         until(page, "s.painted.sweeps > 20")
         server.stop()
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
