@@ -1,7 +1,9 @@
 """The widget in marimo and in JupyterLab: it infers, it is drawn on, it shows a run, and it asks nobody else."""
 
+import base64
 import contextlib
 import os
+import queue
 import time
 from pathlib import Path
 
@@ -9,7 +11,7 @@ import notebook_driver
 import numpy as np
 import page_driver
 import pytest
-from page_driver import DESKTOP, act, brightness_at, press_and_drag, settled, show_layer, snapshot, until
+from page_driver import DESKTOP, act, brightness_at, document, press_and_drag, settled, show_layer, snapshot, until
 from page_socket import children
 
 import bayesmap as bm
@@ -55,9 +57,8 @@ def show(browser, tmp_path, monkeypatch):
     assert troubles == []
 
 
-@pytest.mark.parametrize(
-    "home", ["marimo run", *(pytest.param(home, marks=pytest.mark.full) for home in ("marimo edit", "jupyterlab"))]
-)
+@pytest.mark.full
+@pytest.mark.parametrize("home", HOMES)
 def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
     page = show(home, LIVE)
     settled(page)  # panels have found their places
@@ -131,3 +132,58 @@ def runs(pid):
     except ProcessLookupError:
         return False
     return True
+
+
+MOUNT = """async () => {
+  // the widget's view, as anywidget makes one, with a model whose messages the test carries
+  const { default: widget } = await import(document.querySelector("script[type=module]").src);
+  const listeners = [];
+  window.model = {
+    sent: [],
+    on: (event, listener) => listeners.push(listener),
+    off: () => {},
+    send: (message) => model.sent.push(message),
+    deliver: (message, packed) => {
+      const views = packed.map((text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer));
+      for (const listener of listeners) listener(message, views);
+    },
+  };
+  const element = document.body.appendChild(document.createElement("div"));
+  window.close_it = widget.render({ model, el: element });
+}"""
+
+
+def test_the_widget_s_view_is_drawn_on_and_its_map_inferred(open_page, monkeypatch):
+    """Without a notebook: what its kernel does between the widget and its view is done here."""
+    page, widget, said = open_page(document()), bm.MapWidget(seed=3), queue.Queue()
+    monkeypatch.setattr(widget, "send", lambda content, buffers=None: said.put((content, buffers or [])))
+
+    def carried_until(condition):
+        deadline = time.monotonic() + page_driver.WAIT_SECONDS
+        while not page.evaluate(f"() => {{ const s = bayesmap.snapshot(); return Boolean({condition}); }}"):
+            assert time.monotonic() < deadline, f"never: {condition}"
+            for message in page.evaluate("model.sent.splice(0)"):
+                widget._handle_custom_msg(message, [])
+            page.wait_for_timeout(40)
+            while not said.empty():
+                content, buffers = said.get()
+                packed = [base64.b64encode(data).decode() for data in buffers]
+                page.evaluate("([content, packed]) => model.deliver(content, packed)", [content, packed])
+
+    try:
+        page.evaluate(MOUNT)
+        carried_until("s.document?.seed === 3 && s.painted?.sweeps >= 100")
+        shown = snapshot(page)
+        seen, walls = shown["observed"] == 1, shown["walls"] == 1
+        assert (shown["probability"][seen & walls] / 255).mean() > 0.7
+        assert (shown["probability"][seen & ~walls] / 255).mean() < 0.05
+        assert page.get_by_role("button", name="Share").count() == 1  # of the page around it
+        page.locator("canvas[role=application]").last.scroll_into_view_if_needed()
+        page.get_by_role("radio", name="Draw", exact=True).last.check()
+        press_and_drag(page, [(6, 12), (9, 12)])
+        carried_until("s.seq.sent === s.seq.confirmed && s.painted.generation === s.generation && s.walls[6 * 21 + 12]")
+        assert widget.document == snapshot(page)["document"]
+        page.evaluate("close_it()")
+        assert page.locator("canvas[role=application]").count() == 1
+    finally:
+        widget.close()
