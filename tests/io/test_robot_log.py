@@ -118,6 +118,36 @@ def test_readings_counted_off_by_one_are_accepted_with_a_note(tmp_path, beams):
     assert "one beam " + ("more" if beams == 40 else "less") in reading.notes[0]
 
 
+@pytest.mark.parametrize(
+    ("first", "step", "beams", "last", "note"),
+    [
+        (-math.pi, -0.0043, 1455, math.pi, "angle_increment is negative, but angle_max lies the other way"),
+        (math.pi, 0.03, 200, -math.pi, "angle_increment is positive, but angle_max lies the other way"),
+        (-1.0, -0.05, 41, 1.0, "angle_increment is negative, but angle_max lies the other way"),
+        (-math.pi, 0.00869, 719, math.pi, "angle_max does not fit the number of readings"),
+        (-2.0, 0.1, 30, 2.0, "angle_max does not fit the number of readings"),
+        (-2.0, 0.1, 41, math.nan, "angle_max is nan"),
+        (0.0, 2 * math.pi / 450, 458, 6.3, "angle_max does not fit the number of readings"),  # beams overlap
+        (-2.0, 0.0, 41, 2.0, "angle_increment is 0; it was taken from angle_min and angle_max"),
+        (3.0, 0.1, 10, 3.9 - 2 * math.pi, None),  # the beams pass behind the sensor
+    ],
+)
+def test_beams_point_where_the_message_is_defined_to_say_and_what_contradicts_it_is_noted(
+    tmp_path, first, step, beams, last, note
+):
+    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
+    for t in r.SCAN_TIMES:
+        scan = r.laser(t, np.linspace(2.0, 3.0, beams), r.ANGLES)
+        messages.append(("/scan", r.SCAN, t, {**scan, "angle_min": first, "angle_increment": step, "angle_max": last}))
+    reading = describe_log(r.written(tmp_path, messages))
+    angles = first + (step or (last - first) / (beams - 1)) * np.arange(beams)
+    np.testing.assert_allclose(reading.scans.angles_rad, angles, atol=1e-4)  # a step in single precision, 1455 times
+    assert [line for line in reading.notes if "angle_" in line] == [
+        line for line in reading.notes if note and note in line
+    ]
+    assert bool(note) == any("angle_" in line for line in reading.notes)
+
+
 def test_a_scanner_that_turns_clockwise_sees_the_same_world(tmp_path):
     messages, scans = r.robot()
     messages = [m for m in messages if m[0] != "/scan"]

@@ -102,8 +102,8 @@ def read_carmen(
 
     if not any(lasers.values()):
         raise BadInput(f"{name}: {_why_no_scans(number, messages, skipped)}")
-    reading, layout = reading_of(name, "carmen", lasers, bad, skipped, messages, no_return, max_range_m)
-    return replace(reading, notes=(*reading.notes, *_notes(reading.message, layout)))
+    reading, layouts = reading_of(name, "carmen", lasers, skipped, messages, no_return, max_range_m)
+    return replace(reading, notes=(*reading.notes, *_notes(reading.message, layouts)))
 
 
 def message_name(line: bytes) -> str:
@@ -130,13 +130,16 @@ def _check_odometry(words: list[bytes]) -> None:
         raise Malformed("ODOM has a number that is not finite")
 
 
-def _notes(kind: str, layout: BeamLayout) -> list[str]:
-    notes = []
-    if kind in IMPLICIT and layout.beams not in STEP_DEG:
-        notes.append(f"the log does not say its beams' angles; taken as {layout} (180 degrees in all)")
-    if kind in IMPLICIT and layout.beams in (400, 401):
-        notes.append(f"the log does not say its beams' angles; taken as {layout}, by CARMEN's rule")
-    return notes
+def _notes(kind: str, layouts: list[BeamLayout]) -> list[str]:
+    if kind not in IMPLICIT:
+        return []
+    unsure = [
+        f"{layout}, by CARMEN's rule" if layout.beams in STEP_DEG else f"{layout} (180 degrees in all)"
+        for layout in layouts
+        if layout.beams not in STEP_DEG or layout.beams in (400, 401)
+    ]
+    more = f", and others in {len(unsure) - 3} more ways" if len(unsure) > 3 else ""
+    return [f"the log does not say its beams' angles; taken as {'; '.join(unsure[:3])}{more}"] if unsure else []
 
 
 def _why_no_scans(lines: int, messages: Counter[str], skipped: list[SkippedLine]) -> str:

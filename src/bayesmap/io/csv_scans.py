@@ -9,11 +9,15 @@ One row a scan; comment lines before the header say where the beams point, and m
     stamp,x,y,yaw,r_0,r_1,r_2
     0.0,1.0,2.0,0.5,3.25,inf,nan
 
+Where the beams differ from scan to scan, angle_min and angle_increment are columns; fields after a scan's last reading
+are empty.
+
 One row a beam, for tables that come from elsewhere (a scan's rows stand together, told apart by ``scan`` or ``stamp``):
 
     scan,stamp,x,y,yaw,angle,range
 
-There a scan's rows may differ in their poses: then each beam has a pose of its own. Columns may stand in any order, and
+There a scan has as many beams as rows, at angles of its own. Its rows may differ in their poses: then each beam has a
+pose of its own. Columns may stand in any order, and
 others are ignored; ``stamp`` is optional. Metres, radians, seconds; commas, semicolons or tabs; inf is no return, -inf
 too close, nan or an empty field invalid. What other numbers may mean no return is told by `bayesmap.io.rep117`.
 """
@@ -33,14 +37,15 @@ from bayesmap.errors import BadInput
 from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.rep117 import judge
-from bayesmap.space.scans import Scans
+from bayesmap.io.returns import Views
+from bayesmap.space.scans import Scans, fan_fault, side_by_side
 from bayesmap.space.time_order import time_order
 
 DELIMITERS = (b",", b";", b"\t")
 POSE = ("x", "y", "yaw")
+OWN_ANGLES = ("angle_min", "angle_increment")
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")
 FURTHEST_M = 1e7
-SAME_ANGLE_RAD = 1e-6
 
 _SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")
 _BEAM = re.compile(r"r_(\d+)")
@@ -120,10 +125,15 @@ def read_csv(
         raise BadInput(f"{name}: the table has a header, but no scan{first}")
     timed = None if stamps is None else time_order(stamps)
     order = np.arange(len(readings)) if timed is None else timed.order
-    judged = judge(name, readings[order], *table.limits(), no_return=no_return, max_range_m=max_range_m)
     moving = poses.ndim == 3
+    first = poses[order, 0] if moving else poses[order]
+    angles = angles if angles.ndim == 1 else angles[order]
+    judged = judge(
+        name, readings[order], *table.limits(), no_return=no_return, max_range_m=max_range_m,
+        views=Views.of(first, angles),
+    )  # fmt: skip
     scans = Scans(
-        poses[order, 0] if moving else poses[order], angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
+        first, angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
         stamps_s=None if timed is None else timed.stamps_s, beam_poses=poses[order] if moving else None,
     )  # fmt: skip
     return LogReading(
@@ -173,7 +183,7 @@ def live_rows(
 
 
 Parts = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], "NDArray[np.float64] | None"]
-"""Poses (S, 3) or (S, A, 3), angles (A,), readings (S, A), stamps (S,)."""
+"""Poses (S, 3) or (S, A, 3), angles (A,) or (S, A), readings (S, A), stamps (S,)."""
 
 
 def _read(name: str, bad: Bad, lenient: bool, skipped: list[SkippedLine]) -> _Table:
@@ -240,10 +250,30 @@ def _one_row_a_scan(name: str, table: _Table, bad: Bad) -> Parts:
     if beams != list(range(len(beams))):
         raise BadInput(f"{name}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
     at = [table.columns.index(f"r_{beam}") for beam in beams]
-    rows = _checked(table, (*POSE, *(("stamp",) if "stamp" in table.columns else ())), bad)
+    own = OWN_ANGLES if set(OWN_ANGLES) <= set(table.columns) else ()
+    rows = _checked(table, (*POSE, *own, *(("stamp",) if "stamp" in table.columns else ())), bad)
     poses = rows[:, [table.columns.index(column) for column in POSE]]
     stamps = rows[:, table.columns.index("stamp")] if "stamp" in table.columns else None
+    if own:
+        angles = _angles_of_rows(table, rows[:, [table.columns.index(column) for column in own]], rows[:, at], bad)
+        fine = ~np.isnan(angles).all(axis=1)
+        return poses[fine], angles[fine], rows[fine][:, at], None if stamps is None else stamps[fine]
     return poses, _angles(name, table.settings, len(beams)), rows[:, at], stamps
+
+
+def _angles_of_rows(
+    table: _Table, fans: NDArray[np.float64], readings: NDArray[np.float64], bad: Bad
+) -> NDArray[np.float64]:
+    """Angles (S, A) by each row's first angle and step, NaN past its last reading and in rows that are bad."""
+    there = ~np.isnan(readings)
+    counts = np.where(there.any(axis=1), readings.shape[1] - there[:, ::-1].argmax(axis=1), 1)
+    angles = fans[:, :1] + fans[:, 1:] * np.arange(readings.shape[1])
+    angles[np.arange(readings.shape[1]) >= counts[:, None]] = np.nan
+    for i, (low, high) in enumerate(zip(np.nanmin(angles, axis=1), np.nanmax(angles, axis=1), strict=True)):
+        if (fault := fan_fault(low, high)) is not None:
+            bad(table.lines[i], fault)
+            angles[i] = np.nan
+    return angles
 
 
 def _angles(name: str, settings: dict[str, list[float]], beams: int) -> NDArray[np.float64]:
@@ -257,6 +287,8 @@ def _angles(name: str, settings: dict[str, list[float]], beams: int) -> NDArray[
         )
     if beams > 1 and not np.ptp(angles):
         raise BadInput(f"{name}: all {beams} beams point the same way; '# angle_increment:' is the step in radians")
+    if (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
+        raise BadInput(f"{name}: {fault}")
     return angles
 
 
@@ -271,17 +303,18 @@ def _one_row_a_beam(name: str, table: _Table, bad: Bad) -> Parts:
     groups = np.split(rows, starts[1:]) if len(rows) else []
     if not groups:
         return np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None
-    sizes = np.array([len(group) for group in groups])
-    beams = int(np.bincount(sizes).argmax())
-    angles = groups[int(np.argmax(sizes == beams))][:, at["angle"]]
     kept = []
     for start, group in zip(starts, groups, strict=True):
-        if len(group) != beams or np.abs(group[:, at["angle"]] - angles).max() > SAME_ANGLE_RAD:
-            bad(table.lines[start], f"the scan that starts here has other beams than the first of {beams}")
+        beams = group[:, at["angle"]]
+        if (fault := fan_fault(beams.min(), beams.max())) is not None:
+            bad(table.lines[start], f"the scan that starts here: {fault}")
         else:
             kept.append(group)
-    block = np.array(kept)
-    poses = block[:, :, [at[column] for column in POSE]]
+    angles, ranges = side_by_side([group[:, at["angle"]] for group in kept], [group[:, at["range"]] for group in kept])
+    poses = np.zeros((*ranges.shape, 3))
+    for row, group in zip(poses, kept, strict=True):
+        row[: len(group)] = group[:, [at[column] for column in POSE]]
+        row[len(group) :] = row[len(group) - 1]
     still = (poses == poses[:, :1]).all()
-    stamps = block[:, 0, at["stamp"]] if stamped else None
-    return (poses[:, 0] if still else poses), angles, block[:, :, at["range"]], stamps
+    stamps = np.array([group[0, at["stamp"]] for group in kept]) if stamped else None
+    return (poses[:, 0] if still and len(kept) else poses), angles, ranges, stamps

@@ -81,7 +81,7 @@ def read_g2o(
             f"{name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds {held}"
             + (f"; {len(skipped)} lines were malformed, first line {skipped[0].line}" if skipped else "")
         )
-    reading, _ = reading_of(name, "g2o", lasers, bad, skipped, counts, no_return, max_range_m)
+    reading, _ = reading_of(name, "g2o", lasers, skipped, counts, no_return, max_range_m)
     return replace(reading, pose_source="VERTEX_SE2")
 
 

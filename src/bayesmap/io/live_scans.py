@@ -106,9 +106,8 @@ def _joined(before: list[tuple[int, bytes]], lines: Iterable[tuple[int, bytes]])
 def _of_carmen(
     lines: Iterable[tuple[int, bytes]], bad: Bad, max_range_m: float, no_return: float | None
 ) -> Iterator[Scans]:
-    """Scans of the first kind of laser message that comes, with the beams of the first."""
+    """Scans of the first kind of laser message that comes, each with its own beams; without readings they are skipped."""
     kind = ""
-    layout: BeamLayout | None = None
     for number, line in lines:
         try:
             name = message_name(line)
@@ -118,12 +117,9 @@ def _of_carmen(
         except Malformed as problem:
             bad(number, str(problem))
             continue
-        if layout is None:
-            kind, layout = name, laser.layout
-        if laser.layout != layout:
-            bad(number, f"{name} has {laser.layout}, but the first scan of this log has {layout}")
-            continue
-        yield _scan(layout, laser.readings_m, laser.numbers, _code(no_return, laser.max_range_m), max_range_m)
+        kind = name
+        if laser.layout.beams:
+            yield _scan(laser.layout, laser.readings_m, laser.numbers, _code(no_return, laser.max_range_m), max_range_m)
 
 
 def _code(given: float | None, stated_max_m: float | None) -> float:

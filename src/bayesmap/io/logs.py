@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.io.carmen import KNOWN, read_carmen
@@ -33,6 +36,8 @@ ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz")
 """What logs that are files are usually called."""
 SAVED_RUNS = (b"\x89HDF", b"CDF")
 """How netCDF files begin."""
+LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
+"""No robot turns so far from scan to scan in so many scans; and where degrees wrap, they leap by 360, or nearly so."""
 TEXT_FORMATS = ("carmen", "g2o", "csv")
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
@@ -120,7 +125,8 @@ def describe_log(
         if deskew and not reading.deskewed:
             note = f"nothing to de-skew: a {kind} file does not say when each beam was sent"
             reading = replace(reading, notes=(*reading.notes, note))
-    return _thinned(_with_jumps(reading), thin_m)
+    reading = _with_beams(_with_jumps(reading))
+    return _thinned(reading if kind in RECORDINGS else _with_degrees(reading), thin_m)
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
@@ -195,6 +201,33 @@ def _with_jumps(reading: LogReading) -> LogReading:
     note = (
         f"{len(found):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
         "walls will appear twice if the poses are wrong"
+    )
+    return replace(reading, notes=(*reading.notes, note))
+
+
+def _with_beams(reading: LogReading) -> LogReading:
+    """The reading with a note if its beams differ from scan to scan."""
+    own = reading.scans.own_angles_rad
+    if own is None:
+        return reading
+    counts = np.isfinite(own).sum(axis=1)
+    low, high = int(counts.min()), int(counts.max())
+    number = f"{low} to {high} beams" if low < high else f"{low} beams at angles that differ from scan to scan"
+    return replace(reading, notes=(*reading.notes, f"the scans have {number}; each keeps its own"))
+
+
+def _with_degrees(reading: LogReading) -> LogReading:
+    """The reading with a note if its yaw looks like degrees: it goes beyond a turn, in steps that are large for radians."""
+    yaw = reading.scans.poses[:, 2]
+    steps = np.abs(np.diff(yaw))
+    large = steps > LARGE_TURN_RAD
+    wraps = np.abs(steps - 360.0) < NEAR_A_TURN_DEG
+    if not len(steps) or np.abs(yaw).max() <= math.tau or not (wraps.any() or large.mean() > LARGE_TURNS):
+        return reading
+    scan = int(steps.argmax()) + 1
+    note = (
+        f"the robot's yaw turns by {steps.max():.3g} from scan {scan - 1} to scan {scan}, and reaches "
+        f"{np.abs(yaw).max():.4g}: it is taken as radians; is it in degrees?"
     )
     return replace(reading, notes=(*reading.notes, note))
 

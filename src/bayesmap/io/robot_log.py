@@ -17,7 +17,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.containers import open_recording
 from bayesmap.io.frames import FrameTree
-from bayesmap.io.laser_messages import LaserMessage
+from bayesmap.io.laser_messages import LaserMessage, LaserMessages, beams_of
 from bayesmap.io.log_reading import LogReading, SkippedLine
 from bayesmap.io.pose_sources import (
     POSE_TYPES,
@@ -31,6 +31,7 @@ from bayesmap.io.pose_sources import (
 )
 from bayesmap.io.recording import Recording, Topic
 from bayesmap.io.rep117 import judge
+from bayesmap.io.returns import Views
 from bayesmap.io.robot_messages import TYPES, Bad, read_messages, scan_topic_of, scans_and_poses
 from bayesmap.io.scan_poses import in_order_of_time, left_out, poses_at_first_rays, poses_of_rays, ray_times
 from bayesmap.space.scans import Scans
@@ -69,13 +70,16 @@ def read_recording(
     lasers, poses = scans_and_poses(recording, topic, chosen_poses, bad)
     if not lasers.scans:
         raise BadInput(f"{name}: no message on {topic.name} can be used" + _first(skipped))
-    layout, scans = lasers.of_one_layout(lambda number, reason: bad(topic.name, number, reason))
+    scans = lasers.of_one_frame(lambda number, reason: bad(topic.name, number, reason))
+    if not scans:
+        raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
+    layout = scans[0].layout
     tree = FrameTree(poses.transforms)
     source = _source(recording, chosen_poses, tree, layout.frame, fixed_frame, poses, bad)
-    notes = [*recording.notes, *source.notes, *_odd(scans)]
+    notes = [*recording.notes, *source.notes, *_odd(scans), *_empty(lasers)]
 
     stamps, scans, reordered = in_order_of_time(scans, bad, topic.name, notes)
-    rays = ray_times(stamps, scans, layout.beams, deskew, notes)
+    rays = ray_times(stamps, scans, deskew, notes)
     inside = np.asarray(source.chain.covers(rays).all(axis=1))
     notes += left_out(name, stamps, inside, source)
     scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
@@ -83,11 +87,11 @@ def read_recording(
     beam_poses = poses_of_rays(source.chain, rays) if deskew and rays.shape[1] > 1 else None
 
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
-    with np.errstate(invalid="ignore"):  # NaN of the signalling kind
-        readings = np.array([scan.ranges_m for scan in scans], dtype=np.float64)
-    judged = judge(name, readings, *limits, no_return=no_return, max_range_m=max_range_m)
+    angles, readings = beams_of(scans)
+    views = Views.of(at_first, sign * angles)
+    judged = judge(name, readings, *limits, no_return=no_return, max_range_m=max_range_m, views=views)
     result = Scans(
-        at_first, sign * layout.angles_rad(), judged.ranges_m, judged.max_range_m, judged.min_range_m,
+        at_first, sign * angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
         stamps_s=np.asarray(stamps * 1e-9), beam_poses=beam_poses,
     )  # fmt: skip
     return LogReading(
@@ -145,6 +149,11 @@ def _odd(scans: list[LaserMessage]) -> list[str]:
         (low, high), _ = limits.most_common(1)[0]
         notes.append(f"the scans state {len(limits)} different ranges; the commonest was used, {low:g} to {high:g} m")
     return notes
+
+
+def _empty(lasers: LaserMessages) -> list[str]:
+    count = sum(not scan.layout.beams for scan in lasers.scans)
+    return [f"{count:,} messages on {lasers.topic} have no readings, and were left out"] if count else []
 
 
 def _first(skipped: list[SkippedLine]) -> str:
