@@ -9,7 +9,7 @@ BIN := .venv/bin
 INSTALL := PIP_CONSTRAINT=constraints.txt $(BIN)/python -m pip install --quiet
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: demo test lint page docs bench clean
+.PHONY: demo test test-all lint page docs bench clean
 .DEFAULT_GOAL := demo
 
 .venv/core: pyproject.toml constraints.txt
@@ -29,8 +29,13 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 demo: .venv/core          ## infer the tutorial's map; pictures, the saved run and the JSON land in runs/demo
 	$(BIN)/bayesmap demo --output runs/demo --force
 
-test: .venv/dev           ## all tests, on all cores
-	$(BIN)/python -m pytest -n auto --dist loadgroup --no-loadscope-reorder
+TESTS := $(BIN)/python -m pytest -n auto --dist loadgroup --no-loadscope-reorder
+
+test: .venv/dev           ## the landing run: a test of every family, on all cores
+	$(TESTS)
+
+test-all: .venv/dev       ## all tests: before a release, and after a big change
+	$(TESTS) --full
 
 lint: .venv/dev           ## style and types; the page's too where there is npm
 	$(BIN)/ruff check .

@@ -2,31 +2,22 @@
 
 import os
 import signal
-import tempfile
+from collections import Counter
 
+import pytest
 from hypothesis import settings
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
-from xdist.scheduler import LoadGroupScheduling
 
 from bayesmap.kernels.parallel import available_cores
 
-# A slow machine is no failure; and the examples are the same each time, so that a change fails for its own sake.
+# A slow machine is no failure. The examples are the same each time, so that a change fails for its own sake.
 settings.register_profile("bayesmap", deadline=None, derandomize=True)
 settings.load_profile("bayesmap")
 
-# Tests compile hundreds of small JAX programs and run each once or twice; with less optimisation that takes four fifths
-# of the time. Notebooks, in processes of their own, inherit it; GenJAX's own tests ask for still less.
-os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=1")
-
-# And what one process has compiled the others need not: many of the programs are the same. The folder is this run's.
-if "JAX_COMPILATION_CACHE_DIR" not in os.environ:
-    compiled = tempfile.TemporaryDirectory(prefix="bayesmap-tests-")  # removed when the process that leads them ends
-    os.environ |= {
-        "JAX_COMPILATION_CACHE_DIR": compiled.name,
-        "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
-        "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",
-        "JAX_PERSISTENT_CACHE_ENABLE_XLA_CACHES": "none",
-    }
+# Tests compile hundreds of small JAX programs and run each once or twice: compiling well costs more than it saves.
+# Notebooks, in processes of their own, inherit it. There is no cache of compiled programs that processes share: JAX
+# writes its entries without a lock, so that one process can read half of what another one writes.
+os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=0")
 
 # Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to
 # ignore it, as a script's shell starts jobs in the background, it is put in force again.
@@ -34,25 +25,69 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_addoption(parser):
+    parser.addoption("--full", action="store_true", help="also run the tests marked `full` (make test-all)")
+
+
 def pytest_xdist_auto_num_workers(config):
     """One more than there are cores: a fifth of the time tests wait for browsers and for other processes."""
     return available_cores() + 1
 
 
-class ByFile(LoadGroupScheduling):
-    """A file's tests are one worker's, so that what they have in common is made once; a marked group stays a group."""
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Leave out the tier that is not asked for, and give a file's tests to one worker, which makes fixtures once."""
+    if not config.getoption("full"):
+        left_out = [item for item in items if item.get_closest_marker("full")]
+        if left_out:
+            items[:] = [item for item in items if not item.get_closest_marker("full")]
+            config.hook.pytest_deselected(items=left_out)
+            config.stash[NOT_SELECTED] = len(left_out)
+    for item in items:
+        if item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(item.location[0]))
 
-    def _split_scope(self, nodeid):
-        return super()._split_scope(nodeid).split("::", 1)[0]
+
+NOT_SELECTED = pytest.StashKey[int]()
+"""How many tests of the tier `full` were left out."""
 
 
-def pytest_xdist_make_scheduler(config, log):
-    """Of the command in the Makefile."""
-    return ByFile(config, log) if config.option.dist == "loadgroup" else None
+def pytest_sessionfinish(session):
+    """Tell the process that leads the workers what was left out."""
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["not selected"] = session.config.stash.get(NOT_SELECTED, 0)
 
 
-def pytest_terminal_summary(terminalreporter):
-    """Say why a test needed its second try: what passes then may be a fault that is rare."""
-    for report in terminalreporter.stats.get("rerun", ()):
-        terminalreporter.section(f"first try of {report.nodeid}", sep="_")
-        terminalreporter.write_line(report.longreprtext)
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Keep what a worker left out; all workers collect the same tests."""
+    node.config.stash[NOT_SELECTED] = getattr(node, "workeroutput", {}).get("not selected", 0)
+
+
+REMEDIES = (
+    ("no Chromium", "browser tests", "no Chromium (apt install chromium-headless-shell)"),
+    ("BAYESMAP_DATA", "tests of recordings", "recordings absent (set BAYESMAP_DATA to their folder)"),
+)
+"""Reasons why tests are skipped, as they begin or contain these words: what was skipped, and the remedy."""
+
+
+def not_run(skip_reasons, not_selected):
+    """Return the lines that say which tests were not run, and how to run them."""
+    counts = Counter()
+    for reason in skip_reasons:
+        kind = next(((what, remedy) for words, what, remedy in REMEDIES if words in reason), ("tests", reason))
+        counts[kind] += 1
+    lines = [f"{count} {what} skipped: {remedy}" for (what, remedy), count in sorted(counts.items())]
+    if not_selected:
+        lines.append(f"tier `full` not selected: {not_selected} tests (make test-all)")
+    return lines
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    """Say what was not run and how to run it."""
+    skipped = [str(report.longrepr[-1]) for report in terminalreporter.stats.get("skipped", ())]
+    lines = not_run([reason.removeprefix("Skipped: ") for reason in skipped], config.stash.get(NOT_SELECTED, 0))
+    if lines:
+        terminalreporter.section("not run")
+        for line in lines:
+            terminalreporter.write_line(line)

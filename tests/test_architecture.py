@@ -205,7 +205,7 @@ SCRIPTS = [
 def too_long(path):
     """Whether a script has more lines than fit one idea; one that is built of others says so in its first line."""
     lines = path.read_text(encoding="utf-8").splitlines()
-    return len(lines) > 350 and not lines[0].startswith("// Built by ")
+    return len(lines) > 500 and not lines[0].startswith("// Built by ")
 
 
 def test_scripts_of_the_page_are_short():
@@ -214,17 +214,17 @@ def test_scripts_of_the_page_are_short():
 
 def test_a_long_script_is_noticed(tmp_path):
     script = tmp_path / "a.ts"
-    script.write_text("let x;\n" * 351)
+    script.write_text("let x;\n" * 501)
     assert too_long(script)
-    script.write_text("// Built by `make page` from page/src: edit there.\n" + "let x;\n" * 351)
+    script.write_text("// Built by `make page` from page/src: edit there.\n" + "let x;\n" * 501)
     assert not too_long(script)
-    script.write_text("let x;\n" * 350)
+    script.write_text("let x;\n" * 500)
     assert not too_long(script)
 
 
 @pytest.mark.parametrize("path", FILES, ids=NAMES)
 def test_files_are_short_and_named_for_what_they_do(path):
-    assert len(path.read_text().splitlines()) <= 350
+    assert len(path.read_text().splitlines()) <= 500
     assert path.stem not in ("utils", "helpers", "manager", "misc", "common", "util", "helper")
 
 
