@@ -21,6 +21,7 @@ from bayesmap.io.log_reading import LogReading
 from bayesmap.io.npz_scans import MAGIC as NPZ_MAGIC
 from bayesmap.io.npz_scans import read_npz
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import SAME_S, coarse_stamps_note
 from bayesmap.space.travel import jumps, steps_m, thinned
 
 FORMATS = (
@@ -39,7 +40,8 @@ SAVED_RUNS = (b"\x89HDF", b"CDF")
 LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
 """No robot turns so far from scan to scan in so many scans; and where degrees wrap, they leap by 360, or nearly so."""
 TEXT_FORMATS = ("carmen", "g2o", "csv")
-RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
+RECORDED = ("rosbag1", "rosbag2-sqlite3", "mcap")
+RECORDINGS = (*RECORDED, "folder")
 
 
 def read_log(
@@ -125,7 +127,7 @@ def describe_log(
         if deskew and not reading.deskewed:
             note = f"nothing to de-skew: a {kind} file does not say when each beam was sent"
             reading = replace(reading, notes=(*reading.notes, note))
-    reading = _with_beams(_with_jumps(reading))
+    reading = _with_beams(_with_jumps(_with_coarse_stamps(reading)))
     return _thinned(reading if kind in RECORDINGS else _with_degrees(reading), thin_m)
 
 
@@ -190,13 +192,22 @@ def _text_format(name: str) -> str:
     )
 
 
+def _with_coarse_stamps(reading: LogReading) -> LogReading:
+    stamps = reading.scans.stamps_s
+    note = None if stamps is None else coarse_stamps_note(stamps)
+    if note is not None and reading.pose_source is not None and reading.format in RECORDED:
+        note += "; nor do they tell exactly where the robot was: poses are those of the stamps"
+    return reading if note is None else replace(reading, notes=(*reading.notes, note))
+
+
 def _with_jumps(reading: LogReading) -> LogReading:
     found = jumps(reading.scans)
     if not len(found):
         return reading
     scan, scans = int(found[0]), reading.scans
     step = float(steps_m(scans.poses)[scan - 1])
-    when = "" if scans.stamps_s is None else f" in {scans.stamps_s[scan] - scans.stamps_s[scan - 1]:.3g} s"
+    gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
+    when = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
     where = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     note = (
         f"{len(found):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
