@@ -18,6 +18,9 @@ EXPLICIT = ("ROBOTLASER1", "ROBOTLASER2")
 LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
 """Messages that hold a scan with its pose, in order of preference where several are equally frequent."""
 
+RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")
+"""Messages that hold a scan without a pose."""
+
 MAX_BEAMS = 100_000
 
 STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
@@ -52,7 +55,7 @@ class LaserLine:
     Attributes:
         layout: where its beams point.
         readings_m: as they are, shape (A,).
-        numbers: laser pose, robot pose, time: shape (7,), all finite.
+        numbers: laser pose, robot pose, time: shape (7,), all finite; poses are zero where the line has none.
         max_range_m: the largest range that the line states, or None.
     """
 
@@ -75,7 +78,7 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
         poses_at, total = readings_end, readings_end + 9
     else:
         poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions")
-        total = poses_at + 14
+        total = poses_at + (3 if kind in RAW else 14)
     if len(words) != total:
         raise Malformed(
             f"{kind} with {beams} readings has {len(words)} fields where {total} are needed "
@@ -84,7 +87,7 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
     readings = parse_floats(kind, words[count_at + 1 : readings_end], count_at + 1)
     # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
     numbers = parse_floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
-    numbers = np.append(numbers[:6], numbers[-2])
+    numbers = np.append(np.zeros(6) if kind in RAW else numbers[:6], numbers[-2])
     if not np.isfinite(numbers).all():
         raise Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
     if kind in IMPLICIT:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.laser_lines import LASERS, BeamLayout, LaserLine
-from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.laser_lines import RAW, BeamLayout, LaserLine
+from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
 from bayesmap.io.returns import NoReturn, Views, decode
 from bayesmap.space.scans import Scans, side_by_side
 from bayesmap.space.time_order import time_order
@@ -44,6 +44,7 @@ def reading_of(
     messages: Mapping[str, int],
     no_return: float | None,
     max_range_m: float | None,
+    laser: Pose | None = None,
 ) -> tuple[LogReading, list[BeamLayout]]:
     """The reading of a log by the kind of message that has most scans, and their layouts, the commonest first.
 
@@ -55,17 +56,18 @@ def reading_of(
         messages: how many lines of each kind there are.
         no_return: the number that means no return; None to find it.
         max_range_m: the sensor's largest range; None for the longest hit.
+        laser: where the laser is on the robot, if it is not what the lines say.
 
     Raises:
         BadInput: no reading is a range, and the largest range is not given.
     """
-    kind = max(LASERS, key=lambda kind: len(lasers[kind]))
+    kind = max(lasers, key=lambda kind: len(lasers[kind]))
     scans = [scan for scan in lasers[kind] if scan.laser.layout.beams]
     empty = len(lasers[kind]) - len(scans)
     if not scans:
         raise BadInput(f"{name}: none of {empty:,} {kind} lines has a reading")
     layouts = [layout for layout, _ in Counter(scan.laser.layout for scan in scans).most_common()]
-    others = {other: len(lasers[other]) for other in LASERS if other != kind and lasers[other]}
+    others = {other: len(lasers[other]) for other in lasers if other != kind and lasers[other]}
 
     numbers = np.array([scan.laser.numbers for scan in scans])
     poses, stamps = np.array([scan.pose_world for scan in scans]), numbers[:, 6]
@@ -89,7 +91,7 @@ def reading_of(
         skipped=tuple(sorted(skipped, key=lambda skip: skip.line)),
         no_return=coded,
         max_range_origin="readings" if max_range_m is None else "given",
-        laser_offset=_laser_offset(numbers[:, :3], numbers[:, 3:6]),
+        laser_offset=laser or _laser_offset(numbers[:, :3], numbers[:, 3:6]),
         reordered=timed.reordered,
         notes=(
             *timed.notes(stamps),
@@ -100,6 +102,7 @@ def reading_of(
                 for other, count in others.items()
             ),
         ),
+        posed=kind not in RAW,
     )
     return reading, layouts
 
