@@ -113,7 +113,7 @@ class Model:
     def _rays(self, poses: Floats) -> Iterator[Rays]:
         from bayesmap.kernels.rays import trace_rays
 
-        at_once = max(1, BEAMS_AT_ONCE // len(self.scans.angles_rad))
+        at_once = max(1, BEAMS_AT_ONCE // self.scans.ranges_m.shape[1])
         for i in range(0, len(self.scans), at_once):
             some = slice(i, i + at_once)
             yield trace_rays(self.scans.select(some), self.grid, poses_world=poses[some])

@@ -9,9 +9,11 @@ from shell import call
 
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
+from bayesmap.io.logs import read_log
 from bayesmap.io.map_server import read_map
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.sensors.describe import describe
+from bayesmap.space.planar import compose, inverse
 
 KEYS = {
     "schema_version", "version", "grid", "scans", "beams", "incidences", "method", "order", "prior", "sensor", "chains",
@@ -267,3 +269,33 @@ def test_importance_sampling_is_announced_before_its_first_particles(office):
     )
     assert events[0] == ("particles", 0, 300)
     assert events[-1] == ("particles", 300, 300)
+
+
+def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, tmp_path, short):
+    """The same log whose poses are the robot's gives the same run, by flag or from the file."""
+    scans, mount = read_log(office), np.array([0.2, -0.1, np.pi / 2])
+    log = tmp_path / "robot.npz"
+    robot = compose(scans.poses, inverse(mount))
+    np.savez(
+        log, poses=robot, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=scans.stamps_s,
+        max_range_m=scans.max_range_m,
+    )  # fmt: skip
+    laser = ("--laser", "0.2,-0.1,90")
+    held = ("--holdout", "4")
+    result = call("infer", log, "-o", tmp_path / "run", *short, *laser, *held)
+    assert result.exit_code == 0, result.stderr
+    run = bm.load(tmp_path / "run" / "run.nc")
+    train, _ = scans.holdout(4)
+    np.testing.assert_allclose(run.posterior.scans.poses[:, :2], train.poses[:, :2], atol=1e-9)
+    assert 'laser = "0.2,-0.1,90"' in (tmp_path / "run" / "config.toml").read_text()
+    scored = call("score", tmp_path / "run" / "run.nc", log, *held, *laser, "--json")
+    assert scored.exit_code == 0, scored.stderr
+    assert call("score", tmp_path / "run" / "run.nc", log, *held).exit_code == 3
+    where = [call("localize", office_run / "run.nc", *typed, "--scans", "0:1", "--prior",
+                  f"{scans.poses[0, 0]},{scans.poses[0, 1]},{np.degrees(scans.poses[0, 2])},0.3,10", "--json")
+             for typed in ((office,), (log, *laser))]  # fmt: skip
+    told = [json.loads(one.stdout)["last"]["mean"] for one in where]
+    np.testing.assert_allclose(told[0], told[1], atol=1e-6)
+    wrong = call("infer", log, "-o", tmp_path / "other", "--laser", "0.2,0")
+    assert wrong.exit_code == 2
+    assert "--laser" in wrong.stderr

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 from shell import call
 
@@ -95,3 +96,87 @@ def test_what_cannot_be_told_is_bad_input(tmp_path, content):
     assert result.exit_code == 3
     assert result.stdout == ""
     assert result.stderr.startswith(f"bayesmap: error: {path}: ")
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """Write a table of scans alone, with so many seconds from scan to scan; returns a function of the seconds."""
+    folder = tmp_path_factory.mktemp("alone")
+
+    def written(every_s):
+        path = folder / f"{every_s}.csv"
+        rows = "".join(f"{every_s * i},{1 + 0.01 * i},1.5,2\n" for i in range(40))
+        path.write_text("# angle_min: -0.5\n# angle_increment: 0.5\nstamp,r_0,r_1,r_2\n" + rows)
+        return path
+
+    return written
+
+
+def test_scans_alone_are_described_and_the_command_needs_no_poses(alone):
+    path = alone(0.1)
+    shown = call("info", path)
+    assert shown.exit_code == 0
+    assert "40 of 3 beams" in shown.stdout
+    assert "  no poses: nothing says where the scans were taken" in shown.stdout
+    assert shown.stdout.endswith(f"  bayesmap slam {path} --no-odometry\n")
+    told = json.loads(call("info", alone(1.0), "--json").stdout)
+    assert told["suggestion"] is None
+    assert "too seldom" in told["notes"][-1]
+    refusal = call("infer", path)
+    assert refusal.exit_code == 3
+    assert "bayesmap slam --no-odometry needs no poses" in refusal.stderr
+
+
+def test_a_recording_of_scans_alone_is_described_too(tmp_path, recording):
+    from mcap.reader import make_reader
+    from mcap.writer import Writer
+
+    path = tmp_path / "scans.mcap"
+    with recording.open("rb") as source, path.open("wb") as target:
+        out = Writer(target)
+        out.start(profile="ros2")
+        known = {}
+        for schema, channel, message in make_reader(source).iter_messages(topics=["/scan"]):
+            if not known:
+                known["schema"] = out.register_schema(schema.name, schema.encoding, schema.data)
+                known["channel"] = out.register_channel(channel.topic, channel.message_encoding, known["schema"])
+            out.add_message(known["channel"], message.log_time, message.data, message.publish_time)
+        out.finish()
+    told = json.loads(call("info", path, "--json").stdout)
+    sensor = told["sensors"][0]
+    assert (sensor["scans"], sensor["beams"], sensor["error"]) == (6, 4, None)
+    assert "/tf connects it with none of" in sensor["no_poses"]
+    assert told["suggestion"] is None  # once a second
+    assert "too seldom" in call("info", path).stdout
+
+
+def test_a_recording_without_scans_is_said_to_be_none(tmp_path):
+    from rosbags.rosbag2 import StoragePlugin, Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    make = store.types
+    stamp = make["builtin_interfaces/msg/Time"](1, 0)
+    cloud = "sensor_msgs/msg/PointCloud2"
+    with Writer(tmp_path / "cloud", version=9, storage_plugin=StoragePlugin.MCAP) as bag:
+        topic = bag.add_connection("/points", cloud, typestore=store)
+        message = make[cloud](
+            make["std_msgs/msg/Header"](stamp, "lidar"), 1, 0, [], False, 0, 0, np.zeros(0, np.uint8), True
+        )
+        bag.write(topic, 10**9, store.serialize_cdr(message, cloud))
+    shown = call("info", tmp_path / "cloud")
+    assert shown.exit_code == 0
+    assert "note: no topic holds range scans (sensor_msgs/msg/LaserScan, sensor_msgs/msg/Range)" in shown.stdout
+    assert "pointcloud_to_laserscan" in shown.stdout
+
+
+def test_poses_under_which_walls_stand_twice_are_not_always_raw_odometry(tmp_path):
+    """Info says what was seen, and what else it may be: here the laser looks back, and nobody says so."""
+    log, turned = tmp_path / "true.log", tmp_path / "turned.npz"
+    size = ("--size", "12x8", "--scans", "60", "--angles", "90", "--max-range", "12")
+    assert call("simulate", "--world", "building", *size, "-o", log).exit_code == 0
+    scans = read_log(log)
+    np.savez(turned, poses=scans.poses + [0.0, 0.0, np.pi], angles_rad=scans.angles_rad, ranges_m=scans.ranges_m)
+    shown = call("info", turned).stdout
+    assert "the same walls stand in several places" in shown
+    assert "--laser X,Y,DEGREES" in shown

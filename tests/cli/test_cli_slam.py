@@ -165,3 +165,22 @@ def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
     assert "the clock goes back by 2.8 s at scan 50 (at 7.000 s) and stays so" in result.stderr
     stamps = np.loadtxt(tmp_path / "run" / "trajectory.tum")[:, 0]
     assert (np.diff(stamps) > 0).all()
+
+
+def test_scans_alone_need_no_poses(tmp_path):
+    """An office's scans without poses give its trajectory with --no-odometry, and are refused without."""
+    log = tmp_path / "office.log"
+    size = ("--size", "12x8", "--scans", "300", "--fov", "360", "--angles", "180", "--seed", "4")
+    assert call("simulate", "--world", "building", *size, "-o", log).exit_code == 0
+    scans = bm.read_log(log).select(slice(0, 40))
+    path, folder = tmp_path / "scans.npz", tmp_path / "run"
+    np.savez(path, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=0.2 * np.arange(40))
+    refused = call("slam", path, "-o", folder, *SHORT)
+    assert refused.exit_code == 3
+    assert "--no-odometry" in refused.stderr
+    found = call("slam", path, "-o", folder, *SHORT, "--fast", "--no-odometry")
+    assert found.exit_code == 0, found.stderr
+    assert not (folder / "odometry.png").exists()  # there is none to draw
+    tum = np.loadtxt(folder / "trajectory.tum")[:, 1:3]
+    ways = [np.linalg.norm(poses - poses[0], axis=1) for poses in (tum, scans.poses[:, :2])]
+    np.testing.assert_allclose(*ways, atol=0.1)  # over 4.7 m; the first scans know no speed yet

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from recordings import ANGLES, on, path_of, simulated
 
 import bayesmap as bm
+from bayesmap.io.carmen_writer import write_carmen
 from bayesmap.io.logs import describe_log, read_log
 
 TIMES = np.arange(6.0)
@@ -28,6 +29,11 @@ def refused(path, **options):
         read_log(path, **options)
     assert str(error.value).startswith(str(path))
     return str(error.value)
+
+
+def written(path, text):
+    path.write_text(text)
+    return path
 
 
 def g2o(scans, kind="ROBOTLASER1"):
@@ -97,6 +103,34 @@ def test_malformed_lines_of_a_graph_are_named_and_left_out_on_request(tmp_path, 
     path.write_text(g2o(simulated(TIMES)).replace(*change, 1))
     assert message in refused(path)
     assert len(read_log(path, skip_bad_lines=True)) == 5
+
+
+@pytest.mark.parametrize("edges", ["", "EDGE2 0 1 1 0 0 1 0 1 1 0 0\n"])
+def test_toro_s_vertices_are_those_of_a_graph(tmp_path, edges):
+    """VERTEX2 beside CARMEN lines: the optimised poses, not those of the laser lines."""
+    scans = simulated(TIMES)
+    path, other = tmp_path / "graph.g2o", tmp_path / "toro.graph"
+    path.write_text(g2o(scans))
+    other.write_text(edges + g2o(scans).replace("VERTEX_SE2", "VERTEX2"))
+    reading = describe_log(other)
+    equal(reading.scans, describe_log(path).scans)
+    assert reading.pose_source == "VERTEX2"
+    assert "line 2: ROBOTLASER1 does not follow a VERTEX_SE2 or VERTEX2" in refused(
+        written(tmp_path / "late.graph", g2o(scans).replace("VERTEX_SE2", "# ", 1) + "VERTEX2 9 0 0 0\n")
+    )
+
+
+def test_vertices_far_behind_the_first_lines_are_noted(tmp_path):
+    line = "FLASER 3 1.0 2.0 1.5 {x} 0 0 {x} 0 0 {x} host {x}\n"
+    text = "".join(line.format(x=0.1 * i) for i in range(1100))
+    reading = describe_log(written(tmp_path / "log", text + "VERTEX2 0 1 0 0\n"))
+    assert any("1 VERTEX2 lines, which were not used" in note for note in reading.notes)
+
+
+def test_gmapping_s_own_log_is_refused_with_the_tool_that_converts_it(tmp_path):
+    text = "ODO_UPDATE 1 0 0 0 0\nLASER_READING 3 1.0 2.0 1.5 0.1\nNEFF 20\n"
+    for start in ("", "NEFF 1\n", "# comment\n"):
+        assert "gfs2log" in refused(written(tmp_path / "run.gfs", start + text))
 
 
 def test_a_graph_without_scans_is_refused(tmp_path):
@@ -180,6 +214,155 @@ def test_malformed_rows_are_named_and_left_out_on_request(tmp_path, row, message
     path.write_text("\n".join(lines))
     assert message in refused(path)
     assert len(read_log(path, skip_bad_lines=True)) == 5
+
+
+MARKS = {"utf-8-sig": "utf-8-sig", "utf-16": "utf-16", "utf-16-le": "utf-16-le", "utf-16-be": "utf-16-be"}
+
+
+@pytest.mark.parametrize("encoding", MARKS)
+@pytest.mark.parametrize("zipped", [False, True])
+@pytest.mark.parametrize("text", [csv, g2o])
+def test_a_byte_order_mark_and_utf_16_change_nothing(tmp_path, encoding, zipped, text):
+    scans = simulated(TIMES)
+    mark = "" if encoding in ("utf-8-sig", "utf-16") else "\ufeff"
+    content = (mark + text(scans).replace("\n", "\r\n")).encode(encoding)
+    path, plain = tmp_path / "log", tmp_path / "plain"
+    path.write_bytes(gzip.compress(content) if zipped else content)
+    equal(read_log(path), read_log(written(plain, text(scans))))
+
+
+def test_a_mark_with_text_of_another_encoding_behind_it_is_refused(tmp_path):
+    path = tmp_path / "log"
+    path.write_bytes(b"\xff\xfe" + csv(simulated(TIMES)).encode()[:-1] + b"\x00\xd8")
+    refused(path)
+
+
+def spreadsheet(scans, delimiter, decimal):
+    """The table as a spreadsheet leaves it: padded comments, quotes, an empty row, perhaps decimal commas."""
+    lines = ["sep=" + delimiter]
+    for line in csv(scans, "\t").splitlines():
+        cells = line.split("\t")
+        lines.append(delimiter.join(cell.replace(".", decimal) for cell in cells + [""] * (45 - len(cells))))
+        if "," in line and delimiter == ",":
+            lines[-1] = '"' + lines[-1] + '"'
+    return "\n".join([*lines, delimiter * 44, ""])
+
+
+@pytest.mark.parametrize(("delimiter", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", ",")])
+def test_a_table_that_a_spreadsheet_saved(tmp_path, delimiter, decimal):
+    scans = simulated(TIMES)
+    equal(read_log(written(tmp_path / "scans.csv", spreadsheet(scans, delimiter, decimal))), scans)
+
+
+@pytest.mark.parametrize(
+    ("line", "angles"),
+    [
+        ("# angles: -0.5 0.25 1", [-0.5, 0.25, 1.0]),
+        ("# angles: -0.5,0.25,1", [-0.5, 0.25, 1.0]),
+        ('"# angles: -0.5, 0.25, 1",,', [-0.5, 0.25, 1.0]),
+        ("# angles: -0,5 0,25 1,0", [-0.5, 0.25, 1.0]),
+        ("# angles: -0,5;0,25;1,0;;", [-0.5, 0.25, 1.0]),
+        ("# angles: -1,0,1", [-1.0, 0.0, 1.0]),
+    ],
+)
+def test_angles_with_decimal_points_or_commas(tmp_path, line, angles):
+    path = written(tmp_path / "scans.csv", line + "\nx;y;yaw;r_0;r_1;r_2\n0;0;0;1;2;3\n")
+    np.testing.assert_array_equal(read_log(path).angles_rad, angles)
+
+
+def echoed(scans, poses=False, stamp="field.header.stamp"):
+    """The table that rostopic echo -p makes of the messages."""
+    head = ["%time", "field.header.seq", stamp, "field.header.frame_id", "field.angle_min", "field.angle_max"]
+    head += ["field.angle_increment", "field.time_increment", "field.scan_time", "field.range_min", "field.range_max"]
+    head += [f"field.ranges{i}" for i in range(len(ANGLES))] + [f"field.intensities{i}" for i in range(len(ANGLES))]
+    lines = [",".join([*head, *(["x", "y", "yaw"] if poses else [])])]
+    for i, (pose, row, at) in enumerate(zip(scans.poses, scans.ranges_m, scans.stamps_s, strict=True)):
+        ns = round(at * 1e9)
+        step = float(ANGLES[1] - ANGLES[0])
+        words = [ns + 10**7, i, ns if "stamp" in stamp else 0, "laser", float(ANGLES[0]), float(ANGLES[-1]), step]
+        words += [0.0, 0.1, scans.min_range_m, scans.max_range_m, *map(float, row), *[47.0] * len(ANGLES)]
+        lines.append(",".join(str(word) for word in [*words, *(map(float, pose) if poses else [])]))
+    return "\n".join(lines) + "\n"
+
+
+def test_scans_as_rostopic_echo_writes_them(tmp_path):
+    """With poses in columns of their own they are a log; without, scans alone."""
+    scans = simulated(TIMES)
+    equal(read_log(written(tmp_path / "posed.csv", echoed(scans, poses=True))), scans)
+    path = written(tmp_path / "scans.csv", echoed(scans))
+    assert "bayesmap slam --no-odometry" in refused(path)
+    reading = describe_log(path, without_poses=True)
+    assert not reading.posed
+    equal(reading.scans, scans.moved_to(np.zeros((len(TIMES), 3))))
+    assert reading.scans.own_angles_rad is None
+    unstamped = written(tmp_path / "received.csv", echoed(scans, stamp="field.header.none"))
+    np.testing.assert_allclose(read_log(unstamped, without_poses=True).stamps_s, scans.stamps_s + 0.01)
+
+
+def test_a_table_with_the_names_of_a_message_s_fields(tmp_path):
+    head = "Time,header.seq,header.stamp.secs,header.stamp.nsecs,header.frame_id,angle_min,angle_max,angle_increment"
+    text = head + ",range_min,range_max,ranges_0,ranges_1,ranges_2\n"
+    text += "10.5,0,10,250000000,laser,-0.5,0.5,0.5,0.1,8,1,inf,2\n10.7,1,10,450000000,laser,-0.5,0.5,0.5,0.1,8,1,2,3\n"
+    scans = read_log(written(tmp_path / "bag.csv", text), without_poses=True)
+    np.testing.assert_allclose(scans.angles_rad, [-0.5, 0.0, 0.5])
+    np.testing.assert_allclose(scans.stamps_s, [10.25, 10.45])
+    np.testing.assert_array_equal(scans.ranges_m, [[1, np.inf, 2], [1, 2, 3]])
+    assert (scans.min_range_m, scans.max_range_m) == (0.1, 8.0)
+
+
+MOUNTED = (0.2, -0.1, 2.5)
+
+
+@pytest.mark.parametrize("kind", ["csv", "npz", "g2o", "carmen"])
+def test_a_laser_that_sits_elsewhere_on_the_robot_than_the_log_says(tmp_path, kind):
+    """The poses of the log are then the robot's, in lines that say both, too."""
+    scans = simulated(TIMES)
+    robot = scans.poses
+    if kind == "npz":
+        path = tmp_path / "scans.npz"
+        np.savez(path, poses=robot, angles_rad=ANGLES, ranges_m=scans.ranges_m)
+    elif kind == "carmen":
+        path = tmp_path / "log"
+        write_carmen(path, scans.moved_to(on(robot, (9.0, 9.0, 0.0))), robot)
+    else:
+        path = written(tmp_path / "log", csv(scans) if kind == "csv" else g2o(scans))
+        robot = robot if kind == "csv" else path_of(TIMES)
+    reading = describe_log(path, laser=MOUNTED)
+    expected = on(robot, MOUNTED)
+    np.testing.assert_allclose(reading.scans.poses[:, :2], expected[:, :2], atol=1e-5)
+    np.testing.assert_allclose(np.cos(reading.scans.poses[:, 2] - expected[:, 2]), 1.0, atol=1e-9)
+    np.testing.assert_allclose(reading.laser_offset, MOUNTED)
+    with pytest.raises(bm.BadInput, match="laser: give x and y in metres"):
+        read_log(path, laser=(0.0, math.nan, 0.0))
+
+
+def raw(kind="RAWLASER1"):
+    """Lines of a laser's driver, which knows nothing of poses."""
+    line = "{} 0 -1.0 2.0 1.0 30.0 0.01 0 3 1.5 2.5 {} 0 {} host {}\n"
+    return "".join(line.format(kind, 3.0 + i, 100.0 + 0.1 * i, 0.1 * i) for i in range(4))
+
+
+@pytest.mark.parametrize("kind", ["RAWLASER1", "RAWLASER4"])
+def test_laser_lines_without_poses_are_scans_alone(tmp_path, kind):
+    path = written(tmp_path / "raw.log", raw(kind))
+    assert "RAWLASER lines have no pose: bayesmap slam --no-odometry" in refused(path)
+    reading = describe_log(path, without_poses=True)
+    assert not reading.posed
+    np.testing.assert_array_equal(reading.scans.ranges_m[:, 2], [3.0, 4.0, 5.0, 6.0])
+    np.testing.assert_array_equal(reading.scans.angles_rad, [-1.0, 0.0, 1.0])
+    np.testing.assert_allclose(reading.scans.stamps_s, 100.0 + 0.1 * np.arange(4))
+    assert not reading.scans.poses.any()
+
+
+def test_poses_that_a_text_holds_are_read_where_none_are_needed(tmp_path):
+    scans = simulated(TIMES)
+    reading = describe_log(written(tmp_path / "scans.csv", csv(scans)), without_poses=True)
+    assert reading.posed
+    equal(reading.scans, scans)
+    path = tmp_path / "scans.npz"
+    np.savez(path, angles_rad=ANGLES, ranges_m=scans.ranges_m)
+    assert "bayesmap slam --no-odometry" in refused(path)
+    assert not describe_log(path, without_poses=True).posed
 
 
 def test_an_archive_holds_the_fields_of_scans(tmp_path):

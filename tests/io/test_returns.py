@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bayesmap.errors import BadInput
-from bayesmap.io.returns import decode
+from bayesmap.io.returns import Views, decode
 
 SENSOR_CODES = [81.83, 81.91, 50.0, 51.15, 32.76]
 
@@ -74,6 +74,52 @@ def test_a_robot_standing_still_before_a_far_wall_makes_no_code():
     scan[90:92] = 23.5  # seen through a door, by the same two beams in every scan
     _, found = decode(np.tile(scan, (200, 1)))
     assert found.code_m is None
+
+
+def seen(distances_m, poses, code=None, noise_m=0.0, directions=()):
+    """Decode a log of centimetres whose beams see, in directions of the world (degrees), so many metres far."""
+    rng = np.random.default_rng(1)
+    angles = np.radians(np.arange(-180, 180))
+    world = np.degrees(poses[:, 2:] + angles)
+    at = np.rint(world).astype(int) % 360
+    readings = np.round(distances_m[at] + rng.normal(0, noise_m, at.shape) * (rng.random(at.shape) < 0.3), 2)
+    if code is not None:
+        readings[np.isin(at, directions)] = code
+    return decode(readings, views=Views.of(poses, angles))
+
+
+def a_room(far=(88, 89, 90, 91, 92), metres=8.5):
+    distances = np.round(np.random.default_rng(0).uniform(1, 5.5, 360), 2)
+    distances[list(far)] = metres
+    return distances
+
+
+STANDING = np.tile([1.0, 2.0, 0.3], (40, 1))
+SPINNING = np.column_stack([np.tile([1.0, 2.0], (40, 1)), np.radians(np.arange(40) * 9.0)])
+
+
+@pytest.mark.parametrize("poses", [STANDING, SPINNING])
+@pytest.mark.parametrize("noise_m", [0.0, 0.01])
+@pytest.mark.parametrize("room", [a_room(), a_room(metres=25.0), a_room(far=range(70, 100)), a_room(far=(89, 90, 270))])
+def test_a_robot_that_stands_or_turns_on_the_spot_before_a_far_wall_makes_no_code(poses, noise_m, room):
+    ranges, found = seen(room, poses, noise_m=noise_m)
+    assert found.code_m is None
+    assert np.isfinite(ranges).all()
+
+
+@pytest.mark.parametrize("poses", [STANDING, SPINNING])
+def test_what_stands_out_in_one_direction_alone_is_noted(poses):
+    _, found = seen(a_room(metres=81.83), poses)
+    assert "say --no-return 81.83" in found.notes()[0]
+    assert seen(a_room(far=()), poses)[1].notes() == ()
+
+
+@pytest.mark.parametrize("poses", [STANDING, SPINNING])
+def test_a_code_in_many_directions_is_found_though_the_robot_stands(poses):
+    directions = [3, 50, 51, 52, 120, 200, 201, 330]
+    ranges, found = seen(a_room(far=()), poses, code=81.83, directions=directions)
+    assert found.code_m == 81.83
+    assert np.isposinf(ranges).sum() == len(directions) * len(poses)
 
 
 def test_a_single_scan_shows_its_code_if_it_is_far_above_the_rest():

@@ -118,6 +118,36 @@ def test_readings_counted_off_by_one_are_accepted_with_a_note(tmp_path, beams):
     assert "one beam " + ("more" if beams == 40 else "less") in reading.notes[0]
 
 
+@pytest.mark.parametrize(
+    ("first", "step", "beams", "last", "note"),
+    [
+        (-math.pi, -0.0043, 1455, math.pi, "angle_increment is negative, but angle_max lies the other way"),
+        (math.pi, 0.03, 200, -math.pi, "angle_increment is positive, but angle_max lies the other way"),
+        (-1.0, -0.05, 41, 1.0, "angle_increment is negative, but angle_max lies the other way"),
+        (-math.pi, 0.00869, 719, math.pi, "angle_max does not fit the number of readings"),
+        (-2.0, 0.1, 30, 2.0, "angle_max does not fit the number of readings"),
+        (-2.0, 0.1, 41, math.nan, "angle_max is nan"),
+        (0.0, 2 * math.pi / 450, 458, 6.3, "angle_max does not fit the number of readings"),  # beams overlap
+        (-2.0, 0.0, 41, 2.0, "angle_increment is 0; it was taken from angle_min and angle_max"),
+        (3.0, 0.1, 10, 3.9 - 2 * math.pi, None),  # the beams pass behind the sensor
+    ],
+)
+def test_beams_point_where_the_message_is_defined_to_say_and_what_contradicts_it_is_noted(
+    tmp_path, first, step, beams, last, note
+):
+    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
+    for t in r.SCAN_TIMES:
+        scan = r.laser(t, np.linspace(2.0, 3.0, beams), r.ANGLES)
+        messages.append(("/scan", r.SCAN, t, {**scan, "angle_min": first, "angle_increment": step, "angle_max": last}))
+    reading = describe_log(r.written(tmp_path, messages))
+    angles = first + (step or (last - first) / (beams - 1)) * np.arange(beams)
+    np.testing.assert_allclose(reading.scans.angles_rad, angles, atol=1e-4)  # a step in single precision, 1455 times
+    assert [line for line in reading.notes if "angle_" in line] == [
+        line for line in reading.notes if note and note in line
+    ]
+    assert bool(note) == any("angle_" in line for line in reading.notes)
+
+
 def test_a_scanner_that_turns_clockwise_sees_the_same_world(tmp_path):
     messages, scans = r.robot()
     messages = [m for m in messages if m[0] != "/scan"]
@@ -287,3 +317,69 @@ def test_several_files_of_a_recording_that_was_not_ended_are_one(tmp_path):
     reading = describe_log(folder)
     same(reading.scans, scans)
     assert "the folder has no metadata.yaml" in reading.notes[0]
+
+
+@pytest.mark.parametrize("poses", ["odom", "tf", "tf of another frame", "tf with another mount"])
+def test_where_the_laser_sits_can_be_said_for_a_recording_that_does_not_know(tmp_path, poses):
+    messages, scans = r.robot(tf_poses=poses != "odom", odom=poses == "odom", static=poses == "tf with another mount")
+    if poses == "tf of another frame":
+        for topic, _, _, message in messages:
+            if topic == "/scan":
+                message["header"]["frame_id"] = "robot/base_link/lidar"
+    if poses == "tf with another mount":
+        messages = [m for m in messages if m[0] != "/tf_static"]
+        messages.insert(0, ("/tf_static", r.TF, 0.0, r.tf(r.transform(0.0, "base_link", "laser", 5.0, 5.0, 1.0))))
+    path = r.written(tmp_path, messages)
+    reading = describe_log(path, laser=r.MOUNT)
+    same(reading.scans, scans)
+    np.testing.assert_allclose(reading.laser_offset, r.MOUNT)
+    assert not any("taken as the sensor's" in note for note in reading.notes)
+    if poses == "odom":
+        assert any("--laser X,Y,DEGREES" in note for note in describe_log(path).notes)
+    elif poses != "tf with another mount":
+        with pytest.raises(bm.BadInput, match="--laser X,Y,DEGREES"):
+            describe_log(path)
+
+
+def test_on_which_of_two_robots_the_laser_sits_is_told_by_its_frame_or_asked(tmp_path):
+    messages, scans = r.robot(static=False)
+    for topic, _, _, message in messages:
+        if topic == "/tf":
+            for entry in message["transforms"]:
+                entry["child_frame_id"] = entry["child_frame_id"].replace("base_link", "one/base_link")
+        else:
+            message["header"]["frame_id"] = "one/lidar"
+    messages.append(("/tf", r.TF, 4.9, r.tf(r.transform(4.9, "odom", "two/base_link", 5.0, 5.0, 1.0))))
+    same(describe_log(r.written(tmp_path, messages), laser=r.MOUNT).scans, scans)
+    for topic, _, _, message in messages:
+        if topic == "/scan":
+            message["header"]["frame_id"] = "lidar"
+    with pytest.raises(bm.BadInput, match="one/base_link, two/base_link"):
+        describe_log(r.written(tmp_path / "other", messages), laser=r.MOUNT)
+
+
+@pytest.mark.parametrize("writer", ["rosbag1", "db3", "mcap"])
+def test_scans_alone_are_read_where_no_poses_are_needed(tmp_path, writer):
+    messages, scans = r.robot(tf_poses=False, static=False)
+    path = r.written(tmp_path, messages, writer)
+    with pytest.raises(bm.BadInput, match="bayesmap slam --no-odometry needs no poses"):
+        describe_log(path)
+    reading = describe_log(path, without_poses=True)
+    same(reading.scans, scans.moved_to(np.zeros((len(scans), 3))))
+    assert (reading.posed, reading.pose_source, reading.notes) == (False, None, ())
+
+
+def test_poses_are_not_looked_at_where_none_are_needed(tmp_path):
+    """Neither those of a part of the time, nor damaged ones; but a laser that is upside down is known to be."""
+    messages = [m for m in r.robot()[0] if m[0] == "/scan" or m[2] < 1.0]
+    broken = r.transform(0.5, "odom", "base_link", math.nan, 0.0, 0.0)
+    messages.append(("/tf", r.TF, 0.9, r.tf(broken)))
+    upright = r.written(tmp_path / "upright", sorted(messages, key=lambda m: m[2]))
+    reading = describe_log(upright, without_poses=True)
+    assert len(reading.scans) == 10
+    assert not reading.scans.poses.any()
+    messages = [m for m in messages if m[0] == "/scan"]
+    messages.append(("/tf_static", r.TF, 0.0, r.tf(r.transform(0.0, "base_link", "laser", 0, 0, 0, roll=math.pi))))
+    turned = describe_log(r.written(tmp_path / "turned", messages), without_poses=True)
+    np.testing.assert_allclose(turned.scans.angles_rad, -reading.scans.angles_rad)
+    assert "upside down" in turned.notes[0]

@@ -167,11 +167,14 @@ def replaced(change, which=4):
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
-        ({"ranges": []}, "has no readings: its array of ranges is empty"),
-        ({"ranges": [1.0] * 30}, "has 30 readings, but angle_min"),
-        ({"ranges": [1.0] * 30, "angle_max": -2.0 + 29 * 0.1}, "but most scans of /scan have 41 beams"),
         ({"angle_min": math.nan}, "has angle_min nan"),
         ({"angle_increment": math.inf}, "angle_increment inf"),
+        ({"angle_increment": 0.0, "angle_max": math.nan}, "but angle_increment 0 and angle_max nan"),
+        ({"angle_min": -90.0, "angle_max": -50.0, "angle_increment": 1.0}, "6.37 turns; angles must be in radians"),
+        (
+            {"angle_min": -90.0, "angle_increment": 0.01},
+            "over a turn away from straight ahead; angles must be in radians",
+        ),
         ({"header": r.header(None, "laser")}, "does not say its time"),
         ({"header": r.header(2.0, "other")}, "in frame 'other', but most scans"),
     ],

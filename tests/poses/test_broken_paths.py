@@ -119,6 +119,40 @@ def test_a_long_motion_over_a_long_time_is_believed():
     assert stated_motions(poses, None)[1][49]
 
 
+COARSE = {
+    "whole seconds": np.floor,
+    "tens of seconds": lambda t: 10.0 * np.floor(t / 10.0),
+    "single precision": lambda t: t.astype(np.float32).astype(float),
+    "one value": lambda t: np.full(len(t), t[0]),
+    "repeated at the end": lambda t: np.minimum(t, t[len(t) // 2]),
+    "in bursts": lambda t: np.floor(t) + 1e-5 * np.arange(len(t)),
+}
+
+
+@pytest.mark.parametrize("kind", COARSE)
+def test_coarse_stamps_make_no_motion_impossible_and_hide_none(kind):
+    """A robot at 2.5 m/s whose scans are 0.8 s apart, and one that is carried 60 m."""
+    n = 200
+    stamps = COARSE[kind](1.7e9 + 0.8 * np.arange(n))
+    poses = np.column_stack([2.0 * np.arange(n), np.zeros(n), np.zeros(n)])
+    assert not stated_motions(poses, stamps)[1].any()
+    poses[150:, 0] += 60.0
+    assert np.nonzero(stated_motions(poses, stamps)[1])[0].tolist() == [149]
+
+
+@pytest.mark.parametrize(
+    "kind", ["whole seconds", *(pytest.param(k, marks=pytest.mark.full) for k in COARSE if k != "whole seconds")]
+)
+def test_a_trajectory_from_coarse_stamps_is_as_good_as_without_stamps(kind):
+    """Scans 1.5 m apart, at 2.5 m/s: with a time of nothing in between, no robot could have made such a step."""
+    sparse, truth = SCANS.select(slice(None, None, 10)), TRUTH[::10]
+    times = 1.7e9 + 0.6 * np.arange(len(sparse))
+    found = infer_trajectory(replace(sparse, stamps_s=COARSE[kind](times)), threads=1)
+    assert len(found.breaks) == 0
+    without = infer_trajectory(replace(sparse, stamps_s=None), threads=1)
+    assert worst_m(found.poses, truth) < 1.5 * worst_m(without.poses, truth) + 0.01
+
+
 def test_parts_are_joined_from_any_heading_and_from_afar():
     """The second part as the front end might leave it: moved by metres and turned."""
     recorded, _ = uneven_recording()

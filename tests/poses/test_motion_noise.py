@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bayesmap.poses.calibration import fit_odometry
+from bayesmap.poses.calibration import fit_odometry, stated_at
 from bayesmap.poses.motion_noise import USUAL, MotionNoise, fit_noise
 from bayesmap.poses.odometry_motion import RunningOdometry, inverse_slope
 from bayesmap.space.planar import between, compose
@@ -93,3 +93,16 @@ def test_what_corrects_undoes_what_is_wrong():
     motion = np.array([0.4, 0.01, 0.2])
     stated = motion + wrong @ motion
     np.testing.assert_allclose(stated + inverse_slope(wrong) @ stated, motion, atol=1e-12)
+
+
+def test_stamps_that_repeat_tell_no_lag_and_move_no_pose():
+    """Odometry that is late by 0.2 s: found by exact stamps, not by whole seconds, which would tell another."""
+    times = 100.0 + 0.2 * np.arange(300)
+    found = np.column_stack([np.cumsum(0.1 + 0.08 * np.sin(0.7 * times)), np.zeros(300), np.zeros(300)])
+    stated = stated_at(found, times, -0.2)
+    scans, variance = np.arange(0, 300, 2), np.full((149, 3), 1e-6)
+    assert fit_odometry(stated, times, found[scans], scans, variance).lag_s == pytest.approx(0.2, abs=0.03)
+    assert fit_odometry(stated, np.floor(times), found[scans], scans, variance).lag_s == 0.0
+    coarse = np.where(np.arange(300) < 200, times, times[200])
+    np.testing.assert_array_equal(stated_at(found, coarse, 0.1)[200:], found[200:])
+    assert (stated_at(found, coarse, 0.1)[:199, 0] > found[:199, 0]).all()

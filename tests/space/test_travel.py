@@ -59,3 +59,12 @@ def test_scans_that_are_far_apart_throughout_do_not_jump():
 
 def test_a_trembling_pose_does_not_jump_however_close_the_stamps():
     assert len(jumps(scans_at([(0, 0), (0.1, 0), (0, 0)], np.array([0.0, 0.0, 1e-6])))) == 0
+
+
+@pytest.mark.parametrize("grain_s", [1.0, 10.0, 1e6])
+def test_stamps_that_repeat_make_no_jump_of_an_ordinary_step(grain_s):
+    times = 1.13486e9 + 0.5 * np.arange(100)
+    walk = [(1.5 * i, 0) for i in range(100)]
+    assert len(jumps(scans_at(walk, np.floor(times / grain_s) * grain_s))) == 0
+    walk[60:] = [(x + 40.0, 0) for x, _ in walk[60:]]
+    np.testing.assert_array_equal(jumps(scans_at(walk, np.floor(times / grain_s) * grain_s)), [60])

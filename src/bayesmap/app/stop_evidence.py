@@ -59,12 +59,12 @@ def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.floa
     from bayesmap.kernels.predict import log_densities
     from bayesmap.kernels.rays import trace_rays
 
-    if not scans.n_beams:
+    if not scans.ranges_m.size:
         return np.zeros(0)
     rays = trace_rays(scans, predictor.grid)
     column = int(np.searchsorted(rays.touched, cell))
     if column == len(rays.touched) or rays.touched[column] != cell:
-        return np.zeros(scans.n_beams)
+        return np.zeros(scans.ranges_m.size)
     maps = list(predictor.batches(rays.touched))
     as_it_is, emptied = (
         log_densities(rays, some, predictor.sensor, predictor.hit_depth) for some in (maps, _emptied(maps, column))

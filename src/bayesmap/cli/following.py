@@ -11,6 +11,7 @@ import click
 
 from bayesmap.cli.console import Console
 from bayesmap.cli.input_files import need_file
+from bayesmap.cli.reading import options_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -38,7 +39,14 @@ def can_follow(console: Console, log: str) -> bool:
 
 
 def scans_to_come(
-    console: Console, log: str, values: dict[str, Any], max_range_m: float, span: str | None, idle_s: float | None
+    console: Console,
+    log: str,
+    values: dict[str, Any],
+    max_range_m: float,
+    span: str | None,
+    idle_s: float | None,
+    *,
+    without_poses: bool = False,
 ) -> Iterator[Scans]:
     """The scans of a log that can be followed, one at a time, as its settings say.
 
@@ -49,6 +57,7 @@ def scans_to_come(
         max_range_m: of the run.
         span: FIRST:LAST of the scans to come, or None for all.
         idle_s: the end, when nothing has come for so long; None: wait on.
+        without_poses: whether tables without poses will do.
 
     Raises:
         BadInput: a setting that only recordings have.
@@ -66,6 +75,8 @@ def scans_to_come(
         skip_bad_lines=values["skip_bad_lines"],
         idle_s=idle_s,
         on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
+        laser=options_of(values)["laser"],
+        without_poses=without_poses,
     )
     return itertools.islice(_thinned(scans, values["thin_scans"]), first, last)
 

@@ -78,7 +78,8 @@ def read(console: Console, log: str, values: dict[str, Any]) -> LogReading:
     """Read a log, and say what is in it."""
     from bayesmap.io.logs import describe_log
 
-    reading = describe_log(log, max_range_m=values["max_range"], **options_of(values))
+    how = {**options_of(values), "without_poses": values.get("no_odometry", False)}
+    reading = describe_log(log, max_range_m=values["max_range"], **how)
     scans, counts = reading.scans, reading.scans.counts()
     code = reading.no_return_m
     coded = "no code for no return" if code is None else f"{code:g} m is no return ({reading.no_return.origin})"

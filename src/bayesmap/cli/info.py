@@ -151,6 +151,9 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
         f"{head}: {sensor['scans']:,} of {beams}",
         f"  ranges from {sensor['min_range_m']:g} to {sensor['max_range_m']:g} m; readings: {kinds}",
     ]
+    if sensor.get("no_poses"):
+        lines.append(f"  no poses: {sensor['no_poses']}")
+        return lines + _rest(sensor)
     low, high = sensor["poses_from_m"], sensor["poses_to_m"]
     by = f" by {sensor['poses']}" if sensor.get("poses") else ""
     frames = f", {sensor['frame']} in {sensor['fixed_frame']}" if sensor.get("frame") else ""
@@ -158,6 +161,10 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
         f"  poses{by}{frames}: x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m, "
         f"{sensor['travelled_m']:,.1f} m travelled"
     )
-    if sensor.get("skipped"):
-        lines.append(f"  {sensor['skipped']:,} malformed messages or lines are left out")
-    return lines + [f"  note: {note}" for note in sensor.get("notes", [])]
+    return lines + _rest(sensor)
+
+
+def _rest(sensor: dict[str, Any]) -> list[str]:
+    skipped = sensor.get("skipped")
+    left_out = [f"  {skipped:,} malformed messages or lines are left out"] if skipped else []
+    return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]

@@ -68,6 +68,7 @@ READING = (
     Key("scan_topic", str, None, "Of a recording: where the scans are.", "the only topic of scans", "TOPIC"),
     Key("pose_topic", str, None, "Of a recording: where the poses are.", "/tf, or the only topic of poses", "TOPIC"),
     Key("fixed_frame", str, None, "Of a recording's /tf: the frame of the map.", "map, odom or world", "FRAME"),
+    Key("laser", str, None, "Where the laser sits on the robot.", "as the log says", "X,Y,DEGREES"),
     Key("deskew", bool, False, "Give each beam the pose of its own time, by a recording's time_increment."),
     Key("thin_scans", float, 0.0, "Keep a scan each time the robot has gone this far; 0: all.", metavar="METRES"),
 )
@@ -117,14 +118,14 @@ SLAM = (
         if key.name
         in (
             "resolution", "max_range", "no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame",
-            "deskew", "thin_scans", "cells", "chains", "warmup", "seed", "sensor", "hit_depth",
+            "laser", "deskew", "thin_scans", "cells", "chains", "warmup", "seed", "sensor", "hit_depth",
             "threads", "device", "checkpoint_every", "strict",
         )
     ),
     Key("draws", int, None, "Maps that each chain keeps.", "50, to 200 for few beams"),
     Key("thin", int, 1, "Sweeps from one kept map to the next."),
     Key("fast", bool, False, "Stop after the approximate trajectory: the map then takes it as known."),
-    Key("no_odometry", bool, False, "Do not look at the log's poses; scans must come at 5 Hz or more."),
+    Key("no_odometry", bool, False, "Neither read nor need the log's poses; scans must come at 5 Hz or more."),
 )  # fmt: skip
 
 SIMULATE = (
@@ -178,7 +179,7 @@ EXPORT = (
 SCORE = (
     Key("holdout", int, 10, "Every n-th scan was held out when the run was made.", metavar="N"),
     Key("resolution", float, 0.1, "Of the map that is inferred for a trajectory without one, metres."),
-    *READING,
+    *(key for key in READING if key.name != "laser"),  # which is an option of its own there
     SEED,
     DEVICE,
 )

@@ -68,7 +68,7 @@ def command(
     probabilities, and the probability of being lost: that the scan is as scans are elsewhere, or the map outdated.
     """
     values = call.values()
-    from bayesmap.io.logs import read_log
+    from bayesmap.io.logs import describe_log
     from bayesmap.localization.known_map import KnownMap
     from bayesmap.localization.localize import Localization, follow_live, localize
     from bayesmap.result import load
@@ -88,7 +88,9 @@ def command(
 
     interrupted = False
     if live:
-        to_come = following.scans_to_come(call.console, log, values, max_range_m, span, idle_s)
+        to_come = following.scans_to_come(
+            call.console, log, values, max_range_m, span, idle_s, without_poses=independent
+        )
         known = KnownMap.of_run(run, beam_weight=values["beam_weight"], device=values["device"])
         call.console.detail(f"{log}: waiting for scans")
         beliefs, interrupted = following.located(
@@ -98,7 +100,10 @@ def command(
             raise BadInput(f"{log}: it ended without a scan")
         found = Localization(tuple(beliefs))
     else:
-        scans = read_log(log, max_range_m=max_range_m, **options_of(values))
+        reading = describe_log(log, max_range_m=max_range_m, **options_of(values), without_poses=independent)
+        for note in reading.notes:
+            call.console.say(f"{log}: {note}")
+        scans = reading.scans
         scans = scans.select(_slice(span, len(scans)))
         known = KnownMap.of_run(run, beam_weight=values["beam_weight"], device=values["device"])
         with share(call.console, "locating scans") as report:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bayesmap.cli.input_files import need_file
+from bayesmap.cli.world import pose_of
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -14,7 +15,12 @@ if TYPE_CHECKING:
 def options_of(values: dict[str, Any]) -> dict[str, Any]:
     """The settings of `bayesmap.cli.keys.READING` as `bayesmap.read_log` calls them."""
     same = ("no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame", "deskew")
-    return {**{name: values[name] for name in same}, "thin_m": values["thin_scans"]}
+    typed = values.get("laser")
+    return {
+        **{name: values[name] for name in same},
+        "thin_m": values["thin_scans"],
+        "laser": None if typed is None else pose_of(typed, "--laser"),
+    }
 
 
 def heldout_scans(run: Run, log: str, values: dict[str, Any], every: int) -> Scans:
@@ -31,7 +37,14 @@ def heldout_scans(run: Run, log: str, values: dict[str, Any], every: int) -> Sca
     """
     need_file(log, "the log that the run was made from", runs=False)
     from bayesmap.io.logs import read_log
-    from bayesmap.posterior.heldout import unseen_scans
+    from bayesmap.posterior.heldout import moved_by, unseen_scans
 
-    scans = read_log(log, max_range_m=run.posterior.scans.max_range_m, **options_of(values))
+    train, typed = run.posterior.scans, values.get("laser")
+
+    def scans_with(laser: str | None) -> Scans:
+        return read_log(log, max_range_m=train.max_range_m, **options_of({**values, "laser": laser}))
+
+    scans = scans_with(None)
+    if typed is not None and moved_by(train, scans):
+        scans = scans_with(typed)  # as infer --laser read them
     return unseen_scans(run.posterior.scans, scans, every, log)

@@ -85,7 +85,7 @@ def command(
     suit it best, fitted on all scans but every --holdout-th, which are scored. Without --trajectory LOG's own poses are
     taken; without a map one is inferred from the trajectory.
     """
-    values = call.values()
+    values = {**call.values(), "laser": laser}
     frames = check_frames(frame, laser, relations)
     if picture is not None:
         from bayesmap.viz.writing import need_ending

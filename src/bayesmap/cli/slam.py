@@ -164,7 +164,11 @@ def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Pat
         "trajectory.png": trajectory_figure(
             run.grid, run.occupancy, run.observed, found.poses, covariances, found.flagged
         ),
-        "odometry.png": odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses),
+        **(
+            {"odometry.png": odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses)}
+            if reading.posed
+            else {}
+        ),
         "loops.png": loops_figure(found.poses, closures.first, closures.second, closures.residuals, closures.weights),
     }
     for name, figure in pictures.items():

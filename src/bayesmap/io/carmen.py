@@ -6,9 +6,9 @@
         tv rv forward_safety side_safety turn_axis  ipc_timestamp host logger_timestamp
     ODOM x y theta tv rv accel  ipc_timestamp host logger_timestamp
 
-RLASER and ROBOTLASER2 are the rear laser's, in the same two formats. Lines of other kinds are counted and
-left alone. Scans are put in the order of their ipc_timestamp (the time of measurement); logs are not always
-written in that order.
+RLASER and ROBOTLASER2 are the rear laser's, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1 without
+poses and velocities, and are read only where no poses are needed. Lines of other kinds are counted and left alone.
+Scans are put in the order of their ipc_timestamp (the time of measurement); logs are not always written in that order.
 
 **Angles.** FLASER lines do not say them. The first beam is at -90 degrees, and beams are 1 degree apart if
 there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number spreads over 180
@@ -27,10 +27,13 @@ import re
 from collections import Counter
 from dataclasses import replace
 
+import numpy as np
+
 from bayesmap.errors import BadInput
 from bayesmap.io.laser_lines import (
     IMPLICIT,
     LASERS,
+    RAW,
     STEP_DEG,
     BeamLayout,
     Malformed,
@@ -39,9 +42,10 @@ from bayesmap.io.laser_lines import (
 )
 from bayesmap.io.laser_scans import LaserScan, reading_of
 from bayesmap.io.lines import DamagedFile, read_lines
-from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.log_reading import WITHOUT_POSES, LogReading, Pose, SkippedLine
+from bayesmap.space.planar import compose
 
-OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "RAWLASER1", "RAWLASER2", "LASER3", "LASER4", "MARKER")
+OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
 """Other messages by which a CARMEN log is recognised."""
 
 KNOWN = LASERS + OTHERS
@@ -55,6 +59,8 @@ def read_carmen(
     no_return: float | None = None,
     skip_bad_lines: bool = False,
     max_range_m: float | None = None,
+    laser: Pose | None = None,
+    without_poses: bool = False,
 ) -> LogReading:
     """Read the scans of a CARMEN log, plain or gzipped.
 
@@ -66,13 +72,15 @@ def read_carmen(
             ``inf`` if it has none. Found by `bayesmap.io.returns` if not given.
         skip_bad_lines: leave out malformed lines, and list them in the result.
         max_range_m: the sensor's maximum range; longer readings become no return.
+        laser: where the laser is on the robot, instead of what the lines say.
+        without_poses: read lines without poses, too, if they are the most.
 
     Raises:
         BadInput: a file that cannot be read, holds no scans, or has a malformed line (without
             ``skip_bad_lines``); the message names the file, the line and the remedy.
     """
     name = os.fspath(path)
-    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
+    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in (LASERS + RAW if without_poses else LASERS)}
     messages: Counter[str] = Counter()
     skipped: list[SkippedLine] = []
 
@@ -88,8 +96,9 @@ def read_carmen(
                 kind = message_name(line)
                 messages[kind] += 1
                 if kind in lasers:
-                    laser = parse_laser(kind, line.split())
-                    lasers[kind].append(LaserScan(number, laser, laser.numbers[:3]))
+                    scan = parse_laser(kind, line.split())
+                    pose = scan.numbers[:3] if laser is None else compose(scan.numbers[3:6], np.array(laser))
+                    lasers[kind].append(LaserScan(number, scan, pose))
                 elif kind == "ODOM":
                     _check_odometry(line.split())
             except Malformed as problem:
@@ -102,8 +111,8 @@ def read_carmen(
 
     if not any(lasers.values()):
         raise BadInput(f"{name}: {_why_no_scans(number, messages, skipped)}")
-    reading, layout = reading_of(name, "carmen", lasers, bad, skipped, messages, no_return, max_range_m)
-    return replace(reading, notes=(*reading.notes, *_notes(reading.message, layout)))
+    reading, layouts = reading_of(name, "carmen", lasers, skipped, messages, no_return, max_range_m, laser)
+    return replace(reading, notes=(*reading.notes, *_notes(reading.message, layouts), *_about_vertices(messages)))
 
 
 def message_name(line: bytes) -> str:
@@ -130,13 +139,25 @@ def _check_odometry(words: list[bytes]) -> None:
         raise Malformed("ODOM has a number that is not finite")
 
 
-def _notes(kind: str, layout: BeamLayout) -> list[str]:
-    notes = []
-    if kind in IMPLICIT and layout.beams not in STEP_DEG:
-        notes.append(f"the log does not say its beams' angles; taken as {layout} (180 degrees in all)")
-    if kind in IMPLICIT and layout.beams in (400, 401):
-        notes.append(f"the log does not say its beams' angles; taken as {layout}, by CARMEN's rule")
-    return notes
+def _notes(kind: str, layouts: list[BeamLayout]) -> list[str]:
+    if kind not in IMPLICIT:
+        return []
+    unsure = [
+        f"{layout}, by CARMEN's rule" if layout.beams in STEP_DEG else f"{layout} (180 degrees in all)"
+        for layout in layouts
+        if layout.beams not in STEP_DEG or layout.beams in (400, 401)
+    ]
+    more = f", and others in {len(unsure) - 3} more ways" if len(unsure) > 3 else ""
+    return [f"the log does not say its beams' angles; taken as {'; '.join(unsure[:3])}{more}"] if unsure else []
+
+
+def _about_vertices(messages: Counter[str]) -> list[str]:
+    """A note for a graph whose vertices came so late that the file was taken for a log."""
+    return [
+        f"the log also holds {messages[name]:,} {name} lines, which were not used: poses are those of the laser lines"
+        for name in ("VERTEX_SE2", "VERTEX2")
+        if messages[name]
+    ]
 
 
 def _why_no_scans(lines: int, messages: Counter[str], skipped: list[SkippedLine]) -> str:
@@ -145,7 +166,7 @@ def _why_no_scans(lines: int, messages: Counter[str], skipped: list[SkippedLine]
     held = ", ".join(f"{count} {name}" for name, count in messages.most_common(5)) or "no message at all"
     reason = f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {held}"
     if any(name.startswith("RAWLASER") for name in messages):
-        reason += " (RAWLASER lines have no pose)"
+        reason += f" (RAWLASER lines have no pose: {WITHOUT_POSES})"
     if skipped:
         reason += f"; {len(skipped)} lines were malformed, first line {skipped[0].line}: {skipped[0].reason}"
     return reason

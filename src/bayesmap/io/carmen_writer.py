@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.atomic import write_whole
-from bayesmap.io.returns import decode
+from bayesmap.io.returns import Views, decode
 from bayesmap.space.scans import Scans, as_poses
 
 HOST = "bayesmap"
@@ -44,35 +44,40 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: NDArra
         The kind of message that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
 
     Raises:
-        BadInput: no scan, a single beam, or beams that are not equally far apart, which neither message can say.
+        BadInput: no scan, a scan of less than two beams, or beams that are not equally far apart, which neither message
+            can say.
         OSError: the folder cannot be written.
     """
     if len(scans) == 0:
         raise BadInput("log: there are no scans to write")
-    first, step = _even_angles(scans.angles_rad)
+    angles = [scans.beams_of(scan)[0] for scan in range(1 if scans.own_angles_rad is None else len(scans))]
+    fans = [(*_even_angles(own), len(own)) for own in angles]
     readings = scans.ranges_m
     wanted = np.where(np.isfinite(readings) & (readings > 0), np.round(readings, 4), np.nan)
     wanted[np.isposinf(readings) | (wanted >= scans.max_range_m)] = np.inf
-    numbers = _flaser_readings(wanted) if _is_implicit(scans.angles_rad) else None
+    numbers = _flaser_readings(wanted, scans) if all(_is_implicit(own) for own in angles) else None
     kind = "ROBOTLASER1" if numbers is None else "FLASER"
     if numbers is None:
         numbers = np.where(np.isnan(wanted), 0.0, np.minimum(wanted, scans.max_range_m))
+    has_beam = scans.has_beam
     stamps = np.arange(len(scans), dtype=np.float64) if scans.stamps_s is None else scans.stamps_s
 
     text = io.StringIO()
     text.write("# CARMEN log, written by bayesmap\n")
-    # Laser type, first angle, field of view, step, maximum range, accuracy, remission mode.
-    head = f"0 {first!r} {step * (len(scans.angles_rad) - 1)!r} {step!r} {scans.max_range_m!r} 0.01 0"
     bases = scans.poses if robot_poses is None else as_poses(robot_poses)
     if len(bases) != len(scans):
         raise BadInput(f"log: {len(bases)} poses of the robot for {len(scans)} scans")
-    for pose, base, row, stamp in zip(scans.poses, bases, numbers, stamps, strict=True):
-        beams = f"{len(row)} " + " ".join(_short(v) for v in row)
+    for scan, (pose, base, stamp) in enumerate(zip(scans.poses, bases, stamps, strict=True)):
+        first, step, count = fans[scan % len(fans)]
+        row = numbers[scan, has_beam[scan]]
+        beams = f"{count} " + " ".join(_short(v) for v in row)
         where, robot = (" ".join(f"{v:.6f}" for v in place) for place in (pose, base))
         end = f"{stamp:.6f} {HOST} {stamp - stamps[0]:.6f}\n"
         if kind == "FLASER":
             text.write(f"FLASER {beams} {where} {robot} {end}")
         else:
+            # Laser type, first angle, field of view, step, maximum range, accuracy, remission mode.
+            head = f"0 {first!r} {step * (count - 1)!r} {step!r} {scans.max_range_m!r} 0.01 0"
             text.write(f"ROBOTLASER1 {head} {beams} 0 {where} {robot} 0 0 0 0 0 {end}")
     content = text.getvalue().encode("ascii")
     with write_whole(path) as partial:
@@ -101,12 +106,12 @@ def _is_implicit(angles_rad: NDArray[np.float64]) -> bool:
     return bool(np.abs(implied - angles_rad).max() <= _ANGLE_TOLERANCE_RAD)
 
 
-def _flaser_readings(wanted: NDArray[np.float64]) -> NDArray[np.float64] | None:
+def _flaser_readings(wanted: NDArray[np.float64], scans: Scans) -> NDArray[np.float64] | None:
     """The numbers of FLASER lines, or None if the reader would not find no return in them by itself."""
     hits = wanted[np.isfinite(wanted)]
     far = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
     numbers = np.where(np.isnan(wanted), 0.0, np.where(np.isposinf(wanted), far, wanted))
-    found, _ = decode(numbers)
+    found, _ = decode(numbers, views=Views.of(scans.poses, scans.angles_by_scan()))
     return numbers if np.array_equal(found, wanted, equal_nan=True) else None
 
 

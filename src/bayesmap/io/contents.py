@@ -11,10 +11,20 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput
+from bayesmap.io.laser_messages import SCAN_TYPES
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
 from bayesmap.poses.agreement import look_like_odometry
+from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
 from bayesmap.space.scans import Scans
+
+CONVERTERS = {
+    "sensor_msgs/msg/PointCloud2": "pointcloud_to_laserscan turns its sensor_msgs/msg/PointCloud2 into scans",
+    "velodyne_msgs/msg/VelodyneScan": "velodyne_laserscan turns its velodyne_msgs/msg/VelodyneScan into scans",
+    "sensor_msgs/msg/MultiEchoLaserScan": "laser_proc turns its sensor_msgs/msg/MultiEchoLaserScan into scans",
+    "sensor_msgs/msg/Image": "depthimage_to_laserscan turns depth images of sensor_msgs/msg/Image into scans",
+}
+"""ROS packages that make range scans of other messages."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +40,7 @@ class Contents:
         frames: of a recording: the frames that /tf knows.
         sensors: one for each source of scans, ready for JSON: what its scans look like, and whether they have poses.
         pose_sources: of a recording: topics that tell poses.
-        suggestion: a command that infers a map from it; None if there is nothing to infer from.
+        suggestion: a command that infers a map from it; None if there is nothing to infer from, or no way to do so.
         notes: what a user should know.
     """
 
@@ -54,25 +64,33 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
     """
     if format_of(path) in RECORDINGS:
         return _of_recording(path)
-    reading = describe_log(path, skip_bad_lines=True)
-    stamps = reading.scans.stamps_s
     name = os.fspath(path)
+    account: dict[str, Any] = {"no_poses": None}
+    try:
+        reading = describe_log(path, skip_bad_lines=True)
+    except BadInput as problem:
+        try:
+            reading = describe_log(path, skip_bad_lines=True, without_poses=True)
+        except BadInput:
+            raise problem from None
+        account["no_poses"] = _reason(name, problem)
+    stamps = reading.scans.stamps_s
+    sensor = {**scans_summary(reading.scans), **_account(reading), **account}
     return Contents(
         path=name,
         format=reading.format,
         start_s=None if stamps is None else float(stamps[0]),
         end_s=None if stamps is None else float(stamps[-1]),
         topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()],
-        sensors=[{**scans_summary(reading.scans), **_account(reading)}],
-        suggestion=_command(name, raw=look_like_odometry(reading.scans), skip=bool(reading.skipped)),
-        notes=(*reading.notes, *_about_poses(reading.scans)),
+        sensors=[sensor],
+        suggestion=_command(name, sensor, skip=bool(reading.skipped)),
+        notes=(*reading.notes, *_about_poses(reading)),
     )
 
 
 def _of_recording(path: str | os.PathLike[str]) -> Contents:
     from bayesmap.io.containers import open_recording
     from bayesmap.io.frames import FrameTree
-    from bayesmap.io.laser_messages import SCAN_TYPES
     from bayesmap.io.pose_sources import POSE_TYPES, TF_TYPES, PoseMessages, topics_of_type
     from bayesmap.io.robot_messages import TYPES, read_messages
 
@@ -94,7 +112,8 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     scan_topics = topics_of_type(recording, SCAN_TYPES)
     sensors = [_sensor(recording, topic) for topic in scan_topics]
     usable = [sensor for sensor in sensors if sensor["error"] is None]
-    best = max(usable, key=lambda sensor: sensor["scans"] * sensor["beams"], default=None)
+    best = max(usable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
+    nothing = () if scan_topics else (_without_scans(recording),)
     return Contents(
         path=name,
         format=recording.format,
@@ -108,32 +127,45 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         if best is None
         else _command(
             name,
-            raw=best["raw_odometry"],
+            best,
             scan_topic=best["topic"] if len(scan_topics) > 1 else None,
-            pose_topic=best["pose_topic"],
             skip=bool(recording.notes) or best["skipped"] > 0,
         ),
-        notes=recording.notes,
+        notes=(*recording.notes, *nothing),
     )
+
+
+def _without_scans(recording: Any) -> str:
+    """What is said of a recording that no map can be made from, and what would help."""
+    types = {topic.type for topic in recording.topics.values() if topic.count}
+    remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
+    return f"no topic holds range scans ({', '.join(SCAN_TYPES)}), so there is nothing to make a map from{remedy}"
 
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
     """What the scans of one topic look like, and by which poses they can be used."""
     from bayesmap.io.pose_sources import POSE_TYPES, topics_of_type
 
-    account: dict[str, Any] = {"topic": topic.name, "type": topic.type, "pose_topic": None, "error": None}
-    tries = [None, *(other.name for other in topics_of_type(recording, POSE_TYPES))]
+    account: dict[str, Any] = {
+        "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
+    }  # fmt: skip
+    tries: list[dict[str, Any]] = [{}, *({"pose_topic": t.name} for t in topics_of_type(recording, POSE_TYPES))]
     first: BadInput | None = None
-    for pose_topic in tries:
+    for how in (*tries, {"without_poses": True}):
         try:
-            reading = describe_log(recording.path, skip_bad_lines=True, scan_topic=topic.name, pose_topic=pose_topic)
+            reading = describe_log(recording.path, skip_bad_lines=True, scan_topic=topic.name, **how)
         except BadInput as problem:
             first = first or problem
             continue
-        found = {**account, "pose_topic": pose_topic, **scans_summary(reading.scans), **_account(reading)}
-        return {**found, "notes": [*found["notes"], *_about_poses(reading.scans)]}
-    reason = str(first).removeprefix(f"{recording.path}: ")
-    return {**account, "scans": topic.count, "beams": None, "error": reason}
+        found = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
+        if not reading.posed and first is not None:
+            found["no_poses"] = _reason(recording.path, first)
+        return {**found, "notes": [*found["notes"], *_about_poses(reading)]}
+    return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first)}
+
+
+def _reason(path: str, problem: BadInput | None) -> str:
+    return str(problem).removeprefix(f"{path}: ")
 
 
 def _account(reading: LogReading) -> dict[str, Any]:
@@ -145,16 +177,23 @@ def _account(reading: LogReading) -> dict[str, Any]:
         "skipped": len(reading.skipped),
         "no_return_m": reading.no_return_m,
         "max_range_origin": reading.max_range_origin,
-        "raw_odometry": look_like_odometry(reading.scans),
+        "raw_odometry": reading.posed and look_like_odometry(reading.scans),
+        "followable": scans_come_often(reading.scans),
         "notes": list(reading.notes),
     }
 
 
-def _about_poses(scans: Scans) -> list[str]:
-    """What to do with poses under which the same wall stands in several places."""
-    if not look_like_odometry(scans):
+def _about_poses(reading: LogReading) -> list[str]:
+    """What to do with poses under which the same wall stands in several places, and with scans that have none."""
+    if not reading.posed:
+        return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
+    if not look_like_odometry(reading.scans):
         return []
-    return ["the poses look like raw odometry, with which scans of one place disagree: use bayesmap slam"]
+    return [
+        "at these poses the same walls stand in several places. If the poses are raw odometry, bayesmap slam finds "
+        "better ones; if they should be right, look at the notes, at where the laser sits (--laser X,Y,DEGREES; if it "
+        "is upside down, its beams sweep the other way), and, in a recording, at --pose-topic and --fixed-frame"
+    ]
 
 
 def scans_summary(scans: Scans) -> dict[str, Any]:
@@ -178,11 +217,13 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
     }
 
 
-def _command(
-    path: str, *, raw: bool = False, scan_topic: str | None = None, pose_topic: str | None = None, skip: bool = False
-) -> str:
-    words = ["bayesmap", "slam" if raw else "infer", path]
+def _command(path: str, sensor: dict[str, Any], *, scan_topic: str | None = None, skip: bool = False) -> str | None:
+    """The command that makes a map of a sensor's scans; None if there is none that works."""
+    if sensor["no_poses"] is not None and not sensor["followable"]:
+        return None
+    words = ["bayesmap", "slam" if sensor["raw_odometry"] or sensor["no_poses"] is not None else "infer", path]
+    words += ["--no-odometry"] if sensor["no_poses"] is not None else []
     words += ["--scan-topic", scan_topic] if scan_topic else []
-    words += ["--pose-topic", pose_topic] if pose_topic else []
+    words += ["--pose-topic", sensor["pose_topic"]] if sensor.get("pose_topic") else []
     words += ["--skip-bad-lines"] if skip else []
     return shlex.join(words)

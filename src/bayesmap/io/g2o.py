@@ -1,8 +1,8 @@
-"""g2o files of a graph in the plane whose vertices carry laser scans, as g2o's slam2d writes them.
+"""g2o and TORO files of a graph in the plane whose vertices carry laser scans.
 
-    VERTEX_SE2 id x y yaw
+    VERTEX_SE2 id x y yaw                  (TORO: VERTEX2)
     ROBOTLASER1 ...                        (or FLASER: CARMEN's lines, see `bayesmap.io.carmen`)
-    EDGE_SE2 id id dx dy dyaw ...
+    EDGE_SE2 id id dx dy dyaw ...          (TORO: EDGE2)
 
 A laser line belongs to the last vertex before it. The two poses in the line say where the laser is on the robot; the
 vertex, which an optimiser has moved, says where the robot is: the laser's pose is vertex * robot^-1 * laser. Edges and
@@ -23,12 +23,14 @@ from bayesmap.errors import BadInput
 from bayesmap.io.laser_lines import LASERS, Malformed, parse_floats, parse_laser
 from bayesmap.io.laser_scans import LaserScan, reading_of
 from bayesmap.io.lines import DamagedFile, read_lines
-from bayesmap.io.log_reading import LogReading, SkippedLine
+from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
+from bayesmap.space.planar import compose
 
-VERTEX = b"VERTEX_SE2"
-KNOWN = (VERTEX, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
+VERTICES = (b"VERTEX_SE2", b"VERTEX2")
+KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
 
+_NAMES = " or ".join(word.decode() for word in VERTICES)
 FURTHEST_M = 1e7
 
 
@@ -38,6 +40,7 @@ def read_g2o(
     no_return: float | None = None,
     skip_bad_lines: bool = False,
     max_range_m: float | None = None,
+    laser: Pose | None = None,
 ) -> LogReading:
     """Read the scans of a g2o file, plain or gzipped. Arguments and errors are those of `bayesmap.io.carmen`."""
     name = os.fspath(path)
@@ -60,14 +63,18 @@ def read_g2o(
             kind = words[0][:64].decode("ascii", "backslashreplace")
             counts[kind] += 1
             try:
-                if words[0] == VERTEX:
+                if words[0] in VERTICES:
                     vertex = None  # should this one be malformed, its scans must not go to the one before
-                    vertex = _vertex(words)
+                    vertex = _vertex(kind, words)
                 elif kind in LASERS:
-                    laser = parse_laser(kind, words)
+                    scan = parse_laser(kind, words)
                     if vertex is None:
-                        raise Malformed(f"{kind} does not follow a VERTEX_SE2 that says where it was taken")
-                    lasers[kind].append(LaserScan(number, laser, _on(vertex, laser.numbers)))
+                        raise Malformed(
+                            f"{kind} does not follow a {_NAMES} that says where it was taken (a file without "
+                            "vertices is read by the poses in its laser lines)"
+                        )
+                    pose = _on(vertex, scan.numbers) if laser is None else compose(vertex, np.array(laser))
+                    lasers[kind].append(LaserScan(number, scan, pose))
             except Malformed as problem:
                 bad(number, str(problem))
     except DamagedFile:
@@ -81,16 +88,16 @@ def read_g2o(
             f"{name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds {held}"
             + (f"; {len(skipped)} lines were malformed, first line {skipped[0].line}" if skipped else "")
         )
-    reading, _ = reading_of(name, "g2o", lasers, bad, skipped, counts, no_return, max_range_m)
-    return replace(reading, pose_source="VERTEX_SE2")
+    reading, _ = reading_of(name, "g2o", lasers, skipped, counts, no_return, max_range_m, laser)
+    return replace(reading, pose_source=max((v.decode() for v in VERTICES), key=lambda word: counts[word]))
 
 
-def _vertex(words: list[bytes]) -> NDArray[np.float64]:
+def _vertex(kind: str, words: list[bytes]) -> NDArray[np.float64]:
     if len(words) != 5:
-        raise Malformed(f"VERTEX_SE2 has {len(words)} fields where 5 are needed: an id, x, y and yaw")
-    pose = parse_floats("VERTEX_SE2", words[2:5], 2)
+        raise Malformed(f"{kind} has {len(words)} fields where 5 are needed: an id, x, y and yaw")
+    pose = parse_floats(kind, words[2:5], 2)
     if not (np.isfinite(pose).all() and np.abs(pose).max() < FURTHEST_M):
-        raise Malformed(f"VERTEX_SE2 has the pose {pose.tolist()}")
+        raise Malformed(f"{kind} has the pose {pose.tolist()}")
     return pose
 
 

@@ -11,10 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.space.scans import fan_fault
+
 IMPLICIT = ("FLASER", "RLASER")
 EXPLICIT = ("ROBOTLASER1", "ROBOTLASER2")
 LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
 """Messages that hold a scan with its pose, in order of preference where several are equally frequent."""
+
+RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")
+"""Messages that hold a scan without a pose."""
 
 MAX_BEAMS = 100_000
 
@@ -28,7 +33,7 @@ class Malformed(Exception):
 
 @dataclass(frozen=True)
 class BeamLayout:
-    """Where the beams of a scan point: equal layouts can share one `Scans`."""
+    """Where the beams of a scan point."""
 
     beams: int
     first_rad: float
@@ -50,7 +55,7 @@ class LaserLine:
     Attributes:
         layout: where its beams point.
         readings_m: as they are, shape (A,).
-        numbers: laser pose, robot pose, time: shape (7,), all finite.
+        numbers: laser pose, robot pose, time: shape (7,), all finite; poses are zero where the line has none.
         max_range_m: the largest range that the line states, or None.
     """
 
@@ -72,8 +77,8 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
     if kind in IMPLICIT:
         poses_at, total = readings_end, readings_end + 9
     else:
-        poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions", least=0)
-        total = poses_at + 14
+        poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions")
+        total = poses_at + (3 if kind in RAW else 14)
     if len(words) != total:
         raise Malformed(
             f"{kind} with {beams} readings has {len(words)} fields where {total} are needed "
@@ -82,7 +87,7 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
     readings = parse_floats(kind, words[count_at + 1 : readings_end], count_at + 1)
     # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
     numbers = parse_floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
-    numbers = np.append(numbers[:6], numbers[-2])
+    numbers = np.append(np.zeros(6) if kind in RAW else numbers[:6], numbers[-2])
     if not np.isfinite(numbers).all():
         raise Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
     if kind in IMPLICIT:
@@ -90,22 +95,26 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
     first, _, step, max_range = parse_floats(kind, words[2:6], 2)
     if not (math.isfinite(first) and math.isfinite(step) and step > 0):
         raise Malformed(f"{kind} has start angle {first:g} and angular resolution {step:g}")
+    if (fault := fan_fault(float(first), float(first + step * max(beams - 1, 0)))) is not None:
+        raise Malformed(f"{kind} has start angle {first:g} and angular resolution {step:g}: {fault}")
     stated = float(max_range) if math.isfinite(max_range) and max_range > 0 else None
     return LaserLine(BeamLayout(beams, float(first), float(step)), readings, numbers, stated)
 
 
 def _implied_layout(kind: str, beams: int) -> BeamLayout:
-    if beams < 2:
+    if beams == 0:
+        return BeamLayout(0, -math.pi / 2, 0.0)
+    if beams == 1:
         raise Malformed(f"{kind} with a single reading: its angle is not known")
     step = math.radians(STEP_DEG[beams]) if beams in STEP_DEG else math.pi / (beams - 1)
     return BeamLayout(beams, -math.pi / 2, step)
 
 
-def _count(kind: str, words: list[bytes], at: int, what: str, least: int = 1) -> int:
+def _count(kind: str, words: list[bytes], at: int, what: str) -> int:
     if at >= len(words):
         raise Malformed(f"{kind} ends after {len(words)} fields, before its number of {what}")
     word = words[at]
-    if not word.isdigit() or not least <= int(word[:9]) <= MAX_BEAMS:
+    if not word.isdigit() or not int(word[:9]) <= MAX_BEAMS:
         shown = word[:20].decode("ascii", "backslashreplace")
         raise Malformed(f"{kind} says '{shown}' for its number of {what}")
     return int(word)

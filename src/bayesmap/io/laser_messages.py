@@ -1,31 +1,34 @@
 """`sensor_msgs/LaserScan` and `sensor_msgs/Range` as arrays: which beams there are, and what they read.
 
-The i-th beam points to ``angle_min + i * angle_increment``. Messages in which ``angle_max`` counts one beam more or
-less than there are readings are common, and right in all but ``angle_max``; those that differ by more are refused. A
-scanner that turns clockwise has a negative increment; where its sign contradicts ``angle_min`` and ``angle_max`` (and
-the beams do not pass behind the sensor), the two angles are believed.
+The i-th beam points to ``angle_min + i * angle_increment``, as the message is defined: a scanner that turns clockwise has
+a negative increment. Drivers are often wrong in ``angle_max``, and it is not needed: where it contradicts the other
+numbers, a note says so. A fan of more than a turn is refused: its angles are not radians.
 """
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.space.scans import fan_fault, side_by_side
+
 LASER_SCAN = "sensor_msgs/msg/LaserScan"
 RANGE = "sensor_msgs/msg/Range"
 SCAN_TYPES = (LASER_SCAN, RANGE)
 
 MAX_BEAMS = 100_000
-SAME_ANGLE_RAD = 1e-3
-"""Scans whose first and last beams agree this well have the same beams: drivers' angles tremble."""
+SAME_ANGLE_RAD = 1e-5
+"""Scans whose first and last beams agree this well have the same beams: angles are in single precision."""
 
 LATEST_NS = 2**62
+
+TAKEN = "beam i was taken at angle_min + i * angle_increment, as the message is defined"
 
 
 class Malformed(Exception):
@@ -34,7 +37,7 @@ class Malformed(Exception):
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the beams of a scan point: equal layouts can share one `Scans`."""
+    """Where the beams of a scan point."""
 
     frame: str
     beams: int
@@ -116,38 +119,48 @@ def laser_message(type_name: str, message: Any, number: int, received_ns: int) -
 
 def _layout(message: Any, beams: int) -> tuple[Layout, str]:
     first, last, step = (float(v) for v in (message.angle_min, message.angle_max, message.angle_increment))
-    if beams == 0:
-        raise Malformed("has no readings: its array of ranges is empty")
     if beams > MAX_BEAMS:
         raise Malformed(f"has {beams:,} readings; more than {MAX_BEAMS:,} are taken for damage")
     frame = frame_of(message.header.frame_id)
-    if not (math.isfinite(first) and abs(first) < 100):
+    if beams == 0:
+        return Layout(frame, 0, 0.0, 0.0), ""
+    if not math.isfinite(first):
         raise Malformed(f"has angle_min {first:g}")
     if beams == 1:
         return Layout(frame, 1, first, 0.0), ""
-    if not (math.isfinite(last) and abs(last) < 100 and math.isfinite(step) and abs(step) < 100):
-        raise Malformed(f"has angle_max {last:g} and angle_increment {step:g}")
-    if step == 0:
-        if first == last:
-            raise Malformed(f"has {beams} readings, but angle_increment 0 and angle_max equal to angle_min")
-        step = (last - first) / (beams - 1)
-        return Layout(frame, beams, first, step), "angle_increment is 0; it was taken from angle_min and angle_max"
+    if not math.isfinite(step):
+        raise Malformed(f"has angle_increment {step:g}")
     odd = ""
-    counted = _counted(first, last, step)
-    if abs(counted - beams) > 1 and abs(_counted(first, last, -step) - beams) <= 1:
-        counted, step = _counted(first, last, -step), -step
-        odd = "angle_increment has the wrong sign; the beams were taken to run from angle_min to angle_max"
-    turn = math.copysign(2 * math.pi, step)
-    if abs(counted - beams) > 1 and abs(_counted(first, last + turn, step) - beams) <= 1:
-        counted = _counted(first, last + turn, step)  # the beams pass behind the sensor
-    if abs(counted - beams) > 1:
-        raise Malformed(
-            f"has {beams} readings, but angle_min {first:g}, angle_max {last:g} and angle_increment {step:g} make "
-            f"{max(counted, 0)}"
+    if step == 0:
+        if first == last or not math.isfinite(last):
+            raise Malformed(f"has {beams} readings, but angle_increment 0 and angle_max {last:g}")
+        step = (last - first) / (beams - 1)
+        odd = "angle_increment is 0; it was taken from angle_min and angle_max"
+    end = first + step * (beams - 1)
+    if (fault := fan_fault(min(first, end), max(first, end))) is not None:
+        raise Malformed(f"has {beams} readings, angle_min {first:g} and angle_increment {step:g}: {fault}")
+    return Layout(frame, beams, first, step), odd or _odd_end(first, last, step, beams)
+
+
+def _odd_end(first: float, last: float, step: float, beams: int) -> str:
+    """How ``angle_max`` contradicts the other angles, in words; empty if it does not."""
+    if not math.isfinite(last):
+        return f"angle_max is {last:g}; {TAKEN}"
+    # The beams may pass behind the sensor.
+    counted = min(
+        (_counted(first, last + turn, step) for turn in (0.0, math.copysign(2 * math.pi, step))),
+        key=lambda count: abs(count - beams),
+    )
+    if counted == beams:
+        return ""
+    if abs(counted - beams) == 1:
+        return f"angle_max counts one beam {'more' if counted > beams else 'less'} than there are readings"
+    if (last - first) * step < 0:
+        return (
+            f"angle_increment is {'negative' if step < 0 else 'positive'}, but angle_max lies the other way from "
+            f"angle_min; {TAKEN}. If the sensor turns the other way round, the map is a mirror image"
         )
-    if counted != beams and not odd:
-        odd = f"angle_max counts one beam {'more' if counted > beams else 'less'} than there are readings"
-    return Layout(frame, beams, first, step), odd
+    return f"angle_max does not fit the number of readings and angle_increment; {TAKEN}"
 
 
 def _counted(first: float, last: float, step: float) -> int:
@@ -161,18 +174,23 @@ class LaserMessages:
     topic: str
     scans: list[LaserMessage] = field(default_factory=list)
 
-    def of_one_layout(self, bad: Callable[[int, str], None]) -> tuple[Layout, list[LaserMessage]]:
-        """The commonest layout, and the scans that have it; ``bad`` is told of the others by number and reason."""
-        layouts = Counter(scan.layout for scan in self.scans)
-        # The commonest beams count together even if their angles tremble; the first layout stands for them all.
-        counts: Counter[Layout] = Counter()
-        for layout, count in layouts.most_common(100):
-            counts[next((known for known in counts if known.same(layout)), layout)] += count
-        chosen = counts.most_common(1)[0][0]
-        kept = []
-        for scan in self.scans:
-            if scan.layout == chosen or scan.layout.same(chosen):
-                kept.append(scan)
-            else:
-                bad(scan.number, f"has {scan.layout}, but most scans of {self.topic} have {chosen}")
-        return chosen, kept
+    def of_one_frame(self, bad: Callable[[int, str], None]) -> list[LaserMessage]:
+        """The scans with readings in the commonest frame; ``bad`` is told of those in others by number and reason."""
+        some = [scan for scan in self.scans if scan.layout.beams]
+        frame = Counter(scan.layout.frame for scan in some).most_common(1)[0][0] if some else ""
+        for scan in some:
+            if scan.layout.frame != frame:
+                bad(scan.number, f"is in frame {scan.layout.frame!r}, but most scans of {self.topic} in {frame!r}")
+        return [scan for scan in some if scan.layout.frame == frame]
+
+
+def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Beam angles in the sensor's frame and readings (S, A) of scans.
+
+    Angles are (A,) where all scans have the same beams, else (S, A): each scan keeps its own.
+    """
+    first = scans[0].layout
+    if all(scan.layout is first or scan.layout.same(first) for scan in scans):
+        with np.errstate(invalid="ignore"):  # NaN of the signalling kind
+            return first.angles_rad(), np.array([scan.ranges_m for scan in scans], dtype=np.float64)
+    return side_by_side([scan.layout.angles_rad() for scan in scans], [scan.ranges_m for scan in scans])

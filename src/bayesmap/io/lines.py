@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import zlib
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -24,7 +25,8 @@ class DamagedFile(BadInput):
 def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], None, None]:
     """The lines of a file with their numbers, counted from 1, without their line ends.
 
-    Whether the file is gzipped is decided by its first two bytes, not by its name.
+    Whether the file is gzipped is decided by its first two bytes, not by its name. A byte order mark, which
+    spreadsheets and editors write, is left out; UTF-16 behind one is turned into UTF-8.
 
     Raises:
         DamagedFile: a damaged or truncated gzip stream, after all the whole lines that could be read.
@@ -33,7 +35,7 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], Non
     name, number, rest = os.fspath(path), 0, b""
     try:
         with Path(path).open("rb") as file:
-            for chunk in _chunks(file):
+            for chunk in as_utf8(_chunks(file)):
                 *lines, rest = (rest + chunk).split(b"\n")
                 for line in lines:
                     number += 1
@@ -42,6 +44,8 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], Non
                     raise BadInput(
                         f"{name}: line {number + 1} is over {MAX_LINE_BYTES:,} bytes; this is not a text log"
                     )
+    except UnicodeDecodeError:
+        raise BadInput(f"{name}: after line {number} the text is not UTF-16, as it begins; save it as UTF-8") from None
     except (EOFError, zlib.error) as error:
         raise DamagedFile(
             f"{name}: the gzip file is damaged or cut short after line {number} ({error}); copy it again, "
@@ -51,6 +55,22 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], Non
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
     if rest:
         yield number + 1, rest
+
+
+def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
+    """Return the pieces of a text without its byte order mark, and UTF-16 that follows one as UTF-8."""
+    pieces, start = iter(pieces), b""
+    while len(start) < len(codecs.BOM_UTF8) and (piece := next(pieces, b"")):
+        start += piece
+    if not start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        yield start.removeprefix(codecs.BOM_UTF8)
+        yield from pieces
+        return
+    decoder = codecs.getincrementaldecoder("utf-16")()
+    yield decoder.decode(start).encode()
+    for piece in pieces:
+        yield decoder.decode(piece).encode()
+    yield decoder.decode(b"", final=True).encode()
 
 
 def _chunks(file: BinaryIO) -> Iterator[bytes]:

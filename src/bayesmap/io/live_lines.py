@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterator
 
 from bayesmap.errors import BadInput
-from bayesmap.io.lines import MAX_LINE_BYTES
+from bayesmap.io.lines import MAX_LINE_BYTES, as_utf8
 
 STANDARD_INPUT = ("-", "/dev/stdin")
 LOOK_EVERY_S = 0.05
@@ -31,7 +31,7 @@ def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, by
         BadInput: it cannot be read, was cut short, or has a line over `MAX_LINE_BYTES`.
     """
     number, rest = 0, b""
-    for piece in _pieces(name, idle_s):
+    for piece in as_utf8(_pieces(name, idle_s)):
         *lines, rest = (rest + piece).split(b"\n")
         for line in lines:
             number += 1

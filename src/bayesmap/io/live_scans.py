@@ -19,11 +19,13 @@ from bayesmap.errors import BadInput
 from bayesmap.io.carmen import KNOWN, message_name
 from bayesmap.io.csv_scans import is_header, live_rows
 from bayesmap.io.g2o import KNOWN as KNOWN_G2O
-from bayesmap.io.laser_lines import LASERS, BeamLayout, Malformed, parse_laser
+from bayesmap.io.laser_lines import LASERS, LaserLine, Malformed, parse_laser
 from bayesmap.io.lines import GZIP_MAGIC
 from bayesmap.io.live_lines import STANDARD_INPUT, live_lines
+from bayesmap.io.log_reading import Pose
 from bayesmap.io.logs import LINES_LOOKED_AT, format_of
 from bayesmap.io.returns import decode
+from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
@@ -61,6 +63,8 @@ def live_scans(
     skip_bad_lines: bool = False,
     idle_s: float | None = None,
     on_skipped: Callable[[int, str], None] = lambda line, reason: None,
+    laser: Pose | None = None,
+    without_poses: bool = False,
 ) -> Iterator[Scans]:
     """The scans of a log as it is written, one at a time.
 
@@ -71,6 +75,8 @@ def live_scans(
         skip_bad_lines: leave out malformed lines instead of ending with an error.
         idle_s: end when nothing has come for so long.
         on_skipped: told of lines that are left out.
+        laser: where the laser is on the robot, instead of what the log says.
+        without_poses: take tables without poses, too.
 
     Raises:
         BadInput: it cannot be read, is of another format, or has a malformed line.
@@ -87,10 +93,11 @@ def live_scans(
         before.append((number, line))
         words = line.split(None, 1)
         if words and words[0] in {known.encode() for known in KNOWN}:
-            yield from _of_carmen(_joined(before, lines), bad, max_range_m, no_return)
+            yield from _of_carmen(_joined(before, lines), bad, max_range_m, no_return, laser)
             return
         if is_header(line):
-            yield from live_rows(name, _joined(before, lines), bad, no_return, max_range_m)
+            rows = _joined(before, lines)
+            yield from live_rows(name, rows, bad, no_return, max_range_m, laser, without_poses)
             return
         if number >= LINES_LOOKED_AT or b"\0" in line or (words and words[0] in KNOWN_G2O):
             break
@@ -104,26 +111,23 @@ def _joined(before: list[tuple[int, bytes]], lines: Iterable[tuple[int, bytes]])
 
 
 def _of_carmen(
-    lines: Iterable[tuple[int, bytes]], bad: Bad, max_range_m: float, no_return: float | None
+    lines: Iterable[tuple[int, bytes]], bad: Bad, max_range_m: float, no_return: float | None, laser: Pose | None
 ) -> Iterator[Scans]:
-    """Scans of the first kind of laser message that comes, with the beams of the first."""
+    """Scans of the first kind of laser message that comes, each with its own beams; without readings they are skipped."""
     kind = ""
-    layout: BeamLayout | None = None
     for number, line in lines:
         try:
             name = message_name(line)
             if name not in LASERS or name != (kind or name):
                 continue
-            laser = parse_laser(name, line.split())
+            scan = parse_laser(name, line.split())
         except Malformed as problem:
             bad(number, str(problem))
             continue
-        if layout is None:
-            kind, layout = name, laser.layout
-        if laser.layout != layout:
-            bad(number, f"{name} has {laser.layout}, but the first scan of this log has {layout}")
-            continue
-        yield _scan(layout, laser.readings_m, laser.numbers, _code(no_return, laser.max_range_m), max_range_m)
+        kind = name
+        if scan.layout.beams:
+            pose = scan.numbers[:3] if laser is None else compose(scan.numbers[3:6], np.array(laser))
+            yield _scan(scan, pose, _code(no_return, scan.max_range_m), max_range_m)
 
 
 def _code(given: float | None, stated_max_m: float | None) -> float:
@@ -132,7 +136,7 @@ def _code(given: float | None, stated_max_m: float | None) -> float:
     return math.inf if stated_max_m is None else stated_max_m
 
 
-def _scan(layout: BeamLayout, readings_m: Floats, numbers: Floats, no_return: float, max_range_m: float) -> Scans:
-    ranges, _ = decode(readings_m[None], no_return)
+def _scan(scan: LaserLine, pose: Floats, no_return: float, max_range_m: float) -> Scans:
+    ranges, _ = decode(scan.readings_m[None], no_return)
     ranges[ranges > max_range_m] = np.inf
-    return Scans(numbers[None, :3], layout.angles_rad(), ranges, max_range_m, stamps_s=numbers[None, 6])
+    return Scans(pose[None], scan.layout.angles_rad(), ranges, max_range_m, stamps_s=scan.numbers[None, 6])

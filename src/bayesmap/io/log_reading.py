@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bayesmap.errors import BadInput
 from bayesmap.io.returns import NoReturn
 from bayesmap.space.scans import Scans
+
+Pose = tuple[float, float, float]
+"""x and y in metres, yaw in radians."""
+
+
+WITHOUT_POSES = "bayesmap slam --no-odometry needs no poses, if scans come at 5 Hz or so"
+"""The remedy for scans alone."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +62,7 @@ class LogReading:
         deskewed: whether each beam has a pose of its own.
         thin_m: metres that the robot travels from one scan to the next at least; 0 if none was left out.
         scans_read: how many scans there were before they were thinned.
+        posed: whether the poses are known; if not, all are zero.
     """
 
     path: str
@@ -74,6 +83,7 @@ class LogReading:
     deskewed: bool = False
     thin_m: float = 0.0
     scans_read: int | None = None
+    posed: bool = True
 
     @property
     def no_return_m(self) -> float | None:
@@ -107,4 +117,10 @@ class LogReading:
             "deskewed": self.deskewed,
             "thin_m": self.thin_m,
             "scans_read": len(self.scans) if self.scans_read is None else self.scans_read,
+            "posed": self.posed,
         }
+
+
+def no_poses(name: str, reason: str) -> BadInput:
+    """Return the error for a log whose scans have no poses, and what can be done with it all the same."""
+    return BadInput(f"{name}: nothing says where the scans were taken: {reason}; {WITHOUT_POSES}")

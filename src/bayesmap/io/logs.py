@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.io.carmen import KNOWN, read_carmen
@@ -14,18 +18,19 @@ from bayesmap.io.csv_scans import is_header, read_csv
 from bayesmap.io.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.g2o import read_g2o
 from bayesmap.io.lines import DamagedFile, read_lines
-from bayesmap.io.log_reading import LogReading
+from bayesmap.io.log_reading import LogReading, Pose
 from bayesmap.io.npz_scans import MAGIC as NPZ_MAGIC
 from bayesmap.io.npz_scans import read_npz
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import SAME_S, coarse_stamps_note
 from bayesmap.space.travel import jumps, steps_m, thinned
 
 FORMATS = (
     "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",
     "ROS 1 bag",
     "ROS 2 bag (a folder, .db3 or .mcap)",
-    "g2o (VERTEX_SE2 with laser lines)",
-    "CSV (a header with x, y, yaw, r_0 ..)",
+    "g2o and TORO (VERTEX_SE2 or VERTEX2 with laser lines)",
+    "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p)",
     "NumPy .npz",
 )
 LINES_LOOKED_AT = 1000
@@ -33,8 +38,13 @@ ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz")
 """What logs that are files are usually called."""
 SAVED_RUNS = (b"\x89HDF", b"CDF")
 """How netCDF files begin."""
+LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
+"""No robot turns so far from scan to scan in so many scans; and where degrees wrap, they leap by 360, or nearly so."""
 TEXT_FORMATS = ("carmen", "g2o", "csv")
-RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
+GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")
+"""Messages of GMapping's own logs of its particles (.gfs)."""
+RECORDED = ("rosbag1", "rosbag2-sqlite3", "mcap")
+RECORDINGS = (*RECORDED, "folder")
 
 
 def read_log(
@@ -48,6 +58,8 @@ def read_log(
     fixed_frame: str | None = None,
     deskew: bool = False,
     thin_m: float = 0.0,
+    laser: Pose | None = None,
+    without_poses: bool = False,
 ) -> Scans:
     """The scans of a log, in order of time, with poses of the laser in the world frame.
 
@@ -63,6 +75,10 @@ def read_log(
         fixed_frame: of a recording: the frame of /tf in which to map; by default map, else odom, else world.
         deskew: of a recording: give each beam the sensor's pose at the time when it was sent.
         thin_m: keep the first scan and then each by which the robot has travelled so far; 0 keeps all.
+        laser: where the laser is on the robot, x and y in metres and yaw in radians, instead of what the log says: the
+            log's poses are then taken as the robot's.
+        without_poses: read scans alone: recordings' poses are not looked at, and are zero, and so are those of text
+            logs that have none.
 
     Raises:
         BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, or a topic or
@@ -78,6 +94,8 @@ def read_log(
         fixed_frame=fixed_frame,
         deskew=deskew,
         thin_m=thin_m,
+        laser=laser,
+        without_poses=without_poses,
     ).scans
 
 
@@ -92,8 +110,12 @@ def describe_log(
     fixed_frame: str | None = None,
     deskew: bool = False,
     thin_m: float = 0.0,
+    laser: Pose | None = None,
+    without_poses: bool = False,
 ) -> LogReading:
     """As `read_log`, with an account of how the scans were read: skipped lines, no-return code, notes."""
+    if laser is not None and not (len(laser) == 3 and all(map(math.isfinite, laser))):
+        raise BadInput(f"laser: give x and y in metres and yaw in radians, got {laser!r}")
     kind = format_of(path)
     chosen = {"scan_topic": scan_topic, "pose_topic": pose_topic, "fixed_frame": fixed_frame}
     if kind in RECORDINGS:
@@ -105,6 +127,8 @@ def describe_log(
             skip_bad_lines=skip_bad_lines,
             max_range_m=max_range_m,
             deskew=deskew,
+            laser=laser,
+            without_poses=without_poses,
             **chosen,
         )
     else:
@@ -112,15 +136,19 @@ def describe_log(
         if named is not None:
             flag = "--" + named.replace("_", "-")
             raise BadInput(f"{os.fspath(path)}: {flag} {chosen[named]}: a {kind} file has no topics and no frames")
+        how: dict[str, Any] = {"no_return": no_return, "max_range_m": max_range_m, "laser": laser}
+        lines = {**how, "skip_bad_lines": skip_bad_lines}
         if kind == "npz":
-            reading = read_npz(path, no_return=no_return, max_range_m=max_range_m)
+            reading = read_npz(path, **how, without_poses=without_poses)
+        elif kind == "g2o":
+            reading = read_g2o(path, **lines)
         else:
-            read = {"carmen": read_carmen, "g2o": read_g2o, "csv": read_csv}[kind]
-            reading = read(path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m)
+            reading = (read_carmen if kind == "carmen" else read_csv)(path, **lines, without_poses=without_poses)
         if deskew and not reading.deskewed:
             note = f"nothing to de-skew: a {kind} file does not say when each beam was sent"
             reading = replace(reading, notes=(*reading.notes, note))
-    return _thinned(_with_jumps(reading), thin_m)
+    reading = _with_beams(_with_jumps(_with_coarse_stamps(reading)))
+    return _thinned(reading if kind in RECORDINGS else _with_degrees(reading), thin_m)
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
@@ -165,6 +193,11 @@ def _text_format(name: str) -> str:
             for _, line in itertools.islice(lines, LINES_LOOKED_AT):
                 some = True
                 words = line.split(None, 1)
+                if words and words[0] in GMAPPING:
+                    raise BadInput(
+                        f"{name}: GMapping's log of its particles (.gfs); gfs2log, which comes with GMapping, makes "
+                        "a CARMEN log of its best path: give that"
+                    )
                 if words and words[0] in KNOWN_G2O:
                     return "g2o"  # whose laser lines are CARMEN's: hence not earlier
                 if words and words[0] in carmen:
@@ -184,17 +217,53 @@ def _text_format(name: str) -> str:
     )
 
 
+def _with_coarse_stamps(reading: LogReading) -> LogReading:
+    stamps = reading.scans.stamps_s
+    note = None if stamps is None else coarse_stamps_note(stamps)
+    if note is not None and reading.pose_source is not None and reading.format in RECORDED:
+        note += "; nor do they tell exactly where the robot was: poses are those of the stamps"
+    return reading if note is None else replace(reading, notes=(*reading.notes, note))
+
+
 def _with_jumps(reading: LogReading) -> LogReading:
     found = jumps(reading.scans)
     if not len(found):
         return reading
     scan, scans = int(found[0]), reading.scans
     step = float(steps_m(scans.poses)[scan - 1])
-    when = "" if scans.stamps_s is None else f" in {scans.stamps_s[scan] - scans.stamps_s[scan - 1]:.3g} s"
+    gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
+    when = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
     where = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     note = (
         f"{len(found):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
         "walls will appear twice if the poses are wrong"
+    )
+    return replace(reading, notes=(*reading.notes, note))
+
+
+def _with_beams(reading: LogReading) -> LogReading:
+    """The reading with a note if its beams differ from scan to scan."""
+    own = reading.scans.own_angles_rad
+    if own is None:
+        return reading
+    counts = np.isfinite(own).sum(axis=1)
+    low, high = int(counts.min()), int(counts.max())
+    number = f"{low} to {high} beams" if low < high else f"{low} beams at angles that differ from scan to scan"
+    return replace(reading, notes=(*reading.notes, f"the scans have {number}; each keeps its own"))
+
+
+def _with_degrees(reading: LogReading) -> LogReading:
+    """The reading with a note if its yaw looks like degrees: it goes beyond a turn, in steps that are large for radians."""
+    yaw = reading.scans.poses[:, 2]
+    steps = np.abs(np.diff(yaw))
+    large = steps > LARGE_TURN_RAD
+    wraps = np.abs(steps - 360.0) < NEAR_A_TURN_DEG
+    if not len(steps) or np.abs(yaw).max() <= math.tau or not (wraps.any() or large.mean() > LARGE_TURNS):
+        return reading
+    scan = int(steps.argmax()) + 1
+    note = (
+        f"the robot's yaw turns by {steps.max():.3g} from scan {scan - 1} to scan {scan}, and reaches "
+        f"{np.abs(yaw).max():.4g}: it is taken as radians; is it in degrees?"
     )
     return replace(reading, notes=(*reading.notes, note))
 

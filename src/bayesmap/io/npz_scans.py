@@ -1,6 +1,7 @@
 """Scans in a NumPy .npz archive, under the names of the fields of `bayesmap.Scans`.
 
-Needed: ``poses`` (S, 3), ``angles_rad`` (A,), ``ranges_m`` (S, A). May be there: ``max_range_m``, ``min_range_m``,
+Needed: ``poses`` (S, 3), ``angles_rad`` (A,), ``ranges_m`` (S, A); ``angles_rad`` (S, A) where the beams differ from scan
+to scan, with NaN where a scan has fewer. May be there: ``max_range_m``, ``min_range_m``,
 ``stamps_s`` (S,), ``beam_poses`` (S, A, 3). Readings are coded as in `Scans`: +inf no return, -inf too close, NaN
 invalid, all else hits; a code is looked for only if one is named by ``no_return``.
 """
@@ -15,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogReading
+from bayesmap.io.log_reading import LogReading, Pose, no_poses
 from bayesmap.io.rep117 import largest_hit_m
 from bayesmap.io.returns import NoReturn, decode
+from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans
 
 MAGIC = b"PK\x03\x04"
@@ -26,18 +28,31 @@ OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
 
 
 def read_npz(
-    path: str | os.PathLike[str], *, no_return: float | None = None, max_range_m: float | None = None
+    path: str | os.PathLike[str],
+    *,
+    no_return: float | None = None,
+    max_range_m: float | None = None,
+    laser: Pose | None = None,
+    without_poses: bool = False,
 ) -> LogReading:
-    """Read scans from an .npz archive.
+    """Read scans from an .npz archive. The arguments are those of `bayesmap.io.logs.read_log`.
 
     Raises:
         BadInput: not such an archive, an array that is missing or does not fit, or no valid reading.
     """
     name = os.fspath(path)
     arrays = _arrays(name)
+    posed = "poses" in arrays
+    if not posed and without_poses and "ranges_m" in arrays:
+        arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
+    if arrays.keys() >= {"angles_rad", "ranges_m"} and "poses" not in arrays:
+        raise no_poses(name, "the archive has no 'poses'")
     missing = [key for key in NEEDED if key not in arrays]
     if missing:
         raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(sorted(arrays)) or 'nothing'}")
+    if laser is not None:
+        for key in {"poses", "beam_poses"} & arrays.keys():
+            arrays[key] = compose(arrays[key], np.array(laser))
     ranges = np.atleast_2d(arrays["ranges_m"])
     coded = NoReturn(None, "none")
     if no_return is not None:
@@ -67,10 +82,11 @@ def read_npz(
         skipped=(),
         no_return=coded,
         max_range_origin=origin,
-        laser_offset=(0.0, 0.0, 0.0),
+        laser_offset=laser or (0.0, 0.0, 0.0),
         reordered=0,
         notes=(),
         deskewed=scans.beam_poses is not None,
+        posed=posed,
     )
 
 

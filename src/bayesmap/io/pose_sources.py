@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -9,7 +10,9 @@ from typing import Any
 from bayesmap.errors import BadInput
 from bayesmap.io.frames import FIXED_FRAMES, Chain, FrameTree, Numbers, Samples, numbers_of
 from bayesmap.io.laser_messages import LATEST_NS, Malformed, frame_of, stamp_ns_of
+from bayesmap.io.log_reading import WITHOUT_POSES, Pose
 from bayesmap.io.recording import Recording, Topic
+from bayesmap.space.rigid import Track
 
 TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
 ODOMETRY = "nav_msgs/msg/Odometry"
@@ -18,6 +21,8 @@ POSE_COVARIANCE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 POSE_TYPES = (ODOMETRY, POSE, POSE_COVARIANCE)
 BODIES = ("base_footprint", "base_link", "base")
 """What a robot's body is called, where a pose does not say whose it is."""
+MOUNTS = ("base_link", "base_footprint", "base")
+"""What a typed mount is relative to, the likeliest first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,12 +34,14 @@ class PoseSource:
         fixed_frame: the frame in which the map is made.
         chain: from that frame to the sensor's.
         notes: what a user should know.
+        posed: whether the poses are known; if not, the chain only says which way up the sensor is.
     """
 
     label: str
     fixed_frame: str
     chain: Chain
     notes: tuple[str, ...] = ()
+    posed: bool = True
 
 
 class PoseMessages:
@@ -147,8 +154,49 @@ def by_transforms(path: str, tree: FrameTree, sensor: str, fixed_frame: str | No
     return PoseSource("/tf", found, chain, notes)
 
 
-def by_topic(path: str, topic: Topic, messages: PoseMessages, tree: FrameTree, sensor: str) -> PoseSource:
-    """The sensor's poses by a topic of poses, and where the sensor is on the body.
+def body_of(path: str, tree: FrameTree, sensor: str) -> str | None:
+    """Return the frame of the robot's body that a mount typed by the user refers to; None if /tf has none.
+
+    Raises:
+        BadInput: several robots, and the sensor's frame does not say on which it is.
+    """
+    connected = tree.connected(sensor, MOUNTS) if sensor in tree.frames() else None
+    if connected is not None:
+        return connected
+    for name in MOUNTS:
+        frames = [frame for frame in tree.frames() if frame.rpartition("/")[2] == name]
+        own = [frame for frame in frames if sensor.startswith(frame.rpartition("/")[0] + "/")]
+        frames = own if len(frames) > 1 and own else frames
+        if len(frames) > 1:
+            raise BadInput(
+                f"{path}: --laser: it is not clear on which robot {sensor!r} is: /tf has {', '.join(frames)}; choose "
+                "its poses with --pose-topic"
+            )
+        if frames:
+            return frames[0]
+    return None
+
+
+def link_of(laser: Pose) -> tuple[Track, bool, bool]:
+    """Return the link of a chain from the robot's body to a laser that is mounted level at a pose."""
+    x, y, yaw = laser
+    numbers = (x, y, 0.0, 0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
+    return Samples(True, [0], [0], [numbers]).track(), True, False
+
+
+def standing_still(tree: FrameTree, sensor: str) -> PoseSource:
+    """Return a source without poses; a transform from the body, if there is one, says which way up the sensor is."""
+    body = tree.connected(sensor, BODIES) if sensor in tree.frames() else None
+    chain = tree.chain(body, sensor) if body is not None else None
+    if chain is None or not all(constant for _, constant, _ in chain.links):
+        chain = Chain(())
+    return PoseSource("", "", chain, posed=False)
+
+
+def by_topic(
+    path: str, topic: Topic, messages: PoseMessages, tree: FrameTree, sensor: str, laser: Pose | None = None
+) -> PoseSource:
+    """The sensor's poses by a topic of poses, and where the sensor is on the body, by /tf or as the user says.
 
     Raises:
         BadInput: no pose at all.
@@ -165,6 +213,10 @@ def by_topic(path: str, topic: Topic, messages: PoseMessages, tree: FrameTree, s
         notes.append(f"{topic.name} tells where {body or '?'} is in {fixed or '?'}; not used: {others}")
     if samples.unstamped:
         notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
+    if laser is not None:
+        return PoseSource(
+            topic.name, fixed or "?", Chain(((samples.track(), False, False), link_of(laser))), tuple(notes)
+        )
     if not body or body not in tree.frames():
         # Without a name for it, or with one that /tf does not know: what robots' bodies are called.
         guess = sensor if body == sensor else tree.connected(sensor, BODIES) if sensor in tree.frames() else None
@@ -175,7 +227,8 @@ def by_topic(path: str, topic: Topic, messages: PoseMessages, tree: FrameTree, s
     if offset is None:
         who = repr(body) if body else "the body"
         notes.append(
-            f"no transform from {who} to {sensor!r} is known; the poses on {topic.name} were taken as the sensor's"
+            f"no transform from {who} to {sensor!r} is known; the poses on {topic.name} were taken as the sensor's; "
+            "--laser X,Y,DEGREES says where it is on the robot"
         )
         offset = Chain(())
     track = (samples.track(), False, False)
@@ -186,13 +239,15 @@ def no_poses(path: str, tree: FrameTree, sensor: str, pose_topics: list[Topic]) 
     """The error where nothing says where the sensor is."""
     if pose_topics:
         remedy = f"choose one with --pose-topic: there are {listed(pose_topics)}"
-    elif tree.frames():
-        remedy = "name the frame to map in with --fixed-frame"
-    else:
+    elif not tree.frames():
         remedy = "a recording needs /tf and /tf_static, or a topic of poses such as nav_msgs/Odometry"
+    elif sensor not in tree.frames():
+        remedy = "say where the laser is on the robot with --laser X,Y,DEGREES"
+    else:
+        remedy = "name the frame to map in with --fixed-frame"
     return BadInput(
         f"{path}: nothing says where the scans' frame {sensor!r} is in the world: /tf connects it with none of "
-        f"{', '.join(FIXED_FRAMES)}; {_frames(tree)}; {remedy}"
+        f"{', '.join(FIXED_FRAMES)}; {_frames(tree)}; {remedy}; {WITHOUT_POSES}"
     )
 
 

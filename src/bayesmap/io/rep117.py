@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.returns import NoReturn, decode
+from bayesmap.io.returns import NoReturn, Views, decode
 
 FURTHEST_M = 1e6
 """A stated range above this is no limit that a sensor has."""
@@ -52,6 +52,7 @@ def judge(
     *,
     no_return: float | None,
     max_range_m: float | None,
+    views: Views | None = None,
 ) -> Judged:
     """Tell hits, no returns, too close and invalid readings apart.
 
@@ -62,6 +63,7 @@ def judge(
         stated_max_m: its largest.
         no_return: what the log writes for no return, if the user says so; infinity says that it has no such number.
         max_range_m: the largest range, if the user gives one.
+        views: from where and in which direction readings were taken, to tell a code from a wall.
 
     Raises:
         BadInput: not a single reading says anything, or a given number that makes no sense.
@@ -80,7 +82,8 @@ def judge(
             NoReturn(None, "none"),
         )
     else:
-        ranges, coded = decode(readings_m, no_return, largest)
+        ranges, coded = decode(readings_m, no_return, largest, views)
+        notes += coded.notes()
     finite = np.isfinite(ranges)
     zeros = int((np.isfinite(readings_m) & (readings_m <= 0) & np.isnan(ranges)).sum())
     if zeros > 0.01 * readings_m.size:

@@ -146,6 +146,8 @@ def _write_scans(file: Any, scans: Scans) -> Any:
     constant = file.createGroup("constant_data")
     write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
     write_arrays(constant, ("beam",), {"angle_rad": scans.angles_rad})
+    if scans.own_angles_rad is not None:
+        write_arrays(constant, ("scan", "beam"), {"own_angle_rad": scans.own_angles_rad})
     if scans.stamps_s is not None:
         write_arrays(constant, ("scan",), {"stamp_s": scans.stamps_s})
     if scans.beam_poses is not None:
@@ -224,6 +226,7 @@ def _checksum(posterior: Posterior, header: dict[str, Any], trajectory: Trajecto
     arrays = (
         posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.occupancy,
         posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s, scans.beam_poses,
+        scans.own_angles_rad,
     )  # fmt: skip
     names = sorted(named)
     return checksum_of(json.dumps([header, names], sort_keys=True), [*(named[name] for name in names), *arrays])

@@ -92,4 +92,5 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
         max_range_m=header["limits"][1],
         stamps_s=_optional(constant, "stamp_s"),
         beam_poses=_optional(constant, "beam_pose_world"),
+        own_angles_rad=_optional(constant, "own_angle_rad"),
     )

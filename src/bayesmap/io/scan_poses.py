@@ -61,17 +61,22 @@ def in_order_of_time(
 
 
 def ray_times(
-    stamps: NDArray[np.int64], scans: list[LaserMessage], beams: int, deskew: bool, notes: list[str]
+    stamps: NDArray[np.int64], scans: list[LaserMessage], deskew: bool, notes: list[str]
 ) -> NDArray[np.int64]:
-    """When each ray was sent, shape (S, A); shape (S, 1), the first ray, if that is all that is wanted."""
+    """When each ray was sent, shape (S, A); shape (S, 1), the first ray, if that is all that is wanted.
+
+    Where a scan has fewer rays than the largest, its last ray's time stands for those that it does not have.
+    """
     if not deskew:
         return stamps[:, None]
+    beams = np.array([scan.layout.beams for scan in scans])
     intervals = np.array([scan.ray_interval_s for scan in scans], dtype=np.float64)
     intervals[~(np.abs(intervals) * beams < LONGEST_SWEEP_S)] = 0.0
     if not intervals.any():
         notes.append("time_increment is 0, or no time, in every scan: there is nothing to de-skew")
         return stamps[:, None]
-    return np.asarray(stamps[:, None] + np.rint(intervals[:, None] * 1e9 * np.arange(beams)).astype(np.int64))
+    rays = np.minimum(np.arange(beams.max()), beams[:, None] - 1)
+    return np.asarray(stamps[:, None] + np.rint(intervals[:, None] * 1e9 * rays).astype(np.int64))
 
 
 def left_out(name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: PoseSource) -> list[str]:

@@ -243,7 +243,7 @@ def trace_rays(
 
     Args:
         scans: S scans of A beams; beam ``s * A + a`` of the rays is beam a of scan s. An invalid reading says nothing:
-            its beam has no entry.
+            its beam has no entry, nor has one that a scan does not have.
         grid: the map's grid.
         poses_world: other poses for the scans, (S, 3), as `bayesmap.space.scans.Scans.at` takes them.
         reach_m: how far each beam is followed, (B,); to the sensor's largest range if None, and never further.
@@ -256,7 +256,7 @@ def trace_rays(
     """
     device = devices.resolve(device)
     scans = scans if poses_world is None else scans.at(poses_world)
-    ranges, beams = scans.ranges_m.ravel(), scans.n_beams
+    ranges, beams = scans.ranges_m.ravel(), scans.ranges_m.size
     reach = np.minimum(np.inf if reach_m is None else reach_m, scans.max_range_m)
     reach = np.where(np.isnan(ranges), -1.0, reach)
     start_m, direction = beam_lines(scans, grid)

@@ -155,7 +155,7 @@ class ScanLikelihood:
             scan: which scan is weighed there, (P,).
             chain: under which chain's cells, (P,).
         """
-        device, beams = devices.resolve(self.device), len(self.scans.angles_rad)
+        device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         out = wp.zeros(len(poses) * beams, dtype=wp.float64, device=device)
         mounts, readings = self._on_device
@@ -186,6 +186,10 @@ class ScanLikelihood:
         readings = devices.to_device(scans.ranges_m.ravel(), wp.float64, self.device)
         mounts = np.zeros((len(scans.angles_rad), 3))
         mounts[:, 2] = scans.angles_rad
+        if scans.own_angles_rad is not None:
+            mounts = np.zeros((*scans.ranges_m.shape, 3))
+            mounts[..., 2] = scans.angles_by_scan()
+            mounts = mounts.reshape(-1, 3)
         if scans.beam_poses is not None:
             dx, dy = np.moveaxis(scans.beam_poses[..., :2] - scans.poses[:, None, :2], -1, 0)
             yaw = scans.poses[:, 2:3]

@@ -28,6 +28,7 @@ from bayesmap.poses.odometry_motion import inverse_slope
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, interpolate, wrapped
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import repeated_stamps
 
 Floats = NDArray[np.float64]
 
@@ -74,10 +75,14 @@ class OdometryFit:
 
 
 def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
-    """Odometry's poses at the scans' stamps, if its own stamps are late by ``lag_s``, (S, 3)."""
+    """Return odometry's poses at the scans' stamps, if its own stamps are late by ``lag_s``, (S, 3).
+
+    Scans that share their stamp with others keep their poses.
+    """
     if stamps_s is None or lag_s == 0.0:
         return poses
-    return interpolate(stamps_s, poses, stamps_s + lag_s)
+    late = interpolate(stamps_s, poses, stamps_s + lag_s)
+    return np.where(repeated_stamps(stamps_s)[:, None], poses, late)
 
 
 def velocities(poses: Floats, stamps_s: Floats) -> Floats:
@@ -95,7 +100,7 @@ def fit_odometry(
 
     Args:
         stated: odometry's pose of all scans, (S, 3).
-        stamps_s: (S,), or None: then there is no lag to be found.
+        stamps_s: (S,), or None: then there is no lag to be found. Scans that share their stamp tell nothing of it.
         found: poses of some scans, (K, 3).
         scans: which these are, ascending, (K,).
         laser_variance: of each motion between them as found, x, y and yaw, (K - 1, 3): large where the laser cannot
@@ -104,11 +109,11 @@ def fit_odometry(
     motion = between(found[:-1], found[1:])
     error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
     error[:, 2] = wrapped(error[:, 2])
-    timed = stamps_s is not None and np.ptp(stamps_s) > 0
     change = np.zeros_like(motion)
-    if timed and stamps_s is not None:
-        speed = velocities(stated, stamps_s)
-        change = speed[scans[:-1]] - speed[scans[1:]]
+    if stamps_s is not None:
+        speed, told = velocities(stated, stamps_s), ~repeated_stamps(stamps_s)[scans]
+        change = np.where((told[:-1] & told[1:])[:, None], speed[scans[:-1]] - speed[scans[1:]], 0.0)
+    timed = change.any()
     steps = between(stated[:-1], stated[1:])
     ways, turns = (_over(size, scans) for size in (np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])))
     parts = np.diff(scans).astype(np.float64)

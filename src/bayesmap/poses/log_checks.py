@@ -8,6 +8,22 @@ from bayesmap.errors import BadInput
 from bayesmap.poses.frozen_odometry import frozen_stretches
 from bayesmap.space.scans import Scans
 
+SLOWEST_S = 0.5
+"""Scans that come more seldom cannot be followed without odometry."""
+TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
+
+
+def gap_s(scans: Scans) -> float:
+    """Return the median time from scan to scan, seconds; 0 where stamps say nothing."""
+    if scans.stamps_s is None or len(scans) < 2:
+        return 0.0
+    return float(np.median(np.diff(np.sort(scans.stamps_s))))
+
+
+def scans_come_often(scans: Scans) -> bool:
+    """Return whether scans come often enough to be followed without odometry, as far as their stamps tell."""
+    return gap_s(scans) <= SLOWEST_S
+
 
 def check_scans(scans: Scans, no_odometry: bool) -> None:
     """Refuse scans that no trajectory can be inferred from.
@@ -25,13 +41,11 @@ def check_scans(scans: Scans, no_odometry: bool) -> None:
             "slam: the log's odometry is constant, one pose for all scans, but the scans see the robot move; "
             "--no-odometry goes without"
         )
-    if no_odometry and scans.stamps_s is not None and np.ptp(scans.stamps_s) > 0:
-        gap = float(np.median(np.diff(np.sort(scans.stamps_s))))
-        if gap > 0.5:
-            raise BadInput(
-                f"slam: without odometry scans must come at 5 Hz or so, these come every {gap:.2f} s; "
-                "give the log's odometry, or all of its scans"
-            )
+    if no_odometry and not scans_come_often(scans):
+        raise BadInput(
+            f"slam: without odometry scans must come at 5 Hz or so, these come every {gap_s(scans):.2f} s; "
+            "give the log's odometry, or all of its scans"
+        )
 
 
 def doubts(scans: Scans, no_odometry: bool) -> list[str]:

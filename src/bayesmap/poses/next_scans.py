@@ -21,6 +21,7 @@ from bayesmap.poses.odometry_motion import RunningOdometry
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.se2 import rotation
 from bayesmap.space.planar import between, compose
+from bayesmap.space.time_order import SAME_S
 
 Floats = NDArray[np.float64]
 
@@ -94,10 +95,10 @@ def predict(
     """Where the scans of a batch should be, (N, 3), and variances of x, y and yaw in their own frames, (N, 3)."""
     if motions is None:
         gap, before = 0.2, 0.2
-        if stamps_s is not None and i > 0:
-            gap, before = max(stamps_s[i + 1] - stamps_s[i], 0.0), max(stamps_s[i] - stamps_s[i - 1], 0.0)
+        if stamps_s is not None and i > 0 and (np.diff(stamps_s[i - 1 : i + 2]) >= SAME_S).all():
+            before, gap = np.diff(stamps_s[i - 1 : i + 2])
         last = between(poses[i - 1], poses[i]) if i > 0 else np.zeros(3)
-        share = min(gap / before, 1.5) if before > 1e-3 else 1.0
+        share = min(gap / before, 1.5)
         sigma = np.array([0.05 + 0.5 * min(gap, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap, 1.0)])
         return compose(poses[i], last * share)[None], sigma[None] ** 2
     stated = motions[i : i + len(batch)]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.prior import Odometry
 from bayesmap.space.planar import between, wrapped
+from bayesmap.space.time_order import elapsed_s
 
 Floats = NDArray[np.float64]
 
@@ -35,12 +36,22 @@ SLOPE_SIGMA = 0.15
 
 
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, NDArray[np.bool_]]:
-    """Motions from scan to scan in the earlier one's frame, (S - 1, 3), and which of them no robot can have made."""
+    """Return the motions from scan to scan in the earlier one's frame, (S - 1, 3), and which no robot can have made.
+
+    Where stamps repeat, a motion is impossible if it is too fast for the longest time that the stamps allow, or if it
+    is much longer than usual and too fast for the shortest.
+    """
     motions = between(poses[:-1], poses[1:])
     length = np.hypot(motions[:, 0], motions[:, 1])
-    if stamps_s is not None and np.ptp(stamps_s) > 0:
-        return motions, length > FAST_M_PER_S * (np.maximum(np.diff(stamps_s), 0.0) + 0.3) + 0.5
-    return motions, length > max(2.0, 20.0 * float(np.median(length)) if len(length) else 2.0)
+    unusual = length > max(2.0, 20.0 * float(np.median(length)) if len(length) else 2.0)
+    if stamps_s is None:
+        return motions, unusual
+    least_s, most_s = elapsed_s(stamps_s)
+    return motions, (length > _farthest_m(most_s)) | (unusual & (length > _farthest_m(least_s)))
+
+
+def _farthest_m(elapsed: Floats) -> Floats:
+    return np.asarray(FAST_M_PER_S * (elapsed + 0.3) + 0.5)
 
 
 def variances(motions: Floats, ratios: Floats) -> Floats:

@@ -28,10 +28,11 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
     scans, grid = model.scans, model.grid
     digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
-    arrays = [scans.poses, scans.angles_rad, scans.ranges_m, scans.beam_poses, *model.cells.parameters().values()]
+    arrays = [scans.poses, scans.angles_rad, scans.ranges_m, scans.beam_poses, scans.own_angles_rad]
+    arrays += [*model.cells.parameters().values()]
     # A model of the user's own making is described by its name alone: what it says of some readings stands for it.
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    readings = scans.ranges_m.ravel()[:: max(1, scans.n_beams // PROBES)][:PROBES, None]
+    readings = scans.ranges_m.ravel()[:: max(1, scans.ranges_m.size // PROBES)][:PROBES, None]
     arrays.append(model.sensor.log_likelihood(readings, np.linspace(0.0, limits.max_m, PROBES), limits))
     for array in (*arrays, *starts):
         if array is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 
@@ -11,6 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, compose
+
+
+MOST_TURNS = 1.1
+"""A fan of beams is no wider, in turns: beams may overlap a little where a turn ends."""
 
 
 class Reading(IntEnum):
@@ -33,7 +38,9 @@ class Scans:
     Attributes:
         poses: sensor poses in the world frame, shape (S, 3): x in metres, y in metres, yaw in radians,
             counter-clockwise from +x. A single pose of shape (3,) is taken as one scan.
-        angles_rad: beam angles in the sensor frame, shape (A,).
+        angles_rad: beam angles in the sensor frame, shape (A,). Where beams differ from scan to scan, give shape (S, A),
+            NaN where a scan has fewer beams than others: the attribute then holds the beams of the largest scan,
+            and `own_angles_rad` those of each.
         ranges_m: readings, shape (S, A) (or (A,) for one scan), coded as in REP-117: +inf is no return,
             -inf too close, NaN invalid; every finite number is a hit. Additive noise may carry a short
             reading below zero, so negative numbers are not refused here: the log readers do that.
@@ -42,10 +49,12 @@ class Scans:
         stamps_s: time of each scan in seconds, shape (S,), or None.
         beam_poses: pose of the sensor in the world frame as each beam left it, shape (S, A, 3), where it moved
             while it turned; None if every beam of a scan left from the scan's pose.
+        own_angles_rad: beam angles of each scan, shape (S, A), NaN where a scan has no such beam; None if all scans
+            have the beams ``angles_rad``. `angles_by_scan` and `beams_of` serve both cases.
 
     Raises:
-        BadInput: shapes that do not fit together, poses or angles that are not finite, or a range limit that
-            is not positive. The message names the array, the scan and the beam.
+        BadInput: shapes that do not fit together, poses or angles that are not finite, a fan of over a turn, a reading
+            without an angle, or a range limit that is not positive. The message names the array, the scan and the beam.
     """
 
     poses: NDArray[np.float64]
@@ -55,11 +64,18 @@ class Scans:
     min_range_m: float = 0.0
     stamps_s: NDArray[np.float64] | None = None
     beam_poses: NDArray[np.float64] | None = None
+    own_angles_rad: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
-        angles = as_angles(self.angles_rad)
         ranges = np.atleast_2d(_as_floats(self.ranges_m, "ranges_m"))
+        own = self.own_angles_rad
+        if own is None and np.ndim(self.angles_rad) == 2:
+            own = self.angles_rad
+        if own is None:
+            angles = as_angles(self.angles_rad)
+        else:
+            angles, own = _as_own_angles(self.angles_rad, own, ranges)
         if ranges.shape != (len(poses), len(angles)):
             raise BadInput(
                 f"scans: ranges_m has shape {ranges.shape}, but {len(poses)} poses and {len(angles)} angles "
@@ -68,6 +84,7 @@ class Scans:
         check_limits(self.min_range_m, self.max_range_m)
         object.__setattr__(self, "poses", poses)
         object.__setattr__(self, "angles_rad", angles)
+        object.__setattr__(self, "own_angles_rad", own)
         object.__setattr__(self, "ranges_m", ranges)
         object.__setattr__(self, "max_range_m", float(self.max_range_m))
         object.__setattr__(self, "min_range_m", float(self.min_range_m))
@@ -98,7 +115,30 @@ class Scans:
     @property
     def n_beams(self) -> int:
         """Number of beams, over all scans."""
-        return int(self.ranges_m.size)
+        return int(self.ranges_m.size if self.own_angles_rad is None else np.isfinite(self.own_angles_rad).sum())
+
+    @property
+    def has_beam(self) -> NDArray[np.bool_]:
+        """Which beams each scan has, shape (S, A)."""
+        if self.own_angles_rad is None:
+            return np.broadcast_to(np.True_, self.ranges_m.shape)
+        return np.isfinite(self.own_angles_rad)
+
+    def angles_by_scan(self) -> NDArray[np.float64]:
+        """Beam angles in the sensor frame, shape (S, A), all finite: where a scan has no such beam, the largest scan's.
+
+        The readings there are NaN, so that the angle says nothing.
+        """
+        if self.own_angles_rad is None:
+            return np.broadcast_to(self.angles_rad, self.ranges_m.shape)
+        return np.where(np.isnan(self.own_angles_rad), self.angles_rad, self.own_angles_rad)
+
+    def beams_of(self, scan: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angles and readings of the beams that one scan has, shape (N,) each."""
+        if self.own_angles_rad is None:
+            return self.angles_rad, self.ranges_m[scan]
+        beams = np.isfinite(self.own_angles_rad[scan])
+        return self.own_angles_rad[scan, beams], self.ranges_m[scan, beams]
 
     @property
     def readings(self) -> NDArray[np.uint8]:
@@ -111,13 +151,14 @@ class Scans:
 
     def counts(self) -> dict[str, int]:
         """How many readings there are of each kind."""
-        tally = np.bincount(self.readings.ravel(), minlength=len(Reading))
+        kinds = self.readings if self.own_angles_rad is None else self.readings[self.has_beam]
+        tally = np.bincount(kinds.ravel(), minlength=len(Reading))
         return {kind.name.lower(): int(tally[kind]) for kind in Reading}
 
     def beam_angles_world(self) -> NDArray[np.float64]:
         """Direction of every beam in the world frame, radians, shape (S, A)."""
         yaw = self.poses[:, 2:3] if self.beam_poses is None else self.beam_poses[..., 2]
-        return np.asarray(yaw + self.angles_rad[None, :])
+        return np.asarray(yaw + self.angles_by_scan())
 
     def beam_starts_world(self) -> NDArray[np.float64]:
         """Where every beam leaves the sensor, metres in the world frame, shape (S, A, 2)."""
@@ -137,9 +178,24 @@ class Scans:
         """The scans at the given indices, or where the mask is true, or in the slice."""
         stamps = None if self.stamps_s is None else self.stamps_s[scans]
         beam_poses = None if self.beam_poses is None else self.beam_poses[scans]
+        own = None if self.own_angles_rad is None else self.own_angles_rad[scans]
         return replace(
-            self, poses=self.poses[scans], ranges_m=self.ranges_m[scans], stamps_s=stamps, beam_poses=beam_poses
+            self,
+            poses=self.poses[scans],
+            ranges_m=self.ranges_m[scans],
+            stamps_s=stamps,
+            beam_poses=beam_poses,
+            own_angles_rad=own,
         )
+
+    def stretched(self, ratio: float) -> Scans:
+        """The same scans with ``ratio`` times the angle between beams, about the first beam of each scan."""
+        if ratio == 1.0:
+            return self
+        if self.own_angles_rad is None:
+            return replace(self, angles_rad=self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0]))
+        first = self.own_angles_rad[:, :1]
+        return replace(self, own_angles_rad=first + ratio * (self.own_angles_rad - first))
 
     def at(self, poses_world: ArrayLike) -> Scans:
         """The same readings from other poses, (S, 3). Where the sensor moved while it turned, its path moves along.
@@ -211,7 +267,68 @@ def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
     if not np.isfinite(array).all():
         beam = int(np.nonzero(~np.isfinite(array))[0][0])
         raise BadInput(f"scans: angle of beam {beam} is not finite: {array[beam]}")
+    if (fault := fan_fault(float(array.min()), float(array.max()))) is not None:
+        raise BadInput(f"scans: angles_rad: {fault}")
     return array
+
+
+def _as_own_angles(
+    largest: ArrayLike, own: ArrayLike, ranges_m: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Angles (A,) of the largest scan and (S, A) of each, or None for these if all scans have the same."""
+    each = _as_floats(own, "angles_rad")
+    if each.shape != ranges_m.shape or not each.shape[1]:
+        raise BadInput(f"scans: angles_rad has shape {each.shape}, expected (A,) or that of ranges_m, {ranges_m.shape}")
+    missing = np.isnan(each)
+    if np.isinf(each).any() or (missing & ~np.isnan(ranges_m)).any():
+        scan, beam = np.argwhere(np.isinf(each) | (missing & ~np.isnan(ranges_m)))[0]
+        raise BadInput(
+            f"scans: angle of beam {beam} of scan {scan} is {each[scan, beam]}, but its reading is "
+            f"{ranges_m[scan, beam]}; a beam that a scan does not have has the angle NaN and the reading NaN"
+        )
+    lowest, highest = np.where(missing, np.inf, each).min(axis=1), np.where(missing, -np.inf, each).max(axis=1)
+    for scan in np.flatnonzero((highest - lowest > math.tau) | (lowest > math.tau) | (highest < -math.tau)):
+        if (
+            lowest[scan] <= highest[scan]
+            and (fault := fan_fault(float(lowest[scan]), float(highest[scan]))) is not None
+        ):
+            raise BadInput(f"scans: angles_rad of scan {scan}: {fault}")
+    if len(each) and not missing.any() and (each == each[:1]).all():
+        return each[0].copy(), None
+    if np.shape(largest) == each.shape[1:]:
+        return _as_floats(largest, "angles_rad"), each
+    most = each[int((~missing).sum(axis=1).argmax())] if len(each) else np.zeros(each.shape[1])
+    most = most[np.isfinite(most)] if np.isfinite(most).any() else np.zeros(1)
+    return np.append(most, np.full(each.shape[1] - len(most), most[-1])), each
+
+
+def side_by_side(
+    angles_rad: Sequence[NDArray[np.float64]], readings_m: Sequence[NDArray[np.floating]]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Angles and readings of scans of any lengths as arrays (S, A), NaN where a scan has fewer beams than the largest."""
+    shape = len(readings_m), max((len(row) for row in readings_m), default=0)
+    angles, readings = np.full(shape, np.nan), np.full(shape, np.nan)
+    with np.errstate(invalid="ignore"):  # NaN of the signalling kind
+        for scan, (own, row) in enumerate(zip(angles_rad, readings_m, strict=True)):
+            angles[scan, : len(own)], readings[scan, : len(row)] = own, row
+    return angles, readings
+
+
+def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
+    """Say why beams cannot point from one angle to the other, or None if they can.
+
+    No sensor sees more than a turn, nor counts its angles from more than a turn away: such angles are degrees. Drivers
+    whose beams overlap at the end of a turn go over it by a few beams.
+    """
+    turns = (highest_rad - lowest_rad) / (2 * math.pi)
+    away = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))
+    if turns <= MOST_TURNS and away <= 2 * math.pi * MOST_TURNS:
+        return None
+    return (
+        f"its beams point from {lowest_rad:g} to {highest_rad:g} radians, "
+        + (f"{turns:.3g} turns" if turns > MOST_TURNS else "over a turn away from straight ahead")
+        + "; angles must be in radians: are these degrees?"
+    )
 
 
 def check_limits(min_range_m: float, max_range_m: float) -> None:

@@ -1,4 +1,4 @@
-"""The order of time of scans whose stamps may come in bursts, or from a clock that was set back on the way."""
+"""The order of time of scans whose stamps may be coarse, come in bursts, or from a clock that was set back."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ STEP_S = 1.0
 
 MANY = 10
 """A clock that was set back stays so for this many scans, and stamps of as many before lie among theirs."""
+
+SAME_S = 1e-3
+"""Stamps that are closer are one: no laser sweeps so fast."""
 
 TURNS = 0.7
 """So often, at least, a scan of the fewer is followed by one of the others, or the other way round."""
@@ -71,6 +74,45 @@ def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
         start = at
     order = np.argsort(stamps, kind="stable")
     return TimeOrder(order, stamps[order], tuple(steps), tuple(backs))
+
+
+def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which scans share their stamp with the scan before or after them, (S,)."""
+    same = np.abs(np.diff(stamps_s)) < SAME_S
+    return np.concatenate([[False], same]) | np.concatenate([same, [False]]) if len(stamps_s) else same
+
+
+def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the shortest and the longest time from each scan to the next that the stamps allow, (S - 1,) each.
+
+    Stamps that are all different are exact. Stamps that repeat were cut to a grain (whole seconds, six digits, single
+    precision): the scans of one stamp lie anywhere between the stamps before and after it. At the ends of the log the
+    longest time is infinite.
+
+    Args:
+        stamps_s: in the order of time, (S,).
+    """
+    steps = np.abs(np.diff(stamps_s))
+    same = steps < SAME_S
+    run = np.concatenate([[0], np.cumsum(~same)])  # scans of one stamp have one number
+    gaps = np.concatenate([[np.inf], steps[~same], [np.inf]])  # before each run, and after the last
+    several = np.bincount(run) > 1
+    first, second = run[:-1], run[1:]
+    within = gaps[first] + gaps[first + 1]
+    nearest = np.minimum(np.minimum(gaps[first], gaps[second + 1]), steps)
+    grain = np.where(several[first] | several[second], nearest, 0.0)
+    return np.where(same, 0.0, steps - grain), np.where(same, within, steps + grain)
+
+
+def coarse_stamps_note(stamps_s: NDArray[np.float64]) -> str | None:
+    """Return a sentence about stamps that repeat; None where they do not, or in one scan of a hundred at most."""
+    repeated = int(repeated_stamps(stamps_s).sum())
+    if repeated <= max(2, 0.01 * len(stamps_s)):
+        return None
+    return (
+        f"stamps are coarse: {repeated:,} of {len(stamps_s):,} scans share theirs with the scan before or after; they "
+        "say nothing of the speed there"
+    )
 
 
 def _step(stamps: NDArray[np.float64]) -> int | None:
