@@ -20,7 +20,7 @@ from bayesmap.api import Event, infer
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.poses.prior import FREE, Motions, PosePrior
-from bayesmap.poses.trajectory import Trajectory
+from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.result import Run
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
@@ -62,7 +62,7 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
     keys = found.keys
     poses = found.poses[keys]
     in_time = log.select(found.order)
-    scans = replace(in_time, angles_rad=found.calibration.angles_rad).select(keys).moved_to(poses)
+    scans = calibrated(in_time, found.calibration.angle_step_ratio).select(keys).moved_to(poses)
     # All trajectories share the first pose: it is the frame of the map.
     drawn = found.draw(chains, seed)[:, keys]
     starts = compose(poses[0], between(drawn[:, :1], drawn))

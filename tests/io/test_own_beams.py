@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.io import recordings as r
+import recordings as r
 
 import bayesmap as bm
 from bayesmap.io.carmen_writer import write_carmen
@@ -57,7 +57,7 @@ def check(reading, fans, atol=1e-6):
 @pytest.mark.parametrize("writer", ["rosbag1", "mcap-ros1", "mcap", "sqlite3"])
 @pytest.mark.parametrize("fans", FANS.values(), ids=FANS)
 def test_recordings(tmp_path, writer, fans):
-    angles, readings, poses, stamps = log(fans)
+    _, readings, poses, stamps = log(fans)
     messages = []
     for (first, step, beams), row, pose, t in zip(fans, readings, poses, stamps, strict=True):
         scan = r.laser(t, row, [first, first + step * (beams - 1)] if beams > 1 else [first])
@@ -67,7 +67,7 @@ def test_recordings(tmp_path, writer, fans):
 
 
 def carmen(fans, kind="ROBOTLASER1"):
-    angles, readings, poses, stamps = log(fans)
+    _, readings, poses, stamps = log(fans)
     lines = []
     for (first, step, beams), row, pose, t in zip(fans, readings, poses, stamps, strict=True):
         place, values = " ".join(map(repr, map(float, pose))), " ".join(map(repr, map(float, row)))
@@ -163,8 +163,9 @@ def test_rays_of_scans_of_unlike_length_have_poses_of_their_own(tmp_path):
     for (first, step, beams), t in zip(fans, 10.0 + 0.1 * np.arange(6), strict=True):
         scan = r.laser(t, [2.0] * beams, [first, first + step * (beams - 1)], ray_s=0.001, angle_increment=step)
         messages.append(("/scan", r.SCAN, t, scan))
-    for t in np.arange(9.9, 10.8, 0.05):
-        messages.append(("/tf", r.TF, t, r.tf(r.transform(t, "odom", "laser", t - 10.0, 0.0, 0.0))))
+    messages += [
+        ("/tf", r.TF, t, r.tf(r.transform(t, "odom", "laser", t - 10.0, 0.0, 0.0))) for t in np.arange(9.9, 10.8, 0.05)
+    ]
     scans = describe_log(r.written(tmp_path, messages), deskew=True).scans
     expected = 0.1 * np.arange(6)[:, None] + 0.001 * np.arange(44)
     np.testing.assert_allclose(scans.beam_poses[..., 0][scans.has_beam], expected[scans.has_beam], atol=1e-6)

@@ -15,6 +15,7 @@ from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import Near, localize
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import side_by_side
 
 LIMITS = RangeLimits(0.0, 10.0)
 
@@ -295,3 +296,28 @@ def test_what_a_dense_prior_says_of_the_unknown_does_not_hide_the_room(seed):
     found = localize(here, scans, seed=seed)
     assert offset(found.mean, truth)[0] < 0.1
     assert found.p_lost < 0.01
+
+
+def test_scans_of_unlike_beams_are_located_as_equal_ones_are():
+    """Every scan has a fan of its own, and one of them no beam at all: its pose is that of odometry."""
+    walls, grid = walls_of(4.0, 3.0)
+    truth = np.column_stack([np.linspace(1.2, 2.4, 6), np.full(6, 1.3), np.linspace(0.2, 0.8, 6)])
+    fans = [-np.pi + 0.1 * i + np.arange(n) * 2 * np.pi / n for i, n in enumerate((36, 41, 33, 38, 0, 44))]
+    readings = [
+        scan_from(walls, grid, pose, angles=own).ranges_m[0] if len(own) else own
+        for pose, own in zip(truth, fans, strict=True)
+    ]
+    scans = bm.Scans(
+        truth + np.array([0.05, -0.05, 0.02]), *side_by_side(fans, readings), 10.0, stamps_s=np.arange(6.0)
+    )
+    here = known(walls, grid, scans)
+    for i, belief in enumerate(localize(here, scans, prior=Near(truth[0], 0.3, 0.2)).beliefs):
+        metres, radians = offset(belief.modes[0].mean, truth[i])
+        assert metres < (0.3 if i == 4 else 0.1)
+        assert np.degrees(radians) < 5.0
+    shifted = replace(scans, own_angles_rad=scans.own_angles_rad + 0.3)  # a wrong twin: other beams
+    off = [
+        offset(b.modes[0].mean, truth[i])[1]
+        for i, b in enumerate(localize(here, shifted, prior=Near(truth[0], 0.3, 0.4)).beliefs)
+    ]
+    assert np.degrees(max(off)) > 10.0

@@ -33,7 +33,7 @@ def uneven_recording(laps=1.6):
 
 
 def followed(scans):
-    geometry = scan_geometry(scans, farthest_m=30.0, angles_rad=scans.angles_rad, threads=1)
+    geometry = scan_geometry(scans, farthest_m=30.0, threads=1)
     motions, impossible = stated_motions(scans.poses, scans.stamps_s)
     return geometry, follow(geometry, motions, scans.stamps_s, impossible, threads=1)
 

@@ -8,7 +8,7 @@ type Rows = (number | null)[][];
 export type Recording = {
   version: 1;
   document: MapDocument;
-  scans: { ids: number[]; pose: Rows; angles: number[]; ranges: Rows; exact?: Rows; hit: string };
+  scans: { ids: number[]; pose: Rows; angles: number[] | number[][]; ranges: Rows; exact?: Rows; hit: string };
   mean: string;
   observed: string;
   draws?: { chains: number; count: number; data: string };
@@ -30,9 +30,12 @@ export function recordedTransport(recording: Recording): Transport {
   const rows = (values: Rows) => (oneByOne ? [values[index]] : values);
   const floats = (values: Rows) => Float32Array.from(rows(values).flat(), (value) => value ?? Infinity);
 
-  const beams = scans.angles.length;
-  const allHits = unpackBits(fromBase64(scans.hit), scans.pose.length * beams);
-  const hits = () => (oneByOne ? allHits.subarray(index * beams, (index + 1) * beams) : allHits);
+  // Beams are the same in all scans, or each scan has its own.
+  const anglesOf = (scan: number) => (Array.isArray(scans.angles[scan]) ? scans.angles[scan] : scans.angles) as number[];
+  const before = [0];
+  scans.pose.forEach((_, scan) => before.push(before[scan] + anglesOf(scan).length));
+  const allHits = unpackBits(fromBase64(scans.hit), before[scans.pose.length]);
+  const hits = () => (oneByOne ? allHits.subarray(before[index], before[index + 1]) : allHits);
   const trace = Float32Array.from(log_joint.flat());
   const every = (settings.sweeps ?? count) / Math.max(1, count);
   const traced = Float32Array.from(log_joint[0] ?? [], (_, i) => (i + 1) * every);
@@ -46,7 +49,7 @@ export function recordedTransport(recording: Recording): Transport {
     const pose = Float64Array.from(rows(scans.pose).flat(), Number);
     const message = { type: "scan", generation: 1, ids: oneByOne ? [index] : scans.ids, index: oneByOne ? index : null };
     const exact = scans.exact?.length ? floats(scans.exact) : new Float32Array(0);
-    transport.onmessage(message, { pose, angles: Float32Array.from(scans.angles), ranges: floats(scans.ranges), exact, hit: hits() });
+    transport.onmessage(message, { pose, angles: Float32Array.from(anglesOf(index)), ranges: floats(scans.ranges), exact, hit: hits() });
   };
   const field = () => {
     const drawn = view.layer === "draw" && draws ? oneDraw(draws, view.chain * count + (view.draw ?? count - 1), cells) : null;
@@ -82,7 +85,7 @@ export function recordedTransport(recording: Recording): Transport {
         state(message.seq);
         scan();
       } else if (message.type === "inspect") {
-        const beams = beamsThrough(document, scans.angles, rows(scans.pose), rows(scans.ranges), message.x, message.y);
+        const beams = beamsThrough(document, rows(scans.pose).map((_, s) => anglesOf(oneByOne ? index : s)), rows(scans.pose), rows(scans.ranges), message.x, message.y);
         transport.onmessage({ type: "cell", x: message.x, y: message.y, beams }, {});
       }
     },
@@ -98,13 +101,13 @@ function oneDraw(packed: Uint8Array, number: number, cells: number): Uint8Array 
 }
 
 /** How many beams pass through a cell before they end. */
-function beamsThrough({ grid }: MapDocument, angles: number[], poses: Rows, ranges: Rows, x: number, y: number) {
+function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Rows, ranges: Rows, x: number, y: number) {
   const { origin, resolution } = grid;
   const low = [origin[0] + x * resolution, origin[1] + y * resolution];
   let passing = 0;
   poses.forEach((pose, s) => {
     const [px, py, yaw] = pose.map(Number);
-    angles.forEach((angle, b) => {
+    angles[s].forEach((angle, b) => {
       const [dx, dy] = [Math.cos(angle + yaw), Math.sin(angle + yaw)];
       const along = [(low[0] - px) / dx, (low[0] + resolution - px) / dx, (low[1] - py) / dy, (low[1] + resolution - py) / dy];
       const enter = Math.max(0, Math.min(along[0], along[1]), Math.min(along[2], along[3]));

@@ -58,6 +58,9 @@ class Ghost:
             fan(document.angles, document.fov) if document.simulated else result.scene.scans.angles_rad
         )  # of a file those of its laser
         pose = (task.x, task.y, task.yaw)
+        near = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)
+        if near is not None:
+            angles = result.scene.scans.angles_by_scan()[near["index"]]
         low, median, high = predictor.quantiles(pose, angles).T.astype(np.float32)
         buffers: dict[str, NDArray[Any]] = {
             "angles": angles.astype(np.float32), "low": low, "median": median, "high": high,
@@ -65,7 +68,6 @@ class Ghost:
         header: dict[str, Any] = {
             "x": task.x, "y": task.y, "yaw": task.yaw, "coarse": task.coarse, "draws": draws, "near": None,
         }  # fmt: skip
-        near = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)
         if near is not None:
             header["near"] = near
             buffers |= _taken(result.scene, result.scan_poses[near["index"]], near["index"])

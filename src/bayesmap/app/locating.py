@@ -64,7 +64,7 @@ class Locating:
 
     def remember(self, known: Remember) -> None:
         """Take over what was inferred before."""
-        self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad))
+        self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
 
     def steps(self, document: Document, mode: Mode) -> Generator[Step | Said | None, None, None]:
         """What there is to show and to say until the log can be mapped; None while there is nothing new.
@@ -100,7 +100,8 @@ class Locating:
         assert job.found is not None
         there = along(scans, job.found)
         self._place(there)
-        yield Said("trajectory", {"found": Remember(there.poses, there.angles_rad)})
+        own = there.own_angles_rad
+        yield Said("trajectory", {"found": Remember(there.poses, there.angles_rad if own is None else own)})
         yield Said("status", {"text": summary(scans, job.found), "level": "info"})
 
     def _place(self, scans: Scans) -> None:

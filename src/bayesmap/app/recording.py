@@ -6,6 +6,7 @@ import base64
 import json
 import math
 import zlib
+from collections.abc import Iterable
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
@@ -111,21 +112,25 @@ def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
 def _scans(result: Result) -> dict[str, Any]:
     """All scans; of a long log as many, evenly spread, as make a file of a few megabytes."""
     scene = result.scene
-    scans, angles = scene.scans, len(scene.scans.angles_rad)
-    most = max(1, MOST_RAYS // angles)
+    scans = scene.scans
+    most = max(1, MOST_RAYS // len(scans.angles_rad))
     some = np.unique(np.linspace(0, len(scans) - 1, min(len(scans), most)).round().astype(int))
     exact = scene.exact_m[some] if len(scene.exact_m) else scene.exact_m
+    beams = scans.has_beam[some]
+    own = scans.own_angles_rad is not None
+    angles = [scans.beams_of(int(i))[0] for i in some] if own else [scans.angles_rad]
+    numbers = [[round(float(angle), 7) for angle in row] for row in angles]
     return {
         "ids": [scene.ids[i] for i in some],
         "pose": _numbers(scans.poses[some], 6),
-        "angles": [round(float(angle), 7) for angle in scans.angles_rad],
-        "ranges": _numbers(scans.ranges_m[some], DECIMALS_M),
+        "angles": numbers if own else numbers[0],
+        "ranges": _numbers([row[has] for row, has in zip(scans.ranges_m[some], beams, strict=True)], DECIMALS_M),
         "exact": _numbers(exact, DECIMALS_M),
-        "hit": _text(np.packbits(hits(scene)[some].ravel()).tobytes()),
+        "hit": _text(np.packbits(hits(scene)[some][beams]).tobytes()),
     }
 
 
-def _numbers(values: NDArray[np.float64], decimals: int) -> list[list[float | None]]:
+def _numbers(values: Iterable[NDArray[np.float64]], decimals: int) -> list[list[float | None]]:
     """Rows of rounded numbers; what is not finite is null."""
     return [[round(float(v), decimals) if math.isfinite(v) else None for v in row] for row in values]
 

@@ -36,7 +36,8 @@ def beam_message(result: Result, task: CompareBeam) -> dict[str, Any]:
     predictor, draws = predictor_of_result(result)
     scans = result.scene.scans
     one = Scans(
-        result.scan_poses[[task.scan]], scans.angles_rad[[task.beam]], scans.ranges_m[[task.scan], [task.beam]],
+        result.scan_poses[[task.scan]], scans.angles_by_scan()[task.scan, [task.beam]],
+        scans.ranges_m[[task.scan], [task.beam]],
         max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
     )  # fmt: skip
     rays = trace_rays(one, predictor.grid)

@@ -210,7 +210,8 @@ def rays(scene: Scene, scan: int | None) -> tuple[dict[str, Any], dict[str, NDAr
     exact = scene.exact_m[some] if len(scene.exact_m) else scene.exact_m
     return header, {
         "pose": scene.scans.poses[some],
-        "angles": scene.scans.angles_rad.astype(np.float32),
+        # Only the scans of a file have beams of their own, and those are sent one at a time.
+        "angles": (scene.scans.angles_rad if scan is None else scene.scans.angles_by_scan()[scan]).astype(np.float32),
         "ranges": scene.scans.ranges_m[some].astype(np.float32),
         "exact": exact.astype(np.float32),
         "hit": hits(scene)[some].astype(np.uint8),

@@ -120,7 +120,7 @@ class Remember:
 
     Attributes:
         poses: of all scans, in the order of the log, (S, 3).
-        angles_rad: between beams, as they were found, (A,).
+        angles_rad: of the beams, as they were found, (A,), or (S, A) where they differ from scan to scan.
     """
 
     poses: NDArray[Any]

@@ -10,7 +10,7 @@ import queue
 import threading
 import time
 from collections.abc import Generator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from bayesmap.app.along import counted_map, grown
 from bayesmap.app.hit_counts import Counted
 from bayesmap.poses.slam import infer_trajectory
-from bayesmap.poses.trajectory import Trajectory
+from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -156,7 +156,7 @@ def in_time(scans: Scans) -> NDArray[np.intp]:
 def along(scans: Scans, found: Trajectory) -> Scans:
     """The scans at their inferred poses, with the angles between beams that were found, in the order of the log."""
     there = scans.moved_to(found.poses[np.argsort(found.order)])
-    return replace(there, angles_rad=found.calibration.angles_rad)
+    return calibrated(there, found.calibration.angle_step_ratio)
 
 
 def summary(scans: Scans, found: Trajectory) -> str:

@@ -199,14 +199,14 @@ def read_csv(
     if laser is not None:
         poses = compose(poses, np.array(laser))
     moving = poses.ndim == 3
-    first = poses[order, 0] if moving else poses[order]
+    placed = poses[order, 0] if moving else poses[order]
     angles = angles if angles.ndim == 1 else angles[order]
     judged = judge(
         name, readings[order], *table.limits(), no_return=no_return, max_range_m=max_range_m,
-        views=Views.of(first, angles),
+        views=Views.of(placed, angles),
     )  # fmt: skip
     scans = Scans(
-        first, angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
+        placed, angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
         stamps_s=None if timed is None else timed.stamps_s, beam_poses=poses[order] if moving else None,
     )  # fmt: skip
     return LogReading(

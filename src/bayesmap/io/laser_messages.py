@@ -1,7 +1,7 @@
 """`sensor_msgs/LaserScan` and `sensor_msgs/Range` as arrays: which beams there are, and what they read.
 
-The i-th beam points to ``angle_min + i * angle_increment``, as the message is defined: a scanner that turns clockwise has
-a negative increment. Drivers are often wrong in ``angle_max``, and it is not needed: where it contradicts the other
+The i-th beam points to ``angle_min + i * angle_increment``, as the message is defined: a scanner that turns clockwise
+has a negative increment. Drivers are often wrong in ``angle_max``, and it is not needed: where it contradicts the other
 numbers, a note says so. A fan of more than a turn is refused: its angles are not radians.
 """
 

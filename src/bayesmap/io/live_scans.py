@@ -113,7 +113,7 @@ def _joined(before: list[tuple[int, bytes]], lines: Iterable[tuple[int, bytes]])
 def _of_carmen(
     lines: Iterable[tuple[int, bytes]], bad: Bad, max_range_m: float, no_return: float | None, laser: Pose | None
 ) -> Iterator[Scans]:
-    """Scans of the first kind of laser message that comes, each with its own beams; without readings they are skipped."""
+    """Scans of the first kind of laser message that comes, each with its own beams, but those without readings."""
     kind = ""
     for number, line in lines:
         try:

@@ -253,7 +253,7 @@ def _with_beams(reading: LogReading) -> LogReading:
 
 
 def _with_degrees(reading: LogReading) -> LogReading:
-    """The reading with a note if its yaw looks like degrees: it goes beyond a turn, in steps that are large for radians."""
+    """The reading with a note if its yaw looks like degrees: beyond a turn, in steps that are large for radians."""
     yaw = reading.scans.poses[:, 2]
     steps = np.abs(np.diff(yaw))
     large = steps > LARGE_TURN_RAD

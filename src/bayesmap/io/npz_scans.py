@@ -1,7 +1,7 @@
 """Scans in a NumPy .npz archive, under the names of the fields of `bayesmap.Scans`.
 
-Needed: ``poses`` (S, 3), ``angles_rad`` (A,), ``ranges_m`` (S, A); ``angles_rad`` (S, A) where the beams differ from scan
-to scan, with NaN where a scan has fewer. May be there: ``max_range_m``, ``min_range_m``,
+Needed: ``poses`` (S, 3), ``angles_rad`` (A,), ``ranges_m`` (S, A); ``angles_rad`` (S, A) where the beams differ from
+scan to scan, with NaN where a scan has fewer. May be there: ``max_range_m``, ``min_range_m``,
 ``stamps_s`` (S,), ``beam_poses`` (S, A, 3). Readings are coded as in `Scans`: +inf no return, -inf too close, NaN
 invalid, all else hits; a code is looked for only if one is named by ``no_return``.
 """

@@ -12,8 +12,8 @@ smallest value v, with at most 8 different values above it, that
 
 in both cases by at least 3 different beams, and from 3 places or in 3 separate directions, so that a robot that stands
 before one distant wall, or turns on the spot, makes no code: a number that is reported again from one place in one
-direction counts once. Readings of v *and above* are no return: sensors have several codes (a SICK in centimetres: 8183, 8187,
-8191).
+direction counts once. Readings of v *and above* are no return: sensors have several codes (a SICK in centimetres:
+8183, 8187, 8191).
 
 **The rule at the bottom.** No range is zero or negative. If the log has no code at the top and at least 3
 different beams report such numbers, these are its no-return code; otherwise they are invalid.
@@ -68,8 +68,8 @@ class NoReturn:
         if self.doubtful_m is None:
             return ()
         return (
-            f"{self.doubtful_m:g} m stands out among the readings, but was reported from one place in one direction: it "
-            f"was taken for a wall; if it means no return, say --no-return {self.doubtful_m:g}",
+            f"{self.doubtful_m:g} m stands out among the readings, but was reported from one place in one direction: "
+            f"it was taken for a wall; if it means no return, say --no-return {self.doubtful_m:g}",
         )
 
 
@@ -99,19 +99,17 @@ class Views:
         step = float(np.nanmedian(steps)) if steps.size else 0.0
         return cls(place, poses[:, 2:] + angles_rad, step)
 
-    def again(self, readings_m: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Which readings were reported before from the same place in the same direction, (S, A)."""
+    def again(self, readings_m: NDArray[np.float64], some: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Which of some readings were reported before from the same place in the same direction, (S, A)."""
         repeated = np.zeros(readings_m.shape, dtype=np.bool_)
-        rows = np.flatnonzero(np.bincount(self.place)[self.place] > 1)
-        if len(rows):
-            bins = np.floor(np.nan_to_num(self.direction_rad[rows]) % math.tau / SAME_DIRECTION_RAD)
-            keys = np.stack([np.broadcast_to(self.place[rows, None], bins.shape), bins, readings_m[rows]]).reshape(
-                3, -1
-            )
+        stays = np.bincount(self.place)[self.place] > 1
+        scan, beam = np.nonzero(some & stays[:, None])
+        if len(scan):
+            bins = np.floor(self.direction_rad[scan, beam] % math.tau / SAME_DIRECTION_RAD)
+            keys = np.stack([self.place[scan], bins, readings_m[scan, beam]])
             order = np.lexsort(keys)
-            flat = np.zeros(keys.shape[1], dtype=np.bool_)
-            flat[order[1:]] = (np.diff(keys[:, order], axis=1) == 0).all(axis=0)
-            repeated[rows] = flat.reshape(bins.shape)
+            later = order[1:][(np.diff(keys[:, order], axis=1) == 0).all(axis=0)]
+            repeated[scan[later], beam[later]] = True
         return repeated
 
     def count(self, mask: NDArray[np.bool_]) -> int:
@@ -181,7 +179,11 @@ def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[
     usable = np.isfinite(readings_m) & (readings_m > 0)
     if not usable.any():
         return None, None
-    once = usable if views is None else usable & ~views.again(readings_m)
+    if views is None:
+        once = usable
+    else:  # counts matter from 0.8 of the smallest candidate on, and that is 0.8 of the largest reading
+        top = usable & (readings_m >= TOP_SHARE**2 * readings_m[usable].max())
+        once = usable & ~views.again(readings_m, top)
     found = next((value for value in _standing_out(readings_m, once) if _viewed(views, readings_m >= value)), None)
     if found is not None or views is None:
         return found, None

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.scan_geometry import neighbour, widest_gap
+from bayesmap.kernels.scan_geometry import neighbour, put_fans, widest_gap
 
 wp.set_module_options({"enable_backward": False})
 
@@ -22,8 +22,9 @@ def draw_points(
     pose: wp.array(dtype=wp.vec3d),
     points: wp.array2d(dtype=wp.vec2f),
     kind: wp.array2d(dtype=wp.uint8),
-    step_rad: wp.float32,
-    full_circle: int,
+    beams_of: wp.array(dtype=wp.int32),
+    step_of: wp.array(dtype=wp.float32),
+    circle_of: wp.array(dtype=wp.int32),
     spacing: wp.float32,
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
@@ -54,11 +55,11 @@ def draw_points(
             here = points[s, b]
             to_next = wp.vec2f()
             stamps = int(1)
-            c = neighbour(b, 1, points.shape[1], full_circle)
+            c = neighbour(b, 1, beams_of[s], circle_of[s])
             if c >= 0:
                 if kind[s, c] != wp.uint8(0):
                     apart = wp.length(points[s, c] - here)
-                    if apart > spacing and apart < widest_gap(step_rad, wp.length(here)):
+                    if apart > spacing and apart < widest_gap(step_of[s], wp.length(here)):
                         stamps = 1 + int(apart / spacing)
                         to_next = (points[s, c] - here) / wp.float32(stamps)
             for k in range(stamps):
@@ -130,7 +131,7 @@ def draw_grids(
         bands = 1
     inputs = [bands, devices.to_device(offsets, wp.int32, device), devices.to_device(scan, wp.int32, device)]
     inputs += [devices.to_device(poses_world, wp.vec3d, device), geometry.points, geometry.kind]
-    inputs += [wp.float32(geometry.step_rad), int(geometry.full_circle), wp.float32(spacing_m)]
+    inputs += [*put_fans(geometry.fans, device), wp.float32(spacing_m)]
     inputs += [devices.to_device(origins, wp.vec2d, device), wp.float64(resolution)]
     inputs += [devices.to_device(stamp, wp.uint8, device), pyramid]
     if device == "cpu":

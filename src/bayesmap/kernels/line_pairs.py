@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.scan_geometry import put_fans
 
 wp.set_module_options({"enable_backward": False})
 
@@ -35,9 +36,11 @@ class Scene:
     normals: wp.array2d(dtype=wp.vec2f)
     kind: wp.array2d(dtype=wp.uint8)
     spread: wp.array2d(dtype=wp.float32)
-    beam_of_angle: wp.array(dtype=wp.int32)
-    step: float
-    full_circle: int
+    beam_of_angle: wp.array2d(dtype=wp.int32)
+    layout: wp.array(dtype=wp.int32)  # of each scan, its row of beam_of_angle
+    beams: wp.array(dtype=wp.int32)
+    step: wp.array(dtype=wp.float32)
+    full_circle: wp.array(dtype=wp.int32)
     stride: int  # every so many-th point is paired
 
 
@@ -71,26 +74,26 @@ def turns_of(x: float, y: float) -> float:
 
 
 @wp.func
-def beam_towards(scene: Scene, x: float, y: float) -> int:
-    """The beam that points towards (x, y); -1 where there is none."""
-    bins = scene.beam_of_angle.shape[0]
+def beam_towards(scene: Scene, j: int, x: float, y: float) -> int:
+    """The beam of scan j that points towards (x, y); -1 where there is none."""
+    bins = scene.beam_of_angle.shape[1]
     bin = int((turns_of(x, y) + 0.5) * float(bins))
-    return scene.beam_of_angle[wp.clamp(bin, 0, bins - 1)]
+    return scene.beam_of_angle[scene.layout[j], wp.clamp(bin, 0, bins - 1)]
 
 
 @wp.func
 def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int:
     """The nearest point of scan j within reach, among beams that point towards (x, y); -1 none, -2 out of view."""
-    middle = beam_towards(scene, x, y)
+    middle = beam_towards(scene, j, x, y)
     if middle < 0:
         return -2
     u = wp.min(1.0, reach / wp.max(wp.sqrt(x * x + y * y), 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
-    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / scene.step) + 1)
-    beams = scene.points.shape[1]
+    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / scene.step[j]) + 1)
+    beams = scene.beams[j]
     low = middle - wide
     high = middle + wide
-    if scene.full_circle == 0:
+    if scene.full_circle[j] == 0:
         low = wp.max(low, 0)
         high = wp.min(high, beams - 1)
     closest = reach * reach
@@ -114,12 +117,12 @@ def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int
 @wp.func
 def neighbour_distance(scene: Scene, j: int, beam: int) -> float:
     """How far the nearer of the points of the next beams is, from 0.1 to 2 m: returns of a surface lie so far apart."""
-    beams = scene.kind.shape[1]
+    beams = scene.beams[j]
     nearest = float(2.0)
     here = scene.points[j, beam]
     for side in range(2):
         c = beam - 1 + 2 * side
-        if scene.full_circle != 0:
+        if scene.full_circle[j] != 0:
             c = (c + beams) % beams
         if c >= 0 and c < beams:
             if scene.kind[j, c] != wp.uint8(0):
@@ -298,9 +301,10 @@ def scene_of(geometry: Any, stride: int = 1) -> Any:
     scene = Scene()
     scene.points, scene.normals = geometry.points, geometry.normals
     scene.kind, scene.spread = geometry.kind, geometry.spread
-    scene.beam_of_angle = devices.to_device(geometry.beam_of_angle, wp.int32, geometry.device)
-    scene.step = geometry.step_rad
-    scene.full_circle = int(geometry.full_circle)
+    fans = geometry.fans
+    scene.beam_of_angle = devices.to_device(fans.beam_of_angle, wp.int32, geometry.device)
+    scene.layout = devices.to_device(fans.layout, wp.int32, geometry.device)
+    scene.beams, scene.step, scene.full_circle = put_fans(fans, geometry.device)
     scene.stride = stride
     return scene
 

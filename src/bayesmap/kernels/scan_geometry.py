@@ -40,20 +40,24 @@ def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
 def scan_points(
     first: int,
     ranges: wp.array2d(dtype=wp.float64),
-    angles: wp.array(dtype=wp.float64),
+    angles: wp.array2d(dtype=wp.float64),
     nearest: wp.float64,
     farthest: wp.float64,
     points: wp.array2d(dtype=wp.vec2f),
     kind: wp.array2d(dtype=wp.uint8),
 ):
-    """One thread a scan: where its beams ended, in the laser's frame."""
+    """One thread a scan: where its beams ended, in the laser's frame.
+
+    ``angles`` has one row for all scans, or one each.
+    """
     s = first + wp.tid()
+    row = wp.min(s, angles.shape[0] - 1)
     for b in range(ranges.shape[1]):
         r = ranges[s, b]
         kind[s, b] = wp.uint8(0)
         points[s, b] = wp.vec2f(NOWHERE_M, NOWHERE_M)
         if r > nearest and r < farthest:  # false for NaN and for either infinity
-            points[s, b] = wp.vec2f(wp.float32(r * wp.cos(angles[b])), wp.float32(r * wp.sin(angles[b])))
+            points[s, b] = wp.vec2f(wp.float32(r * wp.cos(angles[row, b])), wp.float32(r * wp.sin(angles[row, b])))
             kind[s, b] = POINT
 
 
@@ -61,8 +65,9 @@ def scan_points(
 def scan_normals(
     first: int,
     points: wp.array2d(dtype=wp.vec2f),
-    step_rad: wp.float32,
-    full_circle: int,
+    beams_of: wp.array(dtype=wp.int32),
+    step_of: wp.array(dtype=wp.float32),
+    circle_of: wp.array(dtype=wp.int32),
     reach_m: wp.float32,
     noise_m: wp.float32,
     kind: wp.array2d(dtype=wp.uint8),
@@ -78,8 +83,10 @@ def scan_normals(
     point, in 1 / m^2: one over the sum of squared distances along the line.
     """
     s = first + wp.tid()
-    beams = points.shape[1]
-    for b in range(beams):
+    beams = beams_of[s]
+    step_rad = step_of[s]
+    full_circle = circle_of[s]
+    for b in range(points.shape[1]):
         normals[s, b] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
         spread[s, b] = wp.float32(0.0)
         if kind[s, b] == wp.uint8(0):
@@ -154,8 +161,7 @@ def points_and_normals(
     angles_rad: NDArray[np.float64],
     nearest_m: float,
     farthest_m: float,
-    step_rad: float,
-    full_circle: bool,
+    fans: Any,
     reach_m: float,
     noise_m: float,
     device: str = "cpu",
@@ -164,12 +170,11 @@ def points_and_normals(
     """Points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
 
     Args:
-        ranges_m: readings, shape (S, B); beams in the order of their angles.
-        angles_rad: shape (B,), ascending.
+        ranges_m: readings, shape (S, B); beams in the order of their angles, NaN past a scan's last.
+        angles_rad: ascending, shape (1, B) for all scans, or (S, B).
         nearest_m: readings below are no points.
         farthest_m: neither are those above.
-        step_rad: angle between neighbouring beams.
-        full_circle: whether the last beam's neighbour is the first.
+        fans: where the beams point, a `bayesmap.poses.scan_geometry.Fans`.
         reach_m: how far to either side a wall's direction is fitted at first.
         noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
         device: "cpu" or a CUDA device.
@@ -184,9 +189,18 @@ def points_and_normals(
     spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
     span = [wp.float64(nearest_m), wp.float64(farthest_m)]
     launch(scan_points, scans, [readings, angles, *span, points, kind], device, threads)
-    geometry = [wp.float32(step_rad), int(full_circle), wp.float32(reach_m), wp.float32(noise_m)]
+    geometry = [*put_fans(fans, device), wp.float32(reach_m), wp.float32(noise_m)]
     launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
     return points, normals, kind, spread
+
+
+def put_fans(fans: Any, device: str) -> tuple[Any, Any, Any]:
+    """Beams, steps and whether the circle is full of each scan, (S,), where kernels read them."""
+    return (
+        devices.to_device(fans.beams, wp.int32, device),
+        devices.to_device(fans.step_rad, wp.float32, device),
+        devices.to_device(fans.full_circle, wp.int32, device),
+    )
 
 
 def selected(array: Any, scans: NDArray[np.intp]) -> Any:

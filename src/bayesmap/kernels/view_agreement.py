@@ -19,13 +19,13 @@ wp.set_module_options({"enable_backward": False})
 @wp.func
 def near_wall(scene: Scene, j: int, beam: int, x: float, y: float, near: float) -> int:
     """1 if (x, y) is so near the wall that scan j saw from one beam to the next, however far those are apart."""
-    beams = scene.points.shape[1]
+    beams = scene.beams[j]
     a = beam
     if a < 0:
-        if scene.full_circle == 0:
+        if scene.full_circle[j] == 0:
             return 0
         a += beams
-    b = neighbour(a, 1, beams, scene.full_circle)
+    b = neighbour(a, 1, beams, scene.full_circle[j])
     if b < 0:
         return 0
     if scene.kind[j, a] == wp.uint8(0) or scene.kind[j, b] == wp.uint8(0):
@@ -33,7 +33,7 @@ def near_wall(scene: Scene, j: int, beam: int, x: float, y: float, near: float) 
     p = scene.points[j, a]
     d = scene.points[j, b] - p
     size = wp.length(d)
-    if size > widest_gap(scene.step, wp.length(p)):
+    if size > widest_gap(scene.step[j], wp.length(p)):
         return 0
     here = wp.vec2f(x, y) - p
     share = wp.clamp(wp.dot(here, d) / wp.max(size * size, 1.0e-9), 0.0, 1.0)
@@ -78,7 +78,7 @@ def compare_views(
         if nearest_point(scene, j, x, y, near) >= 0:
             matched += 1
             continue
-        middle = beam_towards(scene, x, y)
+        middle = beam_towards(scene, j, x, y)
         if middle < 0:
             continue
         if near_wall(scene, j, middle - 1, x, y, near) + near_wall(scene, j, middle, x, y, near) > 0:
@@ -88,9 +88,9 @@ def compare_views(
         through = int(0)
         for d in range(-1, 2):
             c = middle + d
-            if scene.full_circle != 0:
-                c = (c + beams) % beams
-            if c >= 0 and c < beams:
+            if scene.full_circle[j] != 0:
+                c = (c + scene.beams[j]) % scene.beams[j]
+            if c >= 0 and c < scene.beams[j]:
                 if scene.kind[j, c] != wp.uint8(0):
                     if wp.length(scene.points[j, c]) > away + clear:
                         through += 1

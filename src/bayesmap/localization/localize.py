@@ -193,7 +193,10 @@ def follow_live(
     for one in scans:
         stamp = None if one.stamps_s is None else float(one.stamps_s[0])
         limits = RangeLimits(one.min_range_m, one.max_range_m)
-        scan = Scan(one.angles_rad, one.ranges_m[0], limits, stamp)
+        angles, ranges = one.beams_of(0)
+        if not len(angles):  # a beam without a reading says as little as no beam
+            angles, ranges = one.angles_rad, one.ranges_m[0]
+        scan = Scan(angles, ranges, limits, stamp)
         before, pose = pose, one.poses[0]
         if belief is not None:
             motion = between(before, pose)

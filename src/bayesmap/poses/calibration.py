@@ -193,11 +193,10 @@ def angle_step_ratio(
     each = np.arange(len(useful) + 1, dtype=np.int32)
 
     def residuals(factor: float) -> Floats:
-        angles = scans.angles_rad[0] + factor * (scans.angles_rad - scans.angles_rad[0])
-        geometry = scan_geometry(some, farthest_m=farthest_m, angles_rad=angles, threads=threads)
+        geometry = scan_geometry(some.stretched(factor), farthest_m=farthest_m, threads=threads)
         # Turning a scan about its first beam turns its pose; the middle beam shall stay where it was.
         start = place.copy()
-        start[:, 2] -= 0.5 * (factor - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
+        start[:, 2] -= 0.5 * (factor - 1.0) * some.sweep_rad
         _, _, totals = refine_scans(
             geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 10,
             geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7, threads=threads,
@@ -213,7 +212,7 @@ def angle_step_ratio(
     error = np.sqrt((GROUPS - 1) / GROUPS * ((without - without.mean()) ** 2).sum())
     if not abs(found - 1.0) <= 0.0125:
         return 1.0  # outside what was tried: not a matter of the angle
-    usual = _regular(found, float(np.degrees(np.median(np.diff(scans.angles_rad)))))
+    usual = _regular(found, float(np.degrees(np.nanmedian(scans.steps_rad))))
     sure = SURE_OF_REGULAR if usual != found and abs(found - usual) < error else SURE
     return usual if abs(found - 1.0) > sure * error else 1.0
 

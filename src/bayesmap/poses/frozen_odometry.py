@@ -43,14 +43,25 @@ def frozen_stretches(scans: Scans) -> list[Stretch]:
     same = (np.diff(scans.poses, axis=0) == 0.0).all(axis=1)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
     found = [Stretch(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
-    return [stretch for stretch in found if len(stretch) >= LONG and _moved(scans.ranges_m, stretch)]
+    return [stretch for stretch in found if len(stretch) >= LONG and _moved(scans, stretch)]
 
 
-def _moved(ranges_m: Floats, stretch: Stretch) -> bool:
+def _moved(scans: Scans, stretch: Stretch) -> bool:
     """Whether most scans of the stretch's second half see something else than its first."""
-    reference = ranges_m[stretch.first]
-    later = ranges_m[stretch.first + len(stretch) // 2 : stretch.last + 1]
-    both = np.isfinite(later) & np.isfinite(reference)
-    off = [np.abs(ranges[hit] - reference[hit]) for ranges, hit in zip(later, both, strict=True)]
+    later = range(stretch.first + len(stretch) // 2, stretch.last + 1)
+    off = [_differences(scans, stretch.first, scan) for scan in later]
     seen = [float(np.quantile(one, 1.0 - SHARE)) > MOVED_M for one in off if len(one) >= FEWEST]
     return 2 * sum(seen) > len(later)
+
+
+def _differences(scans: Scans, first: int, second: int) -> Floats:
+    """How far the readings of two scans differ, metres, where both have a hit: by beams, or by the nearest in angle."""
+    (angles, reference), (own, ranges) = scans.beams_of(first), scans.beams_of(second)
+    if scans.own_angles_rad is not None and len(angles) and len(own):
+        order = np.argsort(angles, kind="stable")
+        middles = 0.5 * (angles[order][1:] + angles[order][:-1])
+        reference = reference[order][np.searchsorted(middles, own)]
+    elif scans.own_angles_rad is not None:
+        return np.empty(0)
+    hit = np.isfinite(ranges) & np.isfinite(reference)
+    return np.abs(ranges[hit] - reference[hit])

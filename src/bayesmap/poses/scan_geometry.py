@@ -29,17 +29,65 @@ BINS_A_BEAM = 4
 
 
 @dataclass(frozen=True, eq=False)
+class Fans:
+    """Where the beams of S scans point; beams are in the order of angles.
+
+    Attributes:
+        beams: how many each scan has, (S,).
+        step_rad: the usual angle between neighbouring beams of each, (S,).
+        full_circle: whether the last beam's neighbour is the first, (S,).
+        layout: which row of ``beam_of_angle`` is meant, (S,): scans with the same beams share one.
+        beam_of_angle: (layouts, bins), the beam nearest to each of equal bins of angle from -pi to pi; -1 where none is
+            near.
+    """
+
+    beams: NDArray[np.int32]
+    step_rad: Floats
+    full_circle: NDArray[np.int32]
+    layout: NDArray[np.int32]
+    beam_of_angle: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, angles_rad: Floats, scans: int) -> Fans:
+        """The fans of beams at ascending angles: (1, A) for all scans, or (S, A), NaN past a scan's last beam."""
+        beams = np.isfinite(angles_rad).sum(axis=1)
+        rows: dict[bytes, int] = {}
+        layout = np.array([rows.setdefault(row.tobytes(), len(rows)) for row in angles_rad])
+        first = np.array([np.argmax(layout == i) for i in range(len(rows))])  # scan of each layout
+        fans = [angles_rad[scan, : beams[scan]] for scan in first]
+        steps = [float(np.median(np.diff(fan))) if len(fan) > 1 else np.pi for fan in fans]
+        # Beams that say one direction twice have no step.
+        steps = [step if step > 0 else np.pi for step in steps]
+        circle = [
+            len(fan) > 8 and 2.0 * np.pi - (fan[-1] - fan[0]) < 1.9 * step
+            for fan, step in zip(fans, steps, strict=True)
+        ]
+        bins = int(np.clip(np.ceil(2.0 * np.pi / min(steps) * BINS_A_BEAM), 360, 1 << 16))
+        towards = np.array([_beam_of_angle(fan, step, bins) for fan, step in zip(fans, steps, strict=True)])
+        each = np.broadcast_to(layout, scans)
+        return cls(
+            np.broadcast_to(beams, scans).astype(np.int32), np.array(steps)[each],
+            np.array(circle, np.int32)[each], each.astype(np.int32), towards,
+        )  # fmt: skip
+
+    def select(self, scans: NDArray[np.intp]) -> Fans:
+        """Those of some of the scans."""
+        return replace(
+            self, beams=self.beams[scans], step_rad=self.step_rad[scans], full_circle=self.full_circle[scans],
+            layout=self.layout[scans],
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
 class ScanGeometry:
-    """Points and normals of S scans of B beams. Arrays on the device are Warp's; beams are in the order of angles.
+    """Points and normals of S scans of up to B beams. Arrays on the device are Warp's; beams in the order of angles.
 
     Attributes:
         points: (S, B) on the device, where each beam ended, metres in the laser's frame.
         normals: (S, B) on the device, unit normal of the wall there, towards the laser; zero where there is none.
         kind: (S, B) on the device: 0 no point, 1 a point, 2 a point with a normal.
         spread: (S, B) on the device: variance of the normal's angle, per variance of a point, 1 / m^2.
-        beam_of_angle: (bins,), the beam nearest to each of equal bins of angle from -pi to pi; -1 where none is near.
-        step_rad: the usual angle between neighbouring beams.
-        full_circle: whether the last beam's neighbour is the first.
+        fans: where the beams point.
         farthest_m: hits beyond are left out.
         noise_m: standard deviation of a range, found from the scans.
         device: where the arrays are.
@@ -49,9 +97,7 @@ class ScanGeometry:
     normals: Any
     kind: Any
     spread: Any
-    beam_of_angle: NDArray[np.int32]
-    step_rad: float
-    full_circle: bool
+    fans: Fans
     farthest_m: float
     noise_m: float = LEAST_M
     device: str = "cpu"
@@ -61,7 +107,7 @@ class ScanGeometry:
 
     @property
     def beams(self) -> int:
-        """Beams of a scan."""
+        """Beams of the largest scan."""
         return int(self.kind.shape[1])
 
     def reach_m(self, first_m: float, last_m: float) -> tuple[float, float]:
@@ -95,7 +141,7 @@ class ScanGeometry:
 
         return replace(
             self, points=selected(self.points, scans), normals=selected(self.normals, scans),
-            kind=selected(self.kind, scans), spread=selected(self.spread, scans),
+            kind=selected(self.kind, scans), spread=selected(self.spread, scans), fans=self.fans.select(scans),
         )  # fmt: skip
 
     def points_of(self, scan: int, most: int | None = None) -> Floats:
@@ -108,7 +154,6 @@ def scan_geometry(
     scans: Scans,
     *,
     farthest_m: float | None = None,
-    angles_rad: Floats | None = None,
     device: str = "cpu",
     threads: int | None = None,
 ) -> ScanGeometry:
@@ -117,29 +162,31 @@ def scan_geometry(
     Args:
         scans: their poses are not looked at.
         farthest_m: leave out hits beyond; by default the sensor's largest range.
-        angles_rad: other beam angles than the scans', where they have been calibrated, shape (A,).
         device: "cpu" or a CUDA device.
         threads: to compute with; by default all cores.
     """
     from bayesmap.kernels.scan_geometry import points_and_normals
 
-    angles = scans.angles_rad if angles_rad is None else angles_rad
-    order = np.argsort(angles, kind="stable")
-    angles = np.ascontiguousarray(angles[order])
-    step = float(np.median(np.diff(angles))) if len(angles) > 1 else np.pi
-    full_circle = len(angles) > 8 and 2.0 * np.pi - (angles[-1] - angles[0]) < 1.9 * step
+    own = scans.angles_rad[None] if scans.own_angles_rad is None else scans.own_angles_rad
+    order = np.argsort(own, axis=1, kind="stable")  # NaN, where a scan has no such beam, comes last
+    angles = np.take_along_axis(own, order, axis=1)
+    fans = Fans.of(angles, len(scans))
+    step = float(np.median(fans.step_rad))
     limit = scans.max_range_m if farthest_m is None else min(farthest_m, scans.max_range_m)
-    ranges = np.ascontiguousarray(scans.ranges_m[:, order])
+    shared = scans.own_angles_rad is None
+    ranges = scans.ranges_m[:, order[0]] if shared else np.take_along_axis(scans.ranges_m, order, axis=1)
+    ranges = np.ascontiguousarray(ranges)
     nearest = max(NEAREST_M, scans.min_range_m)
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
     reach = max(REACH_M, REACH_SIGMAS * noise)
-    arrays = points_and_normals(ranges, angles, nearest, limit, step, full_circle, reach, noise, device, threads)
-    return ScanGeometry(*arrays, _beam_of_angle(angles, step), step, full_circle, limit, noise, device)
+    arrays = points_and_normals(ranges, angles, nearest, limit, fans, reach, noise, device, threads)
+    return ScanGeometry(*arrays, fans, limit, noise, device)
 
 
-def _beam_of_angle(angles_rad: Floats, step_rad: float) -> NDArray[np.int32]:
+def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np.int32]:
     """The nearest beam for bins of angle; beams further than a few steps away do not count."""
-    bins = int(np.clip(np.ceil(2.0 * np.pi / step_rad * BINS_A_BEAM), 360, 1 << 16))
+    if not len(angles_rad):
+        return np.full(bins, -1, dtype=np.int32)
     middles = -np.pi + (np.arange(bins) + 0.5) * 2.0 * np.pi / bins
     around = np.concatenate([angles_rad - 2.0 * np.pi, angles_rad, angles_rad + 2.0 * np.pi])
     after = np.clip(np.searchsorted(around, middles), 1, len(around) - 1)

@@ -25,7 +25,7 @@ from bayesmap.poses.point_errors import point_error, with_point_error
 from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
-from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
+from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory, calibrated
 from bayesmap.space.planar import between, compose, nearest
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
@@ -92,6 +92,7 @@ def infer_trajectory(
         checkpoint,
         fingerprint(
             scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s,
+            *(() if scans.own_angles_rad is None else (scans.own_angles_rad,)),
             settings=f"2 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
         ),
     )  # fmt: skip
@@ -120,15 +121,13 @@ class _Run:
         self.origin = scans.poses[0] if not no_odometry else np.zeros(3)
         self.track: Track | None = None
 
-    def geometry(self, angles_rad: Floats) -> ScanGeometry:
-        return scan_geometry(
-            self.scans, farthest_m=FARTHEST_M, angles_rad=angles_rad, device=self.device, threads=self.threads
-        )
+    def geometry(self, scans: Scans) -> ScanGeometry:
+        return scan_geometry(scans, farthest_m=FARTHEST_M, device=self.device, threads=self.threads)
 
     def trajectory(self, order: NDArray[np.intp], calibrate_angles: bool) -> Trajectory:
         scans, threads = self.scans, self.threads
-        angles, ratio = scans.angles_rad, 1.0
-        geometry = self.geometry(angles)
+        ratio = 1.0
+        geometry = self.geometry(scans)
         self.track = track = self.front_end(geometry)
         self.go_backwards(track.against)
         keys = track.keys
@@ -150,9 +149,8 @@ class _Run:
             )
             if abs(found - 1.0) > ANGLE_TOLERANCE:
                 ratio, poses = found, poses.copy()
-                angles = scans.angles_rad[0] + ratio * (scans.angles_rad - scans.angles_rad[0])
-                poses[:, 2] -= 0.5 * (ratio - 1.0) * (scans.angles_rad[-1] - scans.angles_rad[0])
-                geometry = self.geometry(angles)
+                poses[:, 2] -= 0.5 * (ratio - 1.0) * scans.select(keys).sweep_rad
+                geometry = self.geometry(scans.stretched(ratio))
                 key_geometry = geometry.select(keys)
         fit, factors = self.odometry(first, track)
         second = self.align("aligned-again", key_geometry, poses, factors, reach_m, 8, wide=ratio != 1.0)
@@ -183,7 +181,8 @@ class _Run:
         return Trajectory(
             compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest_key,
             placed.own_covariance(keys), explained, flag_unexplained(explained, keys), breaks, closures,
-            Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors, leaps,
+            Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m), order,
+            None if fit is None else factors, leaps,
         )  # fmt: skip
 
     def front_end(self, geometry: ScanGeometry) -> Track:

@@ -13,6 +13,7 @@ from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.se2 import between_jacobians, retract
 from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 
@@ -44,7 +45,8 @@ class Calibration:
 
     Attributes:
         angle_step_ratio: the angle between beams, by the stated one.
-        angles_rad: the beam angles that were used, (A,).
+        angles_rad: the beam angles that were used, (A,); where they differ from scan to scan, those of the largest: use
+            `calibrated`.
         odometry: systematic error, lag and noise of odometry; None where there was none.
         noise: the same noise as parameters of the prior `Odometry`; None where there was none.
         point_sigma_m: standard deviation of a point of a scan about its wall.
@@ -55,6 +57,11 @@ class Calibration:
     odometry: OdometryFit | None
     noise: Odometry | None
     point_sigma_m: float
+
+
+def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
+    """The scans with the angle between beams that was found, by the stated one."""
+    return scans if angle_step_ratio == 1.0 else scans.stretched(angle_step_ratio)
 
 
 @dataclass(frozen=True, eq=False)

@@ -33,17 +33,29 @@ def moved_by(train: Scans, scans: Scans) -> bool:
 
 def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
     """The run's scan that each scan is, -1 if none; shape (S,)."""
-    if train.angles_rad.shape != scans.angles_rad.shape or not np.allclose(train.angles_rad, scans.angles_rad):
+    shared = train.own_angles_rad is None and scans.own_angles_rad is None
+    if shared and not _alike(train.angles_rad, scans.angles_rad):
         return np.full(len(scans), -1)
     stamped = train.stamps_s is not None and scans.stamps_s is not None
     known = {name: i for i, name in enumerate(_fingerprints(train, stamped))}
-    return np.array([known.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
+    match = np.array([known.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
+    if not shared:
+        for scan in np.flatnonzero(match >= 0):
+            if not _alike(train.beams_of(int(match[scan]))[0], scans.beams_of(int(scan))[0]):
+                match[scan] = -1
+    return match
+
+
+def _alike(some: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
+    """Whether the beams of two scans point the same way."""
+    return some.shape == others.shape and np.allclose(some, others)
 
 
 def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
     """Readings with their stamp; with their pose where there is none, or where no beam met anything."""
     names = []
-    for i, ranges in enumerate(scans.ranges_m):
+    for i in range(len(scans)):
+        ranges = scans.beams_of(i)[1]
         at = scans.stamps_s[i] if stamped and scans.stamps_s is not None else scans.poses[i]
         pose = b"" if np.isfinite(ranges).any() else scans.poses[i].tobytes()
         names.append(at.tobytes() + pose + ranges.tobytes())

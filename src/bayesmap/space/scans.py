@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, compose
 
-
 MOST_TURNS = 1.1
 """A fan of beams is no wider, in turns: beams may overlap a little where a turn ends."""
 
@@ -38,8 +37,8 @@ class Scans:
     Attributes:
         poses: sensor poses in the world frame, shape (S, 3): x in metres, y in metres, yaw in radians,
             counter-clockwise from +x. A single pose of shape (3,) is taken as one scan.
-        angles_rad: beam angles in the sensor frame, shape (A,). Where beams differ from scan to scan, give shape (S, A),
-            NaN where a scan has fewer beams than others: the attribute then holds the beams of the largest scan,
+        angles_rad: beam angles in the sensor frame, shape (A,). Where beams differ from scan to scan, give shape
+            (S, A), NaN where a scan has fewer beams than others: the attribute then holds those of the largest scan,
             and `own_angles_rad` those of each.
         ranges_m: readings, shape (S, A) (or (A,) for one scan), coded as in REP-117: +inf is no return,
             -inf too close, NaN invalid; every finite number is a hit. Additive noise may carry a short
@@ -190,12 +189,31 @@ class Scans:
 
     def stretched(self, ratio: float) -> Scans:
         """The same scans with ``ratio`` times the angle between beams, about the first beam of each scan."""
-        if ratio == 1.0:
-            return self
+        angles = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0])
         if self.own_angles_rad is None:
-            return replace(self, angles_rad=self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0]))
-        first = self.own_angles_rad[:, :1]
-        return replace(self, own_angles_rad=first + ratio * (self.own_angles_rad - first))
+            return replace(self, angles_rad=angles)
+        first = self._first_and_last()[0][:, None]
+        return replace(self, angles_rad=angles, own_angles_rad=first + ratio * (self.own_angles_rad - first))
+
+    @property
+    def sweep_rad(self) -> NDArray[np.float64]:
+        """The angle from the first to the last beam of each scan, (S,) or one for all, ()."""
+        if self.own_angles_rad is None:
+            return np.asarray(self.angles_rad[-1] - self.angles_rad[0])
+        first, last = self._first_and_last()
+        return last - first
+
+    @property
+    def steps_rad(self) -> NDArray[np.float64]:
+        """The angle from each beam to the next, (A - 1,), or (S, A - 1) with NaN where there is none."""
+        return np.diff(self.angles_rad if self.own_angles_rad is None else self.own_angles_rad, axis=-1)
+
+    def _first_and_last(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angles of the first and last beam of each scan, (S,) each; 0 of a scan without beams."""
+        has = self.has_beam
+        ends = has.argmax(axis=1), has.shape[1] - 1 - has[:, ::-1].argmax(axis=1)
+        angles = np.nan_to_num(np.asarray(self.own_angles_rad))
+        return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
         """The same readings from other poses, (S, 3). Where the sensor moved while it turned, its path moves along.
@@ -305,7 +323,7 @@ def _as_own_angles(
 def side_by_side(
     angles_rad: Sequence[NDArray[np.float64]], readings_m: Sequence[NDArray[np.floating]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Angles and readings of scans of any lengths as arrays (S, A), NaN where a scan has fewer beams than the largest."""
+    """Angles and readings of scans of any lengths as arrays (S, A), NaN where a scan has fewer beams than others."""
     shape = len(readings_m), max((len(row) for row in readings_m), default=0)
     angles, readings = np.full(shape, np.nan), np.full(shape, np.nan)
     with np.errstate(invalid="ignore"):  # NaN of the signalling kind

@@ -120,13 +120,13 @@ let{gesture:n,session:o}=this,{document:s}=o;if(n?.kind!=="sensor"||!s)return;th
 let{theme:r}=s;e.beginPath(),e.rect(Je.left,0,o.width,o.height-Je.bottom),e.clip(),s.hover&&ea(e,s.hover,n.shape[1],o,r,r.axis,1.5),s.cursor&&ea(e,s.cursor,n.shape[1],
 o,r,r.ray,2.5)}};function ea(t,e,n,o,s,r,i){let{scale:a}=o.transform,l=o.fromGrid({x:e.x,y:e.y+1},n),u=Math.max(a,Eu),[p,d]=[l.x-(u-a)/2,l.y-(u-a)/2];t.lineWidth=
 i+2,t.strokeStyle=s.halo,t.strokeRect(p,d,u,u),t.lineWidth=i,t.strokeStyle=r,t.strokeRect(p,d,u,u)}var _u={paper:[98,0,1],ink:[14,6,-24],unobserved:"#efe7d8",unobservedWall:"#d3c5aa",hatch:"#bfae92",truth:"#d55e00",ray:"#0072b2",noReturn:"#b0679a",sensor:"#00\
-9e73",draw:"#e69f00",ghost:"#7b52c9",belief:"#6a3fb5",halo:"#ffffff",lines:"rgba(20,30,60,.07)",frame:"#6b7078",axis:"#565d68",ground:"#f4f5f7"},Cu={paper:[17,0,
+9e73",draw:"#e69f00",ghost:"#7b52c9",belief:"#6a3fb5",halo:"#ffffff",lines:"rgba(20,30,60,.07)",frame:"#6b7078",axis:"#565d68",ground:"#f4f5f7"},Au={paper:[17,0,
 -5],ink:[95,-2,6],unobserved:"#322d25",unobservedWall:"#5a503f",hatch:"#635843",truth:"#f08c3c",ray:"#56b4e9",noReturn:"#d99abf",sensor:"#2fcf9f",draw:"#ffb92e",
-ghost:"#b99cff",belief:"#c3a6ff",halo:"#10141a",lines:"rgba(220,230,255,.07)",frame:"#7d8694",axis:"#a3abb8",ground:"#12151a"},Zo={light:_u,dark:Cu},ta="00224e0\
-02e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838";function Au([t,e,n]){let o=(t+16)/116,s=[.95047,1,1.08883],[r,i,
+ghost:"#b99cff",belief:"#c3a6ff",halo:"#10141a",lines:"rgba(220,230,255,.07)",frame:"#7d8694",axis:"#a3abb8",ground:"#12151a"},Zo={light:_u,dark:Au},ta="00224e0\
+02e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838";function Cu([t,e,n]){let o=(t+16)/116,s=[.95047,1,1.08883],[r,i,
 a]=[o+e/500,o,o-n/200].map((l,u)=>(l>.20689655172413793?l**3:.12841854934601665*(l-.13793103448275862))*s[u]);return[3.2404542*r-1.5371385*i-.4985314*a,-.969266*
 r+1.8760108*i+.041556*a,.0556434*r-.2040259*i+1.0572252*a].map(l=>{let u=ne(l,0,1);return Math.round(255*(u<=.0031308?12.92*u:1.055*u**(1/2.4)-.055))})}var Jo=(t,e=1)=>[
-0,2,4].map(n=>parseInt(t.slice(e+n,e+n+2),16)),dr=(t,e,n)=>t.map((o,s)=>o+n*(e[s]-o)),hr=(t,e)=>Au(dr(t.paper,t.ink,e));function zn(t){let e=Math.min(15,Math.floor(
+0,2,4].map(n=>parseInt(t.slice(e+n,e+n+2),16)),dr=(t,e,n)=>t.map((o,s)=>o+n*(e[s]-o)),hr=(t,e)=>Cu(dr(t.paper,t.ink,e));function zn(t){let e=Math.min(15,Math.floor(
 t*16));return dr(Jo(ta,6*e),Jo(ta,6*e+6),t*16-e)}function na(t,e){let n=new Uint8ClampedArray(2048).fill(255),[o,s]=[Jo(t.unobserved),Jo(t.unobservedWall)];for(let r=0;r<
 256;r++){let i=e==="entropy"?bo(r/255):r/255;n.set(e==="value"?hr(t,r/255):zn(i),4*r),n.set(dr(o,s,e==="value"?r/255:0),4*(r+256))}return new Uint32Array(n.buffer)}
 var pr=t=>`linear-gradient(90deg,${[0,.125,.25,.375,.5,.625,.75,.875,1].map(e=>`rgb(${t(e).map(Math.round)})`)})`;var Lu=9,Du=2.5,Hn=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
@@ -188,11 +188,11 @@ e.lineWidth=1,e.strokeRect(u-.5,p-.5,i*l+1,a*l+1),Ji(e,n),sa(e,n)}truth(e,n){let
 e.lineWidth=ne(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},ra=({document:t})=>t?.source.kind==="simulation";var Hu=600,Vu=1500,Bu=65536,mr=.3,qn=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.scan&&e.document&&(n.rays||n.readings)&&!e.ghost.held&&!e.evidence.cellShown)}paint(e,n){let{session:o,view:s,look:r}=n,{scan:i,document:a}=o;
 if(!i||!a)return;Ne(e,n);let{scale:l}=s.transform,u=1/a.grid.resolution,p=a.grid.shape[1],d=i.angles.length,f=i.pose.length/3,w=Math.ceil(d*f/Vu),[y,k,M]=[new Path2D,
-new Path2D,new Path2D],T=d*f>Hu,S=new Map,E=ne(l*.1,1.3,4),_=a.scans_used??1/0,K=(i.index??0)<_?1:mr;for(let N=0;N<f;N++){let[Y,V,R]=i.pose.subarray(3*N,3*N+3),
-G=s.fromGrid(_e({x:Y,y:V},a.grid),p);for(let L=0;L<d;L++){let Z=i.ranges[N*d+L],O=i.hit[N*d+L]===1,j=(O?Z:a.max_range)*u*l,z=i.angles[L]+R,Q={x:G.x+j*Math.cos(z),
-y:G.y-j*Math.sin(z)},H=O?y:k;(N*d+L)%w===0&&(H.moveTo(G.x,G.y),H.lineTo(Q.x,Q.y)),O&&(T?S.set(Math.round(Q.x)*Bu+Math.round(Q.y),Q):(M.moveTo(Q.x+E,Q.y),M.arc(Q.
-x,Q.y,E,0,2*Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=K*ne(28/Math.sqrt(d*f/w)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.
-noReturn,e.stroke(k),e.globalAlpha=1),r.readings){e.globalAlpha=K,e.fillStyle=r.theme.ray,e.fill(M);let N=1.8*E;for(let{x:Y,y:V}of S.values())e.fillRect(Y-N/2,V-
+new Path2D,new Path2D],T=d*f>Hu,S=new Map,E=ne(l*.1,1.3,4),_=a.scans_used??1/0,J=(i.index??0)<_?1:mr;for(let N=0;N<f;N++){let[Z,B,q]=i.pose.subarray(3*N,3*N+3),
+R=s.fromGrid(_e({x:Z,y:B},a.grid),p);for(let A=0;A<d;A++){let j=i.ranges[N*d+A],I=i.hit[N*d+A]===1,V=(I?j:a.max_range)*u*l,W=i.angles[A]+q,Y={x:R.x+V*Math.cos(W),
+y:R.y-V*Math.sin(W)},z=I?y:k;(N*d+A)%w===0&&(z.moveTo(R.x,R.y),z.lineTo(Y.x,Y.y)),I&&(T?S.set(Math.round(Y.x)*Bu+Math.round(Y.y),Y):(M.moveTo(Y.x+E,Y.y),M.arc(Y.
+x,Y.y,E,0,2*Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=J*ne(28/Math.sqrt(d*f/w)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.
+noReturn,e.stroke(k),e.globalAlpha=1),r.readings){e.globalAlpha=J,e.fillStyle=r.theme.ray,e.fill(M);let N=1.8*E;for(let{x:Z,y:B}of S.values())e.fillRect(Z-N/2,B-
 N/2,N,N);e.globalAlpha=1}}};var ju=2.5,wo=t=>t>=ju,Yn=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.overlay&&e.document&&(n.strokes||n.trajectory))}paint(e,n){let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(Ne(e,n),s.trajectory&&
 this.trajectory(e,n,r.trajectory),s.strokes&&wo(n.view.transform.scale)&&this.strokes(e,n,r.strokes))}trajectory(e,{session:n,view:o,look:s},r){let i=n.document?.
@@ -219,7 +219,7 @@ w=(M,T,S,E)=>{e.beginPath(),e.moveTo(M.x,M.y),e.lineTo(T.x,T.y),e.lineWidth=S,e.
 k,3,r.theme.halo),w(f(0),k,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let M=(T,S)=>ne(T??S,0,d);if(w(f(M(a.low,0)),f(M(a.high,d)),6,r.theme.ghost),
 a.median!==null){let T=f(a.median),S={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};w({x:T.x-S.x,y:T.y-S.y},{x:T.x+S.x,y:T.y+S.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),
 e.arc(k.x,k.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};function v(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
-"role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function A(t,e,n){t[e]!==n&&(t[e]=n)}function dt(t,e,n){t.getAttribute(
+"role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function L(t,e,n){t[e]!==n&&(t[e]=n)}function dt(t,e,n){t.getAttribute(
 e)!==n&&t.setAttribute(e,n)}var mn=t=>t.getRootNode().activeElement===t,Me=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function yr(t,e){let n=URL.
 createObjectURL(e);v("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var ca=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
 here","Where am I?","where"],["ghost","Ghost","ghost"],["evidence","Evidence","evidence"]];function ua(t){let{hand:e,session:n}=t,o=t.segmented("Tool",ca,()=>n.
@@ -231,11 +231,11 @@ cursor-pt",cd="u-legend",ud="u-live",dd="u-inline",hd="u-series",pd="u-marker",d
 scroll",ba="change",is="dppxchange",Fr="--",so=typeof window<"u",Tr=so?document:null,Xn=so?window:null,yd=so?navigator:null,he,ns;function Pr(){let t=devicePixelRatio;
 he!=t&&(he=t,ns&&_r(ba,ns,Pr),ns=matchMedia(`(min-resolution: ${he-.001}dppx) and (max-resolution: ${he+.001}dppx)`),wn(ba,ns,Pr),Xn.dispatchEvent(new CustomEvent(
 is)))}function ht(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function Er(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function Te(t,e,n){
-t.style[e]=n+"px"}function Ct(t,e,n,o){let s=Tr.createElement(t);return e!=null&&ht(s,e),n?.insertBefore(s,o),s}function vt(t,e){return Ct("div",t,e)}var wa=new WeakMap;
+t.style[e]=n+"px"}function At(t,e,n,o){let s=Tr.createElement(t);return e!=null&&ht(s,e),n?.insertBefore(s,o),s}function vt(t,e){return At("div",t,e)}var wa=new WeakMap;
 function Gt(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=wa.get(t);r!=i&&(t.style.transform=r,wa.set(t,r),e<0||n<0||e>o||n>s?ht(t,bn):Er(t,bn))}var xa=new WeakMap;
 function va(t,e,n){let o=e+n,s=xa.get(t);o!=s&&(xa.set(t,o),t.style.background=e,t.style.borderColor=n)}var ka=new WeakMap;function Sa(t,e,n,o){let s=e+""+n,r=ka.
 get(t);s!=r&&(ka.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Ir={passive:!0},bd={...Ir,
-capture:!0};function wn(t,e,n,o){e.addEventListener(t,n,o?bd:Ir)}function _r(t,e,n,o){e.removeEventListener(t,n,Ir)}so&&Pr();function At(t,e,n,o){let s;n=n||0,o=
+capture:!0};function wn(t,e,n,o){e.addEventListener(t,n,o?bd:Ir)}function _r(t,e,n,o){e.removeEventListener(t,n,Ir)}so&&Pr();function Ct(t,e,n,o){let s;n=n||0,o=
 o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:pt((n+o)/2),e[s]<t?n=s:o=s;return t-e[n]<=e[o]-t?n:o}function Za(t){return(n,o,s)=>{let r=-1,i=-1;for(let a=o;a<=
 s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var Qa=t=>t!=null,Xa=t=>t!=null&&t>0,cs=Za(Qa),wd=Za(Xa);function xd(t,e,n,o=0,s=!1){
 let r=s?wd:cs,i=s?Xa:Qa;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let u=e;u<=n;u++){let p=t[u];i(p)&&(p<
@@ -245,19 +245,19 @@ let s=us(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ur=.1,Ma={mode:3,pa
 n)?Ta(t,e,n):(To.pad=n,To.soft=o?0:null,To.mode=o?3:0,Ta(t,e,vd))}function ue(t,e){return t??e}function kd(t,e,n){for(e=ue(e,0),n=ue(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function Ta(t,e,n){let o=n.min,s=n.max,r=ue(o.pad,0),i=ue(s.pad,0),a=ue(o.hard,-ge),l=ue(s.hard,ge),u=ue(o.soft,ge),p=ue(s.soft,-ge),
 d=ue(o.mode,0),f=ue(s.mode,0),w=e-t,y=Bt(w),k=nt(Ie(t),Ie(e)),M=Bt(k),T=Ie(M-y);(w<1e-24||T>10)&&(w=0,(t==0||e==0)&&(w=1e-24,d==2&&u!=ge&&(r=0),f==2&&p!=-ge&&(i=
-0)));let S=w||k||1e3,E=Bt(S),_=eo(10,pt(E)),K=S*(w==0?t==0?.1:1:r),N=ye(sl(t-K,_/10),24),Y=t>=u&&(d==1||d==3&&N<=u||d==2&&N>=u)?u:ge,V=nt(a,N<Y&&t>=Y?Y:Lt(Y,N)),
-R=S*(w==0?e==0?.1:1:i),G=ye(ds(e+R,_/10),24),L=e<=p&&(f==1||f==3&&G>=p||f==2&&G<=p)?p:-ge,Z=Lt(l,G>L&&e<=L?L:nt(L,G));return V==Z&&V==0&&(Z=100),[V,Z]}var Sd=new Intl.
+0)));let S=w||k||1e3,E=Bt(S),_=eo(10,pt(E)),J=S*(w==0?t==0?.1:1:r),N=ye(sl(t-J,_/10),24),Z=t>=u&&(d==1||d==3&&N<=u||d==2&&N>=u)?u:ge,B=nt(a,N<Z&&t>=Z?Z:Lt(Z,N)),
+q=S*(w==0?e==0?.1:1:i),R=ye(ds(e+q,_/10),24),A=e<=p&&(f==1||f==3&&R>=p||f==2&&R<=p)?p:-ge,j=Lt(l,R>A&&e<=A?A:nt(A,R));return B==j&&B==0&&(j=100),[B,j]}var Sd=new Intl.
 NumberFormat(so?yd.language:"en-US"),Gr=t=>Sd.format(t),ft=Math,rs=ft.PI,Ie=ft.abs,pt=ft.floor,Fe=ft.round,kt=ft.ceil,Lt=ft.min,nt=ft.max,eo=ft.pow,Pa=ft.sign,Bt=ft.
-log10,el=ft.log2,Md=(t,e=1)=>ft.sinh(t)*e,vr=(t,e=1)=>ft.asinh(t/e),ge=1/0;function Ea(t){return(Bt((t^t>>31)-(t>>31))|0)+1}function Cr(t,e,n){return Lt(nt(t,e),
-n)}function tl(t){return typeof t=="function"}function se(t){return tl(t)?t:()=>t}var Td=()=>{},nl=t=>t,ol=(t,e)=>e,Pd=t=>null,_a=t=>!0,Ca=(t,e)=>t==e,Ed=/\.\d*?(?=9{6,}|0{6,})/gm,
+log10,el=ft.log2,Md=(t,e=1)=>ft.sinh(t)*e,vr=(t,e=1)=>ft.asinh(t/e),ge=1/0;function Ea(t){return(Bt((t^t>>31)-(t>>31))|0)+1}function Ar(t,e,n){return Lt(nt(t,e),
+n)}function tl(t){return typeof t=="function"}function se(t){return tl(t)?t:()=>t}var Td=()=>{},nl=t=>t,ol=(t,e)=>e,Pd=t=>null,_a=t=>!0,Aa=(t,e)=>t==e,Ed=/\.\d*?(?=9{6,}|0{6,})/gm,
 xn=t=>{if(il(t)||en.has(t))return t;let e=`${t}`,n=e.match(Ed);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${xn(
 s)}e${r}`}return ye(t,o)};function gn(t,e){return xn(ye(xn(t/e))*e)}function ds(t,e){return xn(kt(xn(t/e))*e)}function sl(t,e){return xn(pt(xn(t/e))*e)}function ye(t,e=0){
 if(il(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return Fe(o)/n}var en=new Map;function rl(t){return((""+t).split(".")[1]||"").length}function Eo(t,e,n,o){
 let s=[],r=o.map(rl);for(let i=e;i<n;i++){let a=Ie(i),l=ye(eo(t,i),a);for(let u=0;u<o.length;u++){let p=t==10?+`${o[u]}e${i}`:o[u]*l,d=(i>=0?0:a)+(i>=r[u]?0:r[u]),
-f=t==10?p:ye(p,d);s.push(f),en.set(f,d)}}return s}var Po={},Wr=[],to=[null,null],Xt=Array.isArray,il=Number.isInteger,_d=t=>t===void 0;function Aa(t){return typeof t==
-"string"}function hs(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Cd(t){return t!=null&&typeof t=="object"}var Ad=Object.getPrototypeOf(
+f=t==10?p:ye(p,d);s.push(f),en.set(f,d)}}return s}var Po={},Wr=[],to=[null,null],Xt=Array.isArray,il=Number.isInteger,_d=t=>t===void 0;function Ca(t){return typeof t==
+"string"}function hs(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Ad(t){return t!=null&&typeof t=="object"}var Cd=Object.getPrototypeOf(
 Uint8Array),al="__proto__";function no(t,e=hs){let n;if(Xt(t)){let o=t.find(s=>s!=null);if(Xt(o)||e(o)){n=Array(t.length);for(let s=0;s<t.length;s++)n[s]=no(t[s],
-e)}else n=t.slice()}else if(t instanceof Ad)n=t.slice();else if(e(t)){n={};for(let o in t)o!=al&&(n[o]=no(t[o],e))}else n=t;return n}function Re(t){let e=arguments;
+e)}else n=t.slice()}else if(t instanceof Cd)n=t.slice();else if(e(t)){n={};for(let o in t)o!=al&&(n[o]=no(t[o],e))}else n=t;return n}function Re(t){let e=arguments;
 for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=al&&(hs(t[s])?Re(t[s],no(o[s])):t[s]=no(o[s]))}return t}var Ld=0,Dd=1,Nd=2;function Rd(t,e,n){for(let o=0,
 s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function $d(t,e){if(Od(t)){let i=t[0].
 slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return Ud(i[0])||(i=Id(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],u=l.length;for(let p=0;p<
@@ -282,14 +282,14 @@ dl),yn=Kd.concat(hl),Hr=`
 s=o*24,r=s*30,i=s*365,l=(t==1?Eo(10,0,3,ls).filter(dl):Eo(10,-3,0,ls)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
 4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),u=[[i,pl,pe,pe,pe,pe,pe,pe,1],[s*28,"{MMM}",La,pe,pe,pe,pe,pe,1],[s,fl,La,pe,
 pe,pe,pe,pe,1],[o,"{h}"+ml,os,pe,Mo,pe,pe,pe,1],[n,Qn,os,pe,Mo,pe,pe,pe,1],[e,Na,os+" "+Qn,pe,Mo+" "+Qn,pe,Da,pe,1],[t,Na+".{fff}",os+" "+Qn,pe,Mo+" "+Qn,pe,Da,
-pe,1]];function p(d){return(f,w,y,k,M,T)=>{let S=[],E=M>=i,_=M>=r&&M<i,K=d(y),N=ye(K*t,3),Y=kr(K.getFullYear(),E?0:K.getMonth(),_||E?1:K.getDate()),V=ye(Y*t,3);
-if(_||E){let R=_?M/r:0,G=E?M/i:0,L=N==V?N:ye(kr(Y.getFullYear()+G,Y.getMonth()+R,1)*t,3),Z=new Date(Fe(L/t)),O=Z.getFullYear(),j=Z.getMonth();for(let z=0;L<=k;z++){
-let Q=kr(O+G*z,j+R*z,1),H=Q-d(ye(Q*t,3));L=ye((+Q+H)*t,3),L<=k&&S.push(L)}}else{let R=M>=s?s:M,G=pt(y)-pt(N),L=V+G+ds(N-V,R);S.push(L);let Z=d(L),O=Z.getHours()+
-Z.getMinutes()/n+Z.getSeconds()/o,j=M/o,z=f.axes[w]._space,Q=T/z;for(;L=ye(L+M,t==1?0:3),!(L>k);)if(j>1){let H=pt(ye(O+j,6))%24,re=d(L).getHours()-H;re>1&&(re=-1),
-L-=re*o,O=(O+j)%24;let le=S[S.length-1];ye((L-le)/M,3)*Q>=.7&&S.push(L)}else S.push(L)}return S}}return[l,u,p]}var[Jd,Zd,Qd]=gl(1),[Xd,eh,th]=gl(.001);Eo(2,-53,
+pe,1]];function p(d){return(f,w,y,k,M,T)=>{let S=[],E=M>=i,_=M>=r&&M<i,J=d(y),N=ye(J*t,3),Z=kr(J.getFullYear(),E?0:J.getMonth(),_||E?1:J.getDate()),B=ye(Z*t,3);
+if(_||E){let q=_?M/r:0,R=E?M/i:0,A=N==B?N:ye(kr(Z.getFullYear()+R,Z.getMonth()+q,1)*t,3),j=new Date(Fe(A/t)),I=j.getFullYear(),V=j.getMonth();for(let W=0;A<=k;W++){
+let Y=kr(I+R*W,V+q*W,1),z=Y-d(ye(Y*t,3));A=ye((+Y+z)*t,3),A<=k&&S.push(A)}}else{let q=M>=s?s:M,R=pt(y)-pt(N),A=B+R+ds(N-B,q);S.push(A);let j=d(A),I=j.getHours()+
+j.getMinutes()/n+j.getSeconds()/o,V=M/o,W=f.axes[w]._space,Y=T/W;for(;A=ye(A+M,t==1?0:3),!(A>k);)if(V>1){let z=pt(ye(I+V,6))%24,re=d(A).getHours()-z;re>1&&(re=-1),
+A-=re*o,I=(I+V)%24;let le=S[S.length-1];ye((A-le)/M,3)*Y>=.7&&S.push(A)}else S.push(A)}return S}}return[l,u,p]}var[Jd,Zd,Qd]=gl(1),[Xd,eh,th]=gl(.001);Eo(2,-53,
 53,[1]);function Ra(t,e){return t.map(n=>n.map((o,s)=>s==0||s==8||o==null?o:e(s==1||n[8]==0?o:n[1]+o)))}function $a(t,e){return(n,o,s,r,i)=>{let a=e.find(y=>i>=
-y[0])||e[e.length-1],l,u,p,d,f,w;return o.map(y=>{let k=t(y),M=k.getFullYear(),T=k.getMonth(),S=k.getDate(),E=k.getHours(),_=k.getMinutes(),K=k.getSeconds(),N=M!=
-l&&a[2]||T!=u&&a[3]||S!=p&&a[4]||E!=d&&a[5]||_!=f&&a[6]||K!=w&&a[7]||a[1];return l=M,u=T,p=S,d=E,f=_,w=K,N(k)})}}function nh(t,e){let n=zr(e);return(o,s,r,i,a)=>s.
+y[0])||e[e.length-1],l,u,p,d,f,w;return o.map(y=>{let k=t(y),M=k.getFullYear(),T=k.getMonth(),S=k.getDate(),E=k.getHours(),_=k.getMinutes(),J=k.getSeconds(),N=M!=
+l&&a[2]||T!=u&&a[3]||S!=p&&a[4]||E!=d&&a[5]||_!=f&&a[6]||J!=w&&a[7]||a[1];return l=M,u=T,p=S,d=E,f=_,w=J,N(k)})}}function nh(t,e){let n=zr(e);return(o,s,r,i,a)=>s.
 map(l=>n(t(l)))}function kr(t,e,n){return new Date(t,e,n)}function Fa(t,e){return e(t)}var oh="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function Ia(t,e){return(n,o,s,r)=>r==
 null?Fr:e(t(o))}function sh(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function rh(t,e){return t.series[e].fill(
 t,e)}var ih={show:!0,live:!0,isolate:!1,mount:Td,markers:{show:!0,width:2,stroke:sh,fill:rh,dash:"solid"},idx:null,idxs:null,values:[]};function ah(t,e){let n=t.
@@ -303,10 +303,10 @@ show:!0,stroke:"rgba(0,0,0,0.07)",width:2},Vr=Re({},yl,{filter:ol}),bl=Re({},Vr,
  Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',xl="bold "+Br,vl=1.5,Oa={
 show:!0,scale:"x",stroke:$r,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:xl,side:2,grid:Vr,ticks:bl,border:wl,font:Br,lineGap:vl,rotate:0},
 ph="Value",fh="Time",Ua={show:!0,scale:"x",auto:!1,sorted:1,min:ge,max:-ge,idxs:[]};function mh(t,e,n,o,s){return e.map(r=>r==null?"":Gr(r))}function gh(t,e,n,o,s,r,i){
-let a=[],l=en.get(s)||0;n=i?n:ye(ds(n,s),l);for(let u=n;u<=o;u=ye(u+s,l))a.push(Object.is(u,-0)?0:u);return a}function Ar(t,e,n,o,s,r,i){let a=[],l=t.scales[t.axes[e].
-scale].log,u=l==10?Bt:el,p=pt(u(n));s=eo(l,p),l==10&&(s=yn[At(s,yn)]);let d=n,f=s*l;l==10&&(f=yn[At(f,yn)]);do a.push(d),d=d+s,l==10&&!en.has(d)&&(d=ye(d,en.get(
-s))),d>=f&&(s=d,f=s*l,l==10&&(f=yn[At(f,yn)]));while(d<=o);return a}function yh(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,u=o>l?Ar(t,e,nt(l,n),o,s):[
-l],p=o>=0&&n<=0?[0]:[];return(n<-l?Ar(t,e,nt(l,-o),-n,s):[l]).reverse().map(f=>-f).concat(p,u)}var kl=/./,bh=/[12357]/,wh=/[125]/,Ga=/1/,Lr=(t,e,n,o)=>t.map((s,r)=>e==
+let a=[],l=en.get(s)||0;n=i?n:ye(ds(n,s),l);for(let u=n;u<=o;u=ye(u+s,l))a.push(Object.is(u,-0)?0:u);return a}function Cr(t,e,n,o,s,r,i){let a=[],l=t.scales[t.axes[e].
+scale].log,u=l==10?Bt:el,p=pt(u(n));s=eo(l,p),l==10&&(s=yn[Ct(s,yn)]);let d=n,f=s*l;l==10&&(f=yn[Ct(f,yn)]);do a.push(d),d=d+s,l==10&&!en.has(d)&&(d=ye(d,en.get(
+s))),d>=f&&(s=d,f=s*l,l==10&&(f=yn[Ct(f,yn)]));while(d<=o);return a}function yh(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,u=o>l?Cr(t,e,nt(l,n),o,s):[
+l],p=o>=0&&n<=0?[0]:[];return(n<-l?Cr(t,e,nt(l,-o),-n,s):[l]).reverse().map(f=>-f).concat(p,u)}var kl=/./,bh=/[12357]/,wh=/[125]/,Ga=/1/,Lr=(t,e,n,o)=>t.map((s,r)=>e==
 4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function xh(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,u=r._space,p=l(10,i),d=l(
 9,i)-p>=u?kl:l(7,i)-p>=u?bh:l(5,i)-p>=u?wh:Ga;if(d==Ga){let f=Ie(l(1,i)-p);if(f<u)return Lr(e.slice().reverse(),a.distr,d,kt(u/f)).reverse()}return Lr(e,a.distr,
 d,1)}function vh(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,u=Ie(l(1,i)-l(2,i));return u<a?Lr(e.slice().reverse(),3,kl,kt(a/u)).reverse():e}function kh(t,e,n,o){
@@ -319,56 +319,56 @@ distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Ph=Re({},Ml,{time:!1,ori:1
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,u){for(let p=0;p<n.plots.length;p++)n.plots[p]!=s&&n.plots[p].pub(o,s,r,i,a,l,u)}},t!=null&&(Ba[t]=
 n)),n}var oo=1,Dr=2;function vn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],u=o==2?r[1]:r[e],p=o==2?i[s.facets[0].scale]:
 i[t.series[0].scale],d=o==2?i[s.facets[1].scale]:i[s.scale],f=a.left,w=a.top,y=a.width,k=a.height,M=t.valToPosH,T=t.valToPosV;return p.ori==0?n(s,l,u,p,d,M,T,f,
-w,y,k,fs,ro,gs,El,Cl):n(s,l,u,p,d,T,M,w,f,k,y,ms,io,qr,_l,Al)}function jr(t,e){let n=0,o=0,s=ue(t.bands,Wr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
+w,y,k,fs,ro,gs,El,Al):n(s,l,u,p,d,T,M,w,f,k,y,ms,io,qr,_l,Cl)}function jr(t,e){let n=0,o=0,s=ue(t.bands,Wr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
 e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function Eh(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
 l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function jt(t,e,n,o,s,r){return vn(t,e,(i,a,l,u,p,d,f,w,y,k,M)=>{let T=i.pxRound,S=u.
-dir*(u.ori==0?1:-1),E=u.ori==0?ro:io,_,K;S==1?(_=n,K=o):(_=o,K=n);let N=T(d(a[_],u,k,w)),Y=T(f(l[_],p,M,y)),V=T(d(a[K],u,k,w)),R=T(f(r==1?p.max:p.min,p,M,y)),G=new Path2D(
-s);return E(G,V,R),E(G,N,R),E(G,N,Y),G})}function ps(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?gs:qr,l=n;for(let d=0;d<t.length;d++){let f=t[d];
+dir*(u.ori==0?1:-1),E=u.ori==0?ro:io,_,J;S==1?(_=n,J=o):(_=o,J=n);let N=T(d(a[_],u,k,w)),Z=T(f(l[_],p,M,y)),B=T(d(a[J],u,k,w)),q=T(f(r==1?p.max:p.min,p,M,y)),R=new Path2D(
+s);return E(R,B,q),E(R,N,q),E(R,N,Z),R})}function ps(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?gs:qr,l=n;for(let d=0;d<t.length;d++){let f=t[d];
 if(f[1]>f[0]){let w=f[0]-l;w>0&&a(i,l,o,w,o+r),l=f[1]}}let u=n+s-l,p=10;u>0&&a(i,l,o-p/2,u,o+r+p)}return i}function _h(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function Kr(t,e,n,o,s,r,i){let a=[],l=t.length;for(let u=s==1?n:o;u>=n&&u<=o;u+=s)if(e[u]===null){let d=u,f=u;if(s==1)for(;++u<=o&&e[u]===null;)
 f=u;else for(;--u>=n&&e[u]===null;)f=u;let w=r(t[d]),y=f==d?w:r(t[f]),k=d-s;w=i<=0&&k>=0&&k<l?r(t[k]):w;let T=f+s;y=i>=0&&T>=0&&T<l?r(t[T]):y,y>=w&&a.push([w,y])}
 return a}function ja(t){return t==0?nl:t==1?Fe:e=>gn(e,t)}function Pl(t){let e=t==0?fs:ms,n=t==0?(s,r,i,a,l,u)=>{s.arcTo(r,i,a,l,u)}:(s,r,i,a,l,u)=>{s.arcTo(i,r,
 l,a,u)},o=t==0?(s,r,i,a,l)=>{s.rect(r,i,a,l)}:(s,r,i,a,l)=>{s.rect(i,r,l,a)};return(s,r,i,a,l,u=0,p=0)=>{u==0&&p==0?o(s,r,i,a,l):(u=Lt(u,a/2,l/2),p=Lt(p,a/2,l/2),
 e(s,r+u,i),n(s,r+a,i,r+a,i+l,u),n(s,r+a,i+l,r,i+l,p),n(s,r,i+l,r,i,p),n(s,r,i,r+a,i,u),s.closePath())}}var fs=(t,e,n)=>{t.moveTo(e,n)},ms=(t,e,n)=>{t.moveTo(n,e)},
-ro=(t,e,n)=>{t.lineTo(e,n)},io=(t,e,n)=>{t.lineTo(n,e)},gs=Pl(0),qr=Pl(1),El=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},_l=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},Cl=(t,e,n,o,s,r,i)=>{
-t.bezierCurveTo(e,n,o,s,r,i)},Al=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Ll(t){return(e,n,o,s,r)=>vn(e,n,(i,a,l,u,p,d,f,w,y,k,M)=>{let{pxRound:T,
-points:S}=i,E,_;u.ori==0?(E=fs,_=El):(E=ms,_=_l);let K=ye(S.width*he,3),N=(S.size-S.width)/2*he,Y=ye(N*2,3),V=new Path2D,R=new Path2D,{left:G,top:L,width:Z,height:O}=e.
-bbox;gs(R,G-Y,L-Y,Z+Y*2,O+Y*2);let j=z=>{if(l[z]!=null){let Q=T(d(a[z],u,k,w)),H=T(f(l[z],p,M,y));E(V,Q+N,H),_(V,Q,H,N,0,rs*2)}};if(r)r.forEach(j);else for(let z=o;z<=
-s;z++)j(z);return{stroke:K>0?V:null,fill:V,clip:R,flags:oo|Dr}})}function Dl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var Ch=Dl(ro),Ah=Dl(io);function Nl(t){let e=ue(t?.alignGaps,0);return(n,o,s,r)=>vn(n,o,(i,a,l,u,p,d,f,w,y,k,M)=>{[s,r]=cs(l,s,r);let T=i.pxRound,S=O=>T(d(O,u,k,
-w)),E=O=>T(f(O,p,M,y)),_,K;u.ori==0?(_=ro,K=Ch):(_=io,K=Ah);let N=u.dir*(u.ori==0?1:-1),Y={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},V=Y.
-stroke,R=!1;if(r-s>=k*4){let O=W=>n.posToVal(W,u.key,!0),j=null,z=null,Q,H,je,be=S(a[N==1?s:r]),re=S(a[s]),le=S(a[r]),ee=O(N==1?re+1:le-1);for(let W=N==1?s:r;W>=
-s&&W<=r;W+=N){let Ce=a[W],me=(N==1?Ce<ee:Ce>ee)?be:S(Ce),ae=l[W];me==be?ae!=null?(H=ae,j==null?(_(V,me,E(H)),Q=j=z=H):H<j?j=H:H>z&&(z=H)):ae===null&&(R=!0):(j!=
-null&&K(V,be,E(j),E(z),E(Q),E(H)),ae!=null?(H=ae,_(V,me,E(H)),j=z=Q=H):(j=z=null,ae===null&&(R=!0)),be=me,ee=O(be+N))}j!=null&&j!=z&&je!=be&&K(V,be,E(j),E(z),E(
-Q),E(H))}else for(let O=N==1?s:r;O>=s&&O<=r;O+=N){let j=l[O];j===null?R=!0:j!=null&&_(V,S(a[O]),E(j))}let[L,Z]=jr(n,o);if(i.fill!=null||L!=0){let O=Y.fill=new Path2D(
-V),j=i.fillTo(n,o,i.min,i.max,L),z=E(j),Q=S(a[s]),H=S(a[r]);N==-1&&([H,Q]=[Q,H]),_(O,H,z),_(O,Q,z)}if(!i.spanGaps){let O=[];R&&O.push(...Kr(a,l,s,r,N,S,e)),Y.gaps=
-O=i.gaps(n,o,s,r,O),Y.clip=ps(O,u.ori,w,y,k,M)}return Z!=0&&(Y.band=Z==2?[jt(n,o,s,r,V,-1),jt(n,o,s,r,V,1)]:jt(n,o,s,r,V,Z)),Y})}function Lh(t){let e=ue(t.align,
-1),n=ue(t.ascDesc,!1),o=ue(t.alignGaps,0),s=ue(t.extend,!1);return(r,i,a,l)=>vn(r,i,(u,p,d,f,w,y,k,M,T,S,E)=>{[a,l]=cs(d,a,l);let _=u.pxRound,{left:K,width:N}=r.
-bbox,Y=re=>_(y(re,f,S,M)),V=re=>_(k(re,w,E,T)),R=f.ori==0?ro:io,G={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},L=G.stroke,Z=f.dir*(f.ori==
-0?1:-1),O=V(d[Z==1?a:l]),j=Y(p[Z==1?a:l]),z=j,Q=j;s&&e==-1&&(Q=K,R(L,Q,O)),R(L,j,O);for(let re=Z==1?a:l;re>=a&&re<=l;re+=Z){let le=d[re];if(le==null)continue;let ee=Y(
-p[re]),W=V(le);e==1?R(L,ee,O):R(L,z,W),R(L,ee,W),O=W,z=ee}let H=z;s&&e==1&&(H=K+N,R(L,H,O));let[je,be]=jr(r,i);if(u.fill!=null||je!=0){let re=G.fill=new Path2D(
-L),le=u.fillTo(r,i,u.min,u.max,je),ee=V(le);R(re,H,ee),R(re,Q,ee)}if(!u.spanGaps){let re=[];re.push(...Kr(p,d,a,l,Z,Y,o));let le=u.width*he/2,ee=n||e==1?le:-le,
-W=n||e==-1?-le:le;re.forEach(Ce=>{Ce[0]+=ee,Ce[1]+=W}),G.gaps=re=u.gaps(r,i,a,l,re),G.clip=ps(re,f.ori,M,T,S,E)}return be!=0&&(G.band=be==2?[jt(r,i,a,l,L,-1),jt(
-r,i,a,l,L,1)]:jt(r,i,a,l,L,be)),G})}function Ka(t,e,n,o,s,r,i=ge){if(t.length>1){let a=null;for(let l=0,u=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let p=Ie(
+ro=(t,e,n)=>{t.lineTo(e,n)},io=(t,e,n)=>{t.lineTo(n,e)},gs=Pl(0),qr=Pl(1),El=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},_l=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},Al=(t,e,n,o,s,r,i)=>{
+t.bezierCurveTo(e,n,o,s,r,i)},Cl=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Ll(t){return(e,n,o,s,r)=>vn(e,n,(i,a,l,u,p,d,f,w,y,k,M)=>{let{pxRound:T,
+points:S}=i,E,_;u.ori==0?(E=fs,_=El):(E=ms,_=_l);let J=ye(S.width*he,3),N=(S.size-S.width)/2*he,Z=ye(N*2,3),B=new Path2D,q=new Path2D,{left:R,top:A,width:j,height:I}=e.
+bbox;gs(q,R-Z,A-Z,j+Z*2,I+Z*2);let V=W=>{if(l[W]!=null){let Y=T(d(a[W],u,k,w)),z=T(f(l[W],p,M,y));E(B,Y+N,z),_(B,Y,z,N,0,rs*2)}};if(r)r.forEach(V);else for(let W=o;W<=
+s;W++)V(W);return{stroke:J>0?B:null,fill:B,clip:q,flags:oo|Dr}})}function Dl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
+var Ah=Dl(ro),Ch=Dl(io);function Nl(t){let e=ue(t?.alignGaps,0);return(n,o,s,r)=>vn(n,o,(i,a,l,u,p,d,f,w,y,k,M)=>{[s,r]=cs(l,s,r);let T=i.pxRound,S=I=>T(d(I,u,k,
+w)),E=I=>T(f(I,p,M,y)),_,J;u.ori==0?(_=ro,J=Ah):(_=io,J=Ch);let N=u.dir*(u.ori==0?1:-1),Z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},B=Z.
+stroke,q=!1;if(r-s>=k*4){let I=G=>n.posToVal(G,u.key,!0),V=null,W=null,Y,z,je,be=S(a[N==1?s:r]),re=S(a[s]),le=S(a[r]),ee=I(N==1?re+1:le-1);for(let G=N==1?s:r;G>=
+s&&G<=r;G+=N){let Ae=a[G],me=(N==1?Ae<ee:Ae>ee)?be:S(Ae),ae=l[G];me==be?ae!=null?(z=ae,V==null?(_(B,me,E(z)),Y=V=W=z):z<V?V=z:z>W&&(W=z)):ae===null&&(q=!0):(V!=
+null&&J(B,be,E(V),E(W),E(Y),E(z)),ae!=null?(z=ae,_(B,me,E(z)),V=W=Y=z):(V=W=null,ae===null&&(q=!0)),be=me,ee=I(be+N))}V!=null&&V!=W&&je!=be&&J(B,be,E(V),E(W),E(
+Y),E(z))}else for(let I=N==1?s:r;I>=s&&I<=r;I+=N){let V=l[I];V===null?q=!0:V!=null&&_(B,S(a[I]),E(V))}let[A,j]=jr(n,o);if(i.fill!=null||A!=0){let I=Z.fill=new Path2D(
+B),V=i.fillTo(n,o,i.min,i.max,A),W=E(V),Y=S(a[s]),z=S(a[r]);N==-1&&([z,Y]=[Y,z]),_(I,z,W),_(I,Y,W)}if(!i.spanGaps){let I=[];q&&I.push(...Kr(a,l,s,r,N,S,e)),Z.gaps=
+I=i.gaps(n,o,s,r,I),Z.clip=ps(I,u.ori,w,y,k,M)}return j!=0&&(Z.band=j==2?[jt(n,o,s,r,B,-1),jt(n,o,s,r,B,1)]:jt(n,o,s,r,B,j)),Z})}function Lh(t){let e=ue(t.align,
+1),n=ue(t.ascDesc,!1),o=ue(t.alignGaps,0),s=ue(t.extend,!1);return(r,i,a,l)=>vn(r,i,(u,p,d,f,w,y,k,M,T,S,E)=>{[a,l]=cs(d,a,l);let _=u.pxRound,{left:J,width:N}=r.
+bbox,Z=re=>_(y(re,f,S,M)),B=re=>_(k(re,w,E,T)),q=f.ori==0?ro:io,R={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},A=R.stroke,j=f.dir*(f.ori==
+0?1:-1),I=B(d[j==1?a:l]),V=Z(p[j==1?a:l]),W=V,Y=V;s&&e==-1&&(Y=J,q(A,Y,I)),q(A,V,I);for(let re=j==1?a:l;re>=a&&re<=l;re+=j){let le=d[re];if(le==null)continue;let ee=Z(
+p[re]),G=B(le);e==1?q(A,ee,I):q(A,W,G),q(A,ee,G),I=G,W=ee}let z=W;s&&e==1&&(z=J+N,q(A,z,I));let[je,be]=jr(r,i);if(u.fill!=null||je!=0){let re=R.fill=new Path2D(
+A),le=u.fillTo(r,i,u.min,u.max,je),ee=B(le);q(re,z,ee),q(re,Y,ee)}if(!u.spanGaps){let re=[];re.push(...Kr(p,d,a,l,j,Z,o));let le=u.width*he/2,ee=n||e==1?le:-le,
+G=n||e==-1?-le:le;re.forEach(Ae=>{Ae[0]+=ee,Ae[1]+=G}),R.gaps=re=u.gaps(r,i,a,l,re),R.clip=ps(re,f.ori,M,T,S,E)}return be!=0&&(R.band=be==2?[jt(r,i,a,l,A,-1),jt(
+r,i,a,l,A,1)]:jt(r,i,a,l,A,be)),R})}function Ka(t,e,n,o,s,r,i=ge){if(t.length>1){let a=null;for(let l=0,u=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let p=Ie(
 t[l]-t[a]);p<u&&(u=p,i=Ie(n(t[l],o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function Dh(t){t=t||Po;let e=ue(t.size,[.6,ge,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==
 null?[0,0]:typeof s=="number"?[s,0]:s;let r=se(s),i=1-e[0],a=ue(e[1],ge),l=ue(e[2],1),u=ue(t.disp,Po),p=ue(t.each,w=>{}),{fill:d,stroke:f}=u;return(w,y,k,M)=>vn(
-w,y,(T,S,E,_,K,N,Y,V,R,G,L)=>{let Z=T.pxRound,O=n,j=o*he,z=a*he,Q=l*he,H,je;_.ori==0?[H,je]=r(w,y):[je,H]=r(w,y);let be=_.dir*(_.ori==0?1:-1),re=_.ori==0?gs:qr,
-le=_.ori==0?p:(I,we,$e,Mn,sn,Dt,rn)=>{p(I,we,$e,sn,Mn,rn,Dt)},ee=ue(w.bands,Wr).find(I=>I.series[0]==y),W=ee!=null?ee.dir:0,Ce=T.fillTo(w,y,T.min,T.max,W),Ue=Z(
-Y(Ce,K,L,R)),me,ae,ot,st=G,Pe=Z(T.width*he),St=!1,mt=null,q=null,ie=null,Ke=null;d!=null&&(Pe==0||f!=null)&&(St=!0,mt=d.values(w,y,k,M),q=new Map,new Set(mt).forEach(
-I=>{I!=null&&q.set(I,new Path2D)}),Pe>0&&(ie=f.values(w,y,k,M),Ke=new Map,new Set(ie).forEach(I=>{I!=null&&Ke.set(I,new Path2D)})));let{x0:Wt,size:lo}=u;if(Wt!=
-null&&lo!=null){O=1,S=Wt.values(w,y,k,M),Wt.unit==2&&(S=S.map($e=>w.posToVal(V+$e*G,_.key,!0)));let I=lo.values(w,y,k,M);lo.unit==2?ae=I[0]*G:ae=N(I[0],_,G,V)-N(
-0,_,G,V),st=Ka(S,E,N,_,G,V,st),ot=st-ae+j}else st=Ka(S,E,N,_,G,V,st),ot=st*i+j,ae=st-ot;ot<1&&(ot=0),Pe>=ae/2&&(Pe=0),ot<5&&(Z=nl);let _o=ot>0,nn=st-ot-(_o?Pe:0);
-ae=Z(Cr(nn,Q,z)),me=(O==0?ae/2:O==be?0:ae)-O*be*((O==0?j/2:0)+(_o?Pe/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Sn=St?null:new Path2D,
-zt=null;if(ee!=null)zt=w.data[ee.series[1]];else{let{y0:I,y1:we}=u;I!=null&&we!=null&&(E=we.values(w,y,k,M),zt=I.values(w,y,k,M))}let on=H*ae,te=je*ae;for(let I=be==
-1?k:M;I>=k&&I<=M;I+=be){let we=E[I];if(we==null)continue;if(zt!=null){let rt=zt[I]??0;if(we-rt==0)continue;Ue=Y(rt,K,L,R)}let $e=_.distr!=2||u!=null?S[I]:I,Mn=N(
-$e,_,G,V),sn=Y(ue(we,Ce),K,L,R),Dt=Z(Mn-me),rn=Z(nt(sn,Ue)),at=Z(Lt(sn,Ue)),gt=rn-at;if(we!=null){let rt=we<0?te:on,Mt=we<0?on:te;St?(Pe>0&&ie[I]!=null&&re(Ke.get(
-ie[I]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),mt[I]!=null&&re(q.get(mt[I]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt)):re(Sn,Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),le(w,y,
-I,Dt-Pe/2,at,ae+Pe,gt)}}return Pe>0?Qe.stroke=St?Ke:Sn:St||(Qe._fill=T.width==0?T._fill:T._stroke??T._fill,Qe.width=0),Qe.fill=St?q:Sn,Qe})}function Nh(t,e){let n=ue(
-e?.alignGaps,0);return(o,s,r,i)=>vn(o,s,(a,l,u,p,d,f,w,y,k,M,T)=>{[r,i]=cs(u,r,i);let S=a.pxRound,E=H=>S(f(H,p,M,y)),_=H=>S(w(H,d,T,k)),K,N,Y;p.ori==0?(K=fs,Y=ro,
-N=Cl):(K=ms,Y=io,N=Al);let V=p.dir*(p.ori==0?1:-1),R=E(l[V==1?r:i]),G=R,L=[],Z=[];for(let H=V==1?r:i;H>=r&&H<=i;H+=V)if(u[H]!=null){let be=l[H],re=E(be);L.push(
-G=re),Z.push(_(u[H]))}let O={stroke:t(L,Z,K,Y,N,S),fill:null,clip:null,band:null,gaps:null,flags:oo},j=O.stroke,[z,Q]=jr(o,s);if(a.fill!=null||z!=0){let H=O.fill=
-new Path2D(j),je=a.fillTo(o,s,a.min,a.max,z),be=_(je);Y(H,G,be),Y(H,R,be)}if(!a.spanGaps){let H=[];H.push(...Kr(l,u,r,i,V,E,n)),O.gaps=H=a.gaps(o,s,r,i,H),O.clip=
-ps(H,p.ori,y,k,M,T)}return Q!=0&&(O.band=Q==2?[jt(o,s,r,i,j,-1),jt(o,s,r,i,j,1)]:jt(o,s,r,i,j,Q)),O})}function Rh(t){return Nh($h,t)}function $h(t,e,n,o,s,r){let i=t.
+w,y,(T,S,E,_,J,N,Z,B,q,R,A)=>{let j=T.pxRound,I=n,V=o*he,W=a*he,Y=l*he,z,je;_.ori==0?[z,je]=r(w,y):[je,z]=r(w,y);let be=_.dir*(_.ori==0?1:-1),re=_.ori==0?gs:qr,
+le=_.ori==0?p:(O,we,$e,Mn,sn,Dt,rn)=>{p(O,we,$e,sn,Mn,rn,Dt)},ee=ue(w.bands,Wr).find(O=>O.series[0]==y),G=ee!=null?ee.dir:0,Ae=T.fillTo(w,y,T.min,T.max,G),Ue=j(
+Z(Ae,J,A,q)),me,ae,ot,st=R,Pe=j(T.width*he),St=!1,mt=null,K=null,ie=null,Ke=null;d!=null&&(Pe==0||f!=null)&&(St=!0,mt=d.values(w,y,k,M),K=new Map,new Set(mt).forEach(
+O=>{O!=null&&K.set(O,new Path2D)}),Pe>0&&(ie=f.values(w,y,k,M),Ke=new Map,new Set(ie).forEach(O=>{O!=null&&Ke.set(O,new Path2D)})));let{x0:Wt,size:lo}=u;if(Wt!=
+null&&lo!=null){I=1,S=Wt.values(w,y,k,M),Wt.unit==2&&(S=S.map($e=>w.posToVal(B+$e*R,_.key,!0)));let O=lo.values(w,y,k,M);lo.unit==2?ae=O[0]*R:ae=N(O[0],_,R,B)-N(
+0,_,R,B),st=Ka(S,E,N,_,R,B,st),ot=st-ae+V}else st=Ka(S,E,N,_,R,B,st),ot=st*i+V,ae=st-ot;ot<1&&(ot=0),Pe>=ae/2&&(Pe=0),ot<5&&(j=nl);let _o=ot>0,nn=st-ot-(_o?Pe:0);
+ae=j(Ar(nn,Y,W)),me=(I==0?ae/2:I==be?0:ae)-I*be*((I==0?V/2:0)+(_o?Pe/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Sn=St?null:new Path2D,
+zt=null;if(ee!=null)zt=w.data[ee.series[1]];else{let{y0:O,y1:we}=u;O!=null&&we!=null&&(E=we.values(w,y,k,M),zt=O.values(w,y,k,M))}let on=z*ae,te=je*ae;for(let O=be==
+1?k:M;O>=k&&O<=M;O+=be){let we=E[O];if(we==null)continue;if(zt!=null){let rt=zt[O]??0;if(we-rt==0)continue;Ue=Z(rt,J,A,q)}let $e=_.distr!=2||u!=null?S[O]:O,Mn=N(
+$e,_,R,B),sn=Z(ue(we,Ae),J,A,q),Dt=j(Mn-me),rn=j(nt(sn,Ue)),at=j(Lt(sn,Ue)),gt=rn-at;if(we!=null){let rt=we<0?te:on,Mt=we<0?on:te;St?(Pe>0&&ie[O]!=null&&re(Ke.get(
+ie[O]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),mt[O]!=null&&re(K.get(mt[O]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt)):re(Sn,Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),le(w,y,
+O,Dt-Pe/2,at,ae+Pe,gt)}}return Pe>0?Qe.stroke=St?Ke:Sn:St||(Qe._fill=T.width==0?T._fill:T._stroke??T._fill,Qe.width=0),Qe.fill=St?K:Sn,Qe})}function Nh(t,e){let n=ue(
+e?.alignGaps,0);return(o,s,r,i)=>vn(o,s,(a,l,u,p,d,f,w,y,k,M,T)=>{[r,i]=cs(u,r,i);let S=a.pxRound,E=z=>S(f(z,p,M,y)),_=z=>S(w(z,d,T,k)),J,N,Z;p.ori==0?(J=fs,Z=ro,
+N=Al):(J=ms,Z=io,N=Cl);let B=p.dir*(p.ori==0?1:-1),q=E(l[B==1?r:i]),R=q,A=[],j=[];for(let z=B==1?r:i;z>=r&&z<=i;z+=B)if(u[z]!=null){let be=l[z],re=E(be);A.push(
+R=re),j.push(_(u[z]))}let I={stroke:t(A,j,J,Z,N,S),fill:null,clip:null,band:null,gaps:null,flags:oo},V=I.stroke,[W,Y]=jr(o,s);if(a.fill!=null||W!=0){let z=I.fill=
+new Path2D(V),je=a.fillTo(o,s,a.min,a.max,W),be=_(je);Z(z,R,be),Z(z,q,be)}if(!a.spanGaps){let z=[];z.push(...Kr(l,u,r,i,B,E,n)),I.gaps=z=a.gaps(o,s,r,i,z),I.clip=
+ps(z,p.ori,y,k,M,T)}return Y!=0&&(I.band=Y==2?[jt(o,s,r,i,V,-1),jt(o,s,r,i,V,1)]:jt(o,s,r,i,V,Y)),I})}function Rh(t){return Nh($h,t)}function $h(t,e,n,o,s,r){let i=t.
 length;if(i<2)return null;let a=new Path2D;if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),u=Array(i-1),p=Array(i-1),d=Array(i-1);for(let f=0;f<i-1;f++)
 p[f]=e[f+1]-e[f],d[f]=t[f+1]-t[f],u[f]=p[f]/d[f];l[0]=u[0];for(let f=1;f<i-1;f++)u[f]===0||u[f-1]===0||u[f-1]>0!=u[f]>0?l[f]=0:(l[f]=3*(d[f-1]+d[f])/((2*d[f]+d[f-
 1])/u[f-1]+(d[f]+2*d[f-1])/u[f]),isFinite(l[f])||(l[f]=0));l[i-1]=u[i-2];for(let f=0;f<i-1;f++)s(a,t[f]+d[f]/3,e[f]+l[f]*d[f]/3,t[f+1]-d[f]/3,e[f+1]-l[f+1]*d[f]/
@@ -376,174 +376,174 @@ p[f]=e[f+1]-e[f],d[f]=t[f+1]-t[f],u[f]=p[f]/d[f];l[0]=u[0];for(let f=1;f<i-1;f++
 Ih=Ll();function Ya(t,e,n,o){return(o?[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Rr(r,i,e,n))}function Oh(t,e){return t.map((n,o)=>o==
 0?{}:Re({},e,n))}function Rr(t,e,n,o){return Re({},e==0?n:o,t)}function Rl(t,e,n){return e==null?to:[e,n]}var Uh=Rl;function Gh(t,e,n){return e==null?to:as(e,n,
 Ur,!0)}function $l(t,e,n,o){return e==null?to:us(e,n,t.scales[o].log,!1)}var Wh=$l;function Fl(t,e,n,o){return e==null?to:Or(e,n,t.scales[o].log,!1)}var zh=Fl;function Hh(t,e,n,o,s){
-let r=nt(Ea(t),Ea(e)),i=e-t,a=At(s/o*i,n);do{let l=n[a],u=o*l/i;if(u>=s&&r+(l<5?en.get(l):0)<=17)return[l,u]}while(++a<n.length);return[0,0]}function Ja(t){let e,
+let r=nt(Ea(t),Ea(e)),i=e-t,a=Ct(s/o*i,n);do{let l=n[a],u=o*l/i;if(u>=s&&r+(l<5?en.get(l):0)<=17)return[l,u]}while(++a<n.length);return[0,0]}function Ja(t){let e,
 n;return t=t.replace(/(\d+)px/,(o,s)=>(e=Fe((n=+s)*he))+"px"),[t,e,n]}function Vh(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=ye(e[2]*he,1);e[0]=e[0].replace(
 /[0-9.]+px/,n+"px"),e[1]=n})}function Oe(t,e,n){let o={mode:ue(t.mode,1)},s=o.mode;function r(c,h,m,g){let b=h.valToPct(c);return g+m*(h.dir==-1?1-b:b)}function i(c,h,m,g){
 let b=h.valToPct(c);return g+m*(h.dir==-1?b:1-b)}function a(c,h,m,g){return h.ori==0?r(c,h,m,g):i(c,h,m,g)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let u=o.
-root=vt(Zu);if(t.id!=null&&(u.id=t.id),ht(u,t.class),t.title){let c=vt(ed,u);c.textContent=t.title}let p=Ct("canvas"),d=o.ctx=p.getContext("2d"),f=vt(td,u);wn("\
+root=vt(Zu);if(t.id!=null&&(u.id=t.id),ht(u,t.class),t.title){let c=vt(ed,u);c.textContent=t.title}let p=At("canvas"),d=o.ctx=p.getContext("2d"),f=vt(td,u);wn("\
 click",f,c=>{c.target===y&&(xe!=$n||Ee!=Fn)&&Ye.click(o,c)},!0);let w=o.under=vt(nd,f);f.appendChild(p);let y=o.over=vt(od,f);t=no(t);let k=+ue(t.pxAlign,1),M=ja(
 k);(t.plugins||[]).forEach(c=>{c.opts&&(t=c.opts(o,t)||t)});let T=t.ms||.001,S=o.series=s==1?Ya(t.series||[],Ua,Va,!1):Oh(t.series||[null],Ha),E=o.axes=Ya(t.axes||
-[],Oa,Wa,!0),_=o.scales={},K=o.bands=t.bands||[];K.forEach(c=>{c.fill=se(c.fill||null),c.dir=ue(c.dir,-1)});let N=s==2?S[1].facets[0].scale:S[0].scale,Y={axes:ou,
-series:Qc},V=(t.drawOrder||["axes","series"]).map(c=>Y[c]);function R(c){let h=c.distr==3?m=>Bt(m>0?m:c.clamp(o,m,c.min,c.max,c.key)):c.distr==4?m=>vr(m,c.asinh):
-c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=h(m),{_min:b,_max:x}=c,P=x-b;return(g-b)/P}}function G(c){let h=_[c];if(h==null){let m=(t.scales||Po)[c]||Po;if(m.
-from!=null){G(m.from);let g=Re({},_[m.from],m,{key:c});g.valToPct=R(g),_[c]=g}else{h=_[c]=Re({},c==N?Ml:Ph,m),h.key=c;let g=h.time,b=h.range,x=Xt(b);if((c!=N||s==
+[],Oa,Wa,!0),_=o.scales={},J=o.bands=t.bands||[];J.forEach(c=>{c.fill=se(c.fill||null),c.dir=ue(c.dir,-1)});let N=s==2?S[1].facets[0].scale:S[0].scale,Z={axes:ou,
+series:Qc},B=(t.drawOrder||["axes","series"]).map(c=>Z[c]);function q(c){let h=c.distr==3?m=>Bt(m>0?m:c.clamp(o,m,c.min,c.max,c.key)):c.distr==4?m=>vr(m,c.asinh):
+c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=h(m),{_min:b,_max:x}=c,P=x-b;return(g-b)/P}}function R(c){let h=_[c];if(h==null){let m=(t.scales||Po)[c]||Po;if(m.
+from!=null){R(m.from);let g=Re({},_[m.from],m,{key:c});g.valToPct=q(g),_[c]=g}else{h=_[c]=Re({},c==N?Ml:Ph,m),h.key=c;let g=h.time,b=h.range,x=Xt(b);if((c!=N||s==
 2&&!g)&&(x&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?Ma:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?Ma:{mode:1,hard:b[1],soft:b[1]}},x=!1),!x&&hs(b))){let P=b;
 b=(C,D,$)=>D==null?to:as(D,$,P)}h.range=se(b||(g?Uh:c==N?h.distr==3?Wh:h.distr==4?zh:Rl:h.distr==3?$l:h.distr==4?Fl:Gh)),h.auto=se(x?!1:h.auto),h.clamp=se(h.clamp||
-Th),h._min=h._max=null,h.valToPct=R(h)}}}G("x"),G("y"),s==1&&S.forEach(c=>{G(c.scale)}),E.forEach(c=>{G(c.scale)});for(let c in t.scales)G(c);let L=_[N],Z=L.distr,
-O,j;L.ori==0?(ht(u,Qu),O=r,j=i):(ht(u,Xu),O=i,j=r);let z={};for(let c in _){let h=_[c];(h.min!=null||h.max!=null)&&(z[c]={min:h.min,max:h.max},h.min=h.max=null)}
-let Q=t.tzDate||(c=>new Date(Fe(c/T))),H=t.fmtDate||zr,je=T==1?Qd(Q):th(Q),be=$a(Q,Ra(T==1?Zd:eh,H)),re=Ia(Q,Fa(oh,H)),le=[],ee=o.legend=Re({},ih,t.legend),W=o.
-cursor=Re({},hh,{drag:{y:s==2}},t.cursor),Ce=ee.show,Ue=W.show,me=ee.markers;ee.idxs=le,me.width=se(me.width),me.dash=se(me.dash),me.stroke=se(me.stroke),me.fill=
-se(me.fill);let ae,ot,st,Pe=[],St=[],mt,q=!1,ie={};if(ee.live){let c=S[1]?S[1].values:null;q=c!=null,mt=q?c(o,1,0):{_:0};for(let h in mt)ie[h]=Fr}if(Ce)if(ae=Ct(
-"table",cd,u),st=Ct("tbody",null,ae),ee.mount(o,ae),q){ot=Ct("thead",null,ae,st);let c=Ct("tr",null,ot);Ct("th",null,c);for(var Ke in mt)Ct("th",da,c).textContent=
-Ke}else ht(ae,dd),ee.live&&ht(ae,ud);let Wt={show:!0},lo={show:!1};function _o(c,h){if(h==0&&(q||!ee.live||s==2))return to;let m=[],g=Ct("tr",hd,st,st.childNodes[h]);
-ht(g,c.class),c.show||ht(g,bn);let b=Ct("th",null,g);if(me.show){let C=vt(pd,b);if(h>0){let D=me.width(o,h);D&&(C.style.border=D+"px "+me.dash(o,h)+" "+me.stroke(
+Th),h._min=h._max=null,h.valToPct=q(h)}}}R("x"),R("y"),s==1&&S.forEach(c=>{R(c.scale)}),E.forEach(c=>{R(c.scale)});for(let c in t.scales)R(c);let A=_[N],j=A.distr,
+I,V;A.ori==0?(ht(u,Qu),I=r,V=i):(ht(u,Xu),I=i,V=r);let W={};for(let c in _){let h=_[c];(h.min!=null||h.max!=null)&&(W[c]={min:h.min,max:h.max},h.min=h.max=null)}
+let Y=t.tzDate||(c=>new Date(Fe(c/T))),z=t.fmtDate||zr,je=T==1?Qd(Y):th(Y),be=$a(Y,Ra(T==1?Zd:eh,z)),re=Ia(Y,Fa(oh,z)),le=[],ee=o.legend=Re({},ih,t.legend),G=o.
+cursor=Re({},hh,{drag:{y:s==2}},t.cursor),Ae=ee.show,Ue=G.show,me=ee.markers;ee.idxs=le,me.width=se(me.width),me.dash=se(me.dash),me.stroke=se(me.stroke),me.fill=
+se(me.fill);let ae,ot,st,Pe=[],St=[],mt,K=!1,ie={};if(ee.live){let c=S[1]?S[1].values:null;K=c!=null,mt=K?c(o,1,0):{_:0};for(let h in mt)ie[h]=Fr}if(Ae)if(ae=At(
+"table",cd,u),st=At("tbody",null,ae),ee.mount(o,ae),K){ot=At("thead",null,ae,st);let c=At("tr",null,ot);At("th",null,c);for(var Ke in mt)At("th",da,c).textContent=
+Ke}else ht(ae,dd),ee.live&&ht(ae,ud);let Wt={show:!0},lo={show:!1};function _o(c,h){if(h==0&&(K||!ee.live||s==2))return to;let m=[],g=At("tr",hd,st,st.childNodes[h]);
+ht(g,c.class),c.show||ht(g,bn);let b=At("th",null,g);if(me.show){let C=vt(pd,b);if(h>0){let D=me.width(o,h);D&&(C.style.border=D+"px "+me.dash(o,h)+" "+me.stroke(
 o,h)),C.style.background=me.fill(o,h)}}let x=vt(da,b);c.label instanceof HTMLElement?x.appendChild(c.label):x.textContent=c.label,h>0&&(me.show||(x.style.color=
-c.width>0?me.stroke(o,h):me.fill(o,h)),Qe("click",b,C=>{if(W._lock)return;ln(C);let D=S.indexOf(c);if((C.ctrlKey||C.metaKey)!=ee.isolate){let $=S.some((F,U)=>U>
-0&&U!=D&&F.show);S.forEach((F,U)=>{U>0&&Rt(U,$?U==D?Wt:lo:Wt,!0,De.setSeries)})}else Rt(D,{show:!c.show},!0,De.setSeries)},!1),Pn&&Qe(ma,b,C=>{W._lock||(ln(C),Rt(
-S.indexOf(c),On,!0,De.setSeries))},!1));for(var P in mt){let C=Ct("td",fd,g);C.textContent="--",m.push(C)}return[g,m]}let nn=new Map;function Qe(c,h,m,g=!0){let b=nn.
-get(h)||{},x=W.bind[c](o,h,m,g);x&&(wn(c,h,b[c]=x),nn.set(h,b))}function Sn(c,h,m){let g=nn.get(h)||{};for(let b in g)(c==null||b==c)&&(_r(b,h,g[b]),delete g[b]);
-c==null&&nn.delete(h)}let zt=0,on=0,te=0,I=0,we=0,$e=0,Mn=we,sn=$e,Dt=te,rn=I,at=0,gt=0,rt=0,Mt=0;o.bbox={};let Os=!1,Co=!1,Tn=!1,an=!1,Ao=!1,yt=!1;function Us(c,h,m){
-(m||c!=o.width||h!=o.height)&&ri(c,h),Ln(!1),Tn=!0,Co=!0,Dn()}function ri(c,h){o.width=zt=te=c,o.height=on=I=h,we=$e=0,Bc(),jc();let m=o.bbox;at=m.left=gn(we*he,
-.5),gt=m.top=gn($e*he,.5),rt=m.width=gn(te*he,.5),Mt=m.height=gn(I*he,.5)}let zc=3;function Hc(){let c=!1,h=0;for(;!c;){h++;let m=tu(h),g=nu(h);c=h==zc||m&&g,c||
-(ri(o.width,o.height),Co=!0)}}function Vc({width:c,height:h}){Us(c,h)}o.setSize=Vc;function Bc(){let c=!1,h=!1,m=!1,g=!1;E.forEach((b,x)=>{if(b.show&&b._show){let{
-side:P,_size:C}=b,D=P%2,$=b.label!=null?b.labelSize:0,F=C+$;F>0&&(D?(te-=F,P==3?(we+=F,g=!0):m=!0):(I-=F,P==0?($e+=F,c=!0):h=!0))}}),cn[0]=c,cn[1]=m,cn[2]=h,cn[3]=
-g,te-=Kt[1]+Kt[3],we+=Kt[3],I-=Kt[2]+Kt[0],$e+=Kt[0]}function jc(){let c=we+te,h=$e+I,m=we,g=$e;function b(x,P){switch(x){case 1:return c+=P,c-P;case 2:return h+=
+c.width>0?me.stroke(o,h):me.fill(o,h)),Qe("click",b,C=>{if(G._lock)return;ln(C);let D=S.indexOf(c);if((C.ctrlKey||C.metaKey)!=ee.isolate){let $=S.some((F,U)=>U>
+0&&U!=D&&F.show);S.forEach((F,U)=>{U>0&&Rt(U,$?U==D?Wt:lo:Wt,!0,De.setSeries)})}else Rt(D,{show:!c.show},!0,De.setSeries)},!1),Pn&&Qe(ma,b,C=>{G._lock||(ln(C),Rt(
+S.indexOf(c),On,!0,De.setSeries))},!1));for(var P in mt){let C=At("td",fd,g);C.textContent="--",m.push(C)}return[g,m]}let nn=new Map;function Qe(c,h,m,g=!0){let b=nn.
+get(h)||{},x=G.bind[c](o,h,m,g);x&&(wn(c,h,b[c]=x),nn.set(h,b))}function Sn(c,h,m){let g=nn.get(h)||{};for(let b in g)(c==null||b==c)&&(_r(b,h,g[b]),delete g[b]);
+c==null&&nn.delete(h)}let zt=0,on=0,te=0,O=0,we=0,$e=0,Mn=we,sn=$e,Dt=te,rn=O,at=0,gt=0,rt=0,Mt=0;o.bbox={};let Os=!1,Ao=!1,Tn=!1,an=!1,Co=!1,yt=!1;function Us(c,h,m){
+(m||c!=o.width||h!=o.height)&&ri(c,h),Ln(!1),Tn=!0,Ao=!0,Dn()}function ri(c,h){o.width=zt=te=c,o.height=on=O=h,we=$e=0,Bc(),jc();let m=o.bbox;at=m.left=gn(we*he,
+.5),gt=m.top=gn($e*he,.5),rt=m.width=gn(te*he,.5),Mt=m.height=gn(O*he,.5)}let zc=3;function Hc(){let c=!1,h=0;for(;!c;){h++;let m=tu(h),g=nu(h);c=h==zc||m&&g,c||
+(ri(o.width,o.height),Ao=!0)}}function Vc({width:c,height:h}){Us(c,h)}o.setSize=Vc;function Bc(){let c=!1,h=!1,m=!1,g=!1;E.forEach((b,x)=>{if(b.show&&b._show){let{
+side:P,_size:C}=b,D=P%2,$=b.label!=null?b.labelSize:0,F=C+$;F>0&&(D?(te-=F,P==3?(we+=F,g=!0):m=!0):(O-=F,P==0?($e+=F,c=!0):h=!0))}}),cn[0]=c,cn[1]=m,cn[2]=h,cn[3]=
+g,te-=Kt[1]+Kt[3],we+=Kt[3],O-=Kt[2]+Kt[0],$e+=Kt[0]}function jc(){let c=we+te,h=$e+O,m=we,g=$e;function b(x,P){switch(x){case 1:return c+=P,c-P;case 2:return h+=
 P,h-P;case 3:return m-=P,m+P;case 0:return g-=P,g+P}}E.forEach((x,P)=>{if(x.show&&x._show){let C=x.side;x._pos=b(C,x._size),x.label!=null&&(x._lpos=b(C,x.labelSize))}})}
-if(W.dataIdx==null){let c=W.hover,h=c.skip=new Set(c.skip??[]);h.add(void 0);let m=c.prox=se(c.prox),g=c.bias??=0;W.dataIdx=(b,x,P,C)=>{if(x==0)return P;let D=P,
-$=m(b,x,P,C)??ge,F=$>=0&&$<ge,U=L.ori==0?te:I,X=W.left,de=e[0],ce=e[x];if(h.has(ce[P])){D=null;let oe=null,J=null,B;if(g==0||g==-1)for(B=P;oe==null&&B-- >0;)h.has(
-ce[B])||(oe=B);if(g==0||g==1)for(B=P;J==null&&B++<ce.length;)h.has(ce[B])||(J=B);if(oe!=null||J!=null)if(F){let ke=oe==null?-1/0:O(de[oe],L,U,0),Ae=J==null?1/0:
-O(de[J],L,U,0),Be=X-ke,fe=Ae-X;Be<=fe?Be<=$&&(D=oe):fe<=$&&(D=J)}else D=J==null?oe:oe==null?J:P-oe<=J-P?oe:J}else F&&Ie(X-O(de[P],L,U,0))>$&&(D=null);return D}}
-let ln=c=>{W.event=c};W.idxs=le,W._lock=!1;let Ze=W.points;Ze.show=se(Ze.show),Ze.size=se(Ze.size),Ze.stroke=se(Ze.stroke),Ze.width=se(Ze.width),Ze.fill=se(Ze.fill);
-let Nt=o.focus=Re({},t.focus||{alpha:.3},W.focus),Pn=Nt.prox>=0,En=Pn&&Ze.one,bt=[],_n=[],Cn=[];function ii(c,h){let m=Ze.show(o,h);if(m instanceof HTMLElement)
-return ht(m,ld),ht(m,c.class),Gt(m,-10,-10,te,I),y.insertBefore(m,bt[h]),m}function ai(c,h){if(s==1||h>0){let m=s==1&&_[c.scale].time,g=c.value;c.value=m?Aa(g)?
-Ia(Q,Fa(g,H)):g||re:g||kh,c.label=c.label||(m?fh:ph)}if(En||h>0){c.width=c.width==null?1:c.width,c.paths=c.paths||Fh||Pd,c.fillTo=se(c.fillTo||Eh),c.pxAlign=+ue(
+if(G.dataIdx==null){let c=G.hover,h=c.skip=new Set(c.skip??[]);h.add(void 0);let m=c.prox=se(c.prox),g=c.bias??=0;G.dataIdx=(b,x,P,C)=>{if(x==0)return P;let D=P,
+$=m(b,x,P,C)??ge,F=$>=0&&$<ge,U=A.ori==0?te:O,X=G.left,de=e[0],ce=e[x];if(h.has(ce[P])){D=null;let oe=null,Q=null,H;if(g==0||g==-1)for(H=P;oe==null&&H-- >0;)h.has(
+ce[H])||(oe=H);if(g==0||g==1)for(H=P;Q==null&&H++<ce.length;)h.has(ce[H])||(Q=H);if(oe!=null||Q!=null)if(F){let ke=oe==null?-1/0:I(de[oe],A,U,0),Ce=Q==null?1/0:
+I(de[Q],A,U,0),Be=X-ke,fe=Ce-X;Be<=fe?Be<=$&&(D=oe):fe<=$&&(D=Q)}else D=Q==null?oe:oe==null?Q:P-oe<=Q-P?oe:Q}else F&&Ie(X-I(de[P],A,U,0))>$&&(D=null);return D}}
+let ln=c=>{G.event=c};G.idxs=le,G._lock=!1;let Ze=G.points;Ze.show=se(Ze.show),Ze.size=se(Ze.size),Ze.stroke=se(Ze.stroke),Ze.width=se(Ze.width),Ze.fill=se(Ze.fill);
+let Nt=o.focus=Re({},t.focus||{alpha:.3},G.focus),Pn=Nt.prox>=0,En=Pn&&Ze.one,bt=[],_n=[],An=[];function ii(c,h){let m=Ze.show(o,h);if(m instanceof HTMLElement)
+return ht(m,ld),ht(m,c.class),Gt(m,-10,-10,te,O),y.insertBefore(m,bt[h]),m}function ai(c,h){if(s==1||h>0){let m=s==1&&_[c.scale].time,g=c.value;c.value=m?Ca(g)?
+Ia(Y,Fa(g,z)):g||re:g||kh,c.label=c.label||(m?fh:ph)}if(En||h>0){c.width=c.width==null?1:c.width,c.paths=c.paths||Fh||Pd,c.fillTo=se(c.fillTo||Eh),c.pxAlign=+ue(
 c.pxAlign,k),c.pxRound=ja(c.pxAlign),c.stroke=se(c.stroke||null),c.fill=se(c.fill||null),c._stroke=c._fill=c._paths=c._focus=null;let m=Sh(nt(1,c.width),1),g=c.
 points=Re({},{size:m,width:nt(1,m*.2),stroke:c.stroke,space:m*2,paths:Ih,_stroke:null,_fill:null},c.points);g.show=se(g.show),g.filter=se(g.filter),g.fill=se(g.
-fill),g.stroke=se(g.stroke),g.paths=se(g.paths),g.pxAlign=c.pxAlign}if(Ce){let m=_o(c,h);Pe.splice(h,0,m[0]),St.splice(h,0,m[1]),ee.values.push(null)}if(Ue){le.
-splice(h,0,null);let m=null;En?h==0&&(m=ii(c,h)):h>0&&(m=ii(c,h)),bt.splice(h,0,m),_n.splice(h,0,0),Cn.splice(h,0,0)}Ve("addSeries",h)}function Kc(c,h){h=h??S.length,
-c=s==1?Rr(c,h,Ua,Va):Rr(c,h,{},Ha),S.splice(h,0,c),ai(S[h],h)}o.addSeries=Kc;function qc(c){if(S.splice(c,1),Ce){ee.values.splice(c,1),St.splice(c,1);let h=Pe.splice(
-c,1)[0];Sn(null,h.firstChild),h.remove()}Ue&&(le.splice(c,1),bt.splice(c,1)[0].remove(),_n.splice(c,1),Cn.splice(c,1)),Ve("delSeries",c)}o.delSeries=qc;let cn=[
+fill),g.stroke=se(g.stroke),g.paths=se(g.paths),g.pxAlign=c.pxAlign}if(Ae){let m=_o(c,h);Pe.splice(h,0,m[0]),St.splice(h,0,m[1]),ee.values.push(null)}if(Ue){le.
+splice(h,0,null);let m=null;En?h==0&&(m=ii(c,h)):h>0&&(m=ii(c,h)),bt.splice(h,0,m),_n.splice(h,0,0),An.splice(h,0,0)}Ve("addSeries",h)}function Kc(c,h){h=h??S.length,
+c=s==1?Rr(c,h,Ua,Va):Rr(c,h,{},Ha),S.splice(h,0,c),ai(S[h],h)}o.addSeries=Kc;function qc(c){if(S.splice(c,1),Ae){ee.values.splice(c,1),St.splice(c,1);let h=Pe.splice(
+c,1)[0];Sn(null,h.firstChild),h.remove()}Ue&&(le.splice(c,1),bt.splice(c,1)[0].remove(),_n.splice(c,1),An.splice(c,1)),Ve("delSeries",c)}o.delSeries=qc;let cn=[
 !1,!1,!1,!1];function Yc(c,h){if(c._show=c.show,c.show){let m=c.side%2,g=_[c.scale];g==null&&(c.scale=m?S[1].scale:N,g=_[c.scale]);let b=g.time;c.size=se(c.size),
 c.space=se(c.space),c.rotate=se(c.rotate),Xt(c.incrs)&&c.incrs.forEach(P=>{!en.has(P)&&en.set(P,rl(P))}),c.incrs=se(c.incrs||(g.distr==2?qd:b?T==1?Jd:Xd:yn)),c.
-splits=se(c.splits||(b&&g.distr==1?je:g.distr==3?Ar:g.distr==4?yh:gh)),c.stroke=se(c.stroke),c.grid.stroke=se(c.grid.stroke),c.ticks.stroke=se(c.ticks.stroke),c.
-border.stroke=se(c.border.stroke);let x=c.values;c.values=Xt(x)&&!Xt(x[0])?se(x):b?Xt(x)?$a(Q,Ra(x,H)):Aa(x)?nh(Q,x):x||be:x||mh,c.filter=se(c.filter||(g.distr>=
+splits=se(c.splits||(b&&g.distr==1?je:g.distr==3?Cr:g.distr==4?yh:gh)),c.stroke=se(c.stroke),c.grid.stroke=se(c.grid.stroke),c.ticks.stroke=se(c.ticks.stroke),c.
+border.stroke=se(c.border.stroke);let x=c.values;c.values=Xt(x)&&!Xt(x[0])?se(x):b?Xt(x)?$a(Y,Ra(x,z)):Ca(x)?nh(Y,x):x||be:x||mh,c.filter=se(c.filter||(g.distr>=
 3&&g.log==10?xh:g.distr==3&&g.log==2?vh:ol)),c.font=Ja(c.font),c.labelFont=Ja(c.labelFont),c._size=c.size(o,null,h,0),c._space=c._rotate=c._incrs=c._found=c._splits=
 c._values=null,c._size>0&&(cn[h]=!0,c._el=vt(sd,f))}}function co(c,h,m,g){let[b,x,P,C]=m,D=h%2,$=0;return D==0&&(C||x)&&($=h==0&&!b||h==2&&!P?Fe(Oa.size/3):0),D==
 1&&(b||P)&&($=h==1&&!x||h==3&&!C?Fe(Wa.size/2):0),$}let li=o.padding=(t.padding||[co,co,co,co]).map(c=>se(ue(c,co))),Kt=o._padding=li.map((c,h)=>c(o,h,cn,0)),qe,
 Ge=null,We=null,Lo=s==1?S[0].idxs:null,Tt=null,uo=!1;function ci(c,h){if(e=c??[],o.data=o._data=e,s==2){qe=0;for(let m=1;m<S.length;m++)qe+=e[m][0].length}else{
-e.length==0&&(o.data=o._data=e=[[]]),Tt=e[0],qe=Tt.length;let m=e;if(Z==2){m=e.slice();let g=m[0]=Array(qe);for(let b=0;b<qe;b++)g[b]=b}o._data=e=m}if(Ln(!0),Ve(
-"setData"),Z==2&&(Tn=!0),h!==!1){let m=L;m.auto(o,uo)?Gs():Yt(N,m.min,m.max),an=an||W.left>=0,yt=!0,Dn()}}o.setData=ci;function Gs(){uo=!0;let c,h;s==1&&(qe>0?(Ge=
-Lo[0]=0,We=Lo[1]=qe-1,c=e[0][Ge],h=e[0][We],Z==2?(c=Ge,h=We):c==h&&(Z==3?[c,h]=us(c,c,L.log,!1):Z==4?[c,h]=Or(c,c,L.log,!1):L.time?h=c+Fe(86400/T):[c,h]=as(c,h,
-Ur,!0))):(Ge=Lo[0]=c=null,We=Lo[1]=h=null)),Yt(N,c,h)}let Do,An,Ws,zs,Hs,Vs,Bs,js,Ks,it;function ui(c,h,m,g,b,x){c??=pa,m??=Wr,g??="butt",b??=pa,x??="round",c!=
-Do&&(d.strokeStyle=Do=c),b!=An&&(d.fillStyle=An=b),h!=Ws&&(d.lineWidth=Ws=h),x!=Hs&&(d.lineJoin=Hs=x),g!=Vs&&(d.lineCap=Vs=g),m!=zs&&d.setLineDash(zs=m)}function di(c,h,m,g){
-h!=An&&(d.fillStyle=An=h),c!=Bs&&(d.font=Bs=c),m!=js&&(d.textAlign=js=m),g!=Ks&&(d.textBaseline=Ks=g)}function qs(c,h,m,g,b=0){if(g.length>0&&c.auto(o,uo)&&(h==
+e.length==0&&(o.data=o._data=e=[[]]),Tt=e[0],qe=Tt.length;let m=e;if(j==2){m=e.slice();let g=m[0]=Array(qe);for(let b=0;b<qe;b++)g[b]=b}o._data=e=m}if(Ln(!0),Ve(
+"setData"),j==2&&(Tn=!0),h!==!1){let m=A;m.auto(o,uo)?Gs():Yt(N,m.min,m.max),an=an||G.left>=0,yt=!0,Dn()}}o.setData=ci;function Gs(){uo=!0;let c,h;s==1&&(qe>0?(Ge=
+Lo[0]=0,We=Lo[1]=qe-1,c=e[0][Ge],h=e[0][We],j==2?(c=Ge,h=We):c==h&&(j==3?[c,h]=us(c,c,A.log,!1):j==4?[c,h]=Or(c,c,A.log,!1):A.time?h=c+Fe(86400/T):[c,h]=as(c,h,
+Ur,!0))):(Ge=Lo[0]=c=null,We=Lo[1]=h=null)),Yt(N,c,h)}let Do,Cn,Ws,zs,Hs,Vs,Bs,js,Ks,it;function ui(c,h,m,g,b,x){c??=pa,m??=Wr,g??="butt",b??=pa,x??="round",c!=
+Do&&(d.strokeStyle=Do=c),b!=Cn&&(d.fillStyle=Cn=b),h!=Ws&&(d.lineWidth=Ws=h),x!=Hs&&(d.lineJoin=Hs=x),g!=Vs&&(d.lineCap=Vs=g),m!=zs&&d.setLineDash(zs=m)}function di(c,h,m,g){
+h!=Cn&&(d.fillStyle=Cn=h),c!=Bs&&(d.font=Bs=c),m!=js&&(d.textAlign=js=m),g!=Ks&&(d.textBaseline=Ks=g)}function qs(c,h,m,g,b=0){if(g.length>0&&c.auto(o,uo)&&(h==
 null||h.min==null)){let x=ue(Ge,0),P=ue(We,g.length-1),C=m.min==null?xd(g,x,P,b,c.distr==3):[m.min,m.max];c.min=Lt(c.min,m.min=C[0]),c.max=nt(c.max,m.max=C[1])}}
-let hi={min:null,max:null};function Jc(){for(let g in _){let b=_[g];z[g]==null&&(b.min==null||z[N]!=null&&b.auto(o,uo))&&(z[g]=hi)}for(let g in _){let b=_[g];z[g]==
-null&&b.from!=null&&z[b.from]!=null&&(z[g]=hi)}z[N]!=null&&Ln(!0);let c={};for(let g in z){let b=z[g];if(b!=null){let x=c[g]=no(_[g],Cd);if(b.min!=null)Re(x,b);else if(g!=
-N||s==2)if(qe==0&&x.from==null){let P=x.range(o,null,null,g);x.min=P[0],x.max=P[1]}else x.min=ge,x.max=-ge}}if(qe>0){S.forEach((g,b)=>{if(s==1){let x=g.scale,P=z[x];
-if(P==null)return;let C=c[x];if(b==0){let D=C.range(o,C.min,C.max,x);C.min=D[0],C.max=D[1],Ge=At(C.min,e[0]),We=At(C.max,e[0]),We-Ge>1&&(e[0][Ge]<C.min&&Ge++,e[0][We]>
+let hi={min:null,max:null};function Jc(){for(let g in _){let b=_[g];W[g]==null&&(b.min==null||W[N]!=null&&b.auto(o,uo))&&(W[g]=hi)}for(let g in _){let b=_[g];W[g]==
+null&&b.from!=null&&W[b.from]!=null&&(W[g]=hi)}W[N]!=null&&Ln(!0);let c={};for(let g in W){let b=W[g];if(b!=null){let x=c[g]=no(_[g],Ad);if(b.min!=null)Re(x,b);else if(g!=
+N||s==2)if(qe==0&&x.from==null){let P=x.range(o,null,null,g);x.min=P[0],x.max=P[1]}else x.min=ge,x.max=-ge}}if(qe>0){S.forEach((g,b)=>{if(s==1){let x=g.scale,P=W[x];
+if(P==null)return;let C=c[x];if(b==0){let D=C.range(o,C.min,C.max,x);C.min=D[0],C.max=D[1],Ge=Ct(C.min,e[0]),We=Ct(C.max,e[0]),We-Ge>1&&(e[0][Ge]<C.min&&Ge++,e[0][We]>
 C.max&&We--),g.min=Tt[Ge],g.max=Tt[We]}else g.show&&g.auto&&qs(C,P,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[x,P]=g.facets,C=x.
-scale,D=P.scale,[$,F]=e[b],U=c[C],X=c[D];U!=null&&qs(U,z[C],x,$,x.sorted),X!=null&&qs(X,z[D],P,F,P.sorted),g.min=P.min,g.max=P.max}});for(let g in c){let b=c[g],
-x=z[g];if(b.from==null&&(x==null||x.min==null)){let P=b.range(o,b.min==ge?null:b.min,b.max==-ge?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in c){let b=c[g];
+scale,D=P.scale,[$,F]=e[b],U=c[C],X=c[D];U!=null&&qs(U,W[C],x,$,x.sorted),X!=null&&qs(X,W[D],P,F,P.sorted),g.min=P.min,g.max=P.max}});for(let g in c){let b=c[g],
+x=W[g];if(b.from==null&&(x==null||x.min==null)){let P=b.range(o,b.min==ge?null:b.min,b.max==-ge?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in c){let b=c[g];
 if(b.from!=null){let x=c[b.from];if(x.min==null)b.min=b.max=null;else{let P=b.range(o,x.min,x.max,g);b.min=P[0],b.max=P[1]}}}let h={},m=!1;for(let g in c){let b=c[g],
 x=_[g];if(x.min!=b.min||x.max!=b.max){x.min=b.min,x.max=b.max;let P=x.distr;x._min=P==3?Bt(x.min):P==4?vr(x.min,x.asinh):P==100?x.fwd(x.min):x.min,x._max=P==3?Bt(
 x.max):P==4?vr(x.max,x.asinh):P==100?x.fwd(x.max):x.max,h[g]=m=!0}}if(m){S.forEach((g,b)=>{s==2?b>0&&h.y&&(g._paths=null):h[g.scale]&&(g._paths=null)});for(let g in h)
-Tn=!0,Ve("setScale",g);Ue&&W.left>=0&&(an=yt=!0)}for(let g in z)z[g]=null}function Zc(c){let h=Cr(Ge-1,0,qe-1),m=Cr(We+1,0,qe-1);for(;c[h]==null&&h>0;)h--;for(;c[m]==
+Tn=!0,Ve("setScale",g);Ue&&G.left>=0&&(an=yt=!0)}for(let g in W)W[g]=null}function Zc(c){let h=Ar(Ge-1,0,qe-1),m=Ar(We+1,0,qe-1);for(;c[h]==null&&h>0;)h--;for(;c[m]==
 null&&m<qe-1;)m++;return[h,m]}function Qc(){if(qe>0){let c=S.some(h=>h._focus)&&it!=Nt.alpha;c&&(d.globalAlpha=it=Nt.alpha),S.forEach((h,m)=>{if(m>0&&h.show&&(pi(
 m,!1),pi(m,!0),h._paths==null)){let g=it;it!=h.alpha&&(d.globalAlpha=it=h.alpha);let b=s==2?[0,e[m][0].length-1]:Zc(e[m]);h._paths=h.paths(o,m,b[0],b[1]),it!=g&&
 (d.globalAlpha=it=g)}}),S.forEach((h,m)=>{if(m>0&&h.show){let g=it;it!=h.alpha&&(d.globalAlpha=it=h.alpha),h._paths!=null&&fi(m,!1);{let b=h._paths!=null?h._paths.
 gaps:null,x=h.points.show(o,m,Ge,We,b),P=h.points.filter(o,m,x,b);(x||P)&&(h.points._paths=h.points.paths(o,m,Ge,We,P),fi(m,!0))}it!=g&&(d.globalAlpha=it=g),Ve(
 "drawSeries",m)}}),c&&(d.globalAlpha=it=1)}}function pi(c,h){let m=h?S[c].points:S[c];m._stroke=m.stroke(o,c),m._fill=m.fill(o,c)}function fi(c,h){let m=h?S[c].
 points:S[c],{stroke:g,fill:b,clip:x,flags:P,_stroke:C=m._stroke,_fill:D=m._fill,_width:$=m.width}=m._paths;$=ye($*he,3);let F=null,U=$%2/2;h&&D==null&&(D=$>0?"#\
-fff":C);let X=m.pxAlign==1&&U>0;if(X&&d.translate(U,U),!h){let de=at-$/2,ce=gt-$/2,oe=rt+$,J=Mt+$;F=new Path2D,F.rect(de,ce,oe,J)}h?Ys(C,$,m.dash,m.cap,D,g,b,P,
-x):Xc(c,C,$,m.dash,m.cap,D,g,b,P,F,x),X&&d.translate(-U,-U)}function Xc(c,h,m,g,b,x,P,C,D,$,F){let U=!1;D!=0&&K.forEach((X,de)=>{if(X.series[0]==c){let ce=S[X.series[1]],
-oe=e[X.series[1]],J=(ce._paths||Po).band;Xt(J)&&(J=X.dir==1?J[0]:J[1]);let B,ke=null;ce.show&&J&&kd(oe,Ge,We)?(ke=X.fill(o,de)||x,B=ce._paths.clip):J=null,Ys(h,
-m,g,b,ke,P,C,D,$,F,B,J),U=!0}}),U||Ys(h,m,g,b,x,P,C,D,$,F)}let mi=oo|Dr;function Ys(c,h,m,g,b,x,P,C,D,$,F,U){ui(c,h,m,g,b),(D||$||U)&&(d.save(),D&&d.clip(D),$&&
+fff":C);let X=m.pxAlign==1&&U>0;if(X&&d.translate(U,U),!h){let de=at-$/2,ce=gt-$/2,oe=rt+$,Q=Mt+$;F=new Path2D,F.rect(de,ce,oe,Q)}h?Ys(C,$,m.dash,m.cap,D,g,b,P,
+x):Xc(c,C,$,m.dash,m.cap,D,g,b,P,F,x),X&&d.translate(-U,-U)}function Xc(c,h,m,g,b,x,P,C,D,$,F){let U=!1;D!=0&&J.forEach((X,de)=>{if(X.series[0]==c){let ce=S[X.series[1]],
+oe=e[X.series[1]],Q=(ce._paths||Po).band;Xt(Q)&&(Q=X.dir==1?Q[0]:Q[1]);let H,ke=null;ce.show&&Q&&kd(oe,Ge,We)?(ke=X.fill(o,de)||x,H=ce._paths.clip):Q=null,Ys(h,
+m,g,b,ke,P,C,D,$,F,H,Q),U=!0}}),U||Ys(h,m,g,b,x,P,C,D,$,F)}let mi=oo|Dr;function Ys(c,h,m,g,b,x,P,C,D,$,F,U){ui(c,h,m,g,b),(D||$||U)&&(d.save(),D&&d.clip(D),$&&
 d.clip($)),U?(C&mi)==mi?(d.clip(U),F&&d.clip(F),Ro(b,P),No(c,x,h)):C&Dr?(Ro(b,P),d.clip(U),No(c,x,h)):C&oo&&(d.save(),d.clip(U),F&&d.clip(F),Ro(b,P),d.restore(),
 No(c,x,h)):(Ro(b,P),No(c,x,h)),(D||$||U)&&d.restore()}function No(c,h,m){m>0&&(h instanceof Map?h.forEach((g,b)=>{d.strokeStyle=Do=b,d.stroke(g)}):h!=null&&c&&d.
-stroke(h))}function Ro(c,h){h instanceof Map?h.forEach((m,g)=>{d.fillStyle=An=g,d.fill(m)}):h!=null&&c&&d.fill(h)}function eu(c,h,m,g){let b=E[c],x;if(g<=0)x=[0,
+stroke(h))}function Ro(c,h){h instanceof Map?h.forEach((m,g)=>{d.fillStyle=Cn=g,d.fill(m)}):h!=null&&c&&d.fill(h)}function eu(c,h,m,g){let b=E[c],x;if(g<=0)x=[0,
 0];else{let P=b._space=b.space(o,c,h,m,g),C=b._incrs=b.incrs(o,c,h,m,g,P);x=Hh(h,m,C,g,P)}return b._found=x}function Js(c,h,m,g,b,x,P,C,D,$){let F=P%2/2;k==1&&d.
-translate(F,F),ui(C,P,D,$,C),d.beginPath();let U,X,de,ce,oe=b+(g==0||g==3?-x:x);m==0?(X=b,ce=oe):(U=b,de=oe);for(let J=0;J<c.length;J++)h[J]!=null&&(m==0?U=de=c[J]:
-X=ce=c[J],d.moveTo(U,X),d.lineTo(de,ce));d.stroke(),k==1&&d.translate(-F,-F)}function tu(c){let h=!0;return E.forEach((m,g)=>{if(!m.show)return;let b=_[m.scale];
-if(b.min==null){m._show&&(h=!1,m._show=!1,Ln(!1));return}else m._show||(h=!1,m._show=!0,Ln(!1));let x=m.side,P=x%2,{min:C,max:D}=b,[$,F]=eu(g,C,D,P==0?te:I);if(F==
-0)return;let U=b.distr==2,X=m._splits=m.splits(o,g,C,D,$,F,U),de=b.distr==2?X.map(B=>Tt[B]):X,ce=b.distr==2?Tt[X[1]]-Tt[X[0]]:$,oe=m._values=m.values(o,m.filter(
-o,de,g,F,ce),g,F,ce);m._rotate=x==2?m.rotate(o,oe,g,F):0;let J=m._size;m._size=kt(m.size(o,oe,g,c)),J!=null&&m._size!=J&&(h=!1)}),h}function nu(c){let h=!0;return li.
+translate(F,F),ui(C,P,D,$,C),d.beginPath();let U,X,de,ce,oe=b+(g==0||g==3?-x:x);m==0?(X=b,ce=oe):(U=b,de=oe);for(let Q=0;Q<c.length;Q++)h[Q]!=null&&(m==0?U=de=c[Q]:
+X=ce=c[Q],d.moveTo(U,X),d.lineTo(de,ce));d.stroke(),k==1&&d.translate(-F,-F)}function tu(c){let h=!0;return E.forEach((m,g)=>{if(!m.show)return;let b=_[m.scale];
+if(b.min==null){m._show&&(h=!1,m._show=!1,Ln(!1));return}else m._show||(h=!1,m._show=!0,Ln(!1));let x=m.side,P=x%2,{min:C,max:D}=b,[$,F]=eu(g,C,D,P==0?te:O);if(F==
+0)return;let U=b.distr==2,X=m._splits=m.splits(o,g,C,D,$,F,U),de=b.distr==2?X.map(H=>Tt[H]):X,ce=b.distr==2?Tt[X[1]]-Tt[X[0]]:$,oe=m._values=m.values(o,m.filter(
+o,de,g,F,ce),g,F,ce);m._rotate=x==2?m.rotate(o,oe,g,F):0;let Q=m._size;m._size=kt(m.size(o,oe,g,c)),Q!=null&&m._size!=Q&&(h=!1)}),h}function nu(c){let h=!0;return li.
 forEach((m,g)=>{let b=m(o,g,cn,c);b!=Kt[g]&&(h=!1),Kt[g]=b}),h}function ou(){for(let c=0;c<E.length;c++){let h=E[c];if(!h.show||!h._show)continue;let m=h.side,g=m%
 2,b,x,P=h.stroke(o,c),C=m==0||m==3?-1:1,[D,$]=h._found;if(h.label!=null){let et=h.labelGap*C,ut=Fe((h._lpos+et)*he);di(h.labelFont[0],P,"center",m==2?"top":ha),
 d.save(),g==1?(b=x=0,d.translate(ut,Fe(gt+Mt/2)),d.rotate((m==3?-rs:rs)/2)):(b=Fe(at+rt/2),x=ut);let hn=tl(h.label)?h.label(o,c,D,$):h.label;d.fillText(hn,b,x),
-d.restore()}if($==0)continue;let F=_[h.scale],U=g==0?rt:Mt,X=g==0?at:gt,de=h._splits,ce=F.distr==2?de.map(et=>Tt[et]):de,oe=F.distr==2?Tt[de[1]]-Tt[de[0]]:D,J=h.
-ticks,B=h.border,ke=J.show?J.size:0,Ae=Fe(ke*he),Be=Fe((h.alignTo==2?h._size-ke-h.gap:h.gap)*he),fe=h._rotate*-rs/180,Le=M(h._pos*he),lt=(Ae+Be)*C,Xe=Le+lt;x=g==
+d.restore()}if($==0)continue;let F=_[h.scale],U=g==0?rt:Mt,X=g==0?at:gt,de=h._splits,ce=F.distr==2?de.map(et=>Tt[et]):de,oe=F.distr==2?Tt[de[1]]-Tt[de[0]]:D,Q=h.
+ticks,H=h.border,ke=Q.show?Q.size:0,Ce=Fe(ke*he),Be=Fe((h.alignTo==2?h._size-ke-h.gap:h.gap)*he),fe=h._rotate*-rs/180,Le=M(h._pos*he),lt=(Ce+Be)*C,Xe=Le+lt;x=g==
 0?Xe:0,b=g==1?Xe:0;let wt=h.font[0],Pt=h.align==1?Zn:h.align==2?br:fe>0?Zn:fe<0?br:g==0?"center":m==3?br:Zn,Ft=fe||g==1?"middle":m==2?"top":ha;di(wt,P,Pt,Ft);let ct=h.
 font[1]*h.lineGap,xt=de.map(et=>M(a(et,F,U,X))),Et=h._values;for(let et=0;et<Et.length;et++){let ut=Et[et];if(ut!=null){g==0?b=xt[et]:x=xt[et],ut=""+ut;let hn=ut.
 indexOf(`
 `)==-1?[ut]:ut.split(/\n/gm);for(let tt=0;tt<hn.length;tt++){let Ri=hn[tt];fe?(d.save(),d.translate(b,x+tt*ct),d.rotate(fe),d.fillText(Ri,0,0),d.restore()):d.fillText(
-Ri,b,x+tt*ct)}}}J.show&&Js(xt,J.filter(o,ce,c,$,oe),g,m,Le,Ae,ye(J.width*he,3),J.stroke(o,c),J.dash,J.cap);let It=h.grid;It.show&&Js(xt,It.filter(o,ce,c,$,oe),g,
-g==0?2:1,g==0?gt:at,g==0?Mt:rt,ye(It.width*he,3),It.stroke(o,c),It.dash,It.cap),B.show&&Js([Le],[1],g==0?1:0,g==0?1:2,g==1?gt:at,g==1?Mt:rt,ye(B.width*he,3),B.stroke(
-o,c),B.dash,B.cap)}Ve("drawAxes")}function Ln(c){S.forEach((h,m)=>{m>0&&(h._paths=null,c&&(s==1?(h.min=null,h.max=null):h.facets.forEach(g=>{g.min=null,g.max=null})))})}
+Ri,b,x+tt*ct)}}}Q.show&&Js(xt,Q.filter(o,ce,c,$,oe),g,m,Le,Ce,ye(Q.width*he,3),Q.stroke(o,c),Q.dash,Q.cap);let It=h.grid;It.show&&Js(xt,It.filter(o,ce,c,$,oe),g,
+g==0?2:1,g==0?gt:at,g==0?Mt:rt,ye(It.width*he,3),It.stroke(o,c),It.dash,It.cap),H.show&&Js([Le],[1],g==0?1:0,g==0?1:2,g==1?gt:at,g==1?Mt:rt,ye(H.width*he,3),H.stroke(
+o,c),H.dash,H.cap)}Ve("drawAxes")}function Ln(c){S.forEach((h,m)=>{m>0&&(h._paths=null,c&&(s==1?(h.min=null,h.max=null):h.facets.forEach(g=>{g.min=null,g.max=null})))})}
 let $o=!1,Zs=!1,ho=[];function su(){Zs=!1;for(let c=0;c<ho.length;c++)Ve(...ho[c]);ho.length=0}function Dn(){$o||(Fd(gi),$o=!0)}function ru(c,h=!1){$o=!0,Zs=h,c(
-o),gi(),h&&ho.length>0&&queueMicrotask(su)}o.batch=ru;function gi(){if(Os&&(Jc(),Os=!1),Tn&&(Hc(),Tn=!1),Co){if(Te(w,Zn,we),Te(w,"top",$e),Te(w,ko,te),Te(w,So,I),
-Te(y,Zn,we),Te(y,"top",$e),Te(y,ko,te),Te(y,So,I),Te(f,ko,zt),Te(f,So,on),p.width=Fe(zt*he),p.height=Fe(on*he),E.forEach(({_el:c,_show:h,_size:m,_pos:g,side:b})=>{
-if(c!=null)if(h){let x=b===3||b===0?m:0,P=b%2==1;Te(c,P?"left":"top",g-x),Te(c,P?"width":"height",m),Te(c,P?"top":"left",P?$e:we),Te(c,P?"height":"width",P?I:te),
-Er(c,bn)}else ht(c,bn)}),Do=An=Ws=Hs=Vs=Bs=js=Ks=zs=null,it=1,mo(!0),we!=Mn||$e!=sn||te!=Dt||I!=rn){Ln(!1);let c=te/Dt,h=I/rn;if(Ue&&!an&&W.left>=0){W.left*=c,W.
-top*=h,Nn&&Gt(Nn,Fe(W.left),0,te,I),Rn&&Gt(Rn,0,Fe(W.top),te,I);for(let m=0;m<bt.length;m++){let g=bt[m];g!=null&&(_n[m]*=c,Cn[m]*=h,Gt(g,kt(_n[m]),kt(Cn[m]),te,
-I))}}if(ve.show&&!Ao&&ve.left>=0&&ve.width>0){ve.left*=c,ve.width*=c,ve.top*=h,ve.height*=h;for(let m in or)Te(In,m,ve[m])}Mn=we,sn=$e,Dt=te,rn=I}Ve("setSize"),
-Co=!1}zt>0&&on>0&&(d.clearRect(0,0,p.width,p.height),Ve("drawClear"),V.forEach(c=>c()),Ve("draw")),ve.show&&Ao&&(Fo(ve),Ao=!1),Ue&&an&&(dn(null,!0,!1),an=!1),ee.
-show&&ee.live&&yt&&(tr(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),uo=!1,$o=!1}o.redraw=(c,h)=>{Tn=h||!1,c!==!1?Yt(N,L.min,L.max):Dn()};function Qs(c,h){let m=_[c];
+o),gi(),h&&ho.length>0&&queueMicrotask(su)}o.batch=ru;function gi(){if(Os&&(Jc(),Os=!1),Tn&&(Hc(),Tn=!1),Ao){if(Te(w,Zn,we),Te(w,"top",$e),Te(w,ko,te),Te(w,So,O),
+Te(y,Zn,we),Te(y,"top",$e),Te(y,ko,te),Te(y,So,O),Te(f,ko,zt),Te(f,So,on),p.width=Fe(zt*he),p.height=Fe(on*he),E.forEach(({_el:c,_show:h,_size:m,_pos:g,side:b})=>{
+if(c!=null)if(h){let x=b===3||b===0?m:0,P=b%2==1;Te(c,P?"left":"top",g-x),Te(c,P?"width":"height",m),Te(c,P?"top":"left",P?$e:we),Te(c,P?"height":"width",P?O:te),
+Er(c,bn)}else ht(c,bn)}),Do=Cn=Ws=Hs=Vs=Bs=js=Ks=zs=null,it=1,mo(!0),we!=Mn||$e!=sn||te!=Dt||O!=rn){Ln(!1);let c=te/Dt,h=O/rn;if(Ue&&!an&&G.left>=0){G.left*=c,G.
+top*=h,Nn&&Gt(Nn,Fe(G.left),0,te,O),Rn&&Gt(Rn,0,Fe(G.top),te,O);for(let m=0;m<bt.length;m++){let g=bt[m];g!=null&&(_n[m]*=c,An[m]*=h,Gt(g,kt(_n[m]),kt(An[m]),te,
+O))}}if(ve.show&&!Co&&ve.left>=0&&ve.width>0){ve.left*=c,ve.width*=c,ve.top*=h,ve.height*=h;for(let m in or)Te(In,m,ve[m])}Mn=we,sn=$e,Dt=te,rn=O}Ve("setSize"),
+Ao=!1}zt>0&&on>0&&(d.clearRect(0,0,p.width,p.height),Ve("drawClear"),B.forEach(c=>c()),Ve("draw")),ve.show&&Co&&(Fo(ve),Co=!1),Ue&&an&&(dn(null,!0,!1),an=!1),ee.
+show&&ee.live&&yt&&(tr(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),uo=!1,$o=!1}o.redraw=(c,h)=>{Tn=h||!1,c!==!1?Yt(N,A.min,A.max):Dn()};function Qs(c,h){let m=_[c];
 if(m.from==null){if(qe==0){let g=m.range(o,h.min,h.max,c);h.min=g[0],h.max=g[1]}if(h.min>h.max){let g=h.min;h.min=h.max,h.max=g}if(qe>1&&h.min!=null&&h.max!=null&&
-h.max-h.min<1e-16)return;c==N&&m.distr==2&&qe>0&&(h.min=At(h.min,e[0]),h.max=At(h.max,e[0]),h.min==h.max&&h.max++),z[c]=h,Os=!0,Dn()}}o.setScale=Qs;let Xs,er,Nn,
-Rn,yi,bi,$n,Fn,wi,xi,xe,Ee,qt=!1,Ye=W.drag,ze=Ye.x,He=Ye.y;Ue&&(W.x&&(Xs=vt(id,y)),W.y&&(er=vt(ad,y)),L.ori==0?(Nn=Xs,Rn=er):(Nn=er,Rn=Xs),xe=W.left,Ee=W.top);let ve=o.
+h.max-h.min<1e-16)return;c==N&&m.distr==2&&qe>0&&(h.min=Ct(h.min,e[0]),h.max=Ct(h.max,e[0]),h.min==h.max&&h.max++),W[c]=h,Os=!0,Dn()}}o.setScale=Qs;let Xs,er,Nn,
+Rn,yi,bi,$n,Fn,wi,xi,xe,Ee,qt=!1,Ye=G.drag,ze=Ye.x,He=Ye.y;Ue&&(G.x&&(Xs=vt(id,y)),G.y&&(er=vt(ad,y)),A.ori==0?(Nn=Xs,Rn=er):(Nn=er,Rn=Xs),xe=G.left,Ee=G.top);let ve=o.
 select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),In=ve.show?vt(rd,ve.over?y:w):null;function Fo(c,h){if(ve.show){for(let m in c)ve[m]=c[m],m in
-or&&Te(In,m,c[m]);h!==!1&&Ve("setSelect")}}o.setSelect=Fo;function iu(c){if(S[c].show)Ce&&Er(Pe[c],bn);else if(Ce&&ht(Pe[c],bn),Ue){let m=En?bt[0]:bt[c];m!=null&&
-Gt(m,-10,-10,te,I)}}function Yt(c,h,m){Qs(c,{min:h,max:m})}function Rt(c,h,m,g){h.focus!=null&&du(c),h.show!=null&&S.forEach((b,x)=>{x>0&&(c==x||c==null)&&(b.show=
+or&&Te(In,m,c[m]);h!==!1&&Ve("setSelect")}}o.setSelect=Fo;function iu(c){if(S[c].show)Ae&&Er(Pe[c],bn);else if(Ae&&ht(Pe[c],bn),Ue){let m=En?bt[0]:bt[c];m!=null&&
+Gt(m,-10,-10,te,O)}}function Yt(c,h,m){Qs(c,{min:h,max:m})}function Rt(c,h,m,g){h.focus!=null&&du(c),h.show!=null&&S.forEach((b,x)=>{x>0&&(c==x||c==null)&&(b.show=
 h.show,iu(x),s==2?(Yt(b.facets[0].scale,null,null),Yt(b.facets[1].scale,null,null)):Yt(b.scale,null,null),Dn())}),m!==!1&&Ve("setSeries",c,h),g&&go("setSeries",
-o,c,h)}o.setSeries=Rt;function au(c,h){Re(K[c],h)}function lu(c,h){c.fill=se(c.fill||null),c.dir=ue(c.dir,-1),h=h??K.length,K.splice(h,0,c)}function cu(c){c==null?
-K.length=0:K.splice(c,1)}o.addBand=lu,o.setBand=au,o.delBand=cu;function uu(c,h){S[c].alpha=h,Ue&&bt[c]!=null&&(bt[c].style.opacity=h),Ce&&Pe[c]&&(Pe[c].style.opacity=
+o,c,h)}o.setSeries=Rt;function au(c,h){Re(J[c],h)}function lu(c,h){c.fill=se(c.fill||null),c.dir=ue(c.dir,-1),h=h??J.length,J.splice(h,0,c)}function cu(c){c==null?
+J.length=0:J.splice(c,1)}o.addBand=lu,o.setBand=au,o.delBand=cu;function uu(c,h){S[c].alpha=h,Ue&&bt[c]!=null&&(bt[c].style.opacity=h),Ae&&Pe[c]&&(Pe[c].style.opacity=
 h)}let Ht,Jt,un,On={focus:!0};function du(c){if(c!=un){let h=c==null,m=Nt.alpha!=1;S.forEach((g,b)=>{if(s==1||b>0){let x=h||b==0||b==c;g._focus=h?null:x,m&&uu(b,
-x?1:Nt.alpha)}}),un=c,m&&Dn()}}Ce&&Pn&&Qe(ga,ae,c=>{W._lock||(ln(c),un!=null&&Rt(null,On,!0,De.setSeries))});function $t(c,h,m){let g=_[h];m&&(c=c/he-(g.ori==1?
-$e:we));let b=te;g.ori==1&&(b=I,c=b-c),g.dir==-1&&(c=b-c);let x=g._min,P=g._max,C=c/b,D=x+(P-x)*C,$=g.distr;return $==3?eo(10,D):$==4?Md(D,g.asinh):$==100?g.bwd(
-D):D}function hu(c,h){let m=$t(c,N,h);return At(m,e[0],Ge,We)}o.valToIdx=c=>At(c,e[0]),o.posToIdx=hu,o.posToVal=$t,o.valToPos=(c,h,m)=>_[h].ori==0?r(c,_[h],m?rt:
-te,m?at:0):i(c,_[h],m?Mt:I,m?gt:0),o.setCursor=(c,h,m)=>{xe=c.left,Ee=c.top,dn(null,h,m)};function vi(c,h){Te(In,Zn,ve.left=c),Te(In,ko,ve.width=h)}function ki(c,h){
-Te(In,"top",ve.top=c),Te(In,So,ve.height=h)}let po=L.ori==0?vi:ki,fo=L.ori==1?vi:ki;function pu(){if(Ce&&ee.live)for(let c=s==2?1:0;c<S.length;c++){if(c==0&&q)continue;
+x?1:Nt.alpha)}}),un=c,m&&Dn()}}Ae&&Pn&&Qe(ga,ae,c=>{G._lock||(ln(c),un!=null&&Rt(null,On,!0,De.setSeries))});function $t(c,h,m){let g=_[h];m&&(c=c/he-(g.ori==1?
+$e:we));let b=te;g.ori==1&&(b=O,c=b-c),g.dir==-1&&(c=b-c);let x=g._min,P=g._max,C=c/b,D=x+(P-x)*C,$=g.distr;return $==3?eo(10,D):$==4?Md(D,g.asinh):$==100?g.bwd(
+D):D}function hu(c,h){let m=$t(c,N,h);return Ct(m,e[0],Ge,We)}o.valToIdx=c=>Ct(c,e[0]),o.posToIdx=hu,o.posToVal=$t,o.valToPos=(c,h,m)=>_[h].ori==0?r(c,_[h],m?rt:
+te,m?at:0):i(c,_[h],m?Mt:O,m?gt:0),o.setCursor=(c,h,m)=>{xe=c.left,Ee=c.top,dn(null,h,m)};function vi(c,h){Te(In,Zn,ve.left=c),Te(In,ko,ve.width=h)}function ki(c,h){
+Te(In,"top",ve.top=c),Te(In,So,ve.height=h)}let po=A.ori==0?vi:ki,fo=A.ori==1?vi:ki;function pu(){if(Ae&&ee.live)for(let c=s==2?1:0;c<S.length;c++){if(c==0&&K)continue;
 let h=ee.values[c],m=0;for(let g in h)St[c][m++].firstChild.nodeValue=h[g]}}function tr(c,h){if(c!=null&&(c.idxs?c.idxs.forEach((m,g)=>{le[g]=m}):_d(c.idx)||le.
-fill(c.idx),ee.idx=le[0]),Ce&&ee.live){for(let m=0;m<S.length;m++)(m>0||s==1&&!q)&&fu(m,le[m]);pu()}yt=!1,h!==!1&&Ve("setLegend")}o.setLegend=tr;function fu(c,h){
-let m=S[c],g=c==0&&Z==2?Tt:e[c],b;q?b=m.values(o,c,h)??ie:(b=m.value(o,h==null?null:g[h],c,h),b=b==null?ie:{_:b}),ee.values[c]=b}function dn(c,h,m){wi=xe,xi=Ee,
-[xe,Ee]=W.move(o,xe,Ee),W.left=xe,W.top=Ee,Ue&&(Nn&&Gt(Nn,Fe(xe),0,te,I),Rn&&Gt(Rn,0,Fe(Ee),te,I));let g,b=Ge>We;Ht=ge,Jt=null;let x=L.ori==0?te:I,P=L.ori==1?te:
-I;if(xe<0||qe==0||b){g=W.idx=null;for(let C=0;C<S.length;C++){let D=bt[C];D!=null&&Gt(D,-10,-10,te,I)}Pn&&Rt(null,On,!0,c==null&&De.setSeries),ee.live&&(le.fill(
-g),yt=!0)}else{let C,D,$;s==1&&(C=L.ori==0?xe:Ee,D=$t(C,N),g=W.idx=At(D,e[0],Ge,We),$=O(e[0][g],L,x,0));let F=-10,U=-10,X=0,de=0,ce=!0,oe="",J="";for(let B=s==2?
-1:0;B<S.length;B++){let ke=S[B],Ae=le[B],Be=Ae==null?null:s==1?e[B][Ae]:e[B][1][Ae],fe=W.dataIdx(o,B,g,D),Le=fe==null?null:s==1?e[B][fe]:e[B][1][fe];if(yt=yt||Le!=
-Be||fe!=Ae,le[B]=fe,B>0&&ke.show){let lt=fe==null?-10:fe==g?$:O(s==1?e[0][fe]:e[B][0][fe],L,x,0),Xe=Le==null?-10:j(Le,s==1?_[ke.scale]:_[ke.facets[1].scale],P,0);
-if(Pn&&Le!=null){let wt=L.ori==1?xe:Ee,Pt=Ie(Nt.dist(o,B,fe,Xe,wt));if(Pt<Ht){let Ft=Nt.bias;if(Ft!=0){let ct=$t(wt,ke.scale),xt=Le>=0?1:-1,Et=ct>=0?1:-1;Et==xt&&
-(Et==1?Ft==1?Le>=ct:Le<=ct:Ft==1?Le<=ct:Le>=ct)&&(Ht=Pt,Jt=B)}else Ht=Pt,Jt=B}}if(yt||En){let wt,Pt;L.ori==0?(wt=lt,Pt=Xe):(wt=Xe,Pt=lt);let Ft,ct,xt,Et,It,et,ut=!0,
-hn=Ze.bbox;if(hn!=null){ut=!1;let tt=hn(o,B);xt=tt.left,Et=tt.top,Ft=tt.width,ct=tt.height}else xt=wt,Et=Pt,Ft=ct=Ze.size(o,B);if(et=Ze.fill(o,B),It=Ze.stroke(o,
-B),En)B==Jt&&Ht<=Nt.prox&&(F=xt,U=Et,X=Ft,de=ct,ce=ut,oe=et,J=It);else{let tt=bt[B];tt!=null&&(_n[B]=xt,Cn[B]=Et,Sa(tt,Ft,ct,ut),va(tt,et,It),Gt(tt,kt(xt),kt(Et),
-te,I))}}}}if(En){let B=Nt.prox,ke=un==null?Ht<=B:Ht>B||Jt!=un;if(yt||ke){let Ae=bt[0];Ae!=null&&(_n[0]=F,Cn[0]=U,Sa(Ae,X,de,ce),va(Ae,oe,J),Gt(Ae,kt(F),kt(U),te,
-I))}}}if(ve.show&&qt)if(c!=null){let[C,D]=De.scales,[$,F]=De.match,[U,X]=c.cursor.sync.scales,de=c.cursor.drag;if(ze=de._x,He=de._y,ze||He){let{left:ce,top:oe,width:J,
-height:B}=c.select,ke=c.scales[U].ori,Ae=c.posToVal,Be,fe,Le,lt,Xe,wt=C!=null&&$(C,U),Pt=D!=null&&F(D,X);wt&&ze?(ke==0?(Be=ce,fe=J):(Be=oe,fe=B),Le=_[C],lt=O(Ae(
-Be,U),Le,x,0),Xe=O(Ae(Be+fe,U),Le,x,0),po(Lt(lt,Xe),Ie(Xe-lt))):po(0,x),Pt&&He?(ke==1?(Be=ce,fe=J):(Be=oe,fe=B),Le=_[D],lt=j(Ae(Be,X),Le,P,0),Xe=j(Ae(Be+fe,X),Le,
-P,0),fo(Lt(lt,Xe),Ie(Xe-lt))):fo(0,P)}else sr()}else{let C=Ie(wi-yi),D=Ie(xi-bi);if(L.ori==1){let X=C;C=D,D=X}ze=Ye.x&&C>=Ye.dist,He=Ye.y&&D>=Ye.dist;let $=Ye.uni;
-$!=null?ze&&He&&(ze=C>=$,He=D>=$,!ze&&!He&&(D>C?He=!0:ze=!0)):Ye.x&&Ye.y&&(ze||He)&&(ze=He=!0);let F,U;ze&&(L.ori==0?(F=$n,U=xe):(F=Fn,U=Ee),po(Lt(F,U),Ie(U-F)),
-He||fo(0,P)),He&&(L.ori==1?(F=$n,U=xe):(F=Fn,U=Ee),fo(Lt(F,U),Ie(U-F)),ze||po(0,x)),!ze&&!He&&(po(0,0),fo(0,0))}if(Ye._x=ze,Ye._y=He,c==null){if(m){if(Ni!=null){
-let[C,D]=De.scales;De.values[0]=C!=null?$t(L.ori==0?xe:Ee,C):null,De.values[1]=D!=null?$t(L.ori==1?xe:Ee,D):null}go(wr,o,xe,Ee,te,I,g)}if(Pn){let C=m&&De.setSeries,
+fill(c.idx),ee.idx=le[0]),Ae&&ee.live){for(let m=0;m<S.length;m++)(m>0||s==1&&!K)&&fu(m,le[m]);pu()}yt=!1,h!==!1&&Ve("setLegend")}o.setLegend=tr;function fu(c,h){
+let m=S[c],g=c==0&&j==2?Tt:e[c],b;K?b=m.values(o,c,h)??ie:(b=m.value(o,h==null?null:g[h],c,h),b=b==null?ie:{_:b}),ee.values[c]=b}function dn(c,h,m){wi=xe,xi=Ee,
+[xe,Ee]=G.move(o,xe,Ee),G.left=xe,G.top=Ee,Ue&&(Nn&&Gt(Nn,Fe(xe),0,te,O),Rn&&Gt(Rn,0,Fe(Ee),te,O));let g,b=Ge>We;Ht=ge,Jt=null;let x=A.ori==0?te:O,P=A.ori==1?te:
+O;if(xe<0||qe==0||b){g=G.idx=null;for(let C=0;C<S.length;C++){let D=bt[C];D!=null&&Gt(D,-10,-10,te,O)}Pn&&Rt(null,On,!0,c==null&&De.setSeries),ee.live&&(le.fill(
+g),yt=!0)}else{let C,D,$;s==1&&(C=A.ori==0?xe:Ee,D=$t(C,N),g=G.idx=Ct(D,e[0],Ge,We),$=I(e[0][g],A,x,0));let F=-10,U=-10,X=0,de=0,ce=!0,oe="",Q="";for(let H=s==2?
+1:0;H<S.length;H++){let ke=S[H],Ce=le[H],Be=Ce==null?null:s==1?e[H][Ce]:e[H][1][Ce],fe=G.dataIdx(o,H,g,D),Le=fe==null?null:s==1?e[H][fe]:e[H][1][fe];if(yt=yt||Le!=
+Be||fe!=Ce,le[H]=fe,H>0&&ke.show){let lt=fe==null?-10:fe==g?$:I(s==1?e[0][fe]:e[H][0][fe],A,x,0),Xe=Le==null?-10:V(Le,s==1?_[ke.scale]:_[ke.facets[1].scale],P,0);
+if(Pn&&Le!=null){let wt=A.ori==1?xe:Ee,Pt=Ie(Nt.dist(o,H,fe,Xe,wt));if(Pt<Ht){let Ft=Nt.bias;if(Ft!=0){let ct=$t(wt,ke.scale),xt=Le>=0?1:-1,Et=ct>=0?1:-1;Et==xt&&
+(Et==1?Ft==1?Le>=ct:Le<=ct:Ft==1?Le<=ct:Le>=ct)&&(Ht=Pt,Jt=H)}else Ht=Pt,Jt=H}}if(yt||En){let wt,Pt;A.ori==0?(wt=lt,Pt=Xe):(wt=Xe,Pt=lt);let Ft,ct,xt,Et,It,et,ut=!0,
+hn=Ze.bbox;if(hn!=null){ut=!1;let tt=hn(o,H);xt=tt.left,Et=tt.top,Ft=tt.width,ct=tt.height}else xt=wt,Et=Pt,Ft=ct=Ze.size(o,H);if(et=Ze.fill(o,H),It=Ze.stroke(o,
+H),En)H==Jt&&Ht<=Nt.prox&&(F=xt,U=Et,X=Ft,de=ct,ce=ut,oe=et,Q=It);else{let tt=bt[H];tt!=null&&(_n[H]=xt,An[H]=Et,Sa(tt,Ft,ct,ut),va(tt,et,It),Gt(tt,kt(xt),kt(Et),
+te,O))}}}}if(En){let H=Nt.prox,ke=un==null?Ht<=H:Ht>H||Jt!=un;if(yt||ke){let Ce=bt[0];Ce!=null&&(_n[0]=F,An[0]=U,Sa(Ce,X,de,ce),va(Ce,oe,Q),Gt(Ce,kt(F),kt(U),te,
+O))}}}if(ve.show&&qt)if(c!=null){let[C,D]=De.scales,[$,F]=De.match,[U,X]=c.cursor.sync.scales,de=c.cursor.drag;if(ze=de._x,He=de._y,ze||He){let{left:ce,top:oe,width:Q,
+height:H}=c.select,ke=c.scales[U].ori,Ce=c.posToVal,Be,fe,Le,lt,Xe,wt=C!=null&&$(C,U),Pt=D!=null&&F(D,X);wt&&ze?(ke==0?(Be=ce,fe=Q):(Be=oe,fe=H),Le=_[C],lt=I(Ce(
+Be,U),Le,x,0),Xe=I(Ce(Be+fe,U),Le,x,0),po(Lt(lt,Xe),Ie(Xe-lt))):po(0,x),Pt&&He?(ke==1?(Be=ce,fe=Q):(Be=oe,fe=H),Le=_[D],lt=V(Ce(Be,X),Le,P,0),Xe=V(Ce(Be+fe,X),Le,
+P,0),fo(Lt(lt,Xe),Ie(Xe-lt))):fo(0,P)}else sr()}else{let C=Ie(wi-yi),D=Ie(xi-bi);if(A.ori==1){let X=C;C=D,D=X}ze=Ye.x&&C>=Ye.dist,He=Ye.y&&D>=Ye.dist;let $=Ye.uni;
+$!=null?ze&&He&&(ze=C>=$,He=D>=$,!ze&&!He&&(D>C?He=!0:ze=!0)):Ye.x&&Ye.y&&(ze||He)&&(ze=He=!0);let F,U;ze&&(A.ori==0?(F=$n,U=xe):(F=Fn,U=Ee),po(Lt(F,U),Ie(U-F)),
+He||fo(0,P)),He&&(A.ori==1?(F=$n,U=xe):(F=Fn,U=Ee),fo(Lt(F,U),Ie(U-F)),ze||po(0,x)),!ze&&!He&&(po(0,0),fo(0,0))}if(Ye._x=ze,Ye._y=He,c==null){if(m){if(Ni!=null){
+let[C,D]=De.scales;De.values[0]=C!=null?$t(A.ori==0?xe:Ee,C):null,De.values[1]=D!=null?$t(A.ori==1?xe:Ee,D):null}go(wr,o,xe,Ee,te,O,g)}if(Pn){let C=m&&De.setSeries,
 D=Nt.prox;un==null?Ht<=D&&Rt(Jt,On,!0,C):Ht>D?Rt(null,On,!0,C):Jt!=un&&Rt(Jt,On,!0,C)}}yt&&(ee.idx=g,tr()),h!==!1&&Ve("setCursor")}let Zt=null;Object.defineProperty(
-o,"rect",{get(){return Zt==null&&mo(!1),Zt}});function mo(c=!1){c?Zt=null:(Zt=y.getBoundingClientRect(),Ve("syncRect",Zt))}function Si(c,h,m,g,b,x,P){W._lock||qt&&
+o,"rect",{get(){return Zt==null&&mo(!1),Zt}});function mo(c=!1){c?Zt=null:(Zt=y.getBoundingClientRect(),Ve("syncRect",Zt))}function Si(c,h,m,g,b,x,P){G._lock||qt&&
 c!=null&&c.movementX==0&&c.movementY==0||(nr(c,h,m,g,b,x,P,!1,c!=null),c!=null?dn(null,!0,!0):dn(h,!0,!1))}function nr(c,h,m,g,b,x,P,C,D){if(Zt==null&&mo(!1),ln(
-c),c!=null)m=c.clientX-Zt.left,g=c.clientY-Zt.top;else{if(m<0||g<0){xe=-10,Ee=-10;return}let[$,F]=De.scales,U=h.cursor.sync,[X,de]=U.values,[ce,oe]=U.scales,[J,
-B]=De.match,ke=h.axes[0].side%2==1,Ae=L.ori==0?te:I,Be=L.ori==1?te:I,fe=ke?x:b,Le=ke?b:x,lt=ke?g:m,Xe=ke?m:g;if(ce!=null?m=J($,ce)?a(X,_[$],Ae,0):-10:m=Ae*(lt/fe),
-oe!=null?g=B(F,oe)?a(de,_[F],Be,0):-10:g=Be*(Xe/Le),L.ori==1){let wt=m;m=g,g=wt}}D&&(h==null||h.cursor.event.type==wr)&&((m<=1||m>=te-1)&&(m=gn(m,te)),(g<=1||g>=
-I-1)&&(g=gn(g,I))),C?(yi=m,bi=g,[$n,Fn]=W.move(o,m,g)):(xe=m,Ee=g)}let or={width:0,height:0,left:0,top:0};function sr(){Fo(or,!1)}let Mi,Ti,Pi,Ei;function _i(c,h,m,g,b,x,P){
-qt=!0,ze=He=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!0,!1),c!=null&&(Qe(xr,Tr,Ci,!1),go(fa,o,$n,Fn,te,I,null));let{left:C,top:D,width:$,height:F}=ve;Mi=C,Ti=D,Pi=$,Ei=F}
-function Ci(c,h,m,g,b,x,P){qt=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!1,!0);let{left:C,top:D,width:$,height:F}=ve,U=$>0||F>0,X=Mi!=C||Ti!=D||Pi!=$||Ei!=F;if(U&&X&&Fo(ve),
-Ye.setScale&&U&&X){let de=C,ce=$,oe=D,J=F;if(L.ori==1&&(de=D,ce=F,oe=C,J=$),ze&&Yt(N,$t(de,N),$t(de+ce,N)),He)for(let B in _){let ke=_[B];B!=N&&ke.from==null&&ke.
-min!=ge&&Yt(B,$t(oe+J,B),$t(oe,B))}sr()}else W.lock&&(W._lock=!W._lock,dn(h,!0,c!=null));c!=null&&(Sn(xr,Tr),go(xr,o,xe,Ee,te,I,null))}function mu(c,h,m,g,b,x,P){
-if(W._lock)return;ln(c);let C=qt;if(qt){let D=!0,$=!0,F=10,U,X;L.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=xe<=F||xe>=te-F,$=Ee<=F||Ee>=I-F),U&&D&&(xe=xe<$n?0:te),
-X&&$&&(Ee=Ee<Fn?0:I),dn(null,!0,!0),qt=!1}xe=-10,Ee=-10,le.fill(null),dn(null,!0,!0),C&&(qt=C)}function Ai(c,h,m,g,b,x,P){W._lock||(ln(c),Gs(),sr(),c!=null&&go(
-ya,o,xe,Ee,te,I,null))}function Li(){E.forEach(Vh),Us(o.width,o.height,!0)}wn(is,Xn,Li);let Un={};Un.mousedown=_i,Un.mousemove=Si,Un.mouseup=Ci,Un.dblclick=Ai,Un.
-setSeries=(c,h,m,g)=>{let b=De.match[2];m=b(o,h,m),m!=-1&&Rt(m,g,!0,!1)},Ue&&(Qe(fa,y,_i),Qe(wr,y,Si),Qe(ma,y,c=>{ln(c),mo(!1)}),Qe(ga,y,mu),Qe(ya,y,Ai),Nr.add(
+c),c!=null)m=c.clientX-Zt.left,g=c.clientY-Zt.top;else{if(m<0||g<0){xe=-10,Ee=-10;return}let[$,F]=De.scales,U=h.cursor.sync,[X,de]=U.values,[ce,oe]=U.scales,[Q,
+H]=De.match,ke=h.axes[0].side%2==1,Ce=A.ori==0?te:O,Be=A.ori==1?te:O,fe=ke?x:b,Le=ke?b:x,lt=ke?g:m,Xe=ke?m:g;if(ce!=null?m=Q($,ce)?a(X,_[$],Ce,0):-10:m=Ce*(lt/fe),
+oe!=null?g=H(F,oe)?a(de,_[F],Be,0):-10:g=Be*(Xe/Le),A.ori==1){let wt=m;m=g,g=wt}}D&&(h==null||h.cursor.event.type==wr)&&((m<=1||m>=te-1)&&(m=gn(m,te)),(g<=1||g>=
+O-1)&&(g=gn(g,O))),C?(yi=m,bi=g,[$n,Fn]=G.move(o,m,g)):(xe=m,Ee=g)}let or={width:0,height:0,left:0,top:0};function sr(){Fo(or,!1)}let Mi,Ti,Pi,Ei;function _i(c,h,m,g,b,x,P){
+qt=!0,ze=He=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!0,!1),c!=null&&(Qe(xr,Tr,Ai,!1),go(fa,o,$n,Fn,te,O,null));let{left:C,top:D,width:$,height:F}=ve;Mi=C,Ti=D,Pi=$,Ei=F}
+function Ai(c,h,m,g,b,x,P){qt=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!1,!0);let{left:C,top:D,width:$,height:F}=ve,U=$>0||F>0,X=Mi!=C||Ti!=D||Pi!=$||Ei!=F;if(U&&X&&Fo(ve),
+Ye.setScale&&U&&X){let de=C,ce=$,oe=D,Q=F;if(A.ori==1&&(de=D,ce=F,oe=C,Q=$),ze&&Yt(N,$t(de,N),$t(de+ce,N)),He)for(let H in _){let ke=_[H];H!=N&&ke.from==null&&ke.
+min!=ge&&Yt(H,$t(oe+Q,H),$t(oe,H))}sr()}else G.lock&&(G._lock=!G._lock,dn(h,!0,c!=null));c!=null&&(Sn(xr,Tr),go(xr,o,xe,Ee,te,O,null))}function mu(c,h,m,g,b,x,P){
+if(G._lock)return;ln(c);let C=qt;if(qt){let D=!0,$=!0,F=10,U,X;A.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=xe<=F||xe>=te-F,$=Ee<=F||Ee>=O-F),U&&D&&(xe=xe<$n?0:te),
+X&&$&&(Ee=Ee<Fn?0:O),dn(null,!0,!0),qt=!1}xe=-10,Ee=-10,le.fill(null),dn(null,!0,!0),C&&(qt=C)}function Ci(c,h,m,g,b,x,P){G._lock||(ln(c),Gs(),sr(),c!=null&&go(
+ya,o,xe,Ee,te,O,null))}function Li(){E.forEach(Vh),Us(o.width,o.height,!0)}wn(is,Xn,Li);let Un={};Un.mousedown=_i,Un.mousemove=Si,Un.mouseup=Ai,Un.dblclick=Ci,Un.
+setSeries=(c,h,m,g)=>{let b=De.match[2];m=b(o,h,m),m!=-1&&Rt(m,g,!0,!1)},Ue&&(Qe(fa,y,_i),Qe(wr,y,Si),Qe(ma,y,c=>{ln(c),mo(!1)}),Qe(ga,y,mu),Qe(ya,y,Ci),Nr.add(
 o),o.syncRect=mo);let Io=o.hooks=t.hooks||{};function Ve(c,h,m){Zs?ho.push([c,h,m]):c in Io&&Io[c].forEach(g=>{g.call(null,o,h,m)})}(t.plugins||[]).forEach(c=>{
 for(let h in c.hooks)Io[h]=(Io[h]||[]).concat(c.hooks[h])});let Di=(c,h,m)=>m,De=Re({key:null,setSeries:!1,filters:{pub:_a,sub:_a},scales:[N,S[1]?S[1].scale:null],
-match:[Ca,Ca,Di],values:[null,null]},W.sync);De.match.length==2&&De.match.push(Di),W.sync=De;let Ni=De.key,rr=Tl(Ni);function go(c,h,m,g,b,x,P){De.filters.pub(c,
+match:[Aa,Aa,Di],values:[null,null]},G.sync);De.match.length==2&&De.match.push(Di),G.sync=De;let Ni=De.key,rr=Tl(Ni);function go(c,h,m,g,b,x,P){De.filters.pub(c,
 h,m,g,b,x,P)&&rr.pub(c,h,m,g,b,x,P)}rr.sub(o);function gu(c,h,m,g,b,x,P){De.filters.sub(c,h,m,g,b,x,P)&&Un[c](null,h,m,g,b,x,P)}o.pub=gu;function yu(){rr.unsub(
-o),Nr.delete(o),nn.clear(),_r(is,Xn,Li),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=yu;function ir(){Ve("init",t,e),ci(e||t.data,!1),z[N]?Qs(N,z[N]):Gs(),Ao=
+o),Nr.delete(o),nn.clear(),_r(is,Xn,Li),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=yu;function ir(){Ve("init",t,e),ci(e||t.data,!1),W[N]?Qs(N,W[N]):Gs(),Co=
 ve.show&&(ve.width>0||ve.height>0),an=yt=!0,Us(t.width,t.height)}return S.forEach(ai),E.forEach(Yc),n?n instanceof HTMLElement?(n.appendChild(u),ir()):n(o,ir):ir(),
 o}Oe.assign=Re;Oe.fmtNum=Gr;Oe.rangeNum=as;Oe.rangeLog=us;Oe.rangeAsinh=Or;Oe.orient=vn;Oe.pxRatio=he;Oe.join=$d;Oe.fmtDate=zr,Oe.tzDate=jd;Oe.sync=Tl;{Oe.addGap=
 _h,Oe.clipGaps=ps;let t=Oe.paths={points:Ll};t.linear=Nl,t.stepped=Lh,t.bars=Dh,t.spline=Rh}var ys=128,Il=50,Bh=.25,jh=t=>[t.ray,t.truth,t.sensor,t.noReturn],Kh=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),qh=({data:t})=>Math.
@@ -555,7 +555,7 @@ i=0,a=-1/0,l=-1,u=null,d=Ol(o,()=>{let y=jh(e()),k=Array.from({length:i},(M,T)=>
 {width:100,height:ys,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,qh,0,0],scales:{x:{time:!1,range:(M,T,S)=>[T,Math.max(S,T+1)]},y:{range:(M,T,S)=>Qh(
 Math.max(T,a),S)}},axes:[bs(e,26),bs(e,Kh)],series:[{label:"sweep"},...k],hooks:{draw:[M=>Xh(M,l,e())]}},[[],...k.map(()=>[])],o)},e),f=v("span",{className:"cap\
 tion",textContent:"log joint by sweep"}),w=v("div",{className:"charted"},v("div",{className:"buttons"},r,f),o);return t.each(()=>{let y=n.shown,k=y?.traced?.length?
-y.trace.length/y.traced.length:0;if(A(w,"hidden",k===0),!y||!k)return;let M=n.document?.source.kind==="run"?"draw":"sweep";A(f,"textContent",`log joint by ${M}`);
+y.trace.length/y.traced.length:0;if(L(w,"hidden",k===0),!y||!k)return;let M=n.document?.source.kind==="run"?"draw":"sweep";L(f,"textContent",`log joint by ${M}`);
 let T=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.traced[y.traced.length-1]/n.draws.count:-1,S=d(k!==i&&(i=k,!0));if(!S||u===y&&l===T&&S.data[0].length)return;
 [u,l]=[y,T],a=s==="all"?Zh(y,k):-1/0;let E=Yh(y,k,s);S.setData(E),o.setAttribute("data-sweeps",E[0].join())}),w}function Yh({trace:t,traced:e},n,o){let s=o==="a\
 ll"?Jh(e):[...e.keys()].filter(i=>e[i]<=Il),r=i=>Float32Array.from(s,a=>i[a]);return[r(e),...Array.from({length:n},(i,a)=>r(t.subarray(a*e.length,(a+1)*e.length)))]}
@@ -566,12 +566,12 @@ save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.restore())}functio
 Histogram of the particles' weights"}),s=v("div",{className:"caption",textContent:"particles by weight, nats below the heaviest"}),r=v("div",{className:"charted"},
 s,o),a=Ol(o,()=>new Oe({width:100,height:ys,legend:{show:!1},cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(u,p,d)=>[p,d]},y:{distr:3,range:(u,p,d)=>[
 .5,Math.max(10,2*d)]}},axes:[bs(e,26),{...bs(e,52),values:(u,p)=>p.map(d=>d>=1?String(d):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Oe.paths.bars?.({size:[
-.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.each(()=>{let u=n.shown;A(r,"hidden",!u?.weights);let p=u?.weights&&a(!1);if(!u?.weights||!p||
+.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.each(()=>{let u=n.shown;L(r,"hidden",!u?.weights);let p=u?.weights&&a(!1);if(!u?.weights||!p||
 l===u&&p.data[0].length)return;l=u;let d=[...u.weights],f=-(u.lowest??-1)/d.length,w=[...d.map((y,k)=>(u.lowest??-1)+k*f),0];p.setData([w,[...d.map(y=>y||null),
 null]])}),r}function Wl(t){let{session:e,hand:n}=t,{decisions:o}=e,s=v("p",{className:"said",role:"status"}),r=v("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,u=>o.set({radius:u}),{min:.01,max:100,step:"any"}),t.numberInput("Highest risk",()=>o.risk,u=>o.set({risk:u}),{min:1e-4,max:.99,step:"any"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),l=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
-r,()=>n.tool==="path"),t.each(()=>{A(l,"textContent",i()),A(s,"textContent",n.tool==="path"?ep(t):tp(t))}),a}function ep({session:t}){let{start:e,goal:n,path:o,
+r,()=>n.tool==="path"),t.each(()=>{L(l,"textContent",i()),L(s,"textContent",n.tool==="path"?ep(t):tp(t))}),a}function ep({session:t}){let{start:e,goal:n,path:o,
 trouble:s}=t.decisions;if(s)return s;if(!e)return"Click where the robot is, then where it is to go.";if(!n)return"Now click where it is to go.";if(!o)return t.shown?.
 approximate?"Waiting for draws of the map.":"Looking for a path.";let r=o.within_risk?"":" No path was found whose risk is low enough; this is the safest.";return`${Me(
 o.length_m,2)} m, free with probability ${Me(o.probability,3)} ± ${Me(o.standard_error,3)} by ${o.draws} draws. Independent cells would say ${Me(o.independent,
@@ -586,7 +586,7 @@ s poses are raw odometry, Run first infers where the robot was; then it samples 
 y say together.",cp="Mouse: the wheel zooms, the middle button pans.",up="Shift or the right button erases, and so does a click on a wall.",dp="Touch: two finge\
 rs zoom and pan.";function zl(t){let{session:e}=t,n=v("div"),o=qi.map(([i,a,l])=>{let u=v("tr",{},v("th",{scope:"row"},v("kbd",{textContent:i})),v("td",{textContent:a}));
 return t.visible(u,()=>hp[l??"all"](e)),u}),s=v("p"),r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?rp:sp,l=e.editable?[`${op} ${a}`,
-ip]:i==="log"?[a,ap]:i==="run"?[a,lp]:[a];l.join()!==r&&n.replaceChildren(...l.map(u=>v("p",{textContent:u}))),r=l.join(),A(s,"textContent",[cp,...e.editable?[up]:
+ip]:i==="log"?[a,ap]:i==="run"?[a,lp]:[a];l.join()!==r&&n.replaceChildren(...l.map(u=>v("p",{textContent:u}))),r=l.join(),L(s,"textContent",[cp,...e.editable?[up]:
 [],dp].join(" "))}),t.dialog("Help",n,s,v("table",{},v("tbody",{},...o)))}var hp={all:()=>!0,drawn:t=>t.editable,asked:t=>!t.recorded,inferred:t=>!t.recorded&&t.
 document?.source.kind!=="run"};function Hl(t){let e=()=>v("input",{type:"number",min:Se.cells[0],max:Se.cells[1],step:1,required:!0,value:"21"}),[n,o]=[e(),e()],
 s=v("select",{});for(let[i,a]of np)s.append(v("option",{value:i,textContent:a}));s.addEventListener("change",()=>{s.value==="building"&&Number(n.value)<60&&([n.
@@ -597,9 +597,9 @@ Number(o.value)],world:s.value}),t.hand.selected=null}),t.dialog("New map",r)}va
 e and all settings after its #, but no scans and no token. It opens in this browser while the server shows this file; the part from # on can be put after the ad\
 dress of any bayesmap page that shows it.";function Vl(t){let e=v("input",{type:"text",readOnly:!0,"aria-label":"Link"}),n=v("span",{role:"status",className:"co\
 pied"}),o=async()=>{e.select();try{await navigator.clipboard.writeText(e.value)}catch{document.execCommand("copy")}n.textContent="Copied",setTimeout(()=>n.textContent=
-"",2e3)},s=t.button(null,"Copy the link",o,{className:"primary",text:"Copy"}),r=v("p");t.each(()=>A(r,"textContent",t.session.document?.source.kind==="simulatio\
+"",2e3)},s=t.button(null,"Copy the link",o,{className:"primary",text:"Copy"}),r=v("p");t.each(()=>L(r,"textContent",t.session.document?.source.kind==="simulatio\
 n"?pp:fp));let i=t.dialog("Share",r,v("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var mp=8;function Bl(t){let{session:e,hand:n}=t,o=v("p",{className:"words",role:"status"}),s=v("ol",{className:"spoken"}),r=t.section("Evidence of beams",o,s),i=-1;
-return t.visible(r,()=>n.tool==="evidence"),t.each(()=>{let{evidence:a}=e;if(A(o,"textContent",yp(e)),i===a.version)return;i=a.version;let{nats:l,scan:u,beam:p}=a.
+return t.visible(r,()=>n.tool==="evidence"),t.each(()=>{let{evidence:a}=e;if(L(o,"textContent",yp(e)),i===a.version)return;i=a.version;let{nats:l,scan:u,beam:p}=a.
 each??{nats:[],scan:[],beam:[]},d=Array.from(l.slice(0,mp),(f,w)=>v("li",{},`${fr(f)} nats: ${gp(e,u[w],p[w])}`));s.replaceChildren(...d)}),r}var gp=({document:t,
 editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function yp({evidence:t,quantity:e}){let{cell:n,together:o}=t;if(!n)return"\
 Click a cell to see which beams speak for what is there (blue) and which against it (orange), in nats each.";let s=`Cell ${n.x}, ${n.y}`;if(!o)return`${s}: aski\
@@ -611,18 +611,18 @@ let n=e>this.until&&!/worker/.test(this.text);(this.text==="Connecting"||n)&&thi
 nd is being started again; the map is kept","warning",this.until):e==="ready"&&this.text==="Connecting"?this.say("Ready","info",this.until):e==="ready"&&/worker/.
 test(this.text)&&this.say("The worker runs again","info",this.until)}};var jl=t=>Math.round(t*180/Math.PI);function Kl(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(l,u)=>t.numberInput(l,()=>Number((o.pose?.[u]??0).toFixed(2)),p=>o.move(
 {[u]:p}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>jl(o.pose?.yaw??0),l=>o.move({yaw:l*Math.PI/180}),{step:5}),i=v("p",{className:"words ghosted"}),a=t.
-section("Ghost",v("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>A(i,"textContent",bp(t))),
+section("Ghost",v("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>L(i,"textContent",bp(t))),
 a}function bp({session:t}){let{ghost:e}=t;if(e.trouble)return kn(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
 st to see what its laser would read.";let{draws:n,low:o,high:s,near:r}=e.fan,i=Array.from(s,(p,d)=>p-o[d]).filter(Number.isFinite).sort((p,d)=>p-d),a=i.length?`${Me(
 100*i[i.length>>1],0)} cm wide at the median beam`:"as wide as the laser's range",l=n?`${n} draws of the map`:"the mean map, cells taken for independent",u=r?` \
 Rings are the hits of scan ${r.index+1}, taken ${Me(100*r.away,0)} cm from here, turned by ${jl(r.turn)}°.`:"";return`Dots are predictive medians, bars the cen\
 tral 80 % interval, ${a}, by ${l}.${u}`}function ql(t){let{session:e}=t,n=v("span",{className:"what"});t.each(()=>{let{grid:u,source:p}=e.document??{};if(!u||!p)return;let d=`${u.shape[0]} × ${u.shape[1]}\
- cells of ${+u.resolution.toPrecision(3)} m`;A(n,"textContent",p.name?`${p.name}, ${d}`:d)});let o=()=>!e.recorded&&!!e.document,s=[t.button("undo","Undo",()=>e.
+ cells of ${+u.resolution.toPrecision(3)} m`;L(n,"textContent",p.name?`${p.name}, ${d}`:d)});let o=()=>!e.recorded&&!!e.document,s=[t.button("undo","Undo",()=>e.
 act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo}),t.button("redo","Redo",()=>e.act({type:"redo"}),{title:"Redo (Ctrl+Y)",when:()=>!!e.state?.
 can_redo}),v("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),...t.embedded?[]:[t.button("link","Share",()=>t.command(
 "share"),{text:"Share",when:o})]];for(let u of s)t.visible(u,()=>!e.recorded);let r=t.button("theme","Theme: automatic",()=>t.command("theme")),i=t.button("help",
 "Help",()=>t.command("help"),{title:"Help (?)"}),a=v("span",{className:"space"});return{element:v("header",{},v("h1",{textContent:"bayesmap"}),n,a,...s,xp(t),r,
-i),nameTheme(u){let p=`Theme: ${u}`;dt(r,"aria-label",p),A(r,"title",p)}}}var wp=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function xp(t){
+i),nameTheme(u){let p=`Theme: ${u}`;dt(r,"aria-label",p),L(r,"title",p)}}}var wp=({shown:t,draws:e})=>e.count>0||/importance|propagate/.test(t?.method??"");function xp(t){
 let{session:e}=t,n=(a,l,u,p)=>{let d=t.button(null,a,()=>t.command(`export ${l}`),{text:a,when:p});return u&&t.visible(d,()=>!e.recorded),d},o=v("div",{className:"\
 menu",hidden:!0},n("Picture (PNG)","png",!1),n("Saved run (netCDF)","run",!0,()=>wp(e)),n("Map for robots (YAML and PGM)","map",!0),n("Page with its draws (HTML\
 )","html",!0),n("Document (JSON)","document",!0)),s=t.button("save","Export",()=>r(o.hidden),{text:"Export",when:()=>!!e.document}),r=a=>{o.hidden=!a,s.setAttribute(
@@ -644,11 +644,11 @@ strokes.length,may:t=>!xs(t)},{mark:"trajectory",text:"trajectory",when:({overla
 {mark:"path",text:"path, as wide as the robot",when:({decisions:t})=>!!t.path,may:Yr}],Zl=[{mark:"belief",text:"possible pose"},{mark:"place",text:"95 % of a pl\
 ace"}],Ql=[{mark:"for",text:"speaks for it"},{mark:"against",text:"speaks against it"}];function Xl(t,e,n){return v("div",{className:"legend"},kp(t,e,n),Sp(t))}
 function kp(t,e,n){let{session:o}=t,s=v("span",{className:"ramp"}),r=v("span",{className:"name"}),i=Jl.map(p=>{let[d,f]=vs(p),{mark:w,when:y}=p;return y&&t.visible(
-d,()=>y(o)),w==="stroke"&&t.each(()=>A(f,"textContent",wo(n())?p.text:Yl)),w==="path"&&t.each(()=>d.firstElementChild?.classList.toggle("risky",o.decisions.path?.
+d,()=>y(o)),w==="stroke"&&t.each(()=>L(f,"textContent",wo(n())?p.text:Yl)),w==="path"&&t.each(()=>d.firstElementChild?.classList.toggle("risky",o.decisions.path?.
 within_risk===!1)),d}),[a,l]=[Zl,Ql].map(p=>p.map(d=>vs(d)[0]));for(let p of a)t.visible(p,()=>!!o.where.found);for(let p of l)t.visible(p,()=>!!o.evidence.cellShown);
-let u="";return t.each(()=>{let{layer:p}=o;A(r,"textContent",ec(o,p));let d=p==="entropy"||p==="width",f=`${d} ${e().ground}`;u!==f&&(u=f,s.style.background=pr(
+let u="";return t.each(()=>{let{layer:p}=o;L(r,"textContent",ec(o,p));let d=p==="entropy"||p==="width",f=`${d} ${e().ground}`;u!==f&&(u=f,s.style.background=pr(
 d?zn:w=>hr(e(),w)))}),v("ul",{"aria-label":"Legend"},v("li",{},r,v("span",{className:"scale"},"0",s,"1")),...i,Mp(t),...a,...l)}function Sp(t){let{session:e}=t,
-n=["mean","draw","entropy","width"].map(u=>{let p=v("span");return t.each(()=>A(p,"textContent",ec(e,u))),u==="width"&&t.visible(p,()=>e.quantity.interval),p}),
+n=["mean","draw","entropy","width"].map(u=>{let p=v("span");return t.each(()=>L(p,"textContent",ec(e,u))),u==="width"&&t.visible(p,()=>e.quantity.interval),p}),
 o=Jl.map(u=>{let[p,d]=vs(u);u.mark==="stroke"&&(d.textContent=Yl);let{may:f}=u;return f&&t.visible(p,()=>f(e)),p}),s=v("span",{className:"scale"},"00.0",v("span",
 {className:"ramp"}),"000.0 nats"),r=[Zl,Ql].map(u=>v("ul",{},...u.map(p=>vs(p)[0]))),i=[v("ul",{},v("li",{},"one more scan tells",s)),...r],a=v("li",{className:"\
 either"},...i);t.visible(a,()=>Yr(e));let l=v("span",{className:"scale"},"0",v("span",{className:"ramp"}),"1");return v("ul",{className:"room","aria-hidden":"tr\
@@ -656,56 +656,56 @@ ue"},v("li",{},v("span",{className:"name either"},...n),l),...o,a)}function vs({
 let o=v("span",{textContent:e});return[v("li",{},n,o),o]}function ec({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (bit)":e==="widt\
 h"?"width of the 90 % interval":n==="binary"?"P(wall)":e==="draw"?s:o}function Mp(t){let{decisions:e}=t.session,n=v("span",{className:"ramp"});n.style.background=
 pr(zn);let[o,s]=[v("span"),v("span")],r=v("li",{className:"views"},"one more scan tells",v("span",{className:"scale"},o,n,s));return t.visible(r,()=>e.looking&&
-!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(A(o,"textContent",Me(Math.min(...i),1)),A(s,"textContent",`${Me(Math.max(...i),1)} nats`))}),
+!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(L(o,"textContent",Me(Math.min(...i),1)),L(s,"textContent",`${Me(Math.max(...i),1)} nats`))}),
 r}var Tp=[.05,.1,.2,.4,.8],Pp=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function tc(t){let{session:e}=t,n=v("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,u=Math.
 max(l[0]-a[0],l[1]-a[1]),p=[...new Set([...Tp,r.resolution])].sort((d,f)=>d-f);if(o!==p.join()){o=p.join();let d=f=>v("option",{value:String(f),textContent:Pp(f),
-disabled:u/f>Se.side_of_log-1});n.replaceChildren(...p.map(d))}A(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
+disabled:u/f>Se.side_of_log-1});n.replaceChildren(...p.map(d))}L(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(s,()=>e.document?.
 source.kind==="log"),s}function nc(t){let{session:e}=t,n=v("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=v("output"),s=()=>e.document?.source.
 scans??0,r=a=>{let l=Number(n.value);t.scrub(l>=s()?null:l,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});let i=t.
 section("Log",v("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),l=e.document?.scans_used??
-a;A(n,"max",String(Math.max(1,a))),(!mn(n)||Number(n.value)!==l)&&A(n,"value",String(l));let u=l===a?`all ${a} scans`:`after ${l} of ${a}`;n.style.setProperty("\
---fill",`${100*(l-1)/Math.max(1,a-1)}%`),dt(n,"aria-valuetext",u),A(o,"textContent",u)}),i}var Ep=20,_p={importance:"particles",propagate:"rounds"},ks=({working:t,shown:e})=>t&&e?.method==="pilot";function oc(t,...e){let{session:n}=t,o=v("progress",{max:1,
+a;L(n,"max",String(Math.max(1,a))),(!mn(n)||Number(n.value)!==l)&&L(n,"value",String(l));let u=l===a?`all ${a} scans`:`after ${l} of ${a}`;n.style.setProperty("\
+--fill",`${100*(l-1)/Math.max(1,a-1)}%`),dt(n,"aria-valuetext",u),L(o,"textContent",u)}),i}var Ep=20,_p={importance:"particles",propagate:"rounds"},ks=({working:t,shown:e})=>t&&e?.method==="pilot";function oc(t,...e){let{session:n}=t,o=v("progress",{max:1,
 value:0,"aria-label":"Progress"}),s=v("div",{className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=r?.generation!==n.generation&&(n.running||n.document?.
-source.kind==="log"),l=ks(n),u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;A(o,"value",u);let p=n.remaining_s(),d=_p[r?.method??""]??
+source.kind==="log"),l=ks(n),u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;L(o,"value",u);let p=n.remaining_s(),d=_p[r?.method??""]??
 "sweeps",f=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${d}`:"",w=p!==null?p<1?"less than 1 s left":`${Math.ceil(p)} s left`:n.running?"running":"",y=n.
-sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?A(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Ep?"scans":"rounds"}`):a?A(s,"textContent","\
-Computing"):r&&l?A(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):A(s,"textContent",kn([f,w,f&&y].filter(Boolean).join(", "))||Cp(n))}),
-t.section("Posterior",Ap(t),o,s,Lp(t),Dp(t),...e)}function Cp({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pil\
-ot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function Ap(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"\
+sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?L(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Ep?"scans":"rounds"}`):a?L(s,"textContent","\
+Computing"):r&&l?L(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):L(s,"textContent",kn([f,w,f&&y].filter(Boolean).join(", "))||Ap(n))}),
+t.section("Posterior",Cp(t),o,s,Lp(t),Dp(t),...e)}function Ap({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pil\
+ot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function Cp(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"\
 primary",text:"Run",title:"Run (R)",when:()=>e.connection.connected}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escap\
 e)",when:()=>e.running||e.sampling||ks(e)}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=v("div",
 {className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Lp(t){let{session:e}=t,n=v("dl"),o=(s,r,i,a=!1)=>{let l=v(
-"dd",{textContent:"–"});n.append(v("div",{title:r},v("dt",{textContent:s}),l)),t.each(()=>{A(l,"textContent",e.shown?i(e.shown):"–"),a&&A(l,"className",e.shown?.
+"dd",{textContent:"–"});n.append(v("div",{title:r},v("dt",{textContent:s}),l)),t.each(()=>{L(l,"textContent",e.shown?i(e.shown):"–"),a&&L(l,"className",e.shown?.
 verdict?.level??"")})};return o("ESS","Effective sample size of the log joint",s=>Me(s.ess,0),!0),o("R-hat","Agreement of the chains on the log joint; 1 is full",
 s=>Me(s.rhat,3),!0),o("log joint","Log of prior times likelihood at the last sweep",s=>Me(s.log_joint,Math.abs(s.log_joint??0)<1e5?1:0)),o("reply","From the han\
 d's last move to its picture",()=>Me(e.latency.eventToPaint_ms.at(-1),0," ms")),n}function Dp(t){let{session:e}=t,n=v("div",{className:"verdict"});return t.each(
-()=>{let o=e.shown?.verdict;if(A(n,"hidden",!o),!o)return;let s={good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];A(n,"textContent",`${s}:\
- ${o.why}`),A(n,"className",`verdict ${o.level}`)}),n}var Np="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",sc=200,
+()=>{let o=e.shown?.verdict;if(L(n,"hidden",!o),!o)return;let s={good:"Converged",fair:"Nearly converged",bad:"Not converged"}[o.level];L(n,"textContent",`${s}:\
+ ${o.why}`),L(n,"className",`verdict ${o.level}`)}),n}var Np="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",sc=200,
 Rp="For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less \
 likely",rc="For and against what is there: how much likelier each beam's reading is under the draws of the map than under the same draws with this cell emptied \
 (log ratio), summed over the beams that it makes likelier, and less likely",$p="Emptied means without the surface that the cell owns: where a neighbour's surfac\
 e explains the same readings, they say little of this one.";function lc(t){let{session:e}=t,n=v("span",{className:"chip"}),o=t.button(null,"Not converged",()=>ic(
-e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=v("div",{className:"chips"},n,o);return t.each(()=>{let r=ic(e);A(o,"hidden",!r),r&&(A(o.firstElementChild,
-"textContent",`not converged: ${r.text}`),A(o,"title",`${e.shown?.verdict?.why}. Click to ${r.text}.`),dt(o,"aria-label",`Not converged: ${r.text}`));let i=e.shown;
-if(!i||!e.document)return A(s,"hidden",!0);let a=e.draws.count?`draw ${e.draw+1} of ${e.draws.count}`:"draw",l=i.layer==="draw"?a+(e.flicker.under?" over the me\
-an":""):i.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(i.method==="counts"){A(s,"hidden",!1);let d=e.halfway?"along\
- poses found so far":"along raw odometry";return A(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():d}`),A(n,"className","chip approxima\
+e)?.apply(),{text:"Not converged",className:"chip doubt"}),s=v("div",{className:"chips"},n,o);return t.each(()=>{let r=ic(e);L(o,"hidden",!r),r&&(L(o.firstElementChild,
+"textContent",`not converged: ${r.text}`),L(o,"title",`${e.shown?.verdict?.why}. Click to ${r.text}.`),dt(o,"aria-label",`Not converged: ${r.text}`));let i=e.shown;
+if(!i||!e.document)return L(s,"hidden",!0);let a=e.draws.count?`draw ${e.draw+1} of ${e.draws.count}`:"draw",l=i.layer==="draw"?a+(e.flicker.under?" over the me\
+an":""):i.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(i.method==="counts"){L(s,"hidden",!1);let d=e.halfway?"along\
+ poses found so far":"along raw odometry";return L(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():d}`),L(n,"className","chip approxima\
 te")}let u={importance:"importance sampling",propagate:"belief propagation"}[i.method],p=i.approximate?`approximate, ${Fp(i,e.working)}`:u??`${i.sweeps} sweeps`;
-A(s,"hidden",!1),A(n,"textContent",`${l} · ${p}`),A(n,"className",i.approximate?"chip approximate":"chip")}),s}function Fp({method:t,sweeps:e,total:n,averaged:o},s){
+L(s,"hidden",!1),L(n,"textContent",`${l} · ${p}`),L(n,"className",i.approximate?"chip approximate":"chip")}),s}function Fp({method:t,sweeps:e,total:n,averaged:o},s){
 return t==="hits"?"counts of hits":t!=="pilot"?"belief propagation":`${o===1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} \
 of ${n}`}function ic(t){let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n||t.recorded||n.source.kind==="run")return null;let o=i=>()=>t.act({type:"set",
 patch:i}),s=e.sweeps<sc;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s)return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")return{
 text:"try Gibbs",apply:o({method:"auto"})};if(e.sweeps<e.total)return null;let r=Math.min(Se.sweeps[1],Math.max(sc,4*n.sweeps));return r>n.sweeps?{text:`try ${r}\
  sweeps`,apply:o({sweeps:r})}:null}function cc(t){let{session:e}=t,n=v("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),
 s=v("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.connected,i=Math.max(1,Math.round((e.connection.
-retryIn_ms??0)/1e3));A(s,"hidden",!r&&e.worker!=="restarted"),A(s,"className",r?"banner":"banner mild"),A(o,"hidden",!r);let a=`Connection lost. Trying again in\
- ${i} s; the map is kept here.`,l=e.connection.refused?Np:a;A(n,"textContent",r?l:"The worker stopped and is being started again. The map is kept.")}),s}function uc(t){
+retryIn_ms??0)/1e3));L(s,"hidden",!r&&e.worker!=="restarted"),L(s,"className",r?"banner":"banner mild"),L(o,"hidden",!r);let a=`Connection lost. Trying again in\
+ ${i} s; the map is kept here.`,l=e.connection.refused?Np:a;L(n,"textContent",r?l:"The worker stopped and is being started again. The map is kept.")}),s}function uc(t){
 let{session:e,hand:n}=t,o=v("div",{className:"readout",id:`${t.prefix}-readout`}),s=v("span",{role:"status","aria-live":"polite"}),r=v("span",{className:"hidden",
-"aria-live":"polite"});return n.announce=i=>A(r,"textContent",i),n.describe=i=>ac(e,i),t.each(()=>{let{kind:i}=e.quantity;A(o,"title",i==="binary"?Rp:i==="surfa\
+"aria-live":"polite"});return n.announce=i=>L(r,"textContent",i),n.describe=i=>ac(e,i),t.each(()=>{let{kind:i}=e.quantity;L(o,"title",i==="binary"?Rp:i==="surfa\
 ce"?`${rc}. ${$p}`:rc);let a=n.cursor??n.hover,u=matchMedia("(pointer: coarse)").matches?"Touch a cell":e.editable?"Point at a cell, or press ? for the keys":"P\
-oint at a cell";A(o,"textContent",a?ac(e,a):u);let p=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad",d=e.status.text==="Ready"&&ks(e);A(s,"textContent",
-p?"Ready, but the chains have not converged":d?"Fitting the sensor":e.status.text),A(s,"className",p?"warning":d?"busy":e.status.level)}),{element:v("footer",{},
+oint at a cell";L(o,"textContent",a?ac(e,a):u);let p=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad",d=e.status.text==="Ready"&&ks(e);L(s,"textContent",
+p?"Ready, but the chains have not converged":d?"Fitting the sensor":e.status.text),L(s,"className",p?"warning":d?"busy":e.status.level)}),{element:v("footer",{},
 s,o,r),readout:o}}function ac(t,e){let{document:n,shown:o}=t;if(!n)return"";let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+
 1),{x:l,y:u}=Gn(e,n.grid),p=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${u.toFixed(a)} m`];if(o&&o.p.length===r[0]*r[1]){let d=o.p[i]/255,{kind:f,mean:w,value:y,interval:k}=t.
 quantity;o.layer==="width"?p.push(`90 % interval ${d.toFixed(2)} wide`):f!=="binary"&&o.layer==="draw"?p.push(`${y} ${d.toFixed(2)} in this draw`):f!=="binary"?
@@ -717,12 +717,12 @@ join(" · ")}var Ip={logged:"as logged",odometry:"from raw odometry"},Op=180/Mat
 Ip,()=>e.document?.poses??"logged",d=>t.set({poses:d}));o.classList.add("wide"),t.visible(o,n);let[s,r]=Se.pose_sigma,[i,a]=Se.heading_sigma_deg,l=[t.slider("po\
 se_sigma",()=>"Position ±",{low:s,high:r,step:.05,unit:" m"}),t.slider("heading_sigma",()=>"Yaw ±",{low:i,high:a,step:.5,unit:"°",scale:Op})];for(let d of l)
 t.visible(d,()=>e.editable);let u=v("p",{className:"caption"});t.each(()=>{let{pose_sigma:d=0,heading_sigma:f=0,method:w="auto"}=e.document??{},y=n()&&e.document?.
-poses==="odometry"&&e.shown?.method==="counts"&&!e.running,k=e.editable&&(d>0||f>0)&&!/auto|gibbs|block/.test(w);A(u,"hidden",!k&&!y),A(u,"textContent",y?"Run i\
+poses==="odometry"&&e.shown?.method==="counts"&&!e.running,k=e.editable&&(d>0||f>0)&&!/auto|gibbs|block/.test(w);L(u,"hidden",!k&&!y),L(u,"textContent",y?"Run i\
 nfers where the robot was.":"This method takes poses as known; Gibbs does not.")});let p=t.section("Where the robot was",o,...l,u);return t.visible(p,()=>e.editable||
 n()&&!e.recorded),p}var Ss=t=>Math.abs(t)<.995?`${Me(100*Math.abs(t),1)} cm`:`${Me(Math.abs(t),2)} m`,Up="Point at a reading to compare it with what the posterior predicts of it.",
 Gp=": preparing the comparison. The first one after an installation takes some seconds.";function hc(t){let{session:e}=t,n=v("p",{className:"words reading",role:"\
 status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i,
-slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?Gp:"."}`:Up;A(n,"textContent",i||(r?Wp(r):l))}),o}function Wp({scan:t,beam:e,reading:n,range:o,low:s,
+slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?Gp:"."}`:Up;L(n,"textContent",i||(r?Wp(r):l))}),o}function Wp({scan:t,beam:e,reading:n,range:o,low:s,
 median:r,high:i,residual:a,no_return:l,wall:u}){let p=`Beam ${e+1} of scan ${t+1}`,d=(T,S)=>T===null?S:`${Me(T,2)} m`,f=`median ${d(r,"no return")}, 80 % betwee\
 n ${d(s,"too close")} and ${d(i,"no return")}`;if(n==="none")return`${p} came back from nothing, which was predicted with probability ${Me(l??0,3)} (${f}).`;if(n!==
 "hit"||o===null)return`${p} read nothing that says how far (${f}).`;let w=a===null?"":`, ${Ss(a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${p} r\
@@ -733,7 +733,7 @@ binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},Vp={noisy:"with
 he empty map"},jp={raster:"raster",radial:"radial",random:"random"},Ms=2*Math.PI,Kp=t=>Math.round(t*1800/Math.PI)/10,qp={importance:"Particles",propagate:"Round\
 s"};function pc(t){let{session:e,hand:n,editor:o}=t,s=v("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
 choose("sensor")});let r="";t.each(()=>{let d=e.document?.sensors??[],f=d.map(w=>w.id).join();f!==r&&s.replaceChildren(...d.map(({id:w})=>v("option",{value:String(
-w),textContent:`Sensor ${w}`}))),r=f,A(s,"value",String(n.sensor?.id??""))});let i=(d,f)=>t.numberInput(d,()=>Number((n.sensor?.[f]??0).toFixed(2)),w=>n.sensor&&
+w),textContent:`Sensor ${w}`}))),r=f,L(s,"value",String(n.sensor?.id??""))});let i=(d,f)=>t.numberInput(d,()=>Number((n.sensor?.[f]??0).toFixed(2)),w=>n.sensor&&
 o.moveSensor(n.sensor,{[f]:w}),{step:"any"}),a=t.numberInput("heading (°)",()=>Math.round((n.sensor?.yaw??0)*180/Math.PI),d=>n.sensor&&o.moveSensor(n.sensor,{yaw:d%
 360*Math.PI/180}),{step:5}),l=t.button("plus","Add a sensor",()=>t.command("add"),{text:"Add"}),u=t.button("minus","Remove the sensor",()=>o.removeSensor(),{text:"\
 Remove",when:()=>(e.document?.sensors.length??0)>1});t.visible(a,()=>(e.document?.fov??Ms)<Ms);let p=v("div",{className:"triple"},i("x (m)","x"),i("y (m)","y"),
@@ -751,24 +751,24 @@ min:r,max:i,step:1}))}function gc(t){let{session:e}=t,n=t.button(null,"Clear wal
 o=t.button(null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.visible(n,()=>e.editable),t.section("Clear",v("d\
 iv",{className:"buttons"},n,o))}var Yp=0,Ts=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${Yp++}`;updates=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}refresh(){for(let e of this.updates)e()}set(e){this.session.act({type:"set",patch:e,drag:this.drag})}scrub(e,n){
-this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}visible(e,n){this.each(()=>A(e,"hidden",!n()))}button(e,n,o,{
+this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}visible(e,n){this.each(()=>L(e,"hidden",!n()))}button(e,n,o,{
 className:s="",text:r="",when:i,title:a}={}){let l=v("button",{type:"button",className:s,title:a??n,onclick:o},e&&tn(e));return r&&l.append(v("span",{textContent:r})),
-r!==n&&l.setAttribute("aria-label",n),i&&this.each(()=>A(l,"disabled",!i())),l}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=v("div",{className:"\
+r!==n&&l.setAttribute("aria-label",n),i&&this.each(()=>L(l,"disabled",!i())),l}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=v("div",{className:"\
 segmented",role:"radiogroup","aria-label":e});for(let[l,u,p]of n){let d=v("input",{type:"radio",name:i,value:l,onchange:()=>s(l)});a.append(v("label",{title:u},
-d,p?tn(p):null,v("span",{textContent:u}))),this.each(()=>{A(d,"checked",o()===l),r&&A(d,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
+d,p?tn(p):null,v("span",{textContent:u}))),this.each(()=>{L(d,"checked",o()===l),r&&L(d,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(
 /\W/g,"")}`;return v("section",{"aria-labelledby":o},v("h2",{id:o,textContent:e}),...n)}row(e,n){return n.id=`${this.prefix}-${e.replace(/\W/g,"")}`,v("div",{className:"\
 row"},v("label",{for:n.id,textContent:e}),n)}slider(e,n,{low:o,high:s,step:r,log:i=!1,unit:a="",scale:l=1}){let u=`${this.prefix}-${e}`,p=M=>i?1e3*Math.log(M/o)/
 Math.log(s/o):M,d=M=>{if(!i)return M;let T=o*(s/o)**(M/1e3),S=T<100?1:10**(Math.floor(Math.log10(T))-1);return ne(Math.round(T/S)*S,o,s)},f=()=>l===1?this.session.
 document?.[e]??o:Number(((this.session.document?.[e]??o/l)*l).toFixed(3)),w=v("label",{for:u}),y=v("input",{type:"range",id:u,...i?{min:0,max:1e3,step:1}:{min:o,
 max:s,step:r}}),k=v("input",{type:"number",min:String(o),max:String(s),step:String(r)});return y.addEventListener("input",()=>this.set({[e]:d(Number(y.value))/l})),
 y.addEventListener("change",()=>this.endDrag()),k.addEventListener("change",()=>{this.typed(k,n(),[o,s],f,M=>this.set({[e]:i?Math.round(M):M/l})),this.endDrag()}),
-this.each(()=>{let M=f();A(w,"textContent",n()),dt(k,"aria-label",`${n()}, number`),d(Number(y.value))!==M&&(y.value=String(p(M))),dt(y,"aria-valuetext",`${M}${a}`);
-let T=100*(p(M)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${ne(T,0,100)}%`),mn(k)||A(k,"value",String(M))}),v("div",{className:"\
+this.each(()=>{let M=f();L(w,"textContent",n()),dt(k,"aria-label",`${n()}, number`),d(Number(y.value))!==M&&(y.value=String(p(M))),dt(y,"aria-valuetext",`${M}${a}`);
+let T=100*(p(M)-Number(y.min))/(Number(y.max)-Number(y.min));y.style.setProperty("--fill",`${ne(T,0,100)}%`),mn(k)||L(k,"value",String(M))}),v("div",{className:"\
 row slider"},w,y,k)}select(e,n,o,s,r){let i=v("select",{onchange:()=>s(i.value)});for(let[a,l]of Object.entries(n))i.append(v("option",{value:a,textContent:l}));
-return this.each(()=>{A(i,"value",o()),r&&A(i,"disabled",!r())}),this.row(e,i)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(
+return this.each(()=>{L(i,"value",o()),r&&L(i,"disabled",!r())}),this.row(e,i)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(
 ne(a,o,s)),e.value=String(r()),a<o?this.session.say(`${n} is at least ${o}`,"warning"):a>s&&this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,s={}){
-let r=v("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>this.typed(r,e,[i,a],n,o)),this.each(()=>{mn(r)||A(r,"valu\
-e",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=v("input",{type:"checkbox",onchange:()=>o(r.checked)});return this.each(()=>A(r,"checked",n())),v("la\
+let r=v("input",{type:"number",...s}),{min:i=-1/0,max:a=1/0}=s;return r.addEventListener("change",()=>this.typed(r,e,[i,a],n,o)),this.each(()=>{mn(r)||L(r,"valu\
+e",String(n()))}),this.row(e,r)}checkbox(e,n,o,s=""){let r=v("input",{type:"checkbox",onchange:()=>o(r.checked)});return this.each(()=>L(r,"checked",n())),v("la\
 bel",{className:"check",title:s},r,v("span",{textContent:e}))}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,s=v("button",{type:"button",className:"\
 plain","aria-label":"Close",onclick:()=>i.close()},tn("close")),r=v("div",{className:"title"},v("h2",{id:o,textContent:e}),s),i=v("dialog",{"aria-labelledby":o},
 r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),i}};var Jp=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Zp={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},Ps=class{constructor(e){
@@ -781,27 +781,27 @@ this.before&&this.before!==o.layer&&this.showLayer(this.before)),this.before=e?o
 !0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||this.playing)&&e?.layer==="mean"&&!n.wantsMean)return this.afterMean=
 !1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.playing)return;let{draw:o,draws:s}=this.session;o+1>=s.count&&n.on?
 this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function yc(t,e,n,o){let{session:s}=t,r=t.segmented("Show",Jp,()=>s.view.
-layer,w=>e.showLayer(w),w=>w!=="draw"||s.hasDraws),[,,i,a]=Array.from(r.children);A(a,"title","Width of each cell's 90 % interval"),t.visible(i,()=>!s.quantity.
+layer,w=>e.showLayer(w),w=>w!=="draw"||s.hasDraws),[,,i,a]=Array.from(r.children);L(a,"title","Width of each cell's 90 % interval"),t.visible(i,()=>!s.quantity.
 interval),t.visible(a,()=>s.quantity.interval);let l=(w,y)=>t.checkbox(w,()=>n[y],k=>{n[y]=k,s.changed()}),u=l("True walls","truth");t.visible(u,()=>!s.document||
-s.document.source.kind==="simulation");let[p,d]=[l("Surfaces","strokes"),l("Trajectory","trajectory")];t.visible(p,()=>!!s.overlay?.strokes.length),t.each(()=>A(
+s.document.source.kind==="simulation");let[p,d]=[l("Surfaces","strokes"),l("Trajectory","trajectory")];t.visible(p,()=>!!s.overlay?.strokes.length),t.each(()=>L(
 p.lastElementChild,"textContent",wo(o())?"Surfaces":"Surfaces (zoom in)")),t.visible(d,()=>!!s.overlay?.trajectory.length);let f=v("div",{className:"checks",role:"\
 group","aria-label":"Marks"},u,l("Rays","rays"),l("Readings","readings"),p,d);return t.section("View",r,Qp(t,e),f)}function Qp(t,e){let{session:n}=t,o=v("input",
 {type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener("input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the\
  draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1}),r=v("output"),i=v("select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,
-Number(i.value))),t.each(()=>{let{chains:d,count:f}=n.draws;A(o,"max",String(Math.max(0,f-1))),A(o,"disabled",f===0),A(o,"value",String(n.draw));let w=f?`${n.draw+
-1} of ${f}`:"none kept";dt(o,"aria-valuetext",w),o.style.setProperty("--fill",`${f>1?100*n.draw/(f-1):0}%`),A(r,"textContent",w),i.length!==Math.max(1,d)&&i.replaceChildren(
-...Array.from({length:Math.max(1,d)},(k,M)=>v("option",{value:String(M),textContent:`chain ${M+1}`}))),A(i,"value",String(n.view.chain)),A(i,"disabled",d<2),f<2&&
+Number(i.value))),t.each(()=>{let{chains:d,count:f}=n.draws;L(o,"max",String(Math.max(0,f-1))),L(o,"disabled",f===0),L(o,"value",String(n.draw));let w=f?`${n.draw+
+1} of ${f}`:"none kept";dt(o,"aria-valuetext",w),o.style.setProperty("--fill",`${f>1?100*n.draw/(f-1):0}%`),L(r,"textContent",w),i.length!==Math.max(1,d)&&i.replaceChildren(
+...Array.from({length:Math.max(1,d)},(k,M)=>v("option",{value:String(M),textContent:`chain ${M+1}`}))),L(i,"value",String(n.view.chain)),L(i,"disabled",d<2),f<2&&
 e.playing&&e.play(!1);let y=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==y&&(s.setAttribute("aria-lab\
 el",y),s.replaceChildren(tn(e.playing?"pause":"play")))});let a=v("select",{"aria-label":"Speed"});for(let[d,f]of Object.entries(Zp))a.append(v("option",{value:d,
 textContent:f}));a.value=String(e.drawsPerSecond),a.addEventListener("change",()=>e.drawsPerSecond=Number(a.value));let l=t.button(null,"From the first sweep",()=>e.
-playFromStart(),{text:"From the first",when:()=>n.draws.count>1});t.each(()=>A(a,"disabled",n.draws.count<2||n.flicker.still));let u=t.checkbox("Draws over the \
+playFromStart(),{text:"From the first",when:()=>n.draws.count>1});t.each(()=>L(a,"disabled",n.draws.count<2||n.flicker.still));let u=t.checkbox("Draws over the \
 mean",()=>n.flicker.on,d=>e.over(d),"Each draw in its own colour over the mean, as one of the maps that the scans leave possible");t.visible(u,()=>n.draws.count>
 1);let p=v("div",{className:"wide"},u);return v("div",{className:"player"},s,o,r,v("div",{className:"buttons wide"},i,a,l),p)}function bc(t){let{session:e}=t,n=v(
 "input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=v("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.
-section("Scan",v("div",{className:"player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;A(s,"hidden",
-r<2),A(n,"max",String(Math.max(0,r-1))),mn(n)||A(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),A(o,
+section("Scan",v("div",{className:"player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;L(s,"hidden",
+r<2),L(n,"max",String(Math.max(0,r-1))),mn(n)||L(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),L(o,
 "textContent",`${Number(n.value)+1} / ${r}`)}),s}var xc=2,wc=6,Xp=.5,ef=.005;function vc(t){let{session:e,hand:n}=t,o=v("p",{className:"whereabouts",role:"status"}),s=v("p",{className:"caption"}),r=t.section("\
-Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),A(o,"textContent",tf(t)),A(s,"textCon\
+Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),L(o,"textContent",tf(t)),L(s,"textCon\
 tent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.":"Choose a scan below: it is located\
  in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function tf({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
 charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>Xp?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
@@ -825,8 +825,8 @@ map(([e,n])=>[e,Array.from(n)]));function af({ghost:t}){let{held:e,pose:n,fan:o,
 near&&{...o.near}}}}var Sc="bayesmap-token",Qr="bayesmap-kept";function lf(t){try{return localStorage.getItem(t)}catch{return null}}function Xr(t,e){try{e===null?localStorage.removeItem(
 t):localStorage.setItem(t,e)}catch{}}function ei(t){t?.source.kind==="simulation"&&location.protocol.startsWith("http")&&Xr(Qr,JSON.stringify(t))}function Mc(){
 Xr(Qr,null)}function Tc(){let t=lf(Qr);try{return t&&JSON.parse(t)}catch{return null}}function Pc(t){t&&Xr(Sc,t)}function Ec(t){let e=n=>{n.key===Sc&&n.newValue&&
-t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",e)}var ti=new Set(["walls","sensor","set","view","live"]),_c=({type:t,op:e})=>t==="sensor"?e!=="move":!ti.has(t),Cc="Not while the connection is lost: this needs t\
-he server";function Ac(t,e){let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{
+t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",e)}var ti=new Set(["walls","sensor","set","view","live"]),_c=({type:t,op:e})=>t==="sensor"?e!=="move":!ti.has(t),Ac="Not while the connection is lost: this needs t\
+he server";function Cc(t,e){let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{
 resolution:r,...i}=e.patch;Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type==="view")t.view={layer:e.layer,chain:e.chain??
 t.view.chain,draw:e.draw??null};else if(e.type==="sensor"&&e.op==="move"){let r=n.sensors.find(i=>i.id===e.id);r&&Object.assign(r,{x:e.x,y:e.y,yaw:e.yaw})}}var cf=t=>kn(`${t.replace(/^(plan|path|explore): /,"")}.`),Es=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;looking=!1;askedPath="";askedViews="";point(e){
 this.start&&!this.goal?this.goal=e:[this.start,this.goal]=[e,null],this.path=null,this.trouble="",this.version++,this.ask(),this.session.changed()}set(e){Object.
@@ -842,9 +842,9 @@ null}hold(e){this.held!==e&&(this.held=e,this.version++,this.ask())}pin(e){this.
 this.version++,this.ask(),this.session.changed()}forget(){this.cell=this.together=this.each=this.facts=null,this.version++}ask(){let{session:e,cell:n}=this,{shown:o}=e;
 if(!this.held||!n||!o||o.generation!==e.generation||e.recorded)return;let s=`${o.generation} ${e.sampling} ${o.approximate} ${n.x} ${n.y}`;s!==this.asked&&(this.
 asked=s,e.act({type:"inspect",x:n.x,y:n.y,each:!0}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.
-each=n.nats?n:null,this.version++)}};var uf="(prefers-reduced-motion: reduce)",Cs=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(uf).matches}get under(){let{mean:e,
+each=n.nats?n:null,this.version++)}};var uf="(prefers-reduced-motion: reduce)",As=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(uf).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
-mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var df=2e3,hf=3e3,pf=2,As=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
+mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var df=2e3,hf=3e3,pf=2,Cs=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
 version++,this.ask(),this.session.changed()}rest(){this.moving&&(this.moving=!1,this.ask())}refit(){let{pose:e,session:n}=this,o=e&&n.document&&pn(e,n.document.
 grid);(!o||!Ot(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.trouble="",this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!this.held||
@@ -874,7 +874,7 @@ asked||this.waitingSince&&i-this.waitingSince<5e3||([this.asked,this.waitingSinc
 {type:"where"}))}};var Lc=new Set(["inspect","path","views","where","ghost","beam"]),$s=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
 s;e.onmessage=(r,i)=>this.receive(r,i),e.onstatus=r=>this.onstatus(r)}connection={connected:!1};everConnected=!1;document=null;walls=new Uint8Array(0);wallsVersion=0;view={
 layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new Es(
-this);evidence=new _s(this);where=new Rs(this);ghost=new As(this);reading=new Ns(this);flicker=new Cs(this);status=new ws;progress=new Ds;latency=new Ls;counts={
+this);evidence=new _s(this);where=new Rs(this);ghost=new Cs(this);reading=new Ns(this);flicker=new As(this);status=new ws;progress=new Ds;latency=new Ls;counts={
 paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];reported=-1;confirmedWalls={text:"",walls:this.walls};wallsAhead=!1;broughtAt=null;packed={version:-1,
 text:""};get shape(){return this.document?this.document.grid.shape:[1,1]}get editable(){return!this.recorded&&this.document?.source.kind==="simulation"}get running(){
 return this.connection.connected&&!!this.state?.running}get working(){return this.connection.connected&&!!this.state?.working}get layer(){let e=this.shown?.layer;
@@ -883,7 +883,7 @@ return this.lastStage?.generation===this.shown?.generation}get draws(){return th
 !e.approximate&&e.sweeps<e.total&&this.working)}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.
 shown.draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="info"){this.status.say(e,
 n,this.acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!Lc.has(e.type)&&_c(e))return this.
-say(Cc,"warning");let o={...e,seq:++this.seq};Lc.has(e.type)||(this.acted=this.seq),ti.has(e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(
+say(Ac,"warning");let o={...e,seq:++this.seq};Lc.has(e.type)||(this.acted=this.seq),ti.has(e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(
 o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&ei(this.portableDocument()),this.changed()}bring(e){this.act(e?{type:"hello",document:e}:
 {type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.wallsVersion&&(this.packed={version:this.wallsVersion,text:Oo(
 $i(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.effectiveDocument();return e&&(e.source.kind==="simulat\
@@ -910,7 +910,7 @@ observed,bits:l.bits}:{observed:yo(a,o.length),bits:a};this.next={...e,p:o,trace
 return;let{document:e}=this.state,[n,o]=e.grid.shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:yo(
 Vt(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==s||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),
 this.wallsVersion++,this.wallsAhead=!1),this.state.view&&!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r??
-"mean",chain:i??0,draw:a??null}}for(let r of this.pending)this.foresee(r)}foresee(e){!this.document||!this.state||(Ac(this,e),e.type==="walls"&&(this.wallsVersion++,
+"mean",chain:i??0,draw:a??null}}for(let r of this.pending)this.foresee(r)}foresee(e){!this.document||!this.state||(Cc(this,e),e.type==="walls"&&(this.wallsVersion++,
 this.wallsAhead=!0))}};var Dc='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
 ca Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji";line-height: 1.5;width: min-content;}.u-t\
 itle {text-align: center;font-size: 18px;font-weight: bold;}.u-wrap {position: relative;user-select: none;}.u-over, .u-under {position: absolute;}.u-under {over\
@@ -1174,43 +1174,44 @@ hatch:a,unobserved:l,draw:u,ghost:p,belief:d}=n;for(let[f,w]of Object.entries({t
 app.style.setProperty(`--${f}`,w);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Rc[this.choice];try{localStorage.setItem($c,this.
 choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function yf(){try{return localStorage.getItem($c)}catch{return null}}function Is(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(Dc+Nc),r.adoptedStyleSheets=
 [i],t.toggleAttribute("data-embedded",n);let a=0,l=()=>{a||=requestAnimationFrame(me)},u=new $s(e,l,o,s);e.open();let p=new Wn,d=new Ho(u),f=new zo(u,d),w=new Ps(
-u),y=new Ts(u,d,f,ot,q=>w.showLayer(q),n),k=[new Vn,new jn,new Yn,new qn,new ts,new Qo,new Kn,new Hn,new Jn,new Bn,new Yo],M=k.map(({name:q})=>v("canvas",{className:q})),
+u),y=new Ts(u,d,f,ot,K=>w.showLayer(K),n),k=[new Vn,new jn,new Yn,new qn,new ts,new Qo,new Kn,new Hn,new Jn,new Bn,new Yo],M=k.map(({name:K})=>v("canvas",{className:K})),
 T=M[M.length-1];Object.assign(T,{tabIndex:0,role:"application"});let S=new Ko(k,M);new qo(T,u,p,d,f,n);let E=new jo(T,u,p,d,f),_={truth:!0,rays:!0,readings:!0,strokes:!0,
-trajectory:!0},K=ql(y),N=ua(y),Y={chip:lc(y),banner:cc(y)},V=v("main",{className:"stage"},...M,Y.chip,Y.banner),R=()=>W.theme,G=()=>p.transform.scale,L=Xl(y,R,G),
-Z=uc(y);T.setAttribute("aria-describedby",Z.readout.id);let O=Vl(y),j={help:zl(y),new:Hl(y),share:O.dialog},[z,Q,H,je]=[pc(y),fc(y),mc(y),gc(y)],be=[Wl(y),vc(y),
-Kl(y),Bl(y),nc(y),oc(y,Ul(y,R),Gl(y,R)),bc(y),hc(y),yc(y,w,_,G),z,Q,dc(y),H,je],re=v("aside",{"aria-label":"Controls"},...be),le=()=>u.recorded||u.document?.source.
-kind==="run";y.visible(z,()=>u.editable),y.visible(Q,()=>!le()),y.visible(H,()=>!le()),y.visible(je,()=>!le()),y.each(()=>{A(N,"inert",!u.document),A(re,"inert",
-!u.document)});let ee=v("div",{className:"app"},K.element,N,V,L,re,Z.element,...Object.values(j));r.replaceChildren(ee);let W=new Fs(ee,q=>{K.nameTheme(q),l()}),
-Ce=()=>{let q=u.editable&&d.tool==="sensor"?d.sensor?.id??null:null;return{session:u,view:p,look:{theme:W.theme,..._,hover:d.hover,cursor:d.cursor,selected:q}}},
-Ue="";function me(){a=0;let q=u.take();u.document&&String(u.shape)!==Ue&&(Ue=String(u.shape),p.fit(u.shape),d.cursor=d.hover=null,u.decisions.forget(),u.evidence.
-forget(),u.ghost.refit(),T.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.shape[1]} cells`)),S.paint(Ce()),q&&(u.painted(),w.step());let{x:ie,y:Ke}=p.transform;
-Y.chip.style.transform=`translate(${Math.max(ie,Je.left)}px, ${Math.max(Ke-28,6)}px)`,dt(T,"data-tool",u.editable||_t.has(d.tool)?d.tool:"pan"),y.refresh()}let ae=new ResizeObserver(
-()=>{let{width:q,height:ie}=V.getBoundingClientRect();!q||!ie||(p.resize(q,ie,devicePixelRatio||1),p.fitted&&p.fit(u.shape),cancelAnimationFrame(a),me())});ae.observe(
-V);async function ot(q){if(q==="in"||q==="out")p.zoom(q==="in"?1.4:1/1.4,p.middle,u.shape);else if(q==="fit")p.fit(u.shape);else if(q==="help")j.help.showModal();else if(q===
-"new")j.new.showModal();else if(q==="theme")W.next();else if(q==="add")E.addSensor();else if(q==="share"){let ie=u.portableDocument();ie&&O.show(location.origin+
-location.pathname+await Oi(ie))}else if(q==="export png"){let ie=await la(Ce());ie&&yr("bayesmap.png",ie),u.say("Saved bayesmap.png")}else q.startsWith("export ")&&
-u.act({type:"export",what:q.slice(7)});l()}u.ondownload=(q,ie,Ke)=>yr(q,new Blob([Ke],{type:ie}));let mt=[[n?t:window,"keydown",q=>{q.defaultPrevented||!u.document||
-Object.values(j).some(ie=>ie.open)||Yi(q,u,{tool:ie=>{d.choose(ie),E.focus()},layer:ie=>w.showLayer(ie),command:ot})}],[window,"online",()=>e.retry?.()],[window,
-"hashchange",async()=>{if(n)return;let{document:q,damaged:ie}=await Wo();q?u.bring(q):ie&&u.say(Go,"error")}]];for(let[q,ie,Ke]of mt)q.addEventListener(ie,Ke);return W.
-dress(),{destroy(){ae.disconnect(),cancelAnimationFrame(a),W.destroy();for(let[q,ie,Ke]of mt)q.removeEventListener(ie,Ke);e.close(),r.replaceChildren()},snapshot:()=>kc(
-u,p,S),cellToClient(q,ie){let Ke=T.getBoundingClientRect(),Wt=p.fromGrid({x:q+.5,y:ie+.5},u.shape[1]);return{x:Ke.left+Wt.x,y:Ke.top+Wt.y}}}}var ni={uint8:Uint8Array,float32:Float32Array,float64:Float64Array},Fc=8,ao=()=>({onmessage:()=>{},onstatus:()=>{}});function Ic(t){let e=new DataView(t).getUint32(
+trajectory:!0},J=ql(y),N=ua(y),Z={chip:lc(y),banner:cc(y)},B=v("main",{className:"stage"},...M,Z.chip,Z.banner),q=()=>G.theme,R=()=>p.transform.scale,A=Xl(y,q,R),
+j=uc(y);T.setAttribute("aria-describedby",j.readout.id);let I=Vl(y),V={help:zl(y),new:Hl(y),share:I.dialog},[W,Y,z,je]=[pc(y),fc(y),mc(y),gc(y)],be=[Wl(y),vc(y),
+Kl(y),Bl(y),nc(y),oc(y,Ul(y,q),Gl(y,q)),bc(y),hc(y),yc(y,w,_,R),W,Y,dc(y),z,je],re=v("aside",{"aria-label":"Controls"},...be),le=()=>u.recorded||u.document?.source.
+kind==="run";y.visible(W,()=>u.editable),y.visible(Y,()=>!le()),y.visible(z,()=>!le()),y.visible(je,()=>!le()),y.each(()=>{L(N,"inert",!u.document),L(re,"inert",
+!u.document)});let ee=v("div",{className:"app"},J.element,N,B,A,re,j.element,...Object.values(V));r.replaceChildren(ee);let G=new Fs(ee,K=>{J.nameTheme(K),l()}),
+Ae=()=>{let K=u.editable&&d.tool==="sensor"?d.sensor?.id??null:null;return{session:u,view:p,look:{theme:G.theme,..._,hover:d.hover,cursor:d.cursor,selected:K}}},
+Ue="";function me(){a=0;let K=u.take();u.document&&String(u.shape)!==Ue&&(Ue=String(u.shape),p.fit(u.shape),d.cursor=d.hover=null,u.decisions.forget(),u.evidence.
+forget(),u.ghost.refit(),T.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.shape[1]} cells`)),S.paint(Ae()),K&&(u.painted(),w.step());let{x:ie,y:Ke}=p.transform;
+Z.chip.style.transform=`translate(${Math.max(ie,Je.left)}px, ${Math.max(Ke-28,6)}px)`,dt(T,"data-tool",u.editable||_t.has(d.tool)?d.tool:"pan"),y.refresh()}let ae=new ResizeObserver(
+()=>{let{width:K,height:ie}=B.getBoundingClientRect();!K||!ie||(p.resize(K,ie,devicePixelRatio||1),p.fitted&&p.fit(u.shape),cancelAnimationFrame(a),me())});ae.observe(
+B);async function ot(K){if(K==="in"||K==="out")p.zoom(K==="in"?1.4:1/1.4,p.middle,u.shape);else if(K==="fit")p.fit(u.shape);else if(K==="help")V.help.showModal();else if(K===
+"new")V.new.showModal();else if(K==="theme")G.next();else if(K==="add")E.addSensor();else if(K==="share"){let ie=u.portableDocument();ie&&I.show(location.origin+
+location.pathname+await Oi(ie))}else if(K==="export png"){let ie=await la(Ae());ie&&yr("bayesmap.png",ie),u.say("Saved bayesmap.png")}else K.startsWith("export ")&&
+u.act({type:"export",what:K.slice(7)});l()}u.ondownload=(K,ie,Ke)=>yr(K,new Blob([Ke],{type:ie}));let mt=[[n?t:window,"keydown",K=>{K.defaultPrevented||!u.document||
+Object.values(V).some(ie=>ie.open)||Yi(K,u,{tool:ie=>{d.choose(ie),E.focus()},layer:ie=>w.showLayer(ie),command:ot})}],[window,"online",()=>e.retry?.()],[window,
+"hashchange",async()=>{if(n)return;let{document:K,damaged:ie}=await Wo();K?u.bring(K):ie&&u.say(Go,"error")}]];for(let[K,ie,Ke]of mt)K.addEventListener(ie,Ke);return G.
+dress(),{destroy(){ae.disconnect(),cancelAnimationFrame(a),G.destroy();for(let[K,ie,Ke]of mt)K.removeEventListener(ie,Ke);e.close(),r.replaceChildren()},snapshot:()=>kc(
+u,p,S),cellToClient(K,ie){let Ke=T.getBoundingClientRect(),Wt=p.fromGrid({x:K+.5,y:ie+.5},u.shape[1]);return{x:Ke.left+Wt.x,y:Ke.top+Wt.y}}}}var ni={uint8:Uint8Array,float32:Float32Array,float64:Float64Array},Fc=8,ao=()=>({onmessage:()=>{},onstatus:()=>{}});function Ic(t){let e=new DataView(t).getUint32(
 0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},s=4+e;for(let{name:r,dtype:i,shape:a}of n.buffers){let l=a.reduce((u,p)=>u*p,1)*ni[i].BYTES_PER_ELEMENT;
 o[r]=new ni[i](t.slice(s,s+l)),s+=Math.ceil(l/Fc)*Fc}return[n,o]}function Oc(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{let{buffer:i,byteOffset:a,
 byteLength:l}=e[r];n[o]=new ni[s](i.slice(a,a+l))}),n}function Uc(t){let{document:e,scans:n,settings:o={},log_joint:s=[]}=t,r=e.grid.shape[0]*e.grid.shape[1],i=t.draws?.count??0,a=e.source.kind!=="simulation",l=Vt(
-t.mean),u=Vt(t.observed),p=null,d=0,f={layer:"mean",chain:0,draw:null},w=R=>a?[R[d]]:R,y=R=>Float32Array.from(w(R).flat(),G=>G??1/0),k=n.angles.length,M=yo(Vt(n.
-hit),n.pose.length*k),T=()=>a?M.subarray(d*k,(d+1)*k):M,S=Float32Array.from(s.flat()),E=(o.sweeps??i)/Math.max(1,i),_=Float32Array.from(s[0]??[],(R,G)=>(G+1)*E),
-K=R=>{let G={chains:t.draws?.chains??0,count:p?i:0},L={generation:1,can_undo:!1,can_redo:!1,live:!1,running:!1,working:!1};V.onmessage({type:"state",document:e,
-seq:R,...L,draws:G,view:f},{})},N=()=>{let R=Float64Array.from(w(n.pose).flat(),Number),G={type:"scan",generation:1,ids:a?[d]:n.ids,index:a?d:null},L=n.exact?.length?
-y(n.exact):new Float32Array(0);V.onmessage(G,{pose:R,angles:Float32Array.from(n.angles),ranges:y(n.ranges),exact:L,hit:T()})},Y=()=>{let R=f.layer==="draw"&&p?bf(
-p,f.chain*i+(f.draw??i-1),r):null,G=s[f.chain]?.[(f.layer==="draw"?f.draw:null)??i-1]??null,L=R?{...f,draw:f.draw??i-1}:{layer:f.layer==="draw"?"mean":f.layer},
-Z=o.sweeps??i,O={quantity:o.quantity,sweeps:Z,total:Z,ess:o.ess,rhat:o.rhat,verdict:o.verdict,log_joint:G},j=o.method??e.method,z={p:R??l,observed:u,trace:S,traced:_};
-V.onmessage({type:"field",generation:1,...L,method:j,approximate:!1,...O},z)},V={...ao(),open:()=>V.onstatus({connected:!0}),send:R=>{if(R.type==="hello"){if(V.
-onmessage({type:"welcome",version:1,recorded:!0},{}),K(R.seq),N(),Y(),!i||!t.draws)return;Uo(Vt(t.draws.data)).then(G=>{p=G,K(R.seq)})}else if(R.type==="view")f=
-{layer:R.layer,chain:R.chain??f.chain,draw:R.draw??null},K(R.seq),Y();else if(R.type==="scan")d=R.index,K(R.seq),N();else if(R.type==="inspect"){let G=wf(e,n.angles,
-w(n.pose),w(n.ranges),R.x,R.y);V.onmessage({type:"cell",x:R.x,y:R.y,beams:G},{})}},close:()=>{}};return V}function bf(t,e,n){let o=e*n;return Uint8Array.from({length:n},
-(s,r)=>t[o+r>>3]>>7-(o+r&7)&1?255:0)}function wf({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,l=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((p,d)=>{let[f,w,y]=p.
-map(Number);e.forEach((k,M)=>{let[T,S]=[Math.cos(k+y),Math.sin(k+y)],E=[(l[0]-f)/T,(l[0]+a-f)/T,(l[1]-w)/S,(l[1]+a-w)/S],_=Math.max(0,Math.min(E[0],E[1]),Math.min(
-E[2],E[3])),K=Math.min(o[d][M]??1/0,Math.max(E[0],E[1]),Math.max(E[2],E[3]));_<K&&u++})}),u}var oi=250,xf=8e3;function Gc(t){let e=null,n=oi,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+t.mean),u=Vt(t.observed),p=null,d=0,f={layer:"mean",chain:0,draw:null},w=R=>a?[R[d]]:R,y=R=>Float32Array.from(w(R).flat(),A=>A??1/0),k=R=>Array.isArray(n.angles[R])?
+n.angles[R]:n.angles,M=[0];n.pose.forEach((R,A)=>M.push(M[A]+k(A).length));let T=yo(Vt(n.hit),M[n.pose.length]),S=()=>a?T.subarray(M[d],M[d+1]):T,E=Float32Array.
+from(s.flat()),_=(o.sweeps??i)/Math.max(1,i),J=Float32Array.from(s[0]??[],(R,A)=>(A+1)*_),N=R=>{let A={chains:t.draws?.chains??0,count:p?i:0},j={generation:1,can_undo:!1,
+can_redo:!1,live:!1,running:!1,working:!1};q.onmessage({type:"state",document:e,seq:R,...j,draws:A,view:f},{})},Z=()=>{let R=Float64Array.from(w(n.pose).flat(),
+Number),A={type:"scan",generation:1,ids:a?[d]:n.ids,index:a?d:null},j=n.exact?.length?y(n.exact):new Float32Array(0);q.onmessage(A,{pose:R,angles:Float32Array.from(
+k(d)),ranges:y(n.ranges),exact:j,hit:S()})},B=()=>{let R=f.layer==="draw"&&p?bf(p,f.chain*i+(f.draw??i-1),r):null,A=s[f.chain]?.[(f.layer==="draw"?f.draw:null)??
+i-1]??null,j=R?{...f,draw:f.draw??i-1}:{layer:f.layer==="draw"?"mean":f.layer},I=o.sweeps??i,V={quantity:o.quantity,sweeps:I,total:I,ess:o.ess,rhat:o.rhat,verdict:o.
+verdict,log_joint:A},W=o.method??e.method,Y={p:R??l,observed:u,trace:E,traced:J};q.onmessage({type:"field",generation:1,...j,method:W,approximate:!1,...V},Y)},q={
+...ao(),open:()=>q.onstatus({connected:!0}),send:R=>{if(R.type==="hello"){if(q.onmessage({type:"welcome",version:1,recorded:!0},{}),N(R.seq),Z(),B(),!i||!t.draws)
+return;Uo(Vt(t.draws.data)).then(A=>{p=A,N(R.seq)})}else if(R.type==="view")f={layer:R.layer,chain:R.chain??f.chain,draw:R.draw??null},N(R.seq),B();else if(R.type===
+"scan")d=R.index,N(R.seq),Z();else if(R.type==="inspect"){let A=wf(e,w(n.pose).map((j,I)=>k(a?d:I)),w(n.pose),w(n.ranges),R.x,R.y);q.onmessage({type:"cell",x:R.
+x,y:R.y,beams:A},{})}},close:()=>{}};return q}function bf(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>3]>>7-(o+r&7)&1?255:0)}function wf({grid:t},e,n,o,s,r){
+let{origin:i,resolution:a}=t,l=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((p,d)=>{let[f,w,y]=p.map(Number);e[d].forEach((k,M)=>{let[T,S]=[Math.cos(k+y),Math.sin(k+
+y)],E=[(l[0]-f)/T,(l[0]+a-f)/T,(l[1]-w)/S,(l[1]+a-w)/S],_=Math.max(0,Math.min(E[0],E[1]),Math.min(E[2],E[3])),J=Math.min(o[d][M]??1/0,Math.max(E[0],E[1]),Math.max(
+E[2],E[3]));_<J&&u++})}),u}var oi=250,xf=8e3;function Gc(t){let e=null,n=oi,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),u=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{u=!0,n=oi,i.onstatus({connected:!0})},l.onmessage=({data:p})=>{typeof p==
 "string"?i.onmessage(JSON.parse(p),{}):i.onmessage(...Ic(p))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let p={connected:!1,retryIn_ms:n};i.onstatus(
 p),u||vf(t()).then(d=>d&&e===l&&i.onstatus({...p,refused:d})),n=Math.min(xf,2*n)}}let i={...ao(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
