@@ -95,12 +95,16 @@ class PoseBelief:
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The components where the robot may be, the likeliest first."""
+        return self.places(LEAST_MODE)
+
+    def places(self, least: float) -> tuple[Mode, ...]:
+        """The components at least so likely, the likeliest first."""
         label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         found = []
         for one in np.unique(label):
             own = label == one
             share = float(self.weights[own].sum())
-            if share >= LEAST_MODE:
+            if share >= least:
                 mean, covariance = _moments(self.poses[own], self.weights[own] / share)
                 found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
         return tuple(sorted(found, key=lambda mode: -mode.probability))

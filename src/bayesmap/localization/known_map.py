@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,33 @@ something or the search missed a place. Set on four buildings, so that places ar
 BINS = 60
 
 
+@dataclass(frozen=True)
+class Trust:
+    """How far a map is trusted: what a scan's evidence in it is worth, and how long other places are kept in mind.
+
+    Attributes:
+        pose_readings: a scan is worth so many independent readings for the question where in a place it was taken.
+        place_readings: and so many for the question which place it was.
+        fit_readings: and so many for the question whether it was taken on the map at all.
+        shared_way_m: scans closer along the way share their errors: one counts by the share of this way that is new.
+        carried: chance, a scan that counts in full, that the robot was carried to anywhere on the map.
+        search_way_m: the whole map is searched again after so much way, also while one place is all but sure.
+        kept: places that are weighed with all beams, at most.
+        least_draws: of the likeliest place's draws, the share that every other gets at least.
+        forgotten_nats: places less likely than the likeliest by so much are forgotten.
+    """
+
+    pose_readings: float = INDEPENDENT_BEAMS
+    place_readings: float = BEAMS_BETWEEN_PLACES
+    fit_readings: float = 5.0 * INDEPENDENT_BEAMS
+    shared_way_m: float = 0.0
+    carried: float = 1e-3
+    search_way_m: float = math.inf
+    kept: int = 5
+    least_draws: float = 1 / 3
+    forgotten_nats: float = math.log(1e4)
+
+
 @dataclass(frozen=True, eq=False)
 class KnownMap:
     """A map posterior, ready to locate scans in. Made by `KnownMap.of_run`, once for any number of scans.
@@ -60,7 +88,8 @@ class KnownMap:
             probability of no return: of scans taken anywhere, for the chance of being lost.
         max_range_m: of those scans.
         typical_m: the median of their readings.
-        beam_weight: how much of an independent reading a beam is; None: as `INDEPENDENT_BEAMS` says.
+        beam_weight: how much of an independent reading a beam is; None: as ``trust`` says.
+        trust: how far the map is trusted.
     """
 
     grid: Grid
@@ -74,6 +103,7 @@ class KnownMap:
     max_range_m: float
     typical_m: float
     beam_weight: float | None = None
+    trust: Trust = field(default_factory=Trust)
 
     @classmethod
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
@@ -167,6 +197,11 @@ class KnownMap:
         scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_m)))
         return endpoint_field(unpacked(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
 
+    def _readings(self, ranges_m: Floats, worth: float) -> float:
+        """How much each beam of a scan counts that is worth so many readings."""
+        valid = max(1, int((~np.isnan(ranges_m)).sum()))
+        return min(1.0, worth / valid) if self.beam_weight is None else self.beam_weight
+
     @cached_property
     def free_area_m2(self) -> float:
         """Where a robot may be."""
@@ -174,13 +209,17 @@ class KnownMap:
 
     def weight_of(self, ranges_m: Floats) -> float:
         """How much each beam of a scan counts."""
-        valid = max(1, int((~np.isnan(ranges_m)).sum()))
-        return min(1.0, INDEPENDENT_BEAMS / valid) if self.beam_weight is None else self.beam_weight
+        return self._readings(ranges_m, self.trust.pose_readings)
 
     def weight_between_places(self, ranges_m: Floats) -> float:
         """How much each beam of a scan counts for the question which of several places it was."""
-        valid = max(1, int((~np.isnan(ranges_m)).sum()))
-        return min(1.0, BEAMS_BETWEEN_PLACES / valid) if self.beam_weight is None else self.beam_weight
+        return self._readings(ranges_m, self.trust.place_readings)
+
+    def weight_of_fit(self, ranges_m: Floats) -> float:
+        """How much each beam of a scan counts for the question whether the scan was taken on the map at all."""
+        if self.beam_weight is not None:
+            return min(1.0, self.beam_weight * self.trust.fit_readings / self.trust.pose_readings)
+        return self._readings(ranges_m, self.trust.fit_readings)
 
     def is_free(self, poses: Floats) -> NDArray[np.bool_]:
         """Which poses lie in free cells, (P,)."""
