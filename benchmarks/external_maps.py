@@ -8,12 +8,14 @@ Each is asked for along its log, from anywhere; from ten scans with odometry; an
 
 from __future__ import annotations
 
+import argparse
 import json
-import sys
 import tempfile
 import time
-from dataclasses import asdict, dataclass
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +26,9 @@ from scipy import ndimage
 import bayesmap as bm
 from bayesmap.io.map_server import read_map, write_map
 from bayesmap.localization.belief import PoseBelief
+from bayesmap.localization.external_map import ASSUMED, MapLaw, external_map, fit_law
+from bayesmap.localization.known_map import KnownMap, Trust
+from bayesmap.localization.localize import follow, localize
 from bayesmap.space.planar import wrapped
 from benchmarks.located import is_right
 
@@ -177,3 +182,84 @@ def kept(belief: PoseBelief, truth: Floats) -> dict[str, Any]:
         "lost": belief.p_lost,
         "modes": [((1.0 - belief.p_lost) * mode.probability, is_right(mode.mean, truth)) for mode in belief.modes[:12]],
     }
+
+
+def answers(known: KnownMap, moved: bm.Scans, route: Floats, seed: int) -> dict[str, list[dict[str, Any]]]:
+    """Along the log from anywhere, after ten scans from anywhere, and of single scans."""
+    along = [kept(b, pose) for b, pose in zip(follow(known, moved, seed=seed), route, strict=True)]
+    ten = []
+    for begin in range(0, len(route) - ENDS + 1, 2 * ENDS):
+        last = localize(known, moved.select(slice(begin, begin + ENDS)), seed=seed).last
+        ten.append(kept(last, route[begin + ENDS - 1]))
+    single = localize(known, moved.select(slice(None, None, 5)), independent=True, seed=seed).beliefs
+    return {"along": along, "ten": ten, "one": [kept(b, pose) for b, pose in zip(single, route[::5], strict=True)]}
+
+
+def asked(seed: int, laws: tuple[str, ...], scans: int) -> dict[str, Any]:
+    """All answers in one building, under the fitted law and perhaps others."""
+    case = case_of(seed)
+    occupancy, grid, moved, route = simulated(case, scans)
+    found: dict[str, Any] = {"case": asdict(case), "scans": len(route)}
+    for name in laws:
+        begin = time.process_time()
+        law = fit_law(occupancy, grid, moved, seed) if name == "fitted" else MapLaw(ASSUMED)
+        law = replace(law, trust=Trust()) if name == "own" else law
+        fitting_s = time.process_time() - begin
+        known = external_map(occupancy, grid, moved, law)
+        found[name] = answers(known, moved, route, seed) | {"words": law.words(), "fitting_s": fitting_s}
+        found[name]["law"] = {k: float(v) for k, v in law.values.items()} | asdict(law.trust)
+        found[name]["fit"] = None if law.usual_fit is None else asdict(law.usual_fit)
+        found[name]["seconds"] = time.process_time() - begin
+    return found
+
+
+def summary(found: list[dict[str, Any]], law: str) -> str:
+    """The tables of docs/localization.md."""
+    lines = [f"{len(found)} buildings, {law} law"]
+    for name in ("one", "ten", "along"):
+        one = [answer for f in found for answer in f[law][name]]
+        right = np.array([a["right"] for a in one])
+        says = np.array([a["modes"][0][0] if a["modes"] else 0.0 for a in one])
+        lost = np.array([a["lost"] for a in one])
+        off = np.array([a["off_m"] for a in one])[right]
+        squares = np.array([a["square"] for a in one])[right]
+        wrong = ~right & (says > SURE) & (lost < NOT_LOST)
+        lines.append(
+            f"{name}: {len(one)} asked, right {100 * right.mean():.1f} %, says {100 * says.mean():.1f} %, sure {100 * (says > SURE).mean():.1f} %, sure and wrong "
+            f"{100 * wrong.mean():.2f} %, lost {100 * (lost > 0.5).mean():.1f} % (of right ones {100 * (lost[right] > 0.5).mean():.1f} %), off {np.median(off):.3f} m, squared "
+            f"error median {np.median(squares):.1f}"
+        )
+        modes = np.array([mode for a in one for mode in a["modes"]], dtype=np.float64)
+        for least, most in pairwise(LEVELS):
+            own = modes[(modes[:, 0] >= least) & (modes[:, 0] < most)]
+            if len(own):
+                told, is_so = 100 * own.mean(axis=0)
+                lines.append(f"  {least} to {min(1.0, most)} | {len(own)} | {told:.0f} % | {is_so:.0f} %")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Ask in the buildings that the folder lacks, and print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("buildings", nargs="?", default="0:30", help="FIRST:LAST")
+    parser.add_argument("--laws", default="fitted", help="of fitted, assumed, own (as maps of our own are trusted)")
+    parser.add_argument("--scans", type=int, default=100, help="of each building, at most")
+    parser.add_argument("--workers", type=int, default=1)
+    options = parser.parse_args()
+    first, last = map(int, options.buildings.split(":"))
+    laws = tuple(options.laws.split(","))
+    options.folder.mkdir(parents=True, exist_ok=True)
+    left = [k for k in range(first, last) if not (options.folder / f"{k}.json").exists()]
+    with ProcessPoolExecutor(options.workers, mp_context=get_context("spawn")) as pool:
+        tasks = {pool.submit(asked, k, laws, options.scans): k for k in left}
+        for done in as_completed(tasks):
+            (options.folder / f"{tasks[done]}.json").write_text(json.dumps(done.result()))
+            print("building", tasks[done], flush=True)
+    found = [json.loads((options.folder / f"{k}.json").read_text()) for k in range(first, last)]
+    for law in laws:
+        print(summary(found, law), flush=True)
+
+
+if __name__ == "__main__":
+    main()

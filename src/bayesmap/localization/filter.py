@@ -229,7 +229,7 @@ def belief_of(
         weights = shared_by_places(weights, group, _at_power(population, likelihood, power))
     else:
         weights = shared_by_evidence(weights, group, mass_before, power * scan.new)
-    unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group)
+    unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group, known.shared_error)
     if not np.isfinite(scan.ranges_m).any():
         return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
     evidence, fit = _fit(known, scan, population, likelihood, unsure)

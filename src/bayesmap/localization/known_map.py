@@ -43,6 +43,9 @@ something or the search missed a place. Set on four buildings, so that places ar
 
 BINS = 60
 
+MOST_ODDS = 4.0
+"""No fit of a scan says more than this of its place, in nats."""
+
 
 @dataclass(frozen=True)
 class Trust:
@@ -54,6 +57,7 @@ class Trust:
         fit_readings: and so many for the question whether it was taken on the map at all.
         shared_way_m: scans closer along the way share their errors: one counts by the share of this way that is new.
         carried: chance, a scan that counts in full, that the robot was carried to anywhere on the map.
+        shared_error_m: standard deviation of an error of the map that all beams of a scan share: it moves the pose.
         search_way_m: the whole map is searched again after so much way, also while one place is all but sure.
         kept: places that are weighed with all beams, at most.
         least_draws: of the likeliest place's draws, the share that every other gets at least.
@@ -65,10 +69,33 @@ class Trust:
     fit_readings: float = 5.0 * INDEPENDENT_BEAMS
     shared_way_m: float = 0.0
     carried: float = 1e-3
+    shared_error_m: float = 0.0
     search_way_m: float = math.inf
     kept: int = 5
     least_draws: float = 1 / 3
     forgotten_nats: float = math.log(1e4)
+
+
+@dataclass(frozen=True)
+class UsualFit:
+    """How well scans fit a map where they were taken, and where they were not: mean log density of their readings, nats a beam.
+
+    Attributes:
+        right: its mean over scans, at the right place.
+        wrong: at the best of the wrong places.
+        sd: its standard deviation over scans, of either.
+        missed: share of scans whose right place a search does not find.
+    """
+
+    right: float
+    wrong: float
+    sd: float
+    missed: float
+
+    def log_odds_wrong(self, nats_per_beam: float) -> float:
+        """Log of how much likelier a fit is at a wrong place than at the right one: normal laws of one width."""
+        middle, apart = 0.5 * (self.right + self.wrong), max(self.right - self.wrong, 0.0)
+        return float(np.clip(apart * (middle - nats_per_beam) / self.sd**2, -MOST_ODDS, MOST_ODDS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +117,7 @@ class KnownMap:
         typical_m: the median of their readings.
         beam_weight: how much of an independent reading a beam is; None: as ``trust`` says.
         trust: how far the map is trusted.
+        usual_fit: of scans at right and wrong places; None: nobody knows.
     """
 
     grid: Grid
@@ -104,6 +132,7 @@ class KnownMap:
     typical_m: float
     beam_weight: float | None = None
     trust: Trust = field(default_factory=Trust)
+    usual_fit: UsualFit | None = None
 
     @classmethod
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
@@ -196,6 +225,15 @@ class KnownMap:
         assert isinstance(self.sensor, BeamMixture)
         scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_m)))
         return endpoint_field(unpacked(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
+
+    @cached_property
+    def shared_error(self) -> Floats | None:
+        """Standard deviations of the error of a pose that comes of the map's shared error, (3,); None: it has none.
+
+        A wall that is off to one side and not to the other turns the pose, by half as much over a typical reading.
+        """
+        off = self.trust.shared_error_m
+        return None if off == 0.0 else np.array([off, off, 0.5 * off / self.typical_m])
 
     def _readings(self, ranges_m: Floats, worth: float) -> float:
         """How much each beam of a scan counts that is worth so many readings."""

@@ -197,7 +197,8 @@ def follow_live(
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
-    first = Prior() if prior is None else Prior(prior.components(), known.trust.carried, LOST_AT_FIRST)
+    anywhere = Prior() if known.usual_fit is None else Prior(lost=max(LOST_AT_FIRST, known.usual_fit.missed))
+    first = anywhere if prior is None else Prior(prior.components(), known.trust.carried, LOST_AT_FIRST)
     believed, belief = first, None
     pose, since_search_m = np.zeros(3), 0.0
     trust = known.trust
@@ -217,7 +218,7 @@ def follow_live(
         if everywhere:
             since_search_m = 0.0
         if independent:
-            believed = Prior()
+            believed = anywhere
         scan = Scan(one.angles_rad, one.ranges_m[0], limits, stamp, new)
         belief = update(known, believed, scan, rng, look_everywhere=everywhere)
         yield belief
