@@ -1,9 +1,9 @@
-"""Localization in maps of other programs: simulated buildings whose maps are wrong, and how often answers are right.
+"""Localization in maps of other programs: simulated buildings with wrong maps, and how often answers are right.
 
-`python -m benchmarks.external_maps FOLDER [FIRST:LAST]` simulates buildings of these numbers, writes what was found of each into the
-folder, and prints tables of all that lie there. A building's map lacks its furniture, and is shifted in parts by 5 to
-20 cm, inflated, blurred, partly unknown, and written in one of nav2's modes; people stand and walk about the robot.
-Each is asked for along its log, from anywhere; from ten scans with odometry; and from single scans.
+`python -m benchmarks.external_maps FOLDER FIRST:LAST` simulates buildings of these numbers, writes what was found of
+each into the folder, and prints tables. A building's map lacks its furniture, and is shifted in parts by 5 to 20 cm,
+inflated, blurred, partly unknown, and written in one of nav2's modes; people stand and walk about the robot. It is
+located along its log, from anywhere; from ten scans with odometry; and from single scans.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import argparse
 import json
 import tempfile
 import time
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import asdict, dataclass, replace
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
 from itertools import pairwise
 from multiprocessing import get_context
 from pathlib import Path
@@ -116,7 +116,9 @@ def wrong_map(walls: NDArray[np.bool_], case: Case, rng: np.random.Generator) ->
     return np.where(known, occupancy, np.nan)
 
 
-def with_people(scans: bm.Scans, free: NDArray[np.bool_], grid: bm.Grid, case: Case, rng: np.random.Generator) -> bm.Scans:
+def with_people(
+    scans: bm.Scans, free: NDArray[np.bool_], grid: bm.Grid, case: Case, rng: np.random.Generator
+) -> bm.Scans:
     """The scans with people before the walls: legs of 8 cm, who come, stand or walk along, and go."""
     readings = scans.ranges_m.copy()
     people = np.empty((0, 2))
@@ -158,7 +160,9 @@ def simulated(case: Case, most: int) -> tuple[Floats, bm.Grid, bm.Scans, Floats]
     count = min(most, int(way[-1] / case.step_m))
     begin = rng.uniform(0.0, way[-1] - count * case.step_m)
     route = route[np.searchsorted(way, begin + np.arange(count) * case.step_m)]
-    angles = np.radians(-0.5 * case.field_deg + np.arange(case.beams) * case.field_deg / (case.beams - (case.field_deg < 360)))
+    angles = np.radians(
+        -0.5 * case.field_deg + np.arange(case.beams) * case.field_deg / (case.beams - (case.field_deg < 360))
+    )
     laser = bm.BeamMixture(bm.Gaussian(0.015), p_random=0.005, p_no_return=0.01, p_short=0.001)
     scans = bm.simulate(truth.walls, truth.grid, route, angles, sensor=laser, max_range_m=case.reach_m, typed=True,
                         seed=case.seed, opacity=truth.opacity)  # fmt: skip
@@ -172,7 +176,7 @@ def simulated(case: Case, most: int) -> tuple[Floats, bm.Grid, bm.Scans, Floats]
 
 
 def kept(belief: PoseBelief, truth: Floats) -> dict[str, Any]:
-    """What is kept of an answer: whether right, off by how much, how sure, and the places with whether they are right."""
+    """What is kept of an answer: whether right, how far off, how sure, and places with whether they are right."""
     error = belief.mean - truth
     error[2] = wrapped(error[2])
     return {
@@ -195,22 +199,24 @@ def answers(known: KnownMap, moved: bm.Scans, route: Floats, seed: int) -> dict[
     return {"along": along, "ten": ten, "one": [kept(b, pose) for b, pose in zip(single, route[::5], strict=True)]}
 
 
-def asked(seed: int, laws: tuple[str, ...], scans: int) -> dict[str, Any]:
-    """All answers in one building, under the fitted law and perhaps others."""
+def asked(seed: int, laws: tuple[str, ...], scans: int, target: Path) -> None:
+    """Write all answers in one building, under the fitted law and perhaps others."""
     case = case_of(seed)
     occupancy, grid, moved, route = simulated(case, scans)
     found: dict[str, Any] = {"case": asdict(case), "scans": len(route)}
     for name in laws:
         begin = time.process_time()
-        law = fit_law(occupancy, grid, moved, seed) if name == "fitted" else MapLaw(ASSUMED)
-        law = replace(law, trust=Trust()) if name == "own" else law
+        if name == "fitted":
+            law = fit_law(occupancy, grid, moved, seed)
+        else:
+            law = MapLaw(ASSUMED) if name == "assumed" else MapLaw(ASSUMED, Trust())
         fitting_s = time.process_time() - begin
         known = external_map(occupancy, grid, moved, law)
         found[name] = answers(known, moved, route, seed) | {"words": law.words(), "fitting_s": fitting_s}
         found[name]["law"] = {k: float(v) for k, v in law.values.items()} | asdict(law.trust)
         found[name]["fit"] = None if law.usual_fit is None else asdict(law.usual_fit)
         found[name]["seconds"] = time.process_time() - begin
-    return found
+    target.write_text(json.dumps(found))
 
 
 def summary(found: list[dict[str, Any]], law: str) -> str:
@@ -225,9 +231,10 @@ def summary(found: list[dict[str, Any]], law: str) -> str:
         squares = np.array([a["square"] for a in one])[right]
         wrong = ~right & (says > SURE) & (lost < NOT_LOST)
         lines.append(
-            f"{name}: {len(one)} asked, right {100 * right.mean():.1f} %, says {100 * says.mean():.1f} %, sure {100 * (says > SURE).mean():.1f} %, sure and wrong "
-            f"{100 * wrong.mean():.2f} %, lost {100 * (lost > 0.5).mean():.1f} % (of right ones {100 * (lost[right] > 0.5).mean():.1f} %), off {np.median(off):.3f} m, squared "
-            f"error median {np.median(squares):.1f}"
+            f"{name}: {len(one)} asked, right {100 * right.mean():.1f} %, says {100 * says.mean():.1f} %, "
+            f"sure {100 * (says > SURE).mean():.1f} %, sure and wrong {100 * wrong.mean():.2f} %, "
+            f"lost {100 * (lost > 0.5).mean():.1f} %, off {np.median(off):.3f} m, "
+            f"squared error mean {squares.mean():.1f}, median {np.median(squares):.1f}"
         )
         modes = np.array([mode for a in one for mode in a["modes"]], dtype=np.float64)
         for least, most in pairwise(LEVELS):
@@ -252,10 +259,9 @@ def main() -> None:
     options.folder.mkdir(parents=True, exist_ok=True)
     left = [k for k in range(first, last) if not (options.folder / f"{k}.json").exists()]
     with ProcessPoolExecutor(options.workers, mp_context=get_context("spawn")) as pool:
-        tasks = {pool.submit(asked, k, laws, options.scans): k for k in left}
-        for done in as_completed(tasks):
-            (options.folder / f"{tasks[done]}.json").write_text(json.dumps(done.result()))
-            print("building", tasks[done], flush=True)
+        tasks = [pool.submit(asked, k, laws, options.scans, options.folder / f"{k}.json") for k in left]
+    for task in tasks:
+        task.result()
     found = [json.loads((options.folder / f"{k}.json").read_text()) for k in range(first, last)]
     for law in laws:
         print(summary(found, law), flush=True)

@@ -2,14 +2,15 @@
 
 A map_server map says of each cell that it is occupied, free or unknown, or how likely it is occupied. The law is that
 of `bayesmap.posterior.others_maps`: an occupied cell stops a beam by one chance, a free one by another, those between
-along the logit; a reading scatters about the stop by the noise of sensor and map together; people, furniture and doors that the map
-lacks stand before the walls (`BeamMixture.p_short`); and some readings have nothing to do with the map. Errors that all beams of
-a scan share are no noise: a scan is worth few independent readings, scans along half a metre tell the same, and the
-pose itself is off by as much as the map (`Trust`).
+along the logit. A reading scatters about the stop by the noise of sensor and map together. People, furniture and doors
+that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to do with the map.
+Errors that all beams of a scan share are no noise: a scan is worth few independent readings, scans along a metre and
+a half tell the same, and the pose itself is off by as much as the map (`Trust`).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
@@ -18,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.localization.known_map import BEAMS_BETWEEN_PLACES, KnownMap, Trust, UsualFit
+from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
+from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.others_maps import stop_probabilities
 from bayesmap.posterior.progress_shares import OnShare, ignored
 from bayesmap.posterior.tuning import Parameter, Values, maximise, sensor_of
@@ -45,7 +47,9 @@ ASSUMED: Mapping[str, float] = {
 """The law before it is fitted, and where too few scans are located to fit one. Free cells stop so few beams that the
 law passes them by (`bayesmap.kernels.pose_weights`)."""
 
-WARY = Trust(shared_way_m=0.5, shared_error_m=0.08, carried=3e-3, search_way_m=1.0, kept=12, least_draws=1.0, forgotten_nats=30.0)
+WARY = Trust(
+    shared_way_m=1.5, shared_error_m=0.08, carried=3e-3, search_way_m=1.0, kept=12, least_draws=1.0, forgotten_nats=30.0
+)
 """How far a map is trusted of which nobody says how good it is."""
 
 MOST_SCANS, APART_M = 150, 0.3
@@ -54,17 +58,20 @@ MOST_SCANS, APART_M = 150, 0.3
 LIKELY, FEWEST_SCANS = 0.95, 20
 """A scan serves the fit if one place has so much probability; with fewer scans nothing is fitted."""
 
+USUAL_WAY_M = 3.0
+"""Of a beam, to say how many meet what is not on the map."""
+
 BLOCK = 5
 """Scans in a row that the fit is made on; the next ones judge it."""
 
 BEAMS = 60
 """Of a scan, for the fit."""
 
-LEAST_WORTH = 1.0
-"""A scan is worth so many readings at least for the question which place it was."""
-
 MOST_SEARCHES, NEAR_M, APART_PLACES_M = 40, 0.6, 1.0
 """Scans that are searched for by themselves; metres and radians, added, to a place that is theirs, and to another."""
+
+POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
+"""By which the evidence of a place may count, and searches that it takes to tell; with fewer the half counts."""
 
 LEAST_SD_NATS = 0.05
 """Fits of scans differ by so much at least, nats a beam."""
@@ -91,10 +98,12 @@ class MapLaw:
     def words(self) -> str:
         """The law in a line."""
         v = self.values
+        met = 100 * v["p_short"] * -math.expm1(-v["rate_short_per_m"] * USUAL_WAY_M)
         how = f"fitted on {self.scans} scans" if self.scans else "assumed: too few scans are located to fit it"
         return (
-            f"readings scatter by {100 * v['scale_m']:.0f} cm about the map's walls, {100 * v['p_short']:.0f} % of beams meet "
-            f"what is not on the map, a scan is worth {self.trust.place_readings:.1f} independent readings ({how})"
+            f"readings scatter by {100 * v['scale_m']:.0f} cm about the map's walls, {met:.0f} % of beams meet "
+            f"something else within {USUAL_WAY_M:g} m, "
+            f"a scan is worth {self.trust.place_readings:.1f} independent readings ({how})"
         )
 
 
@@ -135,8 +144,8 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     """Fit the law of a map to scans of which nobody says where they were taken, only how the robot moved between them.
 
     The scans are located under the assumed law. On those that are surely located the law is fitted, five in a row of
-    ten, and the others choose among the fitted law, the assumed one, and the one halfway. They also tell how far scans differ more
-    than beams that err by themselves would: what a scan is worth.
+    ten; the others choose among the fitted law, the assumed one, and the one halfway. They are also searched for one
+    by one, which tells how well scans fit at their own places and elsewhere, and what a scan is worth.
 
     Args:
         occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny).
@@ -169,53 +178,48 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     logs = [judging.log_densities(stops, one) for one in laws]
     nats = [float(np.nanmean(one)) for one in logs]
     best = int(np.argmax(nats))
-    worth = independent_readings(logs[best])
-    trust = replace(
-        WARY,
-        place_readings=float(np.clip(0.5 * worth, LEAST_WORTH, BEAMS_BETWEEN_PLACES)),
-        shared_error_m=laws[best]["scale_m"],
-    )
+    trust = replace(WARY, place_readings=WARY.pose_readings, shared_error_m=laws[best]["scale_m"])
     law = MapLaw(laws[best], trust, len(chosen), nats[best])
     judged = chosen[judges]
     judged = judged[:: max(1, len(judged) // MOST_SEARCHES)]
-    usual = usual_fit(external_map(occupancy, grid, scans, law), some.select(judged), poses[judged], seed)
-    return replace(law, usual_fit=usual)
+    usual, power = searched(external_map(occupancy, grid, scans, law), some.select(judged), poses[judged], seed)
+    trust = replace(trust, place_readings=power * trust.pose_readings)
+    return replace(law, trust=trust, usual_fit=usual)
 
 
-def usual_fit(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> UsualFit:
-    """How well scans fit the map at their own poses, and at the best of other places that a search finds for them."""
+def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[UsualFit, float]:
+    """Search for scans by themselves whose poses are known: how well they fit, and by which power evidence counts.
+
+    The power is the one under which the places of single scans are right as often as they say: of `POWERS` that of the
+    highest mean log probability of the right place.
+    """
     from bayesmap.localization.filter import Prior, Scan, update
 
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     rng = np.random.default_rng(seed)
     right, wrong, missed = [], [], 0
+    scores: list[Floats] = []
     for pose, readings in zip(poses, scans.ranges_m, strict=True):
         belief = update(known, Prior(), Scan(scans.angles_rad, readings, limits), rng, look_everywhere=True)
-        means = np.array([place.mean for place in belief.places(1e-6)])
+        places = belief.places(1e-9)
+        means = np.array([place.mean for place in places])
         off = between(pose, means)
         away = np.hypot(off[:, 0], off[:, 1]) + np.abs(off[:, 2])
-        missed += int((away > NEAR_M).all())
         beams = max(1, int((~np.isnan(readings)).sum()))
         asked = np.concatenate([pose[None], means[away > APART_PLACES_M]])
         nats = known.log_likelihood(asked, scans.angles_rad, readings, limits, weight=1.0) / beams
         right.append(nats[0])
         wrong.extend([nats[1:].max()] if len(nats) > 1 else [])
+        own = away < NEAR_M
+        missed += int(not own.any())
+        if own.any():
+            logs = POWERS[:, None] * np.log([place.probability for place in places])
+            scores.append(log_sum(logs[:, own]) - log_sum(logs))
     sd = max(float(np.std(right)), float(np.std(wrong)) if wrong else 0.0, LEAST_SD_NATS)
     typical = float(np.mean(wrong)) if wrong else float(np.mean(right)) - 2.0 * sd
-    return UsualFit(float(np.mean(right)), typical, sd, (missed + 1.0) / (len(poses) + 2.0))
-
-
-def independent_readings(log_densities: Floats) -> float:
-    """How many independent readings a scan is worth, by how scans differ: at least 1.
-
-    Were beams independent, means over the beams of a scan would vary by the beams' variance, divided by their number.
-    The number by which the variance of the means says to divide is that of independent beams.
-
-    Args:
-        log_densities: of readings under a law, at the poses of their scans, (S, A); NaN where invalid.
-    """
-    within, between = float(np.mean(np.nanvar(log_densities, axis=1))), float(np.nanvar(np.nanmean(log_densities, axis=1)))
-    return max(1.0, within / max(between, 1e-12))
+    usual = UsualFit(float(np.mean(right)), typical, sd, (missed + 1.0) / (len(poses) + 2.0))
+    power = float(POWERS[np.mean(scores, axis=0).argmax()]) if len(scores) >= FEWEST_SEARCHES else 0.5
+    return usual, power
 
 
 def spread_out(scans: Scans) -> Scans:

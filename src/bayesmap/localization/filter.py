@@ -133,7 +133,9 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
             # Which places count at all, one draw of the map tells.
             starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin), shared_out(starts, EACH, known.trust.least_draws), rng))
+            starts, power = adapted(
+                starts, draw_population(starts, target(thin), shared_out(starts, EACH, known.trust.least_draws), rng)
+            )
             starts = best(starts)
             if power > NEARLY:
                 break

@@ -78,7 +78,7 @@ class Trust:
 
 @dataclass(frozen=True)
 class UsualFit:
-    """How well scans fit a map where they were taken, and where they were not: mean log density of their readings, nats a beam.
+    """How well scans fit a map, at their own places and at others: mean log density of their readings, nats a beam.
 
     Attributes:
         right: its mean over scans, at the right place.
@@ -211,7 +211,7 @@ class KnownMap:
             free=free,
             unknown=unknown,
             unknown_chance=chance,
-            elsewhere=_anywhere(scans),
+            elsewhere=readings_anywhere(scans),
             max_range_m=scans.max_range_m,
             typical_m=float(np.median(readings)) if len(readings) else scans.max_range_m,
             beam_weight=beam_weight,
@@ -312,13 +312,18 @@ class KnownMap:
 
     def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
         """The same for a scan that was taken somewhere else: each reading by how common it is."""
-        hit = np.isfinite(ranges_m)
-        bins = np.clip((ranges_m[hit] / self.max_range_m * BINS).astype(int), 0, BINS - 1)
-        total = self.elsewhere[bins].sum() + np.isposinf(ranges_m).sum() * self.elsewhere[BINS]
-        return float(weight * (total + np.isneginf(ranges_m).sum() * self.elsewhere[0]))
+        return weight * log_anywhere(self.elsewhere, ranges_m, self.max_range_m)
 
 
-def _anywhere(scans: Scans) -> Floats:
+def log_anywhere(law: Floats, ranges_m: Floats, max_range_m: float) -> float:
+    """Return the log density of some readings under a law of `readings_anywhere`; invalid ones count nothing."""
+    hit = np.isfinite(ranges_m)
+    bins = np.clip((ranges_m[hit] / max_range_m * BINS).astype(int), 0, BINS - 1)
+    total = law[bins].sum() + np.isposinf(ranges_m).sum() * law[BINS]
+    return float(total + np.isneginf(ranges_m).sum() * law[0])
+
+
+def readings_anywhere(scans: Scans) -> Floats:
     """Log density of a reading of these scans at no particular pose, by bins, then log probability of no return."""
     readings = scans.ranges_m
     counts, _ = np.histogram(readings[np.isfinite(readings)], bins=BINS, range=(0.0, scans.max_range_m))
