@@ -56,6 +56,48 @@ def test_a_single_scan_with_a_prior(office, office_run):
     assert result.stdout.splitlines()[-1].startswith("lost, or the map outdated:")
 
 
+@pytest.fixture(scope="module")
+def truth_map(office):
+    """The building's true map, as map_server has it."""
+    return office.with_name(f"{office.stem}-truth.yaml")
+
+
+@pytest.mark.parametrize("follow", [(), ("--follow", "--for", "0")])
+def test_a_map_of_another_program_is_located_in(office, truth_map, prior, tmp_path, follow):
+    """The law is said to be assumed, for twelve scans are too few to fit one."""
+    target = tmp_path / "where.jsonl"
+    result = call("localize", truth_map, office, *prior, *follow, "-o", target, "--no-progress")
+    assert result.exit_code == 0, result.stderr
+    if not follow:
+        assert "assumed: too few scans are located to fit it" in result.stderr
+    truth = read_log(office).poses
+    found = [json.loads(line)["mean"] for line in target.read_text().splitlines()]
+    off = [np.hypot(*(np.array(mean[:2]) - pose[:2])) for mean, pose in zip(found, truth, strict=True)]
+    assert np.median(off) < 0.3
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ("image: gone.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", "gone.pgm: cannot be read as an image"),
+        ("image: map.pgm\norigin: [0, 0, 0]\n", "has no 'resolution:'"),
+        ("image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0.3]\n", "the map is turned by 0.3 rad"),
+        ("image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", "no occupied cell that a beam could meet"),
+        (None, "no such file; give a saved run (.nc), or a map of map_server (.yaml)"),
+    ],
+)
+def test_bad_maps_are_named(office, tmp_path, lines, message):
+    from PIL import Image
+
+    Image.fromarray(np.full((20, 30), 254, np.uint8)).save(tmp_path / "map.pgm")
+    path = tmp_path / "map.yaml"
+    if lines is not None:
+        path.write_text(lines)
+    result = call("localize", path, office)
+    assert result.exit_code == 3, result.stderr
+    assert message in result.stderr
+
+
 def test_chances_are_written_as_people_write_them():
     told = {0.0: "0", 1e-9: "under 0.01", 0.00123: "0.12", 0.0314: "3.1", 0.314: "31.4", 0.9999: "100.0", 1.0: "100.0"}
     assert {chance: _per_cent(chance) for chance in told} == told

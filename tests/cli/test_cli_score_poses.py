@@ -92,6 +92,8 @@ def test_the_true_map_and_trajectory_predict_better_than_raw_odometry(raw):
     assert good["heldout"]["scans"] == bad["heldout"]["scans"] == 10
     assert good["score"]["nats_per_beam"] > bad["score"]["nats_per_beam"] + 0.5
     assert good["score"]["nats_per_beam"] > 0.5
+    assert good["verdict"].startswith("office-truth.yaml agrees with these scans. It tells ")
+    assert bad["verdict"].startswith("office-truth.yaml agrees with these scans in part")
     # The log says where the laser sits, so relations are taken for the base's, as they are.
     assert good["relations"]["frame"] == "base"
     assert good["relations"]["translation_m_mean"] < 1e-4

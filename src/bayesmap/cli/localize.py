@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,19 +18,27 @@ from bayesmap.cli.console import write_out
 from bayesmap.cli.input_files import need_file
 from bayesmap.cli.progress import share
 from bayesmap.cli.reading import options_of
+from bayesmap.cli.score_others import is_map
 from bayesmap.cli.typed_numbers import numbers_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from bayesmap.localization.belief import PoseBelief
+    from bayesmap.localization.known_map import KnownMap
     from bayesmap.localization.localize import Localization, Near
+    from bayesmap.result import Run
+    from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
 
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 
 
 @takes("localize")
-@click.argument("run_file", metavar="RUN.nc")
+@click.argument("run_file", metavar="RUN.nc|MAP.yaml")
 @click.argument("log")
 @click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")
 @click.option("--follow", is_flag=True, help="A JSON line on standard output for each scan, as it comes; see below.")
@@ -52,12 +63,13 @@ def command(
     area: str | None,
     force: bool,
 ) -> None:
-    r"""Locate the scans of LOG in the map of a saved run: the posterior of each pose.
+    r"""Locate the scans of LOG in the map of a saved run, or of another program: the posterior of each pose.
 
     \b
     bayesmap localize runs/office/run.nc today.bag -o today.tum
     bayesmap localize runs/office/run.nc now.log --follow | jq .mean
     bayesmap localize runs/office/run.nc today.bag --scans 0:1
+    bayesmap localize map.yaml today.bag -o today.tum
 
     With --follow LOG may be a CARMEN log or a CSV table that is being written: new lines are waited for until Ctrl-C,
     or for as long as --for says. A pipe, or - for standard input, ends when its writer does. Other formats end where
@@ -66,12 +78,13 @@ def command(
     The first scan may be anywhere on the map, unless --prior says where. From scan to scan the log's poses are taken
     for odometry: only motions count. Answers: the likeliest place with its covariance, all places with their
     probabilities, and the probability of being lost: that the scan is as scans are elsewhere, or the map outdated.
+
+    A map of another program (map_server YAML) says nothing of the sensor or of its own errors: a law is fitted to those
+    scans of LOG that are surely located under a wary one, and told. With --follow the wary law is taken.
     """
     values = call.values()
     from bayesmap.io.logs import describe_log
-    from bayesmap.localization.known_map import KnownMap
-    from bayesmap.localization.localize import Localization, follow_live, localize
-    from bayesmap.result import load
+    from bayesmap.localization.localize import Localization, localize
 
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
@@ -80,8 +93,8 @@ def command(
     live = follow and following.can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
-    run = load(run_file)
-    max_range_m, seed = run.posterior.scans.max_range_m, values["seed"]
+    place = _Map.of(run_file, values)
+    seed = values["seed"]
 
     def tell(number: int, belief: PoseBelief) -> bool:
         return write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
@@ -89,23 +102,21 @@ def command(
     interrupted = False
     if live:
         to_come = following.scans_to_come(
-            call.console, log, values, max_range_m, span, idle_s, without_poses=independent
+            call.console, log, values, place.max_range_live_m, span, idle_s, without_poses=independent
         )
-        known = KnownMap.of_run(run, beam_weight=values["beam_weight"], device=values["device"])
         call.console.detail(f"{log}: waiting for scans")
-        beliefs, interrupted = following.located(
-            follow_live(known, to_come, near, independent=independent, seed=seed), tell
-        )
+        found_live = place.located_live(call, to_come, prior=near, independent=independent, seed=seed)
+        beliefs, interrupted = following.located(found_live, tell)
         if not beliefs:
             raise BadInput(f"{log}: it ended without a scan")
         found = Localization(tuple(beliefs))
     else:
-        reading = describe_log(log, max_range_m=max_range_m, **options_of(values), without_poses=independent)
+        reading = describe_log(log, max_range_m=place.max_range_m, **options_of(values), without_poses=independent)
         for note in reading.notes:
             call.console.say(f"{log}: {note}")
         scans = reading.scans
         scans = scans.select(_slice(span, len(scans)))
-        known = KnownMap.of_run(run, beam_weight=values["beam_weight"], device=values["device"])
+        known = place.known(call, scans)
         with share(call.console, "locating scans") as report:
 
             def on_belief(number: int, belief: PoseBelief) -> None:
@@ -135,6 +146,65 @@ def command(
         call.console.result(document, outputs)
     else:
         write_out("".join(f"{line}\n" for line in [*_lines(found, corners), *(str(path) for path in outputs)]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Map:
+    """The map of a run, or that of another program: its occupancy, NaN where unknown, and its grid."""
+
+    values: dict[str, Any]
+    run: Run | None = None
+    external: tuple[NDArray[np.float64], Grid] | None = None
+
+    @classmethod
+    def of(cls, file: str, values: dict[str, Any]) -> _Map:
+        """Read it, by the ending of its name."""
+        if is_map(file):
+            from bayesmap.io.map_server import read_map
+
+            need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
+            return cls(values, external=read_map(file))
+        from bayesmap.result import load
+
+        return cls(values, run=load(file))
+
+    @property
+    def max_range_m(self) -> float | None:
+        """Largest range of the run's sensor; None: as the log says."""
+        return None if self.run is None else self.run.posterior.scans.max_range_m
+
+    @property
+    def max_range_live_m(self) -> float:
+        """The same for a log that is still written: in another program's map, from one of its corners to the other."""
+        if self.external is None:
+            assert self.run is not None
+            return self.run.posterior.scans.max_range_m
+        grid = self.external[1]
+        return grid.resolution * math.hypot(*grid.shape)
+
+    def known(self, call: Call, scans: Scans, *, fit: bool = True) -> KnownMap:
+        """The map, ready to locate scans in; of another program's the law is fitted to them first."""
+        from bayesmap.localization.external_map import external_map, fit_law
+        from bayesmap.localization.known_map import KnownMap
+
+        how = {name: self.values[name] for name in ("beam_weight", "device")}
+        if self.run is not None:
+            return KnownMap.of_run(self.run, **how)
+        assert self.external is not None
+        law = None
+        if fit:
+            with share(call.console, "fitting what the map means") as report:
+                law = fit_law(*self.external, scans, self.values["seed"], report)
+            call.console.say(law.words())
+        return external_map(*self.external, scans, law, **how)
+
+    def located_live(self, call: Call, scans: Iterator[Scans], **how: Any) -> Iterator[PoseBelief]:
+        """The posteriors of scans that are still to come: another program's map is taken by the assumed law."""
+        from bayesmap.localization.localize import follow_live
+
+        for first in scans:
+            known = self.known(call, first, fit=False)
+            yield from follow_live(known, itertools.chain([first], scans), **how)
 
 
 def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:

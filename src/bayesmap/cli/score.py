@@ -13,7 +13,7 @@ from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import write_out
 from bayesmap.cli.progress import progress, share
 from bayesmap.cli.reading import heldout_scans, options_of
-from bayesmap.cli.score_others import infer_map, is_map, placed_scans, score_map
+from bayesmap.cli.score_others import infer_map, is_map, placed_scans, score_map, verdict
 from bayesmap.cli.score_poses import FRAMES, check_frames, lines_of, score_poses
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -119,6 +119,8 @@ def command(
     if call.console.as_json:
         call.console.result(_document(run_file, log, found, about, outputs), [])
         return
+    if found.verdict is not None:
+        write_out(f"{found.verdict}\n")
     if found.rows:
         _print_table(found.rows)
     if poses is not None:
@@ -127,12 +129,16 @@ def command(
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """What was scored: rows of the table, fits of all but the first, every how many scans were held out, and poses."""
+    """What was scored: rows of the table, fits of all but the first, every how many scans were held out, and poses.
+
+    Of a map of another program also a verdict in words.
+    """
 
     rows: list[tuple[str, Score]]
     fits: list[Fitted]
     every: int
     trajectory: Trajectory
+    verdict: str | None = None
 
 
 def _is_run(path: str) -> bool:
@@ -185,6 +191,7 @@ def _score_others(
 ) -> _Found:
     from bayesmap.result import score
 
+    words = None
     if is_map(path):
         if log is None:
             raise click.UsageError(f"give the LOG whose scans score {path}")
@@ -192,6 +199,7 @@ def _score_others(
         call.console.say(f"scoring every {values['holdout']}-th scan of {log}: {len(placed.heldout):,}")
         fit, own = score_map(call, path, placed, _how(values))
         rows, grid = [(fit.name, own)], fit.predictor.grid
+        words = verdict(fit.name, fit, own, placed)
     else:
         if log is not None:
             raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
@@ -207,7 +215,7 @@ def _score_others(
         for fit, scored in _baselines(call, placed.train, grid, placed.heldout, _how(values)):
             fits.append(fit)
             rows.append((fit.name, scored))
-    return _Found(rows, fits, values["holdout"], placed.trajectory)
+    return _Found(rows, fits, values["holdout"], placed.trajectory, words)
 
 
 def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
@@ -275,6 +283,8 @@ def _document(
             "nats_per_beam": own.nats_per_beam,
         }
         document["score"] = {"map": name, **own.as_json()}
+    if found.verdict is not None:
+        document["verdict"] = found.verdict
     return {**document, "baselines": baselines or None, "relations": poses, "outputs": outputs}
 
 

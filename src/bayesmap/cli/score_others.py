@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
     from bayesmap.space.trajectory import Trajectory
 
 MAPS = (".yaml", ".yml")
+
+LITTLE_NATS, MUCH_NATS, MANY_STRAYS, VERDICT_M = 0.3, 1.0, 40.0, 3.0
+"""Nats a beam beside no map under which a map does not agree with scans, or only in part; per cent of beams that meet
+something else from which it agrees only in part; and the distance for which all that is said."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +102,38 @@ def score_map(call: Call, path: str, placed: Placed, how: dict[str, Any]) -> tup
         fit = fit_map(name, occupancy, grid, placed.train, report)
     with share(call.console, f"scoring {name}") as report:
         return fit, score_prediction(fit.predictor, placed.heldout, **how, on_progress=report)
+
+
+def verdict(name: str, fit: Fitted, own: Score, placed: Placed) -> str:
+    """Say in words whether a map agrees with the scans: by what it tells of a reading beside what no map tells.
+
+    Args:
+        name: of the map.
+        fit: its sensor.
+        own: its score on the scans that were held out.
+        placed: the scans.
+    """
+    import numpy as np
+
+    from bayesmap.localization.known_map import log_anywhere, readings_anywhere
+
+    heldout, values = placed.heldout, fit.values
+    law = readings_anywhere(placed.train)
+    beams = max(1, int((~np.isnan(heldout.ranges_m)).sum()))
+    gain = own.nats_per_beam - log_anywhere(law, heldout.ranges_m, placed.train.max_range_m) / beams
+    off_m = values["scale_m"] + values["scale_per_m"] * VERDICT_M
+    met = values["p_short"] * -math.expm1(-values["rate_short_per_m"] * VERDICT_M)
+    strays = 100 * (values["p_random"] + (1 - values["p_random"]) * met)
+    if gain < LITTLE_NATS:
+        says = "does not agree with these scans: another place, another frame or scale, or wrong poses"
+    elif gain < MUCH_NATS or strays > MANY_STRAYS:
+        says = "agrees with these scans in part: much was moved, or parts are shifted"
+    else:
+        says = "agrees with these scans"
+    return (
+        f"{name} {says}. It tells {gain:.2f} nats a beam more than no map would; walls {VERDICT_M:g} m away are met to "
+        f"{100 * off_m:.0f} cm, and {strays:.0f} % of beams met something else before them."
+    )
 
 
 def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:

@@ -89,7 +89,7 @@ def write_map(
         cells = np.select([percent == 100, percent == 0], [OCCUPIED_GREY, FREE_GREY], UNKNOWN_GREY)
         occupied, free = TRINARY_FILE_THRESHOLDS
     elif mode == "raw":
-        cells = np.where(known, percent, RAW_UNKNOWN_GREY)
+        cells = np.where(known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
     else:
         # Not from the per cents: 256 greys are finer, for readers that look at the greys.
         cells = np.rint(255 * (1 - np.where(known, np.asarray(occupancy, dtype=np.float64), 0.5)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -83,6 +83,7 @@ class PoseBelief:
         nats_per_beam: log density of the scan's readings under the best pose, by their number.
         stamp_s: when, or None.
         mode_of: which mode each pose belongs to, (N,); None: poses near each other make one.
+        shared_error: standard deviations of an error of the map that no reading shows, (3,): modes are as much wider.
     """
 
     poses: Floats
@@ -91,16 +92,25 @@ class PoseBelief:
     nats_per_beam: float
     stamp_s: float | None = None
     mode_of: NDArray[np.intp] | None = None
+    shared_error: Floats | None = None
 
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The components where the robot may be, the likeliest first."""
+        found = self.places(LEAST_MODE)
+        if self.shared_error is None:
+            return found
+        wider = np.diag(self.shared_error**2)
+        return tuple(replace(mode, covariance=mode.covariance + wider) for mode in found)
+
+    def places(self, least: float) -> tuple[Mode, ...]:
+        """The components at least so likely, the likeliest first; without the map's shared error."""
         label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         found = []
         for one in np.unique(label):
             own = label == one
             share = float(self.weights[own].sum())
-            if share >= LEAST_MODE:
+            if share >= least:
                 mean, covariance = _moments(self.poses[own], self.weights[own] / share)
                 found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
         return tuple(sorted(found, key=lambda mode: -mode.probability))

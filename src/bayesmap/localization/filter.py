@@ -19,6 +19,7 @@ from bayesmap.localization.approach import approached
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.particles import (
+    NEGLIGIBLE_NATS,
     Population,
     PoseMixture,
     adapted,
@@ -36,9 +37,6 @@ Floats = NDArray[np.float64]
 
 CANDIDATES = 24
 """Of the search, few: that end points fall on walls tells, too. Among more, wrong places came before the right one."""
-
-KEPT = 5
-"""Places that are weighed with all beams and draws, at most."""
 
 ROUNDS, NEARLY = 5, 0.6
 """Places are adapted so often at most, or until weights hardly have to be tempered."""
@@ -59,12 +57,6 @@ LOST_AT_FIRST = 0.02
 GETS_LOST, IS_FOUND = 1e-3, 0.05
 """Chance, a scan, that a robot on the map is lost, and that a lost one is back."""
 
-FIT_TIMES = 5.0
-"""For the question whether a scan fits the map at all, beams count by so much more."""
-
-CARRIED = 1e-3
-"""Chance, a scan, that the robot was carried to anywhere on the map."""
-
 
 @dataclass(frozen=True, eq=False)
 class Scan:
@@ -75,12 +67,14 @@ class Scan:
         ranges_m: readings, (A,).
         limits: of the sensor.
         stamp_s: when, or None.
+        new: share of its evidence that the scans before it have not told, in (0, 1].
     """
 
     angles_rad: Floats
     ranges_m: Floats
     limits: RangeLimits
     stamp_s: float | None = None
+    new: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +119,9 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     def density(poses: Floats) -> Floats:
         return prior.log_density(poses, known)
 
+    def best(places: PoseMixture) -> PoseMixture:
+        return places.best(known.trust.kept, max(NEGLIGIBLE_NATS, known.trust.forgotten_nats))
+
     thin = max(1, len(scan.angles_rad) // THINNED)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
     group = None
@@ -134,14 +131,19 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         starts = approached(starts, density, known, scan.angles_rad, scan.ranges_m, rng)
         if len(starts.means) > 1:
             # Which places count at all, one draw of the map tells.
-            starts = weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)).best(KEPT)
+            starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin), shared_out(starts, EACH), rng))
-            starts = starts.best(KEPT)
+            starts, power = adapted(
+                starts, draw_population(starts, target(thin), shared_out(starts, EACH, known.trust.least_draws), rng)
+            )
+            starts = best(starts)
             if power > NEARLY:
                 break
-        population = draw_population(starts, target(1), shared_out(starts, LAST), rng)
+        population = draw_population(starts, target(1), shared_out(starts, LAST, known.trust.least_draws), rng)
         group = groups_of(starts, population.poses)
+        if known.trust.shared_way_m > 0.0:
+            mass = _mass_before(prior, starts, int(group.max()) + 1)
+            return belief_of(known, prior, scan, population, group, mass)
     return belief_of(known, prior, scan, population, group)
 
 
@@ -206,8 +208,18 @@ def belief_of(
     scan: Scan,
     population: Population,
     group: NDArray[np.intp] | None,
+    mass_before: Floats | None = None,
 ) -> PoseBelief:
-    """The posterior of a population, with the chance of being lost."""
+    """The posterior of a population, with the chance of being lost.
+
+    Args:
+        known: the map.
+        prior: what was believed before the scan.
+        scan: the scan.
+        population: weighed poses.
+        group: the place of each pose, (N,); None: all over the map.
+        mass_before: what each place had of the prior, where places are weighed by evidence that is partly new, (K,).
+    """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
         weights = np.full(len(population.poses), 1.0 / len(population.poses))
@@ -215,12 +227,15 @@ def belief_of(
         group = np.zeros(len(weights), dtype=np.intp)  # spread over the whole map: one mode
     likelihood = _log_likelihood(known, prior, population)
     power = known.weight_between_places(scan.ranges_m) / known.weight_of(scan.ranges_m)
-    weights = shared_by_places(weights, group, _at_power(population, likelihood, power))
-    unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group)
+    if mass_before is None:
+        weights = shared_by_places(weights, group, _at_power(population, likelihood, power))
+    else:
+        weights = shared_by_evidence(weights, group, mass_before, power * scan.new)
+    unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group, known.shared_error)
     if not np.isfinite(scan.ranges_m).any():
         return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
     evidence, fit = _fit(known, scan, population, likelihood, unsure)
-    elsewhere = known.log_elsewhere(scan.ranges_m, _fit_weight(known, scan))
+    elsewhere = known.log_elsewhere(scan.ranges_m, known.weight_of_fit(scan.ranges_m))
     with np.errstate(divide="ignore"):
         odds = np.log(prior.lost) - np.log1p(-prior.lost) + elsewhere - evidence
     return replace(unsure, p_lost=float(expit(odds)), nats_per_beam=fit)
@@ -241,6 +256,33 @@ def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floa
     return np.asarray(weights * np.divide(shares, own, out=np.zeros_like(own), where=own > 0)[group])
 
 
+def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, power: float) -> Floats:
+    """Weights as given within each place, while the ratio of a place's share to the one before counts by a power.
+
+    Args:
+        weights: of poses, normalised, (N,).
+        group: the place of each, (N,).
+        mass: the places' shares before the scan, (K,).
+        power: 1: shares stay the sums of the weights; 0: they stay as they were.
+    """
+    own = np.bincount(group, weights, len(mass))
+    with np.errstate(divide="ignore"):
+        logs = (1.0 - power) * np.log(mass) + power * np.log(own)
+    if not np.isfinite(logs).any():
+        return weights
+    shares = np.exp(logs - log_sum(logs))
+    return np.asarray(weights * np.divide(shares, own, out=np.zeros_like(own), where=own > 0)[group])
+
+
+def _mass_before(prior: Prior, places: PoseMixture, count: int) -> Floats:
+    """What each place had of the prior, (count,): its components' mass, or that of being anywhere."""
+    mass = np.full(count, 1.0 if prior.components is None else prior.uniform)
+    if prior.components is not None:
+        own = prior.components.log_mass - log_sum(prior.components.log_mass) + np.log1p(-prior.uniform)
+        np.add.at(mass, groups_of(places, prior.components.means), np.exp(own))
+    return mass
+
+
 def _log_likelihood(known: KnownMap, prior: Prior, population: Population) -> Floats:
     """That of the scan at each pose, by the beams' usual weight, (N,); -inf where no robot can be."""
     prior_density = prior.log_density(population.poses, known)
@@ -254,20 +296,15 @@ def _at_power(population: Population, likelihood: Floats, power: float) -> Float
     return np.where(possible, population.log_weights + (power - 1.0) * np.where(possible, likelihood, 0.0), -np.inf)
 
 
-def _fit_weight(known: KnownMap, scan: Scan) -> float:
-    usual = known.weight_of(scan.ranges_m)
-    return min(1.0, FIT_TIMES * usual)
-
-
 def _fit(
     known: KnownMap, scan: Scan, population: Population, likelihood: Floats, belief: PoseBelief
 ) -> tuple[float, float]:
     """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam.
 
-    With beams that count `FIT_TIMES` as much: whether a scan fits at all is clearer than where exactly it does. The
+    With beams that count more: whether a scan fits at all is clearer than where exactly it does. The
     same poses tell it, weighed anew.
     """
-    weight, usual = _fit_weight(known, scan), known.weight_of(scan.ranges_m)
+    weight, usual = known.weight_of_fit(scan.ranges_m), known.weight_of(scan.ranges_m)
     logs = _at_power(population, likelihood, weight / usual)
     if belief.mode_of is not None:
         likeliest = np.bincount(belief.mode_of, belief.weights).argmax()

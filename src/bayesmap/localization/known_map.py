@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -42,6 +43,60 @@ something or the search missed a place. Set on four buildings, so that places ar
 
 BINS = 60
 
+MOST_ODDS = 4.0
+"""No fit of a scan says more than this of its place, in nats."""
+
+
+@dataclass(frozen=True)
+class Trust:
+    """How far a map is trusted: what a scan's evidence in it is worth, and how long other places are kept in mind.
+
+    Attributes:
+        pose_readings: a scan is worth so many independent readings for the question where in a place it was taken.
+        place_readings: and so many for the question which place it was.
+        fit_readings: and so many for the question whether it was taken on the map at all.
+        shared_way_m: scans closer along the way share their errors: one counts by the share of this way that is new.
+        carried: chance, a scan that counts in full, that the robot was carried to anywhere on the map.
+        shared_error_m: standard deviation of an error of the map that all beams of a scan share: it moves the pose.
+        search_way_m: the whole map is searched again after so much way, also while one place is all but sure.
+        kept: places that are weighed with all beams, at most.
+        least_draws: of the likeliest place's draws, the share that every other gets at least.
+        forgotten_nats: places less likely than the likeliest by so much are forgotten.
+    """
+
+    pose_readings: float = INDEPENDENT_BEAMS
+    place_readings: float = BEAMS_BETWEEN_PLACES
+    fit_readings: float = 5.0 * INDEPENDENT_BEAMS
+    shared_way_m: float = 0.0
+    carried: float = 1e-3
+    shared_error_m: float = 0.0
+    search_way_m: float = math.inf
+    kept: int = 5
+    least_draws: float = 1 / 3
+    forgotten_nats: float = math.log(1e4)
+
+
+@dataclass(frozen=True)
+class UsualFit:
+    """How well scans fit a map, at their own places and at others: mean log density of their readings, nats a beam.
+
+    Attributes:
+        right: its mean over scans, at the right place.
+        wrong: at the best of the wrong places.
+        sd: its standard deviation over scans, of either.
+        missed: share of scans whose right place a search does not find.
+    """
+
+    right: float
+    wrong: float
+    sd: float
+    missed: float
+
+    def log_odds_wrong(self, nats_per_beam: float) -> float:
+        """Log of how much likelier a fit is at a wrong place than at the right one: normal laws of one width."""
+        middle, apart = 0.5 * (self.right + self.wrong), max(self.right - self.wrong, 0.0)
+        return float(np.clip(apart * (middle - nats_per_beam) / self.sd**2, -MOST_ODDS, MOST_ODDS))
+
 
 @dataclass(frozen=True, eq=False)
 class KnownMap:
@@ -60,7 +115,9 @@ class KnownMap:
             probability of no return: of scans taken anywhere, for the chance of being lost.
         max_range_m: of those scans.
         typical_m: the median of their readings.
-        beam_weight: how much of an independent reading a beam is; None: as `INDEPENDENT_BEAMS` says.
+        beam_weight: how much of an independent reading a beam is; None: as ``trust`` says.
+        trust: how far the map is trusted.
+        usual_fit: of scans at right and wrong places; None: nobody knows.
     """
 
     grid: Grid
@@ -74,6 +131,8 @@ class KnownMap:
     max_range_m: float
     typical_m: float
     beam_weight: float | None = None
+    trust: Trust = field(default_factory=Trust)
+    usual_fit: UsualFit | None = None
 
     @classmethod
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
@@ -152,7 +211,7 @@ class KnownMap:
             free=free,
             unknown=unknown,
             unknown_chance=chance,
-            elsewhere=_anywhere(scans),
+            elsewhere=readings_anywhere(scans),
             max_range_m=scans.max_range_m,
             typical_m=float(np.median(readings)) if len(readings) else scans.max_range_m,
             beam_weight=beam_weight,
@@ -168,19 +227,37 @@ class KnownMap:
         return endpoint_field(unpacked(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
 
     @cached_property
+    def shared_error(self) -> Floats | None:
+        """Standard deviations of the error of a pose that comes of the map's shared error, (3,); None: it has none.
+
+        A wall that is off to one side and not to the other turns the pose, by half as much over a typical reading.
+        """
+        off = self.trust.shared_error_m
+        return None if off == 0.0 else np.array([off, off, 0.5 * off / self.typical_m])
+
+    def _readings(self, ranges_m: Floats, worth: float) -> float:
+        """How much each beam of a scan counts that is worth so many readings."""
+        valid = max(1, int((~np.isnan(ranges_m)).sum()))
+        return min(1.0, worth / valid) if self.beam_weight is None else self.beam_weight
+
+    @cached_property
     def free_area_m2(self) -> float:
         """Where a robot may be."""
         return float(self.free.sum() * self.grid.resolution**2)
 
     def weight_of(self, ranges_m: Floats) -> float:
         """How much each beam of a scan counts."""
-        valid = max(1, int((~np.isnan(ranges_m)).sum()))
-        return min(1.0, INDEPENDENT_BEAMS / valid) if self.beam_weight is None else self.beam_weight
+        return self._readings(ranges_m, self.trust.pose_readings)
 
     def weight_between_places(self, ranges_m: Floats) -> float:
         """How much each beam of a scan counts for the question which of several places it was."""
-        valid = max(1, int((~np.isnan(ranges_m)).sum()))
-        return min(1.0, BEAMS_BETWEEN_PLACES / valid) if self.beam_weight is None else self.beam_weight
+        return self._readings(ranges_m, self.trust.place_readings)
+
+    def weight_of_fit(self, ranges_m: Floats) -> float:
+        """How much each beam of a scan counts for the question whether the scan was taken on the map at all."""
+        if self.beam_weight is not None:
+            return min(1.0, self.beam_weight * self.trust.fit_readings / self.trust.pose_readings)
+        return self._readings(ranges_m, self.trust.fit_readings)
 
     def is_free(self, poses: Floats) -> NDArray[np.bool_]:
         """Which poses lie in free cells, (P,)."""
@@ -235,13 +312,18 @@ class KnownMap:
 
     def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
         """The same for a scan that was taken somewhere else: each reading by how common it is."""
-        hit = np.isfinite(ranges_m)
-        bins = np.clip((ranges_m[hit] / self.max_range_m * BINS).astype(int), 0, BINS - 1)
-        total = self.elsewhere[bins].sum() + np.isposinf(ranges_m).sum() * self.elsewhere[BINS]
-        return float(weight * (total + np.isneginf(ranges_m).sum() * self.elsewhere[0]))
+        return weight * log_anywhere(self.elsewhere, ranges_m, self.max_range_m)
 
 
-def _anywhere(scans: Scans) -> Floats:
+def log_anywhere(law: Floats, ranges_m: Floats, max_range_m: float) -> float:
+    """Return the log density of some readings under a law of `readings_anywhere`; invalid ones count nothing."""
+    hit = np.isfinite(ranges_m)
+    bins = np.clip((ranges_m[hit] / max_range_m * BINS).astype(int), 0, BINS - 1)
+    total = law[bins].sum() + np.isposinf(ranges_m).sum() * law[BINS]
+    return float(total + np.isneginf(ranges_m).sum() * law[0])
+
+
+def readings_anywhere(scans: Scans) -> Floats:
     """Log density of a reading of these scans at no particular pose, by bins, then log probability of no return."""
     readings = scans.ranges_m
     counts, _ = np.histogram(readings[np.isfinite(readings)], bins=BINS, range=(0.0, scans.max_range_m))

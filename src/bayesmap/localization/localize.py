@@ -12,8 +12,8 @@ from scipy.special import ndtr
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.localization.belief import Mode, PoseBelief, Region
-from bayesmap.localization.filter import CARRIED, GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
-from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.filter import GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
+from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.se2 import rotation
@@ -29,6 +29,16 @@ Floats = NDArray[np.float64]
 
 SURE = 0.99
 """While the likeliest mode has less than this, the whole map is searched with every scan."""
+
+
+LEAST_ON_MAP = 1e-3
+"""A prior of which less lies on the map is refused."""
+
+TURN_M = 0.5
+"""A turn by one radian shows as much that is new as so much way."""
+
+LEAST_NEW = 0.02
+"""Share of a scan's evidence that counts, at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,22 +197,33 @@ def follow_live(
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
-    first = Prior() if prior is None else Prior(prior.components(), CARRIED, LOST_AT_FIRST)
+    anywhere = Prior() if known.usual_fit is None else Prior(lost=max(LOST_AT_FIRST, known.usual_fit.missed))
+    first = anywhere if prior is None else Prior(prior.components(), known.trust.carried, LOST_AT_FIRST)
     believed, belief = first, None
-    pose = np.zeros(3)
+    pose, since_search_m = np.zeros(3), 0.0
+    trust = known.trust
     for one in scans:
         stamp = None if one.stamps_s is None else float(one.stamps_s[0])
         limits = RangeLimits(one.min_range_m, one.max_range_m)
         angles, ranges = one.beams_of(0)
         if not len(angles):  # a beam without a reading says as little as no beam
             angles, ranges = one.angles_rad, one.ranges_m[0]
-        scan = Scan(angles, ranges, limits, stamp)
-        before, pose = pose, one.poses[0]
-        if belief is not None:
+        before, pose, new = pose, one.poses[0], 1.0
+        if belief is not None and not independent:
             motion = between(before, pose)
-            believed = Prior() if independent else moved(belief, motion, odometry.sigmas(motion))
+            way_m = float(np.hypot(motion[0], motion[1]) + TURN_M * abs(motion[2]))
+            since_search_m += way_m
+            if way_m < trust.shared_way_m:
+                new = max(LEAST_NEW, way_m / trust.shared_way_m)
+            believed = moved(belief, motion, odometry.sigmas(motion), trust, new)
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < SURE
-        belief = update(known, believed, scan, rng, look_everywhere=unsure or independent)
+        everywhere = independent or unsure or since_search_m >= trust.search_way_m
+        if everywhere:
+            since_search_m = 0.0
+        if independent:
+            believed = anywhere
+        scan = Scan(angles, ranges, limits, stamp, new)
+        belief = update(known, believed, scan, rng, look_everywhere=everywhere)
         yield belief
 
 
@@ -222,7 +243,7 @@ def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
         return
     if not isinstance(prior, Near):
         raise BadInput(f"localize: prior must be such as bm.Near((x, y, yaw)), or None for anywhere, got {prior!r}")
-    if prior.share_in(known.grid) < CARRIED:
+    if prior.share_in(known.grid) < LEAST_ON_MAP:
         low = np.array(known.grid.origin)
         high = low + known.grid.resolution * np.array(known.grid.shape)
         x, y = np.asarray(prior.pose)[:2]
@@ -232,16 +253,19 @@ def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
         )
 
 
-def moved(belief: PoseBelief, motion: Floats, sigmas: Floats) -> Prior:
+def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new: float = 1.0) -> Prior:
     """What is believed after a motion that odometry reports.
 
     Args:
         belief: before it.
         motion: the new pose as seen from the old one, (3,).
         sigmas: standard deviations of its error, in the frame of the old pose, (3,).
+        trust: how far the map is trusted.
+        new: share of the next scan's evidence that is new.
     """
-    means = np.array([mode.mean for mode in belief.modes])
-    covariances = np.array([mode.covariance for mode in belief.modes])
+    modes = belief.places(float(np.exp(-trust.forgotten_nats)))
+    means = np.array([mode.mean for mode in modes])
+    covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)
     swing = np.broadcast_to(np.eye(3), covariances.shape).copy()
     swing[:, 0, 2] = -(ends[:, 1] - means[:, 1])
@@ -249,8 +273,9 @@ def moved(belief: PoseBelief, motion: Floats, sigmas: Floats) -> Prior:
     turn = rotation(means[:, 2])
     noise = turn @ np.diag(sigmas**2 + LEAST_SD**2) @ np.swapaxes(turn, 1, 2)
     ends[:, 2] = wrapped(ends[:, 2])
-    mass = np.log([mode.probability for mode in belief.modes])
+    mass = np.log([mode.probability for mode in modes])
     components = PoseMixture(ends, swing @ covariances @ np.swapaxes(swing, 1, 2) + noise, mass)
-    lost = belief.p_lost * (1.0 - IS_FOUND) + (1.0 - belief.p_lost) * GETS_LOST
+    lost = belief.p_lost * (1.0 - new * IS_FOUND) + (1.0 - belief.p_lost) * new * GETS_LOST
     # A robot that was lost may be back anywhere.
-    return Prior(components, CARRIED + (1.0 - CARRIED) * min(belief.p_lost * IS_FOUND, 0.5), lost)
+    carried = new * trust.carried
+    return Prior(components, carried + (1.0 - carried) * min(belief.p_lost * new * IS_FOUND, 0.5), lost)

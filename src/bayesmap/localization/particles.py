@@ -57,10 +57,10 @@ class PoseMixture:
     covariances: Floats
     log_mass: Floats
 
-    def best(self, most: int) -> PoseMixture:
-        """The components with most mass, without those that have next to none."""
+    def best(self, most: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
+        """The components with most mass, without those whose mass is less than the most by so many nats."""
         order = np.argsort(-self.log_mass, kind="stable")[:most]
-        order = order[self.log_mass[order] > self.log_mass[order[0]] - NEGLIGIBLE_NATS]
+        order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
         return PoseMixture(self.means[order], self.covariances[order], self.log_mass[order])
 
 
@@ -125,10 +125,10 @@ def student_draws(count: int, rng: np.random.Generator) -> Floats:
     return np.asarray(stretch * ndtri(even[:, :3]))
 
 
-def shared_out(components: PoseMixture, most: int) -> NDArray[np.intp]:
-    """Draws for each place, (K,): as the root of its mass, by which its error counts; at least a third of the most."""
+def shared_out(components: PoseMixture, most: int, least: float) -> NDArray[np.intp]:
+    """Draws for each place, (K,): as the root of its mass, by which its error counts; at least a share of the most."""
     shares = np.exp(0.5 * (components.log_mass - components.log_mass.max()))
-    return np.asarray(np.maximum(np.round(most * shares), most // 3), dtype=np.intp)
+    return np.asarray(np.maximum(np.round(most * shares), int(most * least)), dtype=np.intp)
 
 
 def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:

@@ -1,0 +1,278 @@
+"""Maps of other programs, to be located in: the law that such a map implies, fitted to the log that is located.
+
+A map_server map says of each cell that it is occupied, free or unknown, or how likely it is occupied. The law is that
+of `bayesmap.posterior.others_maps`: an occupied cell stops a beam by one chance, a free one by another, those between
+along the logit. A reading scatters about the stop by the noise of sensor and map together. People, furniture and doors
+that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to do with the map.
+Errors that all beams of a scan share are no noise: a scan is worth few independent readings, scans along a metre and
+a half tell the same, and the pose itself is off by as much as the map (`Trust`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
+from bayesmap.localization.particles import log_sum
+from bayesmap.posterior.others_maps import stop_probabilities
+from bayesmap.posterior.progress_shares import OnShare, ignored
+from bayesmap.posterior.tuning import Parameter, Values, maximise, sensor_of
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.grid import Grid
+from bayesmap.space.planar import between
+from bayesmap.space.scans import Scans
+
+Floats = NDArray[np.float64]
+
+FITTED = (
+    Parameter("scale_m", 0.02, 0.5),
+    Parameter("p_random", 0.02, 0.5, share=True),
+    Parameter("p_no_return", 0.01, 0.5, share=True),
+    Parameter("p_short", 0.02, 0.9, share=True),
+    Parameter("rate_short_per_m", 0.05, 5.0),
+    Parameter("stop_occupied", 0.05, 0.99, share=True),
+    Parameter("stop_unknown", 1e-3, 0.5, share=True),
+)
+ASSUMED: Mapping[str, float] = {
+    "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
+    "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,
+}  # fmt: skip
+"""The law before it is fitted, and where too few scans are located to fit one. Free cells stop so few beams that the
+law passes them by (`bayesmap.kernels.pose_weights`)."""
+
+WARY = Trust(
+    shared_way_m=1.5, shared_error_m=0.08, carried=3e-3, search_way_m=1.0, kept=12, least_draws=1.0, forgotten_nats=30.0
+)
+"""How far a map is trusted of which nobody says how good it is."""
+
+MOST_SCANS, APART_M = 150, 0.3
+"""Of the log, scans that are located to fit the law, so far apart."""
+
+LIKELY, FEWEST_SCANS = 0.95, 20
+"""A scan serves the fit if one place has so much probability; with fewer scans nothing is fitted."""
+
+USUAL_WAY_M = 3.0
+"""Of a beam, to say how many meet what is not on the map."""
+
+BLOCK = 5
+"""Scans in a row that the fit is made on; the next ones judge it."""
+
+BEAMS = 60
+"""Of a scan, for the fit."""
+
+MOST_SEARCHES, NEAR_M, APART_PLACES_M = 40, 0.6, 1.0
+"""Scans that are searched for by themselves; metres and radians, added, to a place that is theirs, and to another."""
+
+POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
+"""By which the evidence of a place may count, and searches that it takes to tell; with fewer the half counts."""
+
+LEAST_SD_NATS = 0.05
+"""Fits of scans differ by so much at least, nats a beam."""
+
+
+@dataclass(frozen=True)
+class MapLaw:
+    """What a map of another program means for beams, and what a scan in it is worth.
+
+    Attributes:
+        values: chances by which cells stop beams, and the numbers of the beam model.
+        trust: how far the map is trusted.
+        scans: that the law was fitted on and judged by; 0: it is assumed.
+        nats_per_beam: mean log density of readings of the scans that judged, under this law; NaN if none did.
+        usual_fit: of these scans at their own places and at others; None: nothing is known of it.
+    """
+
+    values: Mapping[str, float]
+    trust: Trust = WARY
+    scans: int = 0
+    nats_per_beam: float = float("nan")
+    usual_fit: UsualFit | None = None
+
+    def words(self) -> str:
+        """The law in a line."""
+        v = self.values
+        met = 100 * v["p_short"] * -math.expm1(-v["rate_short_per_m"] * USUAL_WAY_M)
+        how = f"fitted on {self.scans} scans" if self.scans else "assumed: too few scans are located to fit it"
+        return (
+            f"readings scatter by {100 * v['scale_m']:.0f} cm about the map's walls, {met:.0f} % of beams meet "
+            f"something else within {USUAL_WAY_M:g} m, "
+            f"a scan is worth {self.trust.place_readings:.1f} independent readings ({how})"
+        )
+
+
+def external_map(
+    occupancy: Floats,
+    grid: Grid,
+    scans: Scans,
+    law: MapLaw | None = None,
+    *,
+    beam_weight: float | None = None,
+    device: str = "cpu",
+) -> KnownMap:
+    """Return a map of another program, ready to locate scans in.
+
+    Args:
+        occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` gives it.
+        grid: of the map.
+        scans: typical ones, for what readings are like anywhere.
+        law: what the map means; None: as assumed.
+        beam_weight: how much of an independent reading a beam is; None: as the law's trust says.
+        device: where to compute.
+
+    Raises:
+        BadInput: no free cell, or no occupied one.
+    """
+    law = MapLaw(ASSUMED) if law is None else law
+    if not (np.nan_to_num(occupancy) > 0.5).any():
+        raise BadInput("localize: the map has no occupied cell that a beam could meet; are its thresholds right?")
+    stop = stop_probabilities(occupancy, law.values)
+    made = KnownMap.of_draws(
+        stop.ravel()[None].astype(np.float32), grid, sensor_of(law.values, None), scans, occupancy=stop,
+        observed=~np.isnan(occupancy), beam_weight=beam_weight, device=device,
+    )  # fmt: skip
+    return replace(made, trust=law.trust, usual_fit=law.usual_fit)
+
+
+def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progress: OnShare = ignored) -> MapLaw:
+    """Fit the law of a map to scans of which nobody says where they were taken, only how the robot moved between them.
+
+    The scans are located under the assumed law. On those that are surely located the law is fitted, five in a row of
+    ten; the others choose among the fitted law, the assumed one, and the one halfway. They are also searched for one
+    by one, which tells how well scans fit at their own places and elsewhere, and what a scan is worth.
+
+    Args:
+        occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny).
+        grid: of the map.
+        scans: in order of time, at poses of odometry.
+        seed: of the draws of poses.
+        on_progress: called with the share that is done.
+    """
+    assumed = MapLaw(ASSUMED)
+    some = spread_out(scans)
+    if len(some) < FEWEST_SCANS:
+        return assumed
+    poses, sure = _located(external_map(occupancy, grid, scans, assumed), some, seed, on_progress)
+    if sure.sum() < FEWEST_SCANS:
+        return assumed
+    chosen = np.flatnonzero(sure)
+    judges = (np.arange(len(chosen)) // BLOCK) % 2 == 1
+    thin = max(1, some.n_beams // BEAMS)
+    train, judging = (_Placed(some.select(chosen[own]), poses[chosen[own]], thin) for own in (~judges, judges))
+    stops = _stops_of(occupancy, grid)
+
+    def score(placed: _Placed, values: Values) -> float:
+        return float(np.nanmean(placed.log_densities(stops, {**ASSUMED, **values})))
+
+    starts = [ASSUMED, {**ASSUMED, "p_short": 0.05, "scale_m": 0.04}]
+    on_train = partial(score, train)
+    values, _ = maximise(on_train, on_train, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
+    halfway = {p.name: p.outer(0.5 * (p.inner(ASSUMED[p.name]) + p.inner(values[p.name]))) for p in FITTED}
+    laws = [dict(ASSUMED), {**ASSUMED, **halfway}, {**ASSUMED, **values}]
+    logs = [judging.log_densities(stops, one) for one in laws]
+    nats = [float(np.nanmean(one)) for one in logs]
+    best = int(np.argmax(nats))
+    trust = replace(WARY, place_readings=WARY.pose_readings, shared_error_m=laws[best]["scale_m"])
+    law = MapLaw(laws[best], trust, len(chosen), nats[best])
+    judged = chosen[judges]
+    judged = judged[:: max(1, len(judged) // MOST_SEARCHES)]
+    usual, power = searched(external_map(occupancy, grid, scans, law), some.select(judged), poses[judged], seed)
+    trust = replace(trust, place_readings=power * trust.pose_readings)
+    return replace(law, trust=trust, usual_fit=usual)
+
+
+def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[UsualFit, float]:
+    """Search for scans by themselves whose poses are known: how well they fit, and by which power evidence counts.
+
+    The power is the one under which the places of single scans are right as often as they say: of `POWERS` that of the
+    highest mean log probability of the right place.
+    """
+    from bayesmap.localization.filter import Prior, Scan, update
+
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    rng = np.random.default_rng(seed)
+    right, wrong, missed = [], [], 0
+    scores: list[Floats] = []
+    for pose, readings in zip(poses, scans.ranges_m, strict=True):
+        belief = update(known, Prior(), Scan(scans.angles_rad, readings, limits), rng, look_everywhere=True)
+        places = belief.places(1e-9)
+        means = np.array([place.mean for place in places])
+        off = between(pose, means)
+        away = np.hypot(off[:, 0], off[:, 1]) + np.abs(off[:, 2])
+        beams = max(1, int((~np.isnan(readings)).sum()))
+        asked = np.concatenate([pose[None], means[away > APART_PLACES_M]])
+        nats = known.log_likelihood(asked, scans.angles_rad, readings, limits, weight=1.0) / beams
+        right.append(nats[0])
+        wrong.extend([nats[1:].max()] if len(nats) > 1 else [])
+        own = away < NEAR_M
+        missed += int(not own.any())
+        if own.any():
+            logs = POWERS[:, None] * np.log([place.probability for place in places])
+            scores.append(log_sum(logs[:, own]) - log_sum(logs))
+    sd = max(float(np.std(right)), float(np.std(wrong)) if wrong else 0.0, LEAST_SD_NATS)
+    typical = float(np.mean(wrong)) if wrong else float(np.mean(right)) - 2.0 * sd
+    usual = UsualFit(float(np.mean(right)), typical, sd, (missed + 1.0) / (len(poses) + 2.0))
+    power = float(POWERS[np.mean(scores, axis=0).argmax()]) if len(scores) >= FEWEST_SEARCHES else 0.5
+    return usual, power
+
+
+def spread_out(scans: Scans) -> Scans:
+    """The scans that are `APART_M` apart along the way, or further where they would be more than `MOST_SCANS`."""
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T))])
+    step = max(APART_M, float(way[-1]) / MOST_SCANS)
+    _, first = np.unique(np.floor(way / step), return_index=True)
+    return scans.select(first)
+
+
+def _located(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> tuple[Floats, NDArray[np.bool_]]:
+    """Likeliest poses of scans, and which of them are all but sure."""
+    from bayesmap.localization.localize import localize
+
+    found = localize(known, scans, seed=seed, on_belief=lambda k, _: on_progress(0.5 * (k + 1) / len(scans)))
+    sure = [belief.modes[0].probability > LIKELY and belief.p_lost < 1.0 - LIKELY for belief in found.beliefs]
+    return np.array([belief.mean for belief in found.beliefs]), np.array(sure)
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """Scans at poses in the map, of whose beams every ``thin``-th is looked at."""
+
+    scans: Scans
+    poses: Floats
+    thin: int
+
+    def log_densities(self, stops: Callable[[float, float], object], values: Mapping[str, float]) -> Floats:
+        """Log densities of the readings under the law, (S, A); NaN where invalid."""
+        from bayesmap.kernels.pose_weights import scan_log_likelihood
+
+        limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
+        packed = stops(values["stop_occupied"], values["stop_unknown"])
+        readings = self.scans.ranges_m[:, :: self.thin]
+        count, beams = readings.shape
+        # A "scan" of one beam each: what the kernel sums over beams is wanted beam by beam.
+        alone = np.full((count * beams, 1), np.nan)
+        alone[:, 0] = readings.ravel()
+        poses = np.repeat(self.poses, beams, axis=0)
+        poses[:, 2] += np.tile(self.scans.angles_rad[:: self.thin], count)
+        logs = scan_log_likelihood(
+            packed, poses, np.zeros(1), alone, sensor_of(values, None), limits, np.arange(count * beams)
+        )[:, 0].reshape(count, beams)
+        return np.where(np.isnan(readings), np.nan, logs)
+
+
+def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], object]:
+    """The map packed for kernels, by the stop chances of occupied and unknown cells; the last ones are kept."""
+    from bayesmap.kernels.pose_weights import pack_map
+
+    @lru_cache(maxsize=4)
+    def packed(occupied: float, unknown: float) -> object:
+        values = {**ASSUMED, "stop_occupied": occupied, "stop_unknown": unknown}
+        return pack_map(stop_probabilities(occupancy, values).ravel()[None].astype(np.float32), grid, 0.5)
+
+    return packed

@@ -1,0 +1,130 @@
+"""Maps of other programs: a law is fitted to the scans that are located, doubts are kept, errors survived."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rooms import offset, scan_from, walls_of
+
+import bayesmap as bm
+from bayesmap.localization.external_map import ASSUMED, external_map, fit_law
+from bayesmap.localization.filter import shared_by_evidence
+from bayesmap.localization.known_map import UsualFit
+from bayesmap.localization.localize import localize
+from bayesmap.space.planar import compose
+
+LASER = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.001)
+
+
+def drive(count=48):
+    """A round in a room of 6 by 4 m."""
+    turn = np.linspace(0.0, 4 * np.pi, count)
+    middle = np.array([3.0, 2.0])
+    at = middle + np.stack([1.6 * np.cos(turn), 0.9 * np.sin(turn)], axis=1)
+    return np.column_stack([at, turn + np.pi / 2])
+
+
+@pytest.fixture(scope="module")
+def room():
+    """A room, its scans with people in them at poses of odometry, the true poses, and a thick and shifted map of it."""
+    walls, grid = walls_of(6.0, 4.0)
+    truth = drive()
+    scans = scan_from(walls, grid, truth, LASER, np.arange(72) * np.pi / 36)
+    rng = np.random.default_rng(0)
+    readings = scans.ranges_m.copy()
+    for row in readings:  # somebody stands on a sixth of the view
+        at = rng.integers(72) + np.arange(12)
+        row[at % 72] = np.minimum(row[at % 72], rng.uniform(0.4, 0.8))
+    scans = bm.Scans(scans.poses, scans.angles_rad, readings, 10.0)
+    occupancy = walls.astype(float)
+    occupancy[-2:] = occupancy[:2] = 1.0
+    occupancy[:, :25] = np.roll(occupancy[:, :25], 1, axis=0)
+    occupancy[2:4, 30:34] = np.nan
+    return occupancy, grid, scans.moved_to(bm.simulate_odometry(truth, seed=1)), truth
+
+
+@pytest.fixture(scope="module")
+def law(room):
+    occupancy, grid, moved, _ = room
+    return fit_law(occupancy, grid, moved)
+
+
+def test_the_law_is_that_of_the_scans(room, law):
+    """A sixth of the beams meet somebody; walls are off by 10 cm and thick, so that noise is 2 to 15 cm."""
+    assert law.scans >= 20
+    assert 0.08 < law.values["p_short"] + law.values["p_random"] < 0.5
+    assert 0.02 < law.values["scale_m"] < 0.15
+    assert 1.0 <= law.trust.place_readings <= law.trust.pose_readings <= 5.4
+    assert law.usual_fit.right > law.usual_fit.wrong
+    assert "independent readings (fitted on" in law.words()
+
+
+def test_it_is_located_along_the_log_from_anywhere(room, law):
+    occupancy, grid, moved, truth = room
+    found = localize(external_map(occupancy, grid, moved, law), moved)
+    off = np.array([offset(b.mean, pose)[0] for b, pose in zip(found.beliefs, truth, strict=True)])
+    assert (off[10:] < 0.3).all()
+    assert found.p_lost < 0.05
+
+
+def test_of_a_few_scans_no_law_is_fitted(room):
+    occupancy, grid, moved, _ = room
+    law = fit_law(occupancy, grid, moved.select(slice(0, 10)))
+    assert law.scans == 0
+    assert law.values == ASSUMED
+    assert "too few scans" in law.words()
+
+
+def test_a_place_that_was_believed_for_long_is_given_up(room, law):
+    """A robot that was turned by half a circle, unnoticed, is found again within some metres.
+
+    The twin gives places as little chance of being left as maps of our own, and never searches while it is sure.
+    """
+    occupancy, grid, moved, truth = room
+    turned = compose(truth, np.array([0.0, 0.0, np.pi]))
+    walls, _ = walls_of(6.0, 4.0)
+    after = scan_from(walls, grid, turned[16:], LASER, np.arange(72) * np.pi / 36)
+    # Odometry sees a robot that drives on backwards from where it was.
+    readings = np.concatenate([moved.ranges_m[:16], after.ranges_m])
+    poses = np.concatenate([truth[:16], truth[16:]])
+    scans = bm.Scans(poses, moved.angles_rad, readings, 10.0)
+    known = external_map(occupancy, grid, moved, law)
+
+    def off(here):
+        beliefs = localize(here, scans).beliefs[-12:]
+        return np.median([offset(b.mean, pose)[1] for b, pose in zip(beliefs, turned[-12:], strict=True)])
+
+    assert off(known) < 0.2
+    stubborn = replace(law.trust, carried=1e-12, search_way_m=np.inf, forgotten_nats=1.0)
+    assert off(replace(known, trust=stubborn, usual_fit=None)) > 1.0
+
+
+def test_places_share_by_powers_of_their_evidence():
+    """Half of the evidence: odds are the prior's, times the root of what the scan says; nothing new: the prior's."""
+    weights, group = np.array([0.5, 0.3, 0.15, 0.05]), np.array([0, 0, 1, 1])
+    mass = np.array([0.1, 0.9])
+    whole = shared_by_evidence(weights, group, mass, 1.0)
+    np.testing.assert_allclose(whole, weights)
+    half = shared_by_evidence(weights, group, mass, 0.5)
+    odds = half[:2].sum() / half[2:].sum()
+    assert odds == pytest.approx((0.1 / 0.9) * np.sqrt((0.8 / 0.2) / (0.1 / 0.9)))
+    np.testing.assert_allclose(half[:2] / half[:2].sum(), [0.625, 0.375])
+    none = shared_by_evidence(weights, group, mass, 0.0)
+    np.testing.assert_allclose([none[:2].sum(), none[2:].sum()], mass)
+
+
+def test_a_fit_as_at_wrong_places_speaks_for_a_wrong_place():
+    fit = UsualFit(right=1.0, wrong=0.0, sd=0.5, missed=0.1)
+    assert fit.log_odds_wrong(0.5) == 0.0
+    assert fit.log_odds_wrong(1.0) == pytest.approx(-2.0)
+    assert fit.log_odds_wrong(0.0) == pytest.approx(2.0)
+    assert fit.log_odds_wrong(-9.0) == 4.0
+    assert replace(fit, wrong=2.0).log_odds_wrong(0.0) == 0.0
+
+
+def test_maps_that_cannot_be_located_in(room):
+    occupancy, grid, moved, _ = room
+    with pytest.raises(bm.BadInput, match="no occupied cell that a beam could meet"):
+        external_map(np.zeros(grid.shape), grid, moved)
+    with pytest.raises(bm.BadInput, match="no free cell"):
+        external_map(np.where(occupancy > 0.5, 1.0, np.nan), grid, moved)
