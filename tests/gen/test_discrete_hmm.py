@@ -12,7 +12,7 @@ from bayesmap.gen import DiscreteHMM, DiscreteHMMConfiguration
 from bayesmap.gen.discrete_hmm import filter_states
 
 CONFIG = DiscreteHMMConfiguration(4, 1, 1, 0.9, 0.8)
-SEEN = jnp.array([1, 1, 3])
+SEEN = np.array([1, 1, 3])
 
 
 def enumerated():
