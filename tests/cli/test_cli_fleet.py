@@ -18,7 +18,6 @@ from bayesmap.cli.folder import Folder
 
 pytestmark = [
     pytest.mark.xdist_group("ray"),
-    pytest.mark.flaky(reruns=1),  # a cluster whose processes are killed shares a machine that may be busy
     pytest.mark.filterwarnings(r"ignore:os\.fork\(\) was called:RuntimeWarning"),  # Ray forks; JAX may be loaded
 ]
 

@@ -21,7 +21,6 @@ from bayesmap.samplers.sampler import NOTHING
 
 pytestmark = [
     pytest.mark.xdist_group("ray"),
-    pytest.mark.flaky(reruns=1),  # a cluster whose processes are killed shares a machine that may be busy
     pytest.mark.filterwarnings("ignore::ResourceWarning"),
     pytest.mark.filterwarnings(r"ignore:os\.fork\(\) was called:RuntimeWarning"),  # Ray forks; JAX may be loaded
 ]
