@@ -5,6 +5,7 @@ import jax.numpy as jnp
 import jax.random as jr
 import numpy as np
 import pytest
+from tiers import full_but
 
 import bayesmap.gen as genjax
 from bayesmap.gen import ChoiceMapBuilder as C
@@ -107,7 +108,7 @@ def test_one_element_of_a_vmap_can_be_changed(trace):
         jax.tree.map(np.testing.assert_array_equal, restored.get_choices(), trace.get_choices())
 
 
-@pytest.mark.parametrize("t", [0, 2, 4])
+@pytest.mark.parametrize("t", full_but([0, 2, 4], 2, 4))
 def test_one_step_of_a_scan_can_be_changed(t):
     """The next step's state, and so its density, changes too."""
     trace = step.scan(n=5).simulate(jr.key(0), (0.0, jnp.arange(5.0)))

@@ -6,6 +6,7 @@ import jax.random as jr
 import jax.scipy.stats as st
 import numpy as np
 import pytest
+from tiers import full_but
 
 import bayesmap.gen as genjax
 from bayesmap.gen import HMC, Diff, EmptyRequest, ImportanceK, Regenerate, Selection, Target
@@ -102,6 +103,7 @@ def test_resampled_particles_are_draws_from_the_posterior():
     assert after.sample_particle(jr.key(0)).get_choices()["y"] == 2.0
 
 
+@pytest.mark.full
 def test_annealed_smc_estimates_the_evidence():
     """Reweight to the next precision, resample, move by HMC: from precision 0.25 to 4."""
 
@@ -210,10 +212,13 @@ def guess(target):
     genjax.normal(target["y"] / 2, 1.0) @ "mu"
 
 
-@pytest.mark.parametrize("proposal", [None, guess, guess.marginal()])
-def test_a_marginal_by_an_algorithm_is_unbiased(proposal):
+PROPOSALS = {"none": lambda: None, "guess": lambda: guess, "marginal": guess.marginal}
+
+
+@pytest.mark.parametrize("name", full_but(list(PROPOSALS), "marginal"))
+def test_a_marginal_by_an_algorithm_is_unbiased(name):
     """Y ~ N(0, 2) where mu is summed out: exp(generate's weight) is unbiased, and exp(-score) of a draw is, too."""
-    inner = ImportanceK(Target(model, (), C["y"].set(0.0)), proposal, k_particles=3)
+    inner = ImportanceK(Target(model, (), C["y"].set(0.0)), PROPOSALS[name](), k_particles=3)
     shown = model.marginal(selection=Selection.at["y"], algorithm=inner)
     weigh = lambda key: shown.importance(key, C["y"].set(1.0), ())[1]  # noqa: E731
     unbiased(jax.jit(jax.vmap(weigh))(jr.split(jr.key(0), 4000)), st.norm.logpdf(1.0, 0.0, 2**0.5))

@@ -14,8 +14,8 @@ from examples import PAGES, ROOT, TUTORIAL, Example, python_examples, shell_word
 import bayesmap as bm
 from bayesmap.cli.group import COMMANDS, cli
 
-LIMIT_S = 300
-"""For all examples of a page."""
+LIMIT_S = 1800
+"""For all examples of a page, which take half a minute on a quiet machine."""
 
 RUN = """
 import json, sys

@@ -6,6 +6,7 @@ import jax.random as jr
 import numpy as np
 import pytest
 import scipy.stats as st
+from tiers import full_but
 
 import bayesmap.gen as gen
 from bayesmap.errors import BadInput
@@ -33,7 +34,11 @@ KNOWN = {
 }
 
 
-@pytest.mark.parametrize("name", KNOWN)
+# One with two parameters, one that the library builds of others, one of vectors, one of integers.
+OFTEN = ("beta_binomial", "kumaraswamy", "multinomial", "zipf")
+
+
+@pytest.mark.parametrize("name", full_but(list(KNOWN), *OFTEN))
 def test_a_named_distribution_has_the_textbooks_density(name):
     """And sites of it simulate, score and compile without a warning."""
     pytest.importorskip("tensorflow_probability")

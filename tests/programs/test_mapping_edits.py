@@ -6,6 +6,7 @@ import jax.random as jr
 import numpy as np
 import pytest
 from oracle.worlds import make_case
+from tiers import full_but
 
 import bayesmap as bm
 import bayesmap.gen as gen
@@ -54,7 +55,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", full_but(list(CASES), "cells, long beams", "blocks, mixture"))
 def test_long_chains_of_edits(name):
     """400 random edits, walls as often as not, cells off every beam and repeats included.
 
