@@ -16,24 +16,22 @@ import importlib.machinery, json, os, sys, time
 import pytest
 
 events, compiling_s = [], 0.0
-OPENED = {"socket.bind", "socket.connect", "subprocess.Popen", "os.fork", "os.posix_spawn", "os.system", "os.mkdir"}
+OPENED = {"socket.bind", "socket.connect", "subprocess.Popen", "os.fork", "os.posix_spawn", "os.system"}
 
 def watch(event, given):
     if event in OPENED:
         events.append([event, repr(given)[:300]])
     elif event == "open" and isinstance(given[0], str) and given[2] & (os.O_WRONLY | os.O_RDWR):
-        if given[0] != os.devnull:
-            events.append([event, given[0]])
+        events.append([event, given[0]])
 
 class Plugin:
-    collected = 0
+    collected, events = 0, []
 
     @pytest.hookimpl(hookwrapper=True)
     def pytest_make_collect_report(self, collector):
         before = len(events)
         yield
-        for event in events[before:]:
-            event.append(collector.nodeid)
+        self.events += [[collector.nodeid, *event] for event in events[before:]]
 
     def pytest_collection_finish(self, session):
         self.collected = len(session.items)
@@ -58,7 +56,7 @@ used_s = time.process_time() - compiling_s
 jax, warp = (sys.modules.get(name) for name in ("jax._src.xla_bridge", "warp._src.context"))
 started = {"JAX": bool(jax and jax.backends_are_initialized()), "Warp": bool(warp and warp.runtime is not None)}
 with open(sys.argv[1], "w") as file:
-    json.dump({"code": int(code), "tests": plugin.collected, "events": events, "started": started, "used_s": used_s}, file)
+    json.dump({"code": int(code), "tests": plugin.collected, "events": plugin.events, "started": started, "used_s": used_s}, file)
 """
 """Collects all tests and says what that did. What compiling Python takes, which bytecode files save, is left out."""
 

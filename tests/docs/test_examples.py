@@ -15,7 +15,6 @@ import click
 import pytest
 from data import FOLDER
 from examples import PAGES, ROOT, TUTORIAL, Example, python_examples, shell_words
-from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.cli.group import COMMANDS, cli
@@ -68,14 +67,17 @@ def execute(page, examples, folder):
     )
 
 
-# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below. The landing run has
-# a page about the library and one about `bayesmap.gen`. What is renamed or removed is noticed on all pages, see below.
-OFTEN = ("docs/decisions.md", "docs/coming-from-genjax.md")
-
-
-@pytest.mark.parametrize("page", full_but([name(page) for page in RUNNABLE if page != README], *OFTEN))
+# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below. In the landing run
+# the page of the mapping model runs once, in tests/programs/test_mapping_page.py.
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=name(page), marks=[pytest.mark.full] if page.name == "mapping-model.md" else [])
+        for page in RUNNABLE
+        if page != README
+    ],
+)
 def test_the_examples_of_a_page_run(page, tmp_path):
-    page = ROOT / page
     done = execute(page, [e for e in EXAMPLES[page] if not why_not(e)], tmp_path)
     assert done.returncode == 0, done.stderr
 
