@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import select
 import signal
 import subprocess
 import sys
@@ -59,10 +60,35 @@ def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
 
-def wait_for(path: Path, process: subprocess.Popen[str], seconds: float = 60.0) -> None:
+PATIENCE_S = 300.0
+"""How long a process may take for what it does in a moment on a quiet machine."""
+
+
+def wait_for(path: Path, process: subprocess.Popen[str]) -> None:
     """Wait until a process has made a file."""
-    deadline = time.monotonic() + seconds
+    deadline = time.monotonic() + PATIENCE_S
     while not path.exists():
         assert process.poll() is None, process.communicate()
-        assert time.monotonic() < deadline, f"{path} did not appear"
+        assert time.monotonic() < deadline, f"waited {PATIENCE_S} s for {path}"
         time.sleep(0.02)
+
+
+class Listener:
+    """Lines of a process's standard output as they come; none later than patience allows."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self.process, self.rest = process, b""
+
+    def line(self) -> str:
+        """Return the next line."""
+        stdout = self.process.stdout
+        assert stdout is not None
+        deadline = time.monotonic() + PATIENCE_S
+        while b"\n" not in self.rest:
+            ready, _, _ = select.select([stdout], [], [], max(0.0, deadline - time.monotonic()))
+            assert ready, f"waited {PATIENCE_S} s for a line of {self.process.args}"
+            piece = os.read(stdout.fileno(), 1 << 16)
+            assert piece, self.process.communicate()
+            self.rest += piece
+        line, _, self.rest = self.rest.partition(b"\n")
+        return line.decode()

@@ -5,11 +5,9 @@ import json
 import signal
 
 import pytest
-from shell import call, start
+from shell import PATIENCE_S, Listener, call, start
 
 from bayesmap.app.opened import open_file
-
-PATIENCE_S = 120.0
 
 
 @pytest.fixture
@@ -27,13 +25,12 @@ def test_whoever_reads_a_log_has_the_option_that_refusals_name(command):
 
 
 def test_a_cut_log_is_refused_and_shown_as_far_as_it_goes_with_the_option_that_is_named(cut):
-    refused = start("app", "--no-browser", cut)
-    _, errors = refused.communicate(timeout=PATIENCE_S)
-    assert refused.returncode == 3
-    assert "--skip-bad-lines" in errors
+    refused = call("app", "--no-browser", cut)
+    assert refused.exit_code == 3
+    assert "--skip-bad-lines" in refused.stderr
     process = start("app", "--no-browser", "-q", cut, "--skip-bad-lines")
     try:
-        assert process.stdout.readline().startswith("http://127.0.0.1:")
+        assert Listener(process).line().startswith("http://127.0.0.1:")
     finally:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=PATIENCE_S)

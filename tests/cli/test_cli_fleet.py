@@ -11,6 +11,7 @@ import signal
 import numpy as np
 import pytest
 from shell import call
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.cli import fleet_entry, inferring, ray_fleet
@@ -18,7 +19,6 @@ from bayesmap.cli.folder import Folder
 
 pytestmark = [
     pytest.mark.xdist_group("ray"),
-    pytest.mark.flaky(reruns=1),  # a cluster whose processes are killed shares a machine that may be busy
     pytest.mark.filterwarnings(r"ignore:os\.fork\(\) was called:RuntimeWarning"),  # Ray forks; JAX may be loaded
 ]
 
@@ -75,6 +75,7 @@ def test_on_a_cluster_too(logs, tmp_path, alone, short, cluster):
     check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
 
 
+@pytest.mark.full
 def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, cluster, monkeypatch):
     cluster.complete()
     keep, killed = ray_fleet.RayFleet._keep, []
@@ -92,6 +93,7 @@ def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, c
     assert killed
 
 
+@pytest.mark.full
 def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, short, cluster):
     output = tmp_path / "run"
     result = call("infer", office, "-o", output, "--holdout", 4, *short, "--executor", "ray")
@@ -101,6 +103,7 @@ def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, sho
         np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
 
 
+@pytest.mark.full
 def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, tmp_path, short, cluster, monkeypatch):
     """There is a checkpoint at the end of warm-up, and none after it that time would bring."""
     shown, at = [], []
@@ -126,6 +129,7 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
     assert shown[-1][1] > 0
 
 
+@pytest.mark.full
 def test_what_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
     """On any other they would not hear of it once that node has died."""
     import ray
@@ -139,6 +143,7 @@ def test_what_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
         ray.kill(fleet.flag)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("several", [True, False])
 def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, short, cluster, monkeypatch, several):
     """A node that died is reported some time later, on what Python takes for standard output then."""
@@ -190,10 +195,7 @@ def interrupt_the_first(monkeypatch, on_ray):
     monkeypatch.setattr(ray_fleet.RayFleet, "_most_at_once", lambda self, entry: 1)
 
 
-WHERE = pytest.mark.parametrize("executor", ["threads", "ray"])
-
-
-@WHERE
+@pytest.mark.parametrize("executor", full_but(["threads", "ray"], "threads"))
 def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
     logs, tmp_path, alone, short, monkeypatch, request, executor
 ):

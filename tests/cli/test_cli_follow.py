@@ -3,18 +3,16 @@
 import gzip
 import json
 import os
-import select
 import signal
 import subprocess
 import time
 
 import numpy as np
 import pytest
-from shell import call, start
+from shell import PATIENCE_S, Listener, call, start
+from tiers import full_but
 
 from bayesmap.io.logs import read_log
-
-PATIENCE_S = 120.0
 
 
 @pytest.fixture(scope="module")
@@ -23,24 +21,6 @@ def answers(office, office_run, prior):
     result = call("localize", office_run / "run.nc", office, "--follow", "--for", "0", *prior)
     assert result.exit_code == 0, result.stderr
     return result.stdout.splitlines()
-
-
-class Listener:
-    """Lines of a process as they come; none later than patience allows."""
-
-    def __init__(self, process):
-        self.process, self.rest = process, b""
-
-    def line(self):
-        deadline = time.monotonic() + PATIENCE_S
-        while b"\n" not in self.rest:
-            ready, _, _ = select.select([self.process.stdout], [], [], max(0.0, deadline - time.monotonic()))
-            assert ready, "no line came"
-            piece = os.read(self.process.stdout.fileno(), 1 << 16)
-            assert piece, self.process.communicate()
-            self.rest += piece
-        line, _, self.rest = self.rest.partition(b"\n")
-        return line.decode()
 
 
 @pytest.fixture
@@ -100,7 +80,7 @@ def test_a_pipe_is_followed_until_its_writer_has_gone(office, answers, follow, t
     assert process.returncode == 0, errors
 
 
-@pytest.mark.parametrize("name", ["-", "/dev/stdin"])
+@pytest.mark.parametrize("name", full_but(["-", "/dev/stdin"], "-"))
 def test_standard_input_is_followed(office, answers, follow, name):
     process = follow(name, stdin=subprocess.PIPE)
     out, errors = process.communicate(office.read_text(), timeout=PATIENCE_S)

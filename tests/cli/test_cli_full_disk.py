@@ -2,6 +2,7 @@
 
 import pytest
 from shell import start
+from tiers import full_but
 
 LIMIT_BYTES = 4096
 
@@ -17,7 +18,7 @@ def written_on_a_full_disk(*arguments):
     return errors.splitlines()[-1]
 
 
-@pytest.mark.parametrize("name", ["map.bag", "folder", "map.db3", "map.tif"])
+@pytest.mark.parametrize("name", full_but(["map.bag", "folder", "map.db3", "map.tif"], "folder"))
 def test_exports(office_run, tmp_path, name):
     if name == "map.tif":
         pytest.importorskip("rasterio")
@@ -26,6 +27,7 @@ def test_exports(office_run, tmp_path, name):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_a_picture(office_run, tmp_path):
     told = written_on_a_full_disk("render", office_run / "run.nc", "-o", tmp_path / "map.png")
     assert told == f"bayesmap: error: {tmp_path / 'map.png'}: File too large"

@@ -8,7 +8,8 @@ import threading
 from pathlib import Path
 
 import pytest
-from shell import start, wait_for
+from shell import PATIENCE_S, Listener, start, wait_for
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.run.interrupt import stop_on_interrupt
@@ -26,15 +27,16 @@ def test_an_ignored_ctrl_c_does_not_stop_a_run(office, tmp_path, short):
     assert bm.load(folder / "run.nc").finished
 
 
+@pytest.mark.full
 def test_an_ignored_ctrl_c_does_not_end_the_page():
     process = start("app", "--no-browser", first=IGNORE)
     try:
-        assert process.stdout.readline().startswith("http://")
+        assert Listener(process).line().startswith("http://")
         process.send_signal(signal.SIGINT)
         with pytest.raises(subprocess.TimeoutExpired):
             process.wait(2.0)
         process.terminate()
-        process.communicate(timeout=30.0)
+        process.communicate(timeout=PATIENCE_S)
         assert process.returncode is not None
     finally:
         process.kill()
@@ -82,7 +84,7 @@ def test_in_a_child():
 """
 
 
-@pytest.mark.parametrize("with_settings", [True, False])
+@pytest.mark.parametrize("with_settings", full_but([True, False], True))
 def test_tests_may_press_ctrl_c_even_where_they_were_started_to_ignore_it(tmp_path, with_settings):
     """The second case shows what the settings of all tests (tests/conftest.py) are for."""
     (tmp_path / "test_pressed.py").write_text(PRESSED)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from data import intel_log
 from shell import call
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
@@ -28,7 +29,7 @@ OF_KIND = {
     "reflectivity": {"kind": "beta", "hit_depth": 0.5, "start": "readings", "order": None},
     "binary": {"kind": "independent", "hit_depth": 0.25, "start": "prior", "order": "radial"},
 }
-ALL = pytest.mark.parametrize("cells", list(OF_KIND))
+ALL = pytest.mark.parametrize("cells", full_but(list(OF_KIND), "surface", "binary"))
 
 
 @ALL
@@ -105,7 +106,7 @@ def test_strict_exits_4_but_leaves_everything(office, tmp_path, short):
     assert {path.name for path in (tmp_path / "run").iterdir()} == FILES
 
 
-@pytest.mark.parametrize("cells", ["surface", "binary"])
+@pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
 def test_strict_does_not_pass_what_nothing_says_anything_of(office, tmp_path, short, cells):
     options = (*short, "--cells", cells, "--draws", "3", "--strict", "--json")
     result = call("infer", office, "-o", tmp_path / "run", *options)
@@ -113,7 +114,7 @@ def test_strict_does_not_pass_what_nothing_says_anything_of(office, tmp_path, sh
     assert any("nothing can be judged" in problem for problem in json.loads(result.stdout)["problems"])
 
 
-@pytest.mark.parametrize("method", ["block", "propagate", "importance"])
+@pytest.mark.parametrize("method", full_but(["block", "propagate", "importance"], "block", "importance"))
 def test_other_methods_of_binary_walls(office, tmp_path, short, method):
     options = ("--cells", "binary", "--method", method, "--particles", "500", "--json")
     result = call("infer", office, "-o", tmp_path / "run", *short, *options)
@@ -179,8 +180,9 @@ def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
     assert f"{log}: line 6 left out" in read.stderr
 
 
-@pytest.mark.parametrize(("cells", "draws"), [("surface", 200), ("reflectivity", 200), ("binary", 100)])
-def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, cells, draws):
+@pytest.mark.parametrize("cells", full_but(["surface", "reflectivity", "binary"], "surface"))
+def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, cells):
+    draws = 100 if cells == "binary" else 200
     few = ("--resolution", "0.25", "--chains", "1", "--warmup", "1", "--no-progress", "--json")
     result = call("infer", office, "-o", tmp_path / "run", "--cells", cells, *few)
     assert result.exit_code == 0, result.stderr
@@ -188,6 +190,7 @@ def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, 
     assert f"\ndraws = {draws} " in (tmp_path / "run" / "config.toml").read_text()
 
 
+@pytest.mark.full
 def test_the_intel_building(tmp_path):
     log = intel_log("intel-corrected.log.gz")
     result = call(
@@ -202,7 +205,8 @@ def test_the_intel_building(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("method", "told"), [("gibbs", "2 chains of 13 sweeps"), ("importance", "16 independent maps")]
+    ("method", "told"),
+    [("importance", "16 independent maps"), pytest.param("gibbs", "2 chains of 13 sweeps", marks=pytest.mark.full)],
 )
 def test_without_a_terminal_every_method_says_what_it_has_done(office, tmp_path, short, method, told):
     few = ("--cells", "binary", "--particles", "300", "--method", method)
@@ -212,7 +216,7 @@ def test_without_a_terminal_every_method_says_what_it_has_done(office, tmp_path,
     assert told.split(" of ")[0] in call("info", tmp_path / "run" / "run.nc").stdout
 
 
-@pytest.mark.parametrize("coupling", ["0.7", "fit"])
+@pytest.mark.parametrize("coupling", full_but(["0.7", "fit"], "fit"))
 def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
     options = ("--cells", "binary", "--coupling", coupling, "--prior", "0.3", "--json")
     result = call("infer", office, "-o", tmp_path / "run", *short, *options)
@@ -232,7 +236,7 @@ def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
     assert f"coupling = {coupling if coupling == '0.7' else repr(coupling).replace(chr(39), chr(34))}" in written
 
 
-@pytest.mark.parametrize("cells", ["surface", "reflectivity"])
+@pytest.mark.parametrize("cells", full_but(["surface", "reflectivity"], "surface"))
 def test_labels_of_neighbours_are_coupled(office, tmp_path, short, cells):
     result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--coupling", "0.7", "--json")
     assert result.exit_code == 0, result.stderr

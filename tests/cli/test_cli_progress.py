@@ -6,6 +6,7 @@ import subprocess
 
 import pytest
 from shell import COMMAND, SOURCE, call
+from tiers import full_but
 
 from bayesmap.api import Event
 from bayesmap.cli.console import Console
@@ -33,7 +34,7 @@ def on_a_terminal(*arguments):
     return written.decode()
 
 
-@pytest.mark.parametrize("cells", ["surface", "binary"])
+@pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
 def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
     asked = [
         "infer",
@@ -57,6 +58,7 @@ def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
     assert "saving" not in quiet.stderr
 
 
+@pytest.mark.full
 def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office, tmp_path, monkeypatch):
     monkeypatch.setattr("bayesmap.posterior.tuning.MOST_STEPS", 4)  # how well they are fitted is not asked here
     few = ("--resolution", "0.25", "--chains", "1", "--warmup", "2", "--draws", "3", "--holdout", "4")

@@ -4,6 +4,7 @@ import contextlib
 
 import pytest
 from shell import call, interrupt_at_checkpoint
+from tiers import full_but
 
 import bayesmap as bm
 
@@ -31,7 +32,7 @@ def test_interrupted_before_the_first_sweep_it_is_as_it_was(office, finished, sh
     assert contents(finished) == before
 
 
-@pytest.mark.parametrize("where", ["propagate", "warm-up"])
+@pytest.mark.parametrize("where", full_but(["propagate", "warm-up"], "warm-up"))
 def test_out_of_memory_before_the_first_checkpoint_it_is_as_it_was(office, finished, short, monkeypatch, where):
     before, real = contents(finished), bm.api.infer
 
@@ -79,7 +80,7 @@ def test_a_full_disk_says_what_is_kept(office, finished, short, monkeypatch):
 
 
 def test_the_map_that_names_the_cells_may_be_the_folder_s_own(office, finished, short, monkeypatch):
-    long = ("--warmup", "20", "--draws", "400", "--checkpoint-every", "0")
+    long = ("--warmup", "20", "--draws", "30", "--checkpoint-every", "0")
     grid = bm.load(finished / "run.nc").grid
     with monkeypatch.context() as patch:
         interrupt_at_checkpoint(patch)
@@ -90,6 +91,7 @@ def test_the_map_that_names_the_cells_may_be_the_folder_s_own(office, finished, 
     assert bm.load(finished / "run.nc").grid == grid
 
 
+@pytest.mark.full
 def test_a_refused_resume_of_a_trajectory_s_run_changes_nothing(tmp_path):
     log, folder = tmp_path / "office.log", tmp_path / "run"
     made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "30", "--odometry", "typical",

@@ -8,6 +8,7 @@ import signal
 import numpy as np
 import pytest
 from shell import call, interrupt_at_checkpoint, start, wait_for
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.cli.folder import Folder
@@ -46,7 +47,7 @@ def long(cells):
     return (*LONG, "--cells", cells, "--thin", THIN[cells])
 
 
-@pytest.fixture(scope="module", params=["surface", "reflectivity", "binary"])
+@pytest.fixture(scope="module", params=full_but(["surface", "reflectivity", "binary"], "surface"))
 def uninterrupted(request, office, tmp_path_factory):
     """A kind of cells, and the run over them that nothing stopped."""
     folder = tmp_path_factory.mktemp("whole") / "run"
@@ -55,7 +56,7 @@ def uninterrupted(request, office, tmp_path_factory):
     return request.param, bm.load(folder / "run.nc")
 
 
-BOTH = pytest.mark.parametrize("cells", ["surface", "binary"])
+BOTH = pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
 OTHER_CELLS = {
     "surface": "the saved run is one over reflectivities and surfaces",
     "binary": "the saved run is one over walls",
@@ -92,6 +93,7 @@ def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, unint
     same(bm.load(folder / "run.nc"), whole)
 
 
+@pytest.mark.full
 def test_sigkill_leaves_the_last_checkpoint_whole(office, tmp_path, uninterrupted):
     (cells, whole), folder = uninterrupted, tmp_path / "run"
     process = start("infer", office, "-o", folder, *long(cells))
@@ -105,6 +107,7 @@ def test_sigkill_leaves_the_last_checkpoint_whole(office, tmp_path, uninterrupte
     same(bm.load(folder / "run.nc"), whole)
 
 
+@pytest.mark.full
 def test_a_run_stopped_again_and_again_is_the_same(office, tmp_path, uninterrupted, monkeypatch):
     (cells, whole), folder, seen = uninterrupted, tmp_path / "run", []
     if cells == "binary":

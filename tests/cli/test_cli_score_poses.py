@@ -61,6 +61,7 @@ def test_a_run_is_scored_by_relations_alone(raw, raw_run, tmp_path):
     assert "of the laser" in text.stdout
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("roughly")
 def test_relations_in_gaps_of_the_trajectory_are_left_out_and_all_pictures_named(raw, tmp_path):
     truth = read_trajectory(raw / "office-truth.tum")
@@ -107,6 +108,7 @@ def test_the_frame_matters(raw):
     assert wrong["relations"]["translation_m_mean"] > 0.005
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("roughly")
 def test_the_trajectory_of_the_base_is_moved_to_the_laser(raw, tmp_path):
     laser = read_trajectory(raw / "office-truth.tum")
@@ -118,6 +120,7 @@ def test_the_trajectory_of_the_base_is_moved_to_the_laser(raw, tmp_path):
     assert moved["score"]["nats_per_beam"] == pytest.approx(same["score"]["nats_per_beam"], abs=0.01)
 
 
+@pytest.mark.full
 def test_a_trajectory_without_a_map_gets_one(raw):
     arguments = ("--holdout", "4", "--resolution", "0.25", "--relations", raw / "office.relations")
     found = document_of(raw / "office.log", "--trajectory", raw / "office-truth.tum", *arguments)

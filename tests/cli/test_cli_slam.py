@@ -89,6 +89,7 @@ def test_the_trajectory_is_nearer_to_the_truth_than_odometry(whole, log):
     assert np.hypot(*(found - truth).T).max() < 0.1
 
 
+@pytest.mark.full
 def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(whole, log, tmp_path):
     folder = tmp_path / "run"
     process = start("slam", log, "-o", folder, *SHORT, "--draws", "60", "--checkpoint-every", "0", "--no-progress")
@@ -107,6 +108,7 @@ def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(
     assert (folder / "trajectory.tum").read_bytes() == (whole[0] / "trajectory.tum").read_bytes()
 
 
+@pytest.mark.full
 def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(log, tmp_path):
     folder = tmp_path / "run"
     (folder / "stages").mkdir(parents=True)

@@ -7,6 +7,7 @@ import signal
 import numpy as np
 import pytest
 from shell import call
+from tiers import full_but
 
 import bayesmap as bm
 import bayesmap.from_odometry
@@ -69,7 +70,7 @@ def assert_same(folder, whole):
     np.testing.assert_array_equal(run.occupancy, other.occupancy)
 
 
-@pytest.mark.parametrize("stage", ["front end", "loops", "aligned", "warm-up"])
+@pytest.mark.parametrize("stage", full_but(["front end", "loops", "aligned", "warm-up"], "loops"))
 def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_path, monkeypatch, stage):
     folder = tmp_path / "run"
     with monkeypatch.context() as patch:
@@ -81,6 +82,7 @@ def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_p
     assert_same(folder, whole)
 
 
+@pytest.mark.full
 def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch):
     folder = tmp_path / "run"
     assert call("slam", log, "-o", folder, *OTHERS).exit_code == 0

@@ -2,6 +2,7 @@
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 import bayesmap.gen as genjax
 from bayesmap.gen.typing import IntArray
@@ -30,12 +31,12 @@ GRID = """
 .....................
 """
 GRID_SIZE = 21
-CENTER = jnp.array([GRID_SIZE // 2, GRID_SIZE // 2])
+CENTER = np.array([GRID_SIZE // 2, GRID_SIZE // 2])
 NUM_DIRECTIONS = 100
 MAX_DISTANCE = GRID_SIZE * 2
-CORNERS = jnp.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
+CORNERS = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]], np.float32)
 
-true_walls = jnp.array([[float(c == "X") for c in line] for line in GRID.split()])
+true_walls = np.array([[c == "X" for c in line] for line in GRID.split()], np.float32)
 
 
 @genjax.Pytree.dataclass

@@ -15,12 +15,6 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 from peers import unpack_genjax_tests  # noqa: E402 - found through the line above
 
-QUICK_TO_COMPILE = (
-    "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true "
-    "--xla_cpu_parallel_codegen_split_count=1"
-)
-"""Half of the tests' time is compiling programs that run once."""
-
 
 def outcomes(*wanted: str) -> dict[str, bool]:
     """Whether each test passes, by `file::Class::test`; a file that cannot be read counts as one that does not."""
@@ -32,7 +26,7 @@ def outcomes(*wanted: str) -> dict[str, bool]:
         options += ["-q", "--continue-on-collection-errors", f"--junitxml={report}"]
         path = os.pathsep.join([str(HERE), os.environ.get("PYTHONPATH", "")])
         command = [sys.executable, "-m", "pytest", *options, *paths]
-        env = {**os.environ, "PYTHONPATH": path, "XLA_FLAGS": f"{os.environ.get('XLA_FLAGS', '')} {QUICK_TO_COMPILE}"}
+        env = {**os.environ, "PYTHONPATH": path}
         subprocess.run(command, check=False, env=env, cwd=scratch, capture_output=True)
         return {_name(case): len(case) == 0 for case in ET.parse(report).iter("testcase")}
 

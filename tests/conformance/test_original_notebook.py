@@ -8,12 +8,13 @@ import types
 
 import jax
 import jax.numpy as jnp
-import matplotlib
 import numpy as np
 import pytest
 from peers import notebook_cells
 
 import bayesmap.gen as genjax
+
+pytestmark = pytest.mark.full
 
 SHORTER = {"num_samples=100": "num_samples=3", "N=100000": "N=200", "num_frames = 100": "num_frames = 1"}
 """100 samples take minutes."""
@@ -48,6 +49,8 @@ def stubs():
 @pytest.fixture(scope="module")
 def names():
     """Everything that the notebook defines, in its last state, and the chains that it overwrites."""
+    import matplotlib
+
     cells = [shortened(cell) for cell in notebook_cells()]
     matplotlib.use("Agg")
     names = {"display": lambda value: None, "chains": []}

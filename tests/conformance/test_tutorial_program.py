@@ -1,4 +1,4 @@
-"""The tutorial runs with only its imports changed, and draws what it drew on GenJAX 0.10.3 (A.4)."""
+"""The tutorial runs with only its imports changed, and draws what it drew on GenJAX 0.10.3."""
 
 import hashlib
 from functools import partial
@@ -106,7 +106,7 @@ def incremental_sweep(request_of, key, trace):
 
 
 def test_prior_draws_the_golden_map():
-    """A.4: 227 walls, score -305.67792."""
+    """227 walls, score -305.67792."""
     trace = jax.jit(prior(prior_wall_prob=0.5).simulate)(jrand.key(0), ())
     walls = trace.get_retval()
     assert (int(walls.sum()), fingerprint(walls)) == (227, "30ec82c4549b")
@@ -114,27 +114,27 @@ def test_prior_draws_the_golden_map():
 
 
 def test_sensor_draws_the_golden_readings(readings):
-    """A.4: the first readings and their sum; GenJAX 0.10.3 on the same machine agrees to the last bit."""
+    """The first readings and their sum; GenJAX 0.10.3 on the same machine agrees to the last bit."""
     np.testing.assert_allclose(readings[:4], [6.2485046, 6.2457266, 4.1215606, 3.7695596], rtol=2e-7)
     np.testing.assert_allclose(readings.sum(), 1225.6375, rtol=1e-7)
 
 
 def test_full_model_draws_the_golden_map():
-    """A.4: 221 walls, readings sum 146.18332."""
+    """221 walls, readings sum 146.18332."""
     walls, readings = full_model.simulate(jrand.key(1), ARGS).get_retval()
     assert (int(walls.sum()), fingerprint(walls)) == (221, "c2ad6e295ff2")
     np.testing.assert_allclose(readings.sum(), 146.18332, rtol=1e-7)
 
 
 def test_basic_gibbs_visits_the_golden_states(basic_chain):
-    """A.4: wall counts of the first six states, and the hash of the sixth."""
+    """Wall counts of the first six states, and the hash of the sixth."""
     assert [int(state.sum()) for state in basic_chain] == [0, 219, 203, 193, 203, 152]
     assert fingerprint(basic_chain[5]) == "3337fc67e58b"
 
 
 @pytest.mark.parametrize("request_of", [whole_map_request, index_request, address_request])
 def test_incremental_gibbs_keeps_the_joint_density_as_its_score(request_of, readings):
-    """E.27 to E.29 in the tutorial's setting: edits agree with assess, and their traces with cond."""
+    """In the tutorial's setting edits agree with assess, and their traces with cond."""
     trace = incremental_sweep(request_of, jrand.key(0), start_trace(readings))
     assert trace.get_choices()["walls"].dtype == jnp.float32, "walls are what they were given as"
     assert 0 < int(trace.get_choices()["walls"].sum()) < GRID_SIZE**2
@@ -151,19 +151,23 @@ def test_the_three_ways_to_flip_a_pixel_draw_the_same_chain(readings):
     np.testing.assert_array_equal(sweeps[0], sweeps[2])
 
 
-def test_importance_sampling_of_100_000_maps_stores_each_argument_once(readings):
-    """D.21 at the tutorial's N: nothing has the size of N x rays x map; and the weights collapse."""
-    n = 100_000
-    model_importance = jax.jit(full_model.importance)
+def importance_of(readings):
+    """Draw a trace from the prior for each key, with the weight of the readings."""
     constraints = C["readings"].set(readings)
+    return jax.jit(jax.vmap(lambda key: full_model.importance(key, constraints, ARGS)))
 
-    @jax.jit
-    def sample(keys):
-        return jax.vmap(lambda key: model_importance(key, constraints, ARGS))(keys)
 
-    traces, log_weights = sample(jrand.split(jrand.key(3), n))
-    assert sum(leaf.nbytes for leaf in jax.tree.leaves(traces)) < 150e6
-    assert sample.lower(jrand.split(jrand.key(3), n)).compile().memory_analysis().temp_size_in_bytes < 200e6
+def test_importance_sampling_of_100_000_maps_stores_each_argument_once(readings):
+    """At the tutorial's N nothing has the size of N x rays x map; the program is compiled, not run."""
+    lowered = importance_of(readings).lower(jrand.split(jrand.key(3), 100_000))
+    traces, _ = lowered.out_info
+    assert sum(leaf.size * leaf.dtype.itemsize for leaf in jax.tree.leaves(traces)) < 150e6
+    assert lowered.compile().memory_analysis().temp_size_in_bytes < 200e6
+
+
+@pytest.mark.full
+def test_importance_weights_of_100_000_maps_collapse(readings):
+    _, log_weights = importance_of(readings)(jrand.split(jrand.key(3), 100_000))
     log_weights = log_weights - jax.scipy.special.logsumexp(log_weights)
     resampled = jax.vmap(lambda key: jrand.categorical(key, log_weights))(jrand.split(jrand.key(4), 100))
     assert len(set(np.asarray(resampled).tolist())) == 1
@@ -180,6 +184,7 @@ def test_importance_in_chunks_gives_what_single_runs_give(readings):
         np.testing.assert_allclose(weight, weights[k], rtol=1e-6)
 
 
+@pytest.mark.full
 def test_distance_ordered_gibbs_runs_at_a_low_prior(readings):
     """The tutorial's diamonds, from the sensor outwards, at prior 0.05: far fewer walls than at 0.5."""
 
@@ -207,6 +212,7 @@ def test_distance_ordered_gibbs_runs_at_a_low_prior(readings):
     assert 10 < int(chain[-1].sum()) < 100
 
 
+@pytest.mark.full
 def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
     """2 x 2 blocks, all sixteen patterns scored at once by a vmap over assess; the loop carries what it returns."""
     patterns = jnp.array([[(k >> b) & 1 for b in range(4)] for k in range(16)]).reshape(16, 2, 2)
@@ -233,13 +239,13 @@ def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
 
 
 def test_angles_are_exactly_as_many_as_asked_for():
-    """H: arange(0, 1, 1 / n) has one too many for 49, 98, 103, 850, ...; the model takes exact counts."""
+    """The expression arange(0, 1, 1 / n) has one too many for 49, 98, 103, 850, ...; the model takes exact counts."""
     assert all(angles(n).shape == (n,) for n in (49, 98, 100, 103, 850))
     np.testing.assert_array_equal(angles(100), jnp.arange(0, 1, 1 / 100) * 2 * jnp.pi)
 
 
 def test_penzai_dataclasses_can_inherit_from_pytree():
-    """F.38: `@pz.pytree_dataclass class ModelParams(Pytree)` as in the tutorial."""
+    """The tutorial writes `@pz.pytree_dataclass class ModelParams(Pytree)`."""
     pz = pytest.importorskip("penzai.pz", reason="penzai is an optional extra of its users")
 
     @pz.pytree_dataclass

@@ -1,9 +1,14 @@
 """The examples of README, CONTRIBUTING and docs/ run, and what they ask of the command line exists."""
 
+import ast
+import contextlib
+import importlib
+import inspect
 import os
 import re
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import click
@@ -14,8 +19,8 @@ from examples import PAGES, ROOT, TUTORIAL, Example, python_examples, shell_word
 import bayesmap as bm
 from bayesmap.cli.group import COMMANDS, cli
 
-LIMIT_S = 300
-"""For all examples of a page."""
+LIMIT_S = 1800
+"""For all examples of a page, which take half a minute on a quiet machine."""
 
 RUN = """
 import json, sys
@@ -62,8 +67,16 @@ def execute(page, examples, folder):
     )
 
 
-# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below.
-@pytest.mark.parametrize("page", [page for page in RUNNABLE if page != README], ids=name)
+# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below. In the landing run
+# the page of the mapping model runs once, in tests/programs/test_mapping_page.py.
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=name(page), marks=[pytest.mark.full] if page.name == "mapping-model.md" else [])
+        for page in RUNNABLE
+        if page != README
+    ],
+)
 def test_the_examples_of_a_page_run(page, tmp_path):
     done = execute(page, [e for e in EXAMPLES[page] if not why_not(e)], tmp_path)
     assert done.returncode == 0, done.stderr
@@ -74,6 +87,80 @@ def test_examples_that_cannot_run_here_say_why(page, example):
     compile(example.text, str(page), "exec")
     if reason := why_not(example):
         pytest.skip(reason)
+
+
+def imported(node):
+    """Yield what an import statement gets of bayesmap: the name that it gets here, and the thing or an error."""
+    if isinstance(node, ast.Import):
+        for one in node.names:
+            if one.name.split(".")[0] == "bayesmap":
+                yield one.asname or "bayesmap", importlib.import_module(one.name if one.asname else "bayesmap")
+    elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "bayesmap":
+        module = importlib.import_module(node.module)
+        for one in node.names:
+            with contextlib.suppress(ModuleNotFoundError):  # no module of its own
+                importlib.import_module(f"{node.module}.{one.name}")
+            yield one.asname or one.name, getattr(module, one.name, AttributeError(f"{node.module} has no {one.name}"))
+
+
+def misused(text):
+    """Return what some code asks of bayesmap and bayesmap has not: names of its modules, arguments by name."""
+    tree, found, known = ast.parse(text), [], {}
+
+    def named(node):
+        """The thing that a dotted name stands for; None where that is not known before the code runs."""
+        if isinstance(node, ast.Name):
+            return known.get(node.id)
+        above = named(node.value) if isinstance(node, ast.Attribute) else None
+        return getattr(above, node.attr, None) if isinstance(above, types.ModuleType | type) else None
+
+    for node in ast.walk(tree):
+        for as_name, thing in imported(node):
+            known[as_name] = thing
+            if isinstance(thing, AttributeError):
+                found.append(f"line {node.lineno}: {thing}")
+    for node in ast.walk(tree):
+        above = named(node.value) if isinstance(node, ast.Attribute) else None
+        if isinstance(above, types.ModuleType) and not hasattr(above, node.attr):
+            found.append(f"line {node.lineno}: {above.__name__} has no {node.attr}")
+        if isinstance(node, ast.Call) and node.keywords and callable(called := named(node.func)):
+            takes = inspect.signature(called).parameters.values()
+            if not any(one.kind is one.VAR_KEYWORD for one in takes):
+                wrong = {given.arg for given in node.keywords} - {one.name for one in takes} - {None}
+                found += [f"line {node.lineno}: {called.__name__} takes no {argument}" for argument in sorted(wrong)]
+    return found
+
+
+def code_of(page):
+    """Return the examples of a page in one, each at its line; those that are marked as not run, too."""
+    lines = [""] * page.read_text(encoding="utf-8").count("\n")
+    for example in EXAMPLES[page]:
+        text = example.text.splitlines()
+        lines[example.line - 1 : example.line - 1 + len(text)] = text
+    return "\n".join(lines)
+
+
+def test_what_examples_ask_of_the_library_is_there():
+    """The examples of all pages and the notebooks, without running them: what is renamed is noticed at once."""
+    sources = {page: code_of(page) for page in PAGES if EXAMPLES[page]}
+    sources |= {path: path.read_text(encoding="utf-8") for path in TUTORIAL.glob("*.py")}
+    assert [f"{name(path)}, {what}" for path, text in sources.items() for what in misused(text)] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("import bayesmap as bm\nbm.infre(1)", ["line 2: bayesmap has no infre"]),
+        ("import bayesmap as bm\nbm.infer(1, drawz=3)", ["line 2: infer takes no drawz"]),
+        ("from bayesmap import gem", ["line 1: bayesmap has no gem"]),
+        ("from bayesmap import gen\ngen.nrmal(0.0, 1.0)", ["line 2: bayesmap.gen has no nrmal"]),
+        ("import bayesmap as bm\nbm.Grid.covring(3)\nbm.Grid((3, 3), 0.1, origin=(0, 0))", []),
+        ("import bayesmap as bm\nbm.Grid((3, 3), 0.1, orign=(0, 0))", ["line 2: Grid takes no orign"]),
+        ("import numpy as np\nnp.arnge(3)\nx.nothing(y=2)", []),
+    ],
+)
+def test_what_the_library_lacks_is_noticed(text, what):
+    assert misused(text) == what
 
 
 def test_the_readme_s_examples_run_and_give_what_they_say(tmp_path):

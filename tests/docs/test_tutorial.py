@@ -26,6 +26,8 @@ def loaded(name):
 
 render = loaded("render")
 every_page = pytest.mark.parametrize("name", render.PAGES)
+OFTEN = ("mapping", "odometry")
+"""Notebooks of the landing run, the quickest two: a program of `bayesmap.gen`, and one that uses the whole library."""
 
 
 def source_of(name):
@@ -40,7 +42,13 @@ def figures_of(name):
     return re.findall(r"!\[[^]]*\]\(figures/([^)]+)\)", page_of(name))
 
 
-@every_page
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.xdist_group(name), *([] if name in OFTEN else [pytest.mark.full])])
+        for name in render.PAGES
+    ],
+)
 def test_a_notebook_runs_and_draws_the_figures_of_its_page(name, tmp_path):
     """Its cells assert what its prose says."""
     environment = os.environ | {

@@ -16,7 +16,6 @@ import bayesmap.gen as gen
 from bayesmap.gen import ChoiceMap, Diff, IndexChange, NoChange, Pytree, Update
 from bayesmap.gen import ChoiceMapBuilder as C
 
-KEY = jr.key(0)
 CELLS, PER_SCALE = 12, 3
 full_recomputations: list[str] = []
 
@@ -95,22 +94,22 @@ def model(p):
 
 
 def test_a_generative_function_of_ones_own_joins_a_larger_model():
-    trace = model.simulate(KEY, (0.5,))
+    trace = model.simulate(jr.key(0), (0.5,))
     score, _ = model.assess(trace.get_choices(), (0.5,))
     np.testing.assert_allclose(trace.get_score(), score, rtol=1e-6)
-    constrained, weight = model.importance(KEY, C["readings"].set(jnp.ones(4)), (0.5,))
+    constrained, weight = model.importance(jr.key(0), C["readings"].set(jnp.ones(4)), (0.5,))
     np.testing.assert_allclose(weight, constrained.get_subtrace("readings").get_score(), rtol=1e-6)
 
 
 @pytest.mark.parametrize("traced", [False, True])
 def test_a_change_of_one_element_reaches_its_edit_as_such(traced):
     """The weight is the joint's, and the whole was not recomputed."""
-    trace = model.simulate(KEY, (0.5,))
+    trace = model.simulate(jr.key(0), (0.5,))
     cells = trace.get_choices()["cells"]
 
     def edit(i):
         request = gen.StaticRequest({"cells": gen.IndexRequest(i, Update(C.v(1.0 - cells[i])))})
-        return trace.edit(KEY, request)
+        return trace.edit(jr.key(0), request)
 
     full_recomputations.clear()
     new, weight, retdiff, back = (jax.jit(edit) if traced else edit)(7)
@@ -118,21 +117,21 @@ def test_a_change_of_one_element_reaches_its_edit_as_such(traced):
     assert all(t == NoChange for t in Diff.tangents(retdiff))
     joint = lambda t: model.assess(t.get_choices(), (0.5,))[0]  # noqa: E731
     np.testing.assert_allclose(weight, joint(new) - joint(trace), rtol=1e-4)
-    restored, undone, _, _ = new.edit(KEY, back)
+    restored, undone, _, _ = new.edit(jr.key(0), back)
     np.testing.assert_array_equal(restored.get_choices()["cells"], cells)
     np.testing.assert_allclose(undone, -weight, rtol=1e-5)
 
 
 def test_any_other_change_is_recomputed():
-    trace = model.simulate(KEY, (0.5,))
+    trace = model.simulate(jr.key(0), (0.5,))
     full_recomputations.clear()
-    new, weight, _, _ = trace.update(KEY, C["cells"].set(jnp.ones(CELLS, bool)))
+    new, weight, _, _ = trace.update(jr.key(0), C["cells"].set(jnp.ones(CELLS, bool)))
     assert full_recomputations != []
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
 
 
 def test_a_sweep_of_such_edits_keeps_the_score():
-    trace = model.simulate(KEY, (0.5,))
+    trace = model.simulate(jr.key(0), (0.5,))
 
     @jax.jit
     def sweep(trace, key):
@@ -144,5 +143,5 @@ def test_a_sweep_of_such_edits_keeps_the_score():
 
         return jax.lax.fori_loop(0, CELLS, step, trace)
 
-    swept = sweep(trace, KEY)
+    swept = sweep(trace, jr.key(0))
     np.testing.assert_allclose(swept.get_score(), model.assess(swept.get_choices(), (0.5,))[0], rtol=1e-4)

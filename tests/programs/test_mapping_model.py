@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from conformance.gen_tutorial_model import CENTER, PARAMS, full_model
 from oracle.worlds import make_case
+from tiers import full_but
 
 import bayesmap as bm
 import bayesmap.gen as gen
@@ -19,7 +20,6 @@ from bayesmap.programs.mapping import sensor_model
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import RangeLimits
 
-KEY = jr.key(0)
 ANGLES = np.arange(100) / 100 * 2 * np.pi
 SENSORS = {
     "gaussian": bm.Gaussian(0.5),
@@ -90,19 +90,19 @@ def test_assess_is_that_of_the_tutorial_s_own_program(tutorial):
 
 
 def test_equal_probabilities_draw_the_tutorial_s_maps(tutorial):
-    trace = tutorial.simulate(KEY, ())
-    prior = gen.flip.repeat(n=21).repeat(n=21).simulate(jr.fold_in(KEY, 1), (0.5,))
+    trace = tutorial.simulate(jr.key(0), ())
+    prior = gen.flip.repeat(n=21).repeat(n=21).simulate(jr.fold_in(jr.key(0), 1), (0.5,))
     np.testing.assert_array_equal(trace.get_choices()["walls"], prior.get_retval())
 
 
-@pytest.mark.parametrize("name", SENSORS)
+@pytest.mark.parametrize("name", full_but(list(SENSORS), "growing", "student mixture"))
 def test_simulated_readings_follow_the_sensor(name):
     """Against the sensor's own sampler: the share of each kind, and quartiles, to five standard errors."""
     grid, walls = bm.Grid((6, 6), 0.5), np.zeros((6, 6), bool)
     walls[4] = True
     sensor = sensor_model(grid, [1.0, 1.6, 0.0], [0.0, 0.5, 2.0], SENSORS[name], max_range_m=2.5, min_range_m=0.2)
     n = 20_000
-    ours = np.asarray(jax.jit(jax.vmap(lambda k: sensor.simulate(k, (walls,)).get_retval()))(jr.split(KEY, n)))
+    ours = np.asarray(jax.jit(jax.vmap(lambda k: sensor.simulate(k, (walls,)).get_retval()))(jr.split(jr.key(0), n)))
     distance = np.broadcast_to([1.0, 1.0 / np.cos(0.5), np.inf], (n, 3))
     theirs = SENSORS[name].sample(np.random.default_rng(0), distance, RangeLimits(0.2, 2.5))
     for beam in range(3):
@@ -123,27 +123,27 @@ def test_it_nests_in_a_bigger_model():
         broken = gen.flip(0.1) @ "broken"
         return walls, jnp.where(broken, jnp.nan, readings)
 
-    trace = jax.jit(robot.simulate)(KEY, ())
+    trace = jax.jit(robot.simulate)(jr.key(0), ())
     choices = trace.get_choices()
     assert choices["map", "walls"].shape == (3, 3)
     score = inner.assess(choices("map"), ())[0] + gen.flip.assess(C.v(choices["broken"]), (0.1,))[0]
     np.testing.assert_allclose(trace.get_score(), score, rtol=1e-5)
     cell = choices["map", "walls"][1, 2]
-    new, weight, _, _ = jax.jit(lambda t, c: t.update(KEY, c))(trace, C["map", "walls", 1, 2].set(~cell))
+    new, weight, _, _ = jax.jit(lambda t, c: t.update(jr.key(0), c))(trace, C["map", "walls", 1, 2].set(~cell))
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-3, atol=1e-3)
 
 
 def test_importance_weighs_by_what_is_given_and_project_divides_the_score():
     case = make_case(6, shape=(3, 3), prior=0.3)
     model, readings = of_case(case), jnp.asarray(case.scans.ranges_m)
-    trace, weight = model.importance(KEY, C["readings"].set(readings), ())
+    trace, weight = model.importance(jr.key(0), C["readings"].set(readings), ())
     walls = np.asarray(trace.get_choices()["walls"])
     np.testing.assert_allclose(weight, case.problem().table.log_likelihood(walls), rtol=1e-5)
-    np.testing.assert_allclose(trace.project(KEY, gen.Selection.at["readings"]), weight, rtol=1e-6)
+    np.testing.assert_allclose(trace.project(jr.key(0), gen.Selection.at["readings"]), weight, rtol=1e-6)
     np.testing.assert_allclose(
-        trace.project(KEY, gen.Selection.at["walls"]), case.prior.log_prob(walls, case.grid), rtol=1e-5
+        trace.project(jr.key(0), gen.Selection.at["walls"]), case.prior.log_prob(walls, case.grid), rtol=1e-5
     )
-    empty, nothing = model.importance(KEY, C.n(), ())
+    empty, nothing = model.importance(jr.key(0), C.n(), ())
     assert nothing == 0.0
     np.testing.assert_allclose(empty.get_score(), model.assess(empty.get_choices(), ())[0], rtol=1e-5)
 
@@ -151,7 +151,7 @@ def test_importance_weighs_by_what_is_given_and_project_divides_the_score():
 def test_a_batch_of_traces_is_a_trace():
     case = make_case(7, shape=(3, 3))
     model = of_case(case)
-    batch = jax.jit(jax.vmap(lambda k: model.simulate(k, ())))(jr.split(KEY, 7))
+    batch = jax.jit(jax.vmap(lambda k: model.simulate(k, ())))(jr.split(jr.key(0), 7))
     assert batch.get_score().shape == (7,)
     scores = jax.jit(jax.vmap(lambda c: model.assess(c, ())[0]))(batch.get_choices())
     np.testing.assert_allclose(batch.get_score(), scores, rtol=1e-5)
@@ -163,7 +163,7 @@ def test_equal_models_are_equal_and_a_trace_can_be_pickled():
     case = make_case(7, shape=(3, 3))
     one, two = of_case(case), of_case(case)
     assert jax.tree.structure(one) == jax.tree.structure(two)
-    trace = one.simulate(KEY, ())
+    trace = one.simulate(jr.key(0), ())
     again = pickle.loads(pickle.dumps(trace))
     assert jax.tree.structure(again) == jax.tree.structure(trace)
     np.testing.assert_array_equal(again.get_choices()["readings"], trace.get_choices()["readings"])
@@ -183,11 +183,11 @@ def test_bad_input_is_named():
     with pytest.raises(bm.BadInput, match=r"'walls': found \(3, 4\), expected \(3, 3\)"):
         model.assess(both(np.zeros((3, 4), bool), readings), ())
     with pytest.raises(bm.BadInput, match=r"'readings': found \(1, 2\), expected \(2,\)"):
-        model.importance(KEY, C["readings"].set(np.ones((1, 2))), ())
+        model.importance(jr.key(0), C["readings"].set(np.ones((1, 2))), ())
     with pytest.raises(bm.BadInput, match=r"'walls'.*0\.5"):
         model.assess(both(walls + 0.5, readings), ())
     with pytest.raises(bm.BadInput, match="'wals'"):
-        model.importance(KEY, C["wals"].set(walls), ())
+        model.importance(jr.key(0), C["wals"].set(walls), ())
     with pytest.raises(bm.BadInput, match="'readings'"):
         model.assess(C["walls"].set(walls), ())
     with pytest.raises(bm.BadInput, match=r"p_wall must lie in \[0, 1\]"):
@@ -202,4 +202,4 @@ def test_bad_input_is_named():
         bm.mapping_model(grid, [1, 1, 0], [0.0], p, bm.Gaussian(0.1), max_range_m=-1.0)
     sensor = sensor_model(grid, [1, 1, 0], [0.0], bm.Gaussian(0.1), max_range_m=5.0)
     with pytest.raises(bm.BadInput, match=r"walls has shape \(2, 2\), expected \(3, 3\)"):
-        sensor.simulate(KEY, (np.zeros((2, 2), bool),))
+        sensor.simulate(jr.key(0), (np.zeros((2, 2), bool),))

@@ -12,10 +12,9 @@ from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.gen import IndexRequest, StaticRequest, Update
 from bayesmap.programs.mapping import SetCells, pose_sensor_model, sensor_model
 
-KEY = jr.key(0)
 GRID = bm.Grid((9, 7), 0.5, (-2.0, 1.0))
 ANGLES = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-SIGMA = jnp.array([0.3, 0.3, 0.2])
+SIGMA = np.array([0.3, 0.3, 0.2], np.float32)
 GUESSES = np.array([[-1.0, 2.0, 0.0], [0.3, 3.1, 1.0], [1.7, 2.4, -2.0], [5.0, 2.0, 3.0]])  # the last one is outside
 SENSORS = {"gaussian": bm.Gaussian(0.3), "mixture": bm.BeamMixture(bm.Gaussian(0.2))}
 
@@ -50,7 +49,7 @@ def test_beams_end_where_those_of_known_poses_do(depth):
 @pytest.mark.parametrize("name", SENSORS)
 def test_the_joint_is_that_of_known_poses_times_their_prior(name):
     model = unknown(SENSORS[name])
-    choices = model.simulate(KEY, ()).get_choices()
+    choices = model.simulate(jr.key(0), ()).get_choices()
     poses = np.asarray(choices["poses"])
     known = bm.mapping_model(GRID, poses, ANGLES, bm.Independent(0.2), SENSORS[name], max_range_m=4.0, min_range_m=0.1)
     prior = -0.5 * (((poses - GUESSES) / SIGMA) ** 2 + np.log(2 * np.pi)).sum() - len(poses) * np.log(SIGMA).sum()
@@ -80,9 +79,9 @@ def test_long_chains_of_edits(name):
 
     @jax.jit
     def chain(trace):
-        return jax.lax.scan(step, (trace, model.assess(trace.get_choices(), ())[0]), jr.split(KEY, 400))
+        return jax.lax.scan(step, (trace, model.assess(trace.get_choices(), ())[0]), jr.split(jr.key(0), 400))
 
-    start = model.simulate(KEY, ())
+    start = model.simulate(jr.key(0), ())
     (last, _), (weight, difference, score, assessed, right) = chain(start)
     assert right.all()
     np.testing.assert_allclose(weight, difference, rtol=1e-4, atol=1e-6 * np.abs(assessed).max() + 2e-3)
@@ -94,7 +93,7 @@ def test_long_chains_of_edits(name):
 @pytest.fixture
 def marked():
     """A trace in which the beams of all scans but number 1 end at a cell that they do not reach."""
-    trace = unknown(bm.Gaussian(0.3)).simulate(KEY, ())
+    trace = unknown(bm.Gaussian(0.3)).simulate(jr.key(0), ())
     inner = trace.get_subtrace("readings")
     ends = jnp.full_like(inner.ends, 17).at[1].set(inner.ends[1])
     return trace.replace(subtraces=trace.subtraces | {("readings",): inner.replace(ends=ends)})
@@ -102,7 +101,7 @@ def marked():
 
 def test_an_edit_of_a_pose_visits_that_scan_alone(marked):
     """The other scans' ends are wrong here, and stay as they are: nobody looks at them."""
-    new, weight, _, _ = jax.jit(lambda t: t.edit(KEY, at(1, jnp.array([0.2, 3.0, 0.9]))))(marked)
+    new, weight, _, _ = jax.jit(lambda t: t.edit(jr.key(0), at(1, jnp.array([0.2, 3.0, 0.9]))))(marked)
     ends = np.asarray(new.get_subtrace("readings").ends)
     assert (ends[[0, 2, 3]] == 17).all()
     assert (ends[1] != np.asarray(marked.get_subtrace("readings").ends[1])).any()
@@ -112,9 +111,9 @@ def test_an_edit_of_a_pose_visits_that_scan_alone(marked):
 
 
 def test_an_edit_is_undone_by_its_backward_request():
-    trace = unknown(bm.Gaussian(0.3)).simulate(KEY, ())
-    new, weight, _, back = trace.edit(KEY, at(2, jnp.array([1.0, 2.0, 0.0])))
-    again, undone, _, _ = new.edit(KEY, back)
+    trace = unknown(bm.Gaussian(0.3)).simulate(jr.key(0), ())
+    new, weight, _, back = trace.edit(jr.key(0), at(2, jnp.array([1.0, 2.0, 0.0])))
+    again, undone, _, _ = new.edit(jr.key(0), back)
     np.testing.assert_array_equal(again.get_choices()["poses"], trace.get_choices()["poses"])
     np.testing.assert_array_equal(again.get_subtrace("readings").ends, trace.get_subtrace("readings").ends)
     np.testing.assert_allclose(undone, -weight, rtol=1e-4, atol=1e-3)
@@ -122,10 +121,10 @@ def test_an_edit_is_undone_by_its_backward_request():
 
 def test_poses_and_walls_can_change_in_one_edit():
     model = unknown(bm.Gaussian(0.3))
-    trace = model.simulate(KEY, ())
+    trace = model.simulate(jr.key(0), ())
     both = StaticRequest(at(0, jnp.array([-1.2, 2.2, 0.3])).addressed | single(3, 4, True).addressed)
     for request in (both, Update(C["poses"].set(trace.get_choices()["poses"] + 0.1) | C["walls", 2, 2].set(True))):
-        new, weight, _, _ = trace.edit(KEY, request)
+        new, weight, _, _ = trace.edit(jr.key(0), request)
         change = model.assess(new.get_choices(), ())[0] - trace.get_score()
         np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
 
@@ -144,11 +143,11 @@ def walk(odometry):
 def test_the_prior_may_be_a_motion_model():
     odometry = jnp.array([[0.3, 0.1, 0.2]] * 4)
     model = bm.mapping_model(GRID, walk(odometry), ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
-    trace = model.simulate(KEY, ())
+    trace = model.simulate(jr.key(0), ())
     assert trace.get_choices()["readings"].shape == (4, 24)
     moved = trace.get_choices()["poses", "steps", "pose"][1] + 0.05
     request = StaticRequest({"poses": StaticRequest({"steps": IndexRequest(1, Update(C["pose"].set(moved)))})})
-    new, weight, _, _ = jax.jit(lambda t, r: t.edit(KEY, r))(trace, request)
+    new, weight, _, _ = jax.jit(lambda t, r: t.edit(jr.key(0), r))(trace, request)
     change = model.assess(new.get_choices(), ())[0] - model.assess(trace.get_choices(), ())[0]
     np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
     before, after = (t.get_subtrace("readings").ends for t in (trace, new))
@@ -159,7 +158,7 @@ def test_the_prior_may_be_a_motion_model():
 def test_a_single_pose_has_a_single_scan():
     prior = gen.mv_normal_diag(jnp.array(GUESSES[0]), SIGMA)
     model = bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
-    trace, weight = model.importance(KEY, C["readings"].set(jnp.ones(24)), ())
+    trace, weight = model.importance(jr.key(0), C["readings"].set(jnp.ones(24)), ())
     assert trace.get_choices()["poses"].shape == (3,)
     np.testing.assert_allclose(weight, trace.get_subtrace("readings").get_score(), rtol=1e-5)
 
@@ -172,6 +171,6 @@ def test_bad_input_is_named():
         bm.mapping_model(GRID, gen.mv_normal_diag, **sensor)
     alone = pose_sensor_model(GRID, ANGLES, bm.Gaussian(0.3), max_range_m=4.0)
     with pytest.raises(bm.BadInput, match=r"walls has shape \(2, 2\), expected \(9, 7\)"):
-        alone.simulate(KEY, (np.zeros((2, 2)), np.zeros(3)))
+        alone.simulate(jr.key(0), (np.zeros((2, 2)), np.zeros(3)))
     with pytest.raises(bm.BadInput, match=r"poses has shape \(4,\), expected"):
-        alone.simulate(KEY, (np.zeros((9, 7)), np.zeros(4)))
+        alone.simulate(jr.key(0), (np.zeros((9, 7)), np.zeros(4)))

@@ -1,4 +1,4 @@
-"""Section F: choice maps, selections, masks, pytrees."""
+"""Choice maps, selections, masks, pytrees."""
 
 import copy
 import pickle
@@ -14,8 +14,6 @@ from bayesmap.gen import ChoiceMap, ChoiceMapNoValueAtAddress, Mask, Pytree, Sel
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.gen import SelectionBuilder as S
 
-KEY = jr.key(0)
-
 
 @genjax.gen
 def model(loc):
@@ -26,26 +24,22 @@ def model(loc):
 
 @pytest.mark.parametrize("join", [lambda a, b: a | b, lambda a, b: a + b, lambda a, b: a ^ b, lambda a, b: a.merge(b)])
 def test_joining_prefers_the_left_value(join):
-    """F.32."""
     both = join(C["x"].set(1.0) | C["y"].set(2.0), C["x"].set(3.0) | C["z", "w"].set(4.0))
     assert (both["x"], both["y"], both["z", "w"]) == (1.0, 2.0, 4.0)
 
 
 def test_and_filters_the_right_map_by_the_left_ones_addresses():
-    """F.32."""
     both = C["x"].set(1.0) & (C["x"].set(3.0) | C["y"].set(2.0))
     assert both["x"] == 3.0
     assert "y" not in both
 
 
 def test_a_value_against_names_raises():
-    """F.32."""
     with pytest.raises(ValueError, match="bare value"):
         C["x"].set(1.0) | C["x", "y"].set(2.0)
 
 
 def test_at_set_replaces():
-    """F.33."""
     chm = C["x"].set(jnp.zeros(3)) | C["y"].set(1.0)
     np.testing.assert_array_equal(chm.at["x"].set(jnp.ones(3))["x"], jnp.ones(3))
     np.testing.assert_array_equal(chm.at["x", 1].set(5.0)["x"], [0.0, 5.0, 0.0])
@@ -55,7 +49,6 @@ def test_at_set_replaces():
 
 
 def test_asking_for_what_is_not_there_raises():
-    """F.34."""
     chm = C["x", "y"].set(1.0)
     assert ("x", "y") in chm
     assert "x" not in chm
@@ -65,7 +58,6 @@ def test_asking_for_what_is_not_there_raises():
 
 
 def test_filter_mask_selection_and_extend():
-    """F.34."""
     chm = C["x"].set(1.0) | C["y", "z"].set(2.0)
     kept = chm.filter(S["y"])
     assert ("y", "z") in kept
@@ -79,7 +71,6 @@ def test_filter_mask_selection_and_extend():
 
 
 def test_invalid_subset_is_what_the_model_would_never_choose():
-    """F.34."""
     extras = (C["x"].set(1.0) | C["w"].set(2.0)).invalid_subset(model, (0.0,))
     assert "w" in extras
     assert "x" not in extras
@@ -87,7 +78,6 @@ def test_invalid_subset_is_what_the_model_would_never_choose():
 
 
 def test_ways_to_build_a_map():
-    """F.34."""
     expected = C["x"].set(1.0) | C["y", "z"].set(2.0)
     for chm in (
         C.d({"x": 1.0, "y": {"z": 2.0}}),
@@ -102,7 +92,6 @@ def test_ways_to_build_a_map():
 
 
 def test_maps_can_hold_indices():
-    """F.32."""
     chm = C[0, "v"].set(1.0) | C[2, "v"].set(3.0)
     assert (chm[0, "v"], chm[2, "v"]) == (1.0, 3.0)
     assert (1, "v") not in chm
@@ -113,7 +102,6 @@ def test_maps_can_hold_indices():
 
 
 def test_a_selection_matches_everything_below():
-    """F.35."""
     sel = Selection.at["x"]
     assert sel["x"]
     assert sel["x", "y", "z"]
@@ -122,7 +110,6 @@ def test_a_selection_matches_everything_below():
 
 
 def test_selections_combine():
-    """F.35."""
     x, y = Selection.at["x"], Selection.at["y"]
     assert (x | y)["y"]
     assert not (x & y)["x"]
@@ -135,7 +122,6 @@ def test_selections_combine():
 
 
 def test_leaf_all_and_none():
-    """F.35."""
     leaf = Selection.leaf().extend("x")
     assert leaf["x"]
     assert not leaf["x", "y"]
@@ -146,7 +132,6 @@ def test_leaf_all_and_none():
 
 
 def test_unmask():
-    """F.36."""
     value = jnp.arange(3.0)
     assert Mask(1.0, True).unmask() == 1.0
     assert Mask(1.0, False).unmask() == 1.0
@@ -167,7 +152,6 @@ class Params(Pytree):
 
 
 def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
-    """F.37."""
     params = Params(3, 2.0)
     assert jax.tree.leaves(params) == [2.0]
     assert jax.tree.structure(params) != jax.tree.structure(Params(4, 2.0))
@@ -180,26 +164,23 @@ def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
 
 
 def test_traces_of_module_level_models_pickle():
-    """F.39."""
-    trace = model.simulate(KEY, (1.0,))
+    trace = model.simulate(jr.key(0), (1.0,))
     loaded = pickle.loads(pickle.dumps(trace))
     assert loaded.get_gen_fn() == model
     np.testing.assert_array_equal(loaded.get_choices()["y", "z"], trace.get_choices()["y", "z"])
-    assert loaded.update(KEY, C["x"].set(0.0))[0].get_choices()["x"] == 0.0
+    assert loaded.update(jr.key(0), C["x"].set(0.0))[0].get_choices()["x"] == 0.0
 
 
 def test_traces_of_local_models_can_be_copied():
-    """F.39."""
-    trace = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(KEY, ())
+    trace = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(jr.key(0), ())
     assert copy.deepcopy(trace).get_choices()["x"] == trace.get_choices()["x"]
 
 
 def test_traces_survive_jit_vmap_scan_and_cond():
-    """F.39."""
-    trace = model.simulate(KEY, (1.0,))
+    trace = model.simulate(jr.key(0), (1.0,))
     again = jax.jit(lambda t: t)(trace)
     assert again.get_score() == trace.get_score()
-    batch = jax.vmap(lambda key: model.simulate(key, (1.0,)))(jr.split(KEY, 4))
+    batch = jax.vmap(lambda key: model.simulate(key, (1.0,)))(jr.split(jr.key(0), 4))
     assert batch.get_score().shape == (4,)
     assert batch.get_choices()["y", "z"].shape == (4, 3)
     np.testing.assert_array_equal(batch.get_retval(), batch.get_choices()["x"])
@@ -208,13 +189,13 @@ def test_traces_survive_jit_vmap_scan_and_cond():
         new = t.edit(key, genjax.Regenerate(Selection.at["x"]))[0]
         return jax.lax.cond(new.get_score() > t.get_score(), lambda: new, lambda: t), t.get_score()
 
-    _, scores = jax.lax.scan(body, again, jr.split(KEY, 20))
+    _, scores = jax.lax.scan(body, again, jr.split(jr.key(0), 20))
     assert jnp.all(jnp.diff(scores) >= 0)
     assert scores[-1] > scores[0]
 
 
 def test_traces_and_choice_maps_print_as_trees():
-    trace = model.simulate(KEY, (1.0,))
+    trace = model.simulate(jr.key(0), (1.0,))
     assert "'y':\n    'z': [" in repr(trace)
     assert repr(C["x", "y"].set(1.0)) == "'x':\n  'y': 1.0"
     assert repr(C.n()) == "(empty)"

@@ -1,4 +1,4 @@
-"""Section I: what programs written for GenJAX do with dtypes, masks, names and closures, and what bad use gets."""
+"""What programs written for GenJAX do with dtypes, masks, names and closures, and what bad use gets."""
 
 import pickle
 
@@ -13,8 +13,6 @@ import bayesmap.gen as genjax
 from bayesmap.gen import ChoiceMap, Diff, IndexRequest, Mask, Regenerate, Selection, StaticRequest, Update
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.gen.errors import BadArguments
-
-KEY = jr.key(0)
 
 
 @genjax.gen
@@ -45,7 +43,7 @@ def test_counts_can_be_carried_with_floats():
     def births(total, _):
         return total + genjax.poisson(2.0) @ "n" + genjax.geometric(0.5) @ "g" + genjax.binomial(3.0, 0.5) @ "b", None
 
-    trace = births.scan(n=4).simulate(KEY, (0.0, None))
+    trace = births.scan(n=4).simulate(jr.key(0), (0.0, None))
     assert {trace.get_choices()[name].dtype for name in "ngb"} == {jnp.dtype("float32")}
 
 
@@ -60,7 +58,7 @@ def test_positional_parameters_are_tensorflow_probabilitys():
 def test_branches_of_different_types_have_their_common_type(a, b, dtype):
     both = genjax.gen(lambda: jnp.asarray(a)).switch(genjax.gen(lambda: jnp.asarray(b)))
     for k, value in enumerate((a, b)):
-        result = both(k, (), ())(KEY)
+        result = both(k, (), ())(jr.key(0))
         assert (result.dtype, float(result)) == (dtype, float(value))
 
 
@@ -68,7 +66,7 @@ def test_branches_of_different_types_have_their_common_type(a, b, dtype):
 
 
 def test_choices_of_a_branch_that_did_not_run_are_masked():
-    trace = one.switch(other).simulate(KEY, (jnp.array(0), (), ()))
+    trace = one.switch(other).simulate(jr.key(0), (jnp.array(0), (), ()))
     choices = trace.get_choices()
     assert choices["x"].flag
     assert not choices["y"].flag
@@ -79,29 +77,31 @@ def test_choices_of_a_branch_that_did_not_run_are_masked():
 def test_a_program_gives_maps_of_one_structure_inside_and_outside_of_jit():
     model = one.mask()
     args = (jnp.array(False),)
-    assert jax.tree.structure(model.simulate(KEY, args)) == jax.tree.structure(jax.jit(model.simulate)(KEY, args))
+    assert jax.tree.structure(model.simulate(jr.key(0), args)) == jax.tree.structure(
+        jax.jit(model.simulate)(jr.key(0), args)
+    )
 
 
 def test_a_mask_over_a_vector_asks_for_vmap():
     with pytest.raises(TypeError, match=r"\.mask\(\)\.vmap\(\)"):
-        one.mask().simulate(KEY, (jnp.array([True, False]),))
+        one.mask().simulate(jr.key(0), (jnp.array([True, False]),))
     flags = jnp.array([True, False, True])
-    trace = one.mask().vmap().simulate(KEY, (flags,))
+    trace = one.mask().vmap().simulate(jr.key(0), (flags,))
     np.testing.assert_array_equal(trace.get_retval().flag, flags)
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_retval().value)[flags].sum(), rtol=1e-6)
 
 
 @pytest.mark.parametrize("model", [one.repeat(n=0), genjax.normal.repeat(n=0)(0.0, 1.0)])
 def test_no_elements_are_no_choices(model):
-    trace = model.simulate(KEY, ())
+    trace = model.simulate(jr.key(0), ())
     assert trace.get_choices().static_is_empty()
     assert trace.get_score() == 0.0
-    assert model.importance(KEY, trace.get_choices(), ())[1] == 0.0
+    assert model.importance(jr.key(0), trace.get_choices(), ())[1] == 0.0
 
 
 def test_no_steps_are_no_choices():
     steps = genjax.gen(lambda state, x: (genjax.normal(state, x) @ "s", state)).scan()
-    trace = steps.simulate(KEY, (1.5, jnp.zeros(0)))
+    trace = steps.simulate(jr.key(0), (1.5, jnp.zeros(0)))
     assert trace.get_choices().static_is_empty()
     assert trace.get_retval()[0] == 1.5
 
@@ -142,23 +142,23 @@ def log_joint(trace):
 @pytest.mark.parametrize("also_scale", [False, True])
 def test_an_element_of_a_scan_that_the_body_defines_can_be_edited(also_scale):
     """The weight is the joint's, the closed-over value's change included; the way back undoes it."""
-    trace = with_inner.simulate(KEY, ())
+    trace = with_inner.simulate(jr.key(0), ())
     requests = {"steps": IndexRequest(1, Update(C["s"].set(0.7)))}
     if also_scale:
         requests["scale"] = Update(C.v(1.3))
-    new, weight, _, back = jax.jit(lambda t: t.edit(KEY, StaticRequest(requests)))(trace)
+    new, weight, _, back = jax.jit(lambda t: t.edit(jr.key(0), StaticRequest(requests)))(trace)
     assert new.get_choices()["steps", 1, "s"] == pytest.approx(0.7)
     np.testing.assert_allclose(weight, log_joint(new) - log_joint(trace), rtol=1e-4, atol=1e-5)
-    old, undone, _, _ = new.edit(KEY, back)
+    old, undone, _, _ = new.edit(jr.key(0), back)
     np.testing.assert_allclose(old.get_choices()["steps", "s"], trace.get_choices()["steps", "s"], rtol=1e-6)
     np.testing.assert_allclose(undone, -weight, rtol=1e-4, atol=1e-5)
 
 
 def test_hmc_moves_a_site_that_the_body_defines():
     """With one tiny step energy is kept, so the log acceptance ratio is near 0 and the step is not."""
-    trace = with_inner.simulate(KEY, ())
+    trace = with_inner.simulate(jr.key(0), ())
     request = StaticRequest({"steps": genjax.HMC(Selection.at["s"], 1e-3, 5)})
-    new, weight, _, _ = jax.jit(lambda t: t.edit(KEY, request))(trace)
+    new, weight, _, _ = jax.jit(lambda t: t.edit(jr.key(0), request))(trace)
     assert abs(float(weight)) < 1e-3
     assert jnp.all(new.get_choices()["steps", "s"] != trace.get_choices()["steps", "s"])
 
@@ -169,15 +169,15 @@ def test_hmc_moves_a_site_that_the_body_defines():
 def test_keyword_arguments_of_a_draw_overrule_those_of_the_closure():
     model = genjax.gen(lambda x, y=1.0: genjax.normal(x, 1.0).map(lambda z: (z, y))() @ "z")
     closure = model(2.0, y=5.0)
-    assert (closure(KEY)[1], closure(KEY, y=3.0)[1]) == (5.0, 3.0)
-    trace = model.handle_kwargs().simulate(KEY, ((2.0,), {"y": 4.0}))
+    assert (closure(jr.key(0))[1], closure(jr.key(0), y=3.0)[1]) == (5.0, 3.0)
+    trace = model.handle_kwargs().simulate(jr.key(0), ((2.0,), {"y": 4.0}))
     assert trace.get_args() == ((2.0,), {"y": 4.0})
     assert trace.get_retval()[1] == 4.0
 
 
 def test_a_function_that_takes_no_keywords_says_so():
     with pytest.raises(TypeError, match="no arguments by name"):
-        one.vmap()(x=1.0)(KEY)
+        one.vmap()(x=1.0)(jr.key(0))
 
 
 def test_a_generative_function_keeps_its_functions_name_and_text():
@@ -195,13 +195,13 @@ def test_a_generative_function_keeps_its_functions_name_and_text():
 
 def test_a_trace_of_zeros_has_the_structure_of_a_real_one():
     zero = one.get_zero_trace()
-    assert jax.tree.structure(zero) == jax.tree.structure(one.simulate(KEY, ()))
+    assert jax.tree.structure(zero) == jax.tree.structure(one.simulate(jr.key(0), ()))
     assert (zero.get_score(), zero.get_sample()["x"]) == (0.0, 0.0)
 
 
 def test_subtraces_are_found_through_switch_and_or_else():
     model = genjax.gen(lambda: one.or_else(other)(genjax.flip(0.5) @ "b", (), ()) @ "z")
-    trace = model.simulate(KEY, ())
+    trace = model.simulate(jr.key(0), ())
     name = "x" if trace.get_choices()["b"] else "y"
     found = trace.get_subtrace("z", name)
     np.testing.assert_allclose(found.get_score(), trace.get_score() - np.log(0.5), rtol=1e-6)
@@ -232,24 +232,24 @@ def test_marks_of_change_can_be_taken_apart_and_put_together():
 
 def test_requests_can_look_at_the_marks_of_change():
     seen = []
-    trace = one.simulate(KEY, ())
-    Regenerate(Selection.all()).map(lambda diff: seen.append(diff) or diff).edit(KEY, trace, ())
+    trace = one.simulate(jr.key(0), ())
+    Regenerate(Selection.all()).map(lambda diff: seen.append(diff) or diff).edit(jr.key(0), trace, ())
     assert not Diff.static_check_no_change(seen[0])
     safe = genjax.SafeHMC(Selection.at["x"], 0.1)
     with pytest.raises(BadArguments, match="return value depends"):
-        safe.edit(KEY, trace, ())
+        safe.edit(jr.key(0), trace, ())
 
 
 @pytest.mark.parametrize("masked", [True, False])
 def test_masked_iteration_counts_the_steps_whose_flag_holds(masked):
     walk = genjax.gen(lambda x: genjax.normal(x, 1.0) @ "x").masked_iterate()
     flags = jnp.array([True, True, False]) if masked else jnp.ones(3, bool)
-    trace = walk.simulate(KEY, (0.0, flags))
+    trace = walk.simulate(jr.key(0), (0.0, flags))
     states = trace.get_retval()
     assert states.shape == (4,)
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(states[1:], states[:-1])[flags].sum(), rtol=1e-5)
     final = genjax.gen(lambda x: genjax.normal(x, 1.0) @ "x").masked_iterate_final()
-    assert final.simulate(KEY, (0.0, flags)).get_retval() == states[-1]
+    assert final.simulate(jr.key(0), (0.0, flags)).get_retval() == states[-1]
 
 
 def test_choice_maps_by_builder_and_switch():
@@ -276,12 +276,12 @@ class Doubled(genjax.Distribution):
 
 def test_a_distribution_of_ones_own_needs_two_methods():
     model = genjax.gen(lambda: Doubled()() @ "v")
-    trace = model.simulate(KEY, ())
+    trace = model.simulate(jr.key(0), ())
     value = trace.get_choices()["v"]
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(value, 0.0, 2.0), rtol=1e-6)
-    _, weight, _, _ = trace.update(KEY, C["v"].set(1.0))
+    _, weight, _, _ = trace.update(jr.key(0), C["v"].set(1.0))
     np.testing.assert_allclose(weight, st.norm.logpdf(1.0, 0.0, 2.0) - trace.get_score(), rtol=1e-5)
-    mixed, _ = jax.jit(lambda flag: model.importance(KEY, C["v"].set(7.0).mask(flag), ()))(True)
+    mixed, _ = jax.jit(lambda flag: model.importance(jr.key(0), C["v"].set(7.0).mask(flag), ()))(True)
     assert mixed.get_choices()["v"] == 7.0
 
 
@@ -290,13 +290,13 @@ def test_a_distribution_of_ones_own_needs_two_methods():
 
 def test_a_missing_parameter_is_named():
     with pytest.raises(BadArguments, match=r"normal\(loc.*scale.*missing a required argument: 'scale'"):
-        genjax.gen(lambda: genjax.normal(0.0) @ "y").simulate(KEY, ())
+        genjax.gen(lambda: genjax.normal(0.0) @ "y").simulate(jr.key(0), ())
 
 
 def test_a_bare_value_for_a_function_names_the_functions_sites():
     outer = genjax.gen(lambda: one() @ "y")
     with pytest.raises(genjax.UnknownAddress, match="'y': there is a function with the sites 'x', so a bare value"):
-        outer.importance(KEY, C["y"].set(1.0), ())
+        outer.importance(jr.key(0), C["y"].set(1.0), ())
 
 
 def test_an_error_carries_the_address_alone():
@@ -309,9 +309,9 @@ def test_an_error_carries_the_address_alone():
 
 def test_an_address_that_is_not_made_of_names_raises():
     with pytest.raises(TypeError, match="a string or a tuple of strings"):
-        genjax.gen(lambda: genjax.normal(0.0, 1.0) @ (genjax.normal(0.0, 1.0) @ "a")).simulate(KEY, ())
+        genjax.gen(lambda: genjax.normal(0.0, 1.0) @ (genjax.normal(0.0, 1.0) @ "a")).simulate(jr.key(0), ())
 
 
 def test_a_branch_that_there_is_not_raises():
     with pytest.raises(BadArguments, match="no branch 2; the branches are 0 to 1"):
-        one.switch(other).simulate(KEY, (2, (), ()))
+        one.switch(other).simulate(jr.key(0), (2, (), ()))

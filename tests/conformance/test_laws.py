@@ -1,4 +1,4 @@
-"""Section H: laws that GenJAX 0.10.3 breaks.
+"""Laws that GenJAX 0.10.3 breaks.
 
 The model: mu ~ N(0, 1), y ~ N(mu, 1), y = 2; posterior N(1, 1/2).
 
@@ -15,14 +15,14 @@ import jax.random as jr
 import jax.scipy.stats as st
 import numpy as np
 import pytest
+from tiers import full_but
 
 import bayesmap.gen as genjax
 from bayesmap.gen import HMC, Diff, Regenerate, Rejuvenate, Selection, StaticRequest, Target, Update
 from bayesmap.gen import ChoiceMapBuilder as C
 
-KEY = jr.key(0)
 MU = Selection.at["mu"]
-EVIDENCE = st.norm.logpdf(2.0, 0.0, 2**0.5)
+EVIDENCE = -0.5 * np.log(2 * np.pi * 2) - 2.0**2 / (2 * 2)  # of N(2; 0, 2)
 
 
 @genjax.gen
@@ -38,7 +38,7 @@ def drift(mu):
 
 
 def trace_at(mu):
-    return model.importance(KEY, C["mu"].set(mu) | C["y"].set(2.0), ())[0]
+    return model.importance(jr.key(0), C["mu"].set(mu) | C["y"].set(2.0), ())[0]
 
 
 @functools.cache
@@ -50,7 +50,7 @@ def runner(request_of, steps):
         return genjax.run_chain(key, trace_at(mu), kernel, steps)
 
     def all_of_them(mu, size):
-        result = jax.vmap(run, in_axes=(0, 0, None))(jr.split(KEY, mu.shape[0]), mu, size)
+        result = jax.vmap(run, in_axes=(0, 0, None))(jr.split(jr.key(0), mu.shape[0]), mu, size)
         return result.last.get_choices()["mu"], result.accepted.mean()
 
     return jax.jit(all_of_them)
@@ -99,11 +99,11 @@ def is_the_posterior(draws):
 def test_regenerate_weighs_what_the_kept_choices_say():
     """Regenerated sites add no weight: it is the likelihood ratio. GenJAX adds the prior ratio."""
     trace = trace_at(0.3)
-    new, weight, _, back = trace.edit(KEY, Regenerate(MU))
+    new, weight, _, back = trace.edit(jr.key(0), Regenerate(MU))
     mu = new.get_choices()["mu"]
     assert mu != 0.3
     np.testing.assert_allclose(weight, st.norm.logpdf(2.0, mu) - st.norm.logpdf(2.0, 0.3), rtol=1e-5)
-    restored = new.edit(KEY, back)[0]
+    restored = new.edit(jr.key(0), back)[0]
     np.testing.assert_allclose(restored.get_choices()["mu"], 0.3)
 
 
@@ -113,7 +113,7 @@ def test_regenerate_samples_the_posterior():
 
 def test_rejuvenate_takes_the_way_back_from_the_new_choices():
     trace = trace_at(0.3)
-    new, weight, _, _ = trace.edit(KEY, Rejuvenate(drift, lambda chm: (chm["mu"],)))
+    new, weight, _, _ = trace.edit(jr.key(0), Rejuvenate(drift, lambda chm: (chm["mu"],)))
     mu = new.get_choices()["mu"]
     forward, backward = st.norm.logpdf(mu, 0.15, 0.8), st.norm.logpdf(0.3, 0.5 * mu, 0.8)
     expected = new.get_score() - trace.get_score() + backward - forward
@@ -124,7 +124,7 @@ def test_rejuvenate_samples_the_posterior():
     is_the_posterior(from_zero(rejuvenate))
 
 
-@pytest.mark.parametrize("eps", [0.1, 0.5, 1.0, 1.3])
+@pytest.mark.parametrize("eps", full_but([0.1, 0.5, 1.0, 1.3], 0.5, 1.3))
 def test_hmc_leaves_the_posterior_invariant_for_any_step_size(eps):
     is_the_posterior(from_the_posterior(hmc_5, eps)[0])
 
@@ -142,15 +142,15 @@ def test_mala_samples_the_posterior():
 
 
 def test_hmc_of_a_discrete_choice_raises():
-    trace = genjax.gen(lambda: genjax.flip(0.5) @ "b").simulate(KEY, ())
+    trace = genjax.gen(lambda: genjax.flip(0.5) @ "b").simulate(jr.key(0), ())
     with pytest.raises(TypeError, match="'b' has dtype bool"):
-        trace.edit(KEY, HMC(Selection.at["b"], 0.1))
+        trace.edit(jr.key(0), HMC(Selection.at["b"], 0.1))
 
 
 def test_a_marginal_scores_the_selected_part():
     """GenJAX gives the complement's."""
     pair = genjax.gen(lambda: (genjax.normal(0.0, 1.0) @ "a", genjax.normal(5.0, 0.1) @ "b"))
-    trace = pair.marginal(selection=Selection.at["a"]).simulate(KEY, ())
+    trace = pair.marginal(selection=Selection.at["a"]).simulate(jr.key(0), ())
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_choices()["a"]), rtol=1e-6)
     assert "b" not in trace.get_choices()
 
@@ -158,7 +158,7 @@ def test_a_marginal_scores_the_selected_part():
 def test_a_marginal_weight_is_an_unbiased_estimate():
     """p(y = 2) of the model by 2000 estimates of 10 particles. False alarm rate 1e-6: 5 standard errors."""
     shown = model.marginal(selection=Selection.at["y"], particles=10)
-    weight = jax.jit(jax.vmap(lambda key: shown.importance(key, C["y"].set(2.0), ())[1]))(jr.split(KEY, 2000))
+    weight = jax.jit(jax.vmap(lambda key: shown.importance(key, C["y"].set(2.0), ())[1]))(jr.split(jr.key(0), 2000))
     density = np.exp(np.asarray(weight, np.float64))
     assert abs(density.mean() - np.exp(EVIDENCE)) < 5 * density.std() / 2000**0.5
 
@@ -166,7 +166,7 @@ def test_a_marginal_weight_is_an_unbiased_estimate():
 def test_a_marginals_own_draws_have_unbiased_reciprocal_scores():
     """E[1 / score] over the hidden choice is 1 / p(y): so E[p(y) / score] = 1. False alarm rate 1e-6."""
     shown = model.marginal(selection=Selection.at["y"], particles=5)
-    traces = jax.jit(jax.vmap(lambda key: shown.simulate(key, ())))(jr.split(KEY, 4000))
+    traces = jax.jit(jax.vmap(lambda key: shown.simulate(key, ())))(jr.split(jr.key(0), 4000))
     log_ratio = st.norm.logpdf(traces.get_choices()["y"], 0.0, 2**0.5) - traces.get_score()
     ratio = np.exp(np.asarray(log_ratio, np.float64))
     assert abs(ratio.mean() - 1.0) < 5 * ratio.std() / 4000**0.5
@@ -176,7 +176,7 @@ def test_importance_with_the_exact_proposal_is_exact():
     """Every weight is the evidence itself."""
     exact = genjax.gen(lambda target: genjax.normal(target.constraint["y"] / 2, 0.5**0.5) @ "mu")
     target = Target(model, (), C["y"].set(2.0))
-    collection = genjax.ImportanceK(target, exact, k_particles=6).run_smc(KEY)
+    collection = genjax.ImportanceK(target, exact, k_particles=6).run_smc(jr.key(0))
     np.testing.assert_allclose(collection.get_log_weights(), jnp.full(6, EVIDENCE), rtol=1e-5)
     np.testing.assert_allclose(collection.get_log_marginal_likelihood_estimate(), EVIDENCE, rtol=1e-5)
 
@@ -196,25 +196,25 @@ def wide(loc):
 def test_switching_branches_discounts_fresh_draws(request_of):
     """The weight is that of what was given on the new branch, less the old score; the way back undoes it."""
     both = narrow.switch(wide)
-    trace = both.simulate(KEY, (jnp.array(0), (0.0,), (0.0,)))
+    trace = both.simulate(jr.key(0), (jnp.array(0), (0.0,), (0.0,)))
     diffs = (Diff.unknown_change(1), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
-    new, weight, _, back = jax.jit(lambda r: trace.edit(KEY, r, diffs))(request_of())
+    new, weight, _, back = jax.jit(lambda r: trace.edit(jr.key(0), r, diffs))(request_of())
     given = 0.0
     if isinstance(request_of(), Update):
         u = new.get_choices()["u"].unmask()
         given = st.norm.logpdf(0.25, u, 1.0)
     np.testing.assert_allclose(weight, given - trace.get_score(), rtol=1e-5)
     returning = (Diff.unknown_change(jnp.array(0)), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
-    old = new.edit(KEY, back, returning)[0]
+    old = new.edit(jr.key(0), back, returning)[0]
     assert old.get_choices()["v"].unmask() == trace.get_choices()["v"].unmask()
     np.testing.assert_allclose(old.get_score(), trace.get_score(), rtol=1e-6)
 
 
 def test_a_switch_whose_index_stays_is_edited_in_place():
     both = narrow.switch(wide)
-    trace = both.simulate(KEY, (jnp.array(1), (0.0,), (0.0,)))
+    trace = both.simulate(jr.key(0), (jnp.array(1), (0.0,), (0.0,)))
     diffs = (Diff.unknown_change(jnp.array(1)), Diff.no_change((0.0,)), Diff.unknown_change((1.0,)))
-    new, weight, _, _ = trace.edit(KEY, genjax.EmptyRequest(), diffs)
+    new, weight, _, _ = trace.edit(jr.key(0), genjax.EmptyRequest(), diffs)
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
     for name in "uv":
         assert new.get_choices()[name].unmask() == trace.get_choices()[name].unmask()
@@ -223,20 +223,20 @@ def test_a_switch_whose_index_stays_is_edited_in_place():
 def test_regenerate_works_on_vmap_scan_and_products():
     data = jnp.array([1.0, 2.0, 3.0])
     rows = model.repeat(n=3)
-    trace, _ = rows.importance(KEY, C["y"].set(data), ())
+    trace, _ = rows.importance(jr.key(0), C["y"].set(data), ())
     new, weight, _, back = trace.edit(jr.key(5), Regenerate(MU))
     old_mu, mu = trace.get_choices()["mu"], new.get_choices()["mu"]
     assert jnp.all(mu != old_mu)
     np.testing.assert_allclose(weight, (st.norm.logpdf(data, mu) - st.norm.logpdf(data, old_mu)).sum(), rtol=1e-5)
-    np.testing.assert_array_equal(new.edit(KEY, back)[0].get_choices()["mu"], old_mu)
+    np.testing.assert_array_equal(new.edit(jr.key(0), back)[0].get_choices()["mu"], old_mu)
 
     step = genjax.gen(lambda s, x: (lambda m: (m, genjax.normal(m, 1.0) @ "y"))(genjax.normal(s, 1.0) @ "mu"))
-    trace, _ = step.scan(n=3).importance(KEY, C["y"].set(data), (0.0, None))
+    trace, _ = step.scan(n=3).importance(jr.key(0), C["y"].set(data), (0.0, None))
     new, weight, _, _ = trace.edit(jr.key(5), Regenerate(MU))
     ratio = st.norm.logpdf(data, new.get_choices()["mu"]) - st.norm.logpdf(data, trace.get_choices()["mu"])
     np.testing.assert_allclose(weight, ratio.sum(), rtol=1e-5)
 
-    flips = genjax.flip.repeat(n=50)(0.5).simulate(KEY, ())
+    flips = genjax.flip.repeat(n=50)(0.5).simulate(jr.key(0), ())
     new, weight, _, _ = flips.edit(jr.key(5), Regenerate(Selection.all()))
     assert weight == 0.0
     assert jnp.any(new.get_retval() != flips.get_retval())
