@@ -259,7 +259,7 @@ class _Placed:
         alone = np.full((count * beams, 1), np.nan)
         alone[:, 0] = readings.ravel()
         poses = np.repeat(self.poses, beams, axis=0)
-        poses[:, 2] += np.tile(self.scans.angles_rad[:: self.thin], count)
+        poses[:, 2] += self.scans.angles_by_scan()[:, :: self.thin].ravel()
         logs = scan_log_likelihood(
             packed, poses, np.zeros(1), alone, sensor_of(values, None), limits, np.arange(count * beams)
         )[:, 0].reshape(count, beams)
