@@ -5,15 +5,13 @@ import json
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
-
-import pytest
 
 import bayesmap
 
 SOURCE = Path(bayesmap.__file__).parent
 FILES = sorted(SOURCE.rglob("*.py"))
-NAMES = [str(path.relative_to(SOURCE)) for path in FILES]
 
 LEVELS = (
     {"errors", "version"},
@@ -37,6 +35,16 @@ LEVELS = (
 LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
 
 
+@cache
+def text(path):
+    return path.read_text(encoding="utf-8")
+
+
+@cache
+def parsed(path):
+    return ast.parse(text(path))
+
+
 def room_of(module):
     """bayesmap.kernels.walk -> kernels."""
     parts = module.split(".")
@@ -45,7 +53,7 @@ def room_of(module):
 
 def imports(path):
     """Modules that a file imports, at its top or inside functions, as (line, dotted name); typing's are not run."""
-    tree = ast.parse(path.read_text())
+    tree = parsed(path)
     typing_only = {
         id(inner)
         for node in ast.walk(tree)
@@ -72,35 +80,54 @@ def home(path):
     return "" if parts == ("__init__",) else parts[0]
 
 
-@pytest.mark.parametrize("path", FILES, ids=NAMES)
-def test_imports_point_one_way(path):
-    here = home(path)
-    if here == "":
-        return  # the public face reaches everywhere, on first use
-    for line, module in imports(path):
-        if module.split(".")[0] == "bayesmap" and (there := room_of(module)) != here:
-            if there in ("", "__version__"):
-                continue
-            public = there not in LEVEL and there in bayesmap.__all__
-            assert public or there in LEVEL, f"{path}:{line}: {module} is in no room that this test knows"
-            target = room_of(bayesmap._HOME[there]) if public else there
-            assert LEVEL[target] < LEVEL[here], f"{path}:{line}: {here} may not import {module}"
+def forbidden(here, module):
+    """Return why a room may not import a module, or None."""
+    there = room_of(module)
+    if module.split(".")[0] != "bayesmap" or there in (here, "", "__version__"):
+        return None
+    public = there not in LEVEL and there in bayesmap.__all__
+    if not (public or there in LEVEL):
+        return f"{module} is in no room that this test knows"
+    target = room_of(bayesmap._HOME[there]) if public else there
+    return None if LEVEL[target] < LEVEL[here] else f"{here} may not import {module}"
 
 
-@pytest.mark.parametrize(("library", "rooms"), [("warp", "kernels"), ("jax", "gen programs"), ("matplotlib", "viz")])
-def test_heavy_libraries_have_a_room_each(library, rooms):
-    for path in FILES:
-        for line, module in imports(path):
-            if module.split(".")[0] == library:
-                assert home(path) in rooms.split(), f"{path}:{line}: only {rooms} imports {library}"
+def test_imports_point_one_way():
+    """The public face is left out: it reaches everywhere, on first use."""
+    offenders = [
+        f"{path}:{line}: {reason}"
+        for path in FILES
+        if home(path)
+        for line, module in imports(path)
+        if (reason := forbidden(home(path), module))
+    ]
+    assert not offenders
+
+
+def test_an_import_that_points_up_is_noticed():
+    assert forbidden("kernels", "bayesmap.samplers.gibbs") == "kernels may not import bayesmap.samplers.gibbs"
+    assert forbidden("kernels", "bayesmap.infer") == "kernels may not import bayesmap.infer"
+    assert forbidden("kernels", "bayesmap.attic") == "bayesmap.attic is in no room that this test knows"
+    assert forbidden("samplers", "bayesmap.kernels.walk") is None
+
+
+def test_heavy_libraries_have_a_room_each():
+    rooms = {"warp": {"kernels"}, "jax": {"gen", "programs"}, "matplotlib": {"viz"}}
+    offenders = [
+        f"{path}:{line}: only {rooms[library]} imports {library}"
+        for path in FILES
+        for line, module in imports(path)
+        if (library := module.split(".")[0]) in rooms and home(path) not in rooms[library]
+    ]
+    assert not offenders
 
 
 KINDS_OF_CELLS = {"BinaryWalls", "Independent", "Ising", "Reflective", "Beta", "Surface"}
 
 
-def asked_for_a_kind(source):
+def asked_for_a_kind(tree):
     """Lines that ask by type which kind of cells there is."""
-    for node in ast.walk(ast.parse(source)):
+    for node in ast.walk(tree):
         if (
             isinstance(node, ast.Call)
             and isinstance(node.func, ast.Name)
@@ -113,12 +140,12 @@ def asked_for_a_kind(source):
 
 def test_only_cells_know_which_kinds_of_cells_there_are():
     """Others ask a kind what it has, or take the one that they work with by `CellPrior.of`."""
-    found = [f"{path}:{line}" for path in FILES if home(path) != "cells" for line in asked_for_a_kind(path.read_text())]
+    found = [f"{path}:{line}" for path in FILES if home(path) != "cells" for line in asked_for_a_kind(parsed(path))]
     assert not found
 
 
 def test_a_question_for_a_kind_is_noticed():
-    assert list(asked_for_a_kind("import bayesmap as bm\nisinstance(prior, (int, bm.Surface))\n")) == [2]
+    assert list(asked_for_a_kind(ast.parse("import bayesmap as bm\nisinstance(prior, (int, bm.Surface))\n"))) == [2]
 
 
 def test_every_room_is_known():
@@ -133,13 +160,13 @@ MODULES = {name.removesuffix(".__init__"): path for name, path in MODULES.items(
 KNOWN_CIRCLES: list[set[str]] = []
 
 
-def imported_modules(source, modules):
-    """The package's modules that a source names in imports: at its top, inside functions, and for types alone.
+def imported_modules(tree, modules):
+    """The package's modules that a parsed source names in imports: at its top, inside functions, and for types alone.
 
     The last are not run, but a module whose types name another's cannot be read, or moved, without it. That importing
     `a.b` runs `a/__init__.py`, which may gather names from all its modules, is no import of it.
     """
-    for node in ast.walk(ast.parse(source)):
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -164,7 +191,7 @@ def circles(graph):
 
 
 def test_no_modules_import_one_another():
-    graph = {name: set(imported_modules(path.read_text(), MODULES)) for name, path in MODULES.items()}
+    graph = {name: set(imported_modules(parsed(path), MODULES)) for name, path in MODULES.items()}
     del graph["bayesmap"]  # the public face reaches everywhere, on first use
     graph = {name: {other for other in others if other in graph} for name, others in graph.items()}
     found = [{name.removeprefix("bayesmap.") for name in circle} for circle in circles(graph)]
@@ -190,42 +217,39 @@ def f():
 import numpy
 """
     modules = {"bayesmap", *(f"bayesmap.{letter}" for letter in "abcdef")}
-    assert sorted(imported_modules(source, modules)) == [f"bayesmap.{letter}" for letter in "abcde"]
+    assert sorted(imported_modules(ast.parse(source), modules)) == [f"bayesmap.{letter}" for letter in "abcde"]
 
 
-SCRIPTS = [
-    path
-    for folder in (SOURCE, SOURCE.parents[1] / "page")
-    for ending in ("js", "mjs", "ts")
-    for path in sorted(folder.rglob(f"*.{ending}"))
-    if "node_modules" not in path.parts
-]
+MOST_LINES = 500
+IDLE_NAMES = {"utils", "helpers", "manager", "misc", "common", "util", "helper"}
 
 
-def too_long(path):
-    """Whether a script has more lines than fit one idea; one that is built of others says so in its first line."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    return len(lines) > 500 and not lines[0].startswith("// Built by ")
+def scripts_of_the_page():
+    folders, endings = (SOURCE, SOURCE.parents[1] / "page"), ("*.js", "*.mjs", "*.ts")
+    paths = [path for folder in folders for ending in endings for path in sorted(folder.rglob(ending))]
+    return [path for path in paths if "node_modules" not in path.parts]
 
 
-def test_scripts_of_the_page_are_short():
-    assert {path.name for path in SCRIPTS if too_long(path)} == set()
+def faults(path, source):
+    """Return what a source file's name and length do wrong; one that is built of others says so in its first line."""
+    lines = source.splitlines()
+    if len(lines) > MOST_LINES and not lines[0].startswith("// Built by "):
+        yield f"{path}: {len(lines)} lines, more than fit one idea"
+    if path.stem in IDLE_NAMES:
+        yield f"{path}: a name that does not say what the file does"
 
 
-def test_a_long_script_is_noticed(tmp_path):
-    script = tmp_path / "a.ts"
-    script.write_text("let x;\n" * 501)
-    assert too_long(script)
-    script.write_text("// Built by `make page` from page/src: edit there.\n" + "let x;\n" * 501)
-    assert not too_long(script)
-    script.write_text("let x;\n" * 500)
-    assert not too_long(script)
+def test_files_are_short_and_named_for_what_they_do():
+    paths = [*FILES, *scripts_of_the_page()]
+    assert [fault for path in paths for fault in faults(path, text(path))] == []
 
 
-@pytest.mark.parametrize("path", FILES, ids=NAMES)
-def test_files_are_short_and_named_for_what_they_do(path):
-    assert len(path.read_text().splitlines()) <= 500
-    assert path.stem not in ("utils", "helpers", "manager", "misc", "common", "util", "helper")
+def test_long_and_idly_named_files_are_noticed():
+    line = "let x;\n"
+    assert "501 lines" in "".join(faults(Path("a.ts"), 501 * line))
+    assert not list(faults(Path("a.ts"), "// Built by `make page` from page/src: edit there.\n" + 501 * line))
+    assert not list(faults(Path("a.ts"), 500 * line))
+    assert "does not say" in "".join(faults(Path("utils.py"), line))
 
 
 def loaded_after(code):
@@ -275,7 +299,7 @@ def test_modules_that_docstrings_name_are_there():
     folders = {name.removesuffix(".__init__") for name in modules if name.endswith(".__init__")} - {"gen", "viz"}
     stale = []
     for path in FILES:
-        for name in re.findall(r"`bayesmap\.([\w.]*\w)`", path.read_text(encoding="utf-8")):
+        for name in re.findall(r"`bayesmap\.([\w.]*\w)`", text(path)):
             parts = name.split(".")
             rooms = [".".join(parts[:n]) for n in range(1, len(parts) + 1)]
             if rooms[0] in folders and len(parts) > 1 and not modules.intersection(rooms):

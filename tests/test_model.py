@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_law import log_likelihoods, paths_of
 from oracle.stop_worlds import beam_rays, scans_of_all_kinds
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
@@ -93,7 +93,7 @@ def test_poses_that_move_are_weighed_where_they_are():
     moved = Model(there.at(poses), GRID, prior, SENSOR)
     at = State(cells, SENSOR, poses)
     assert model.log_likelihood(at) == pytest.approx(moved.log_likelihood(moved.state(cells)))
-    of_poses = stats.norm.logpdf(poses - there.poses, 0, 0.1).sum()
+    of_poses = scipy.stats.norm.logpdf(poses - there.poses, 0, 0.1).sum()
     rest = prior.log_prob(cells, GRID) + model.log_likelihood(at)
     assert model.log_joint(at) == pytest.approx(of_poses + rest)
     fixed = Model(there, GRID, prior, SENSOR)

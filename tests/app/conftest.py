@@ -1,20 +1,24 @@
 """A browser, a server, and a page that begins with the tutorial's map; skipped where there is no Chromium."""
 
+import contextlib
+
 import pytest
 from building_log import room_run
-from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, NO_WALLS, document, fragment, listen, served, until
+from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, WAIT_SECONDS, document, listen, served, until
+from warm_worker import FORKS, Forked
 
 import bayesmap as bm
+from bayesmap.app import supervisor
+from bayesmap.app.parsing import parse_document
 
 
-def pytest_collection_modifyitems(items):
-    """A test in a real browser gets a second try: browser, server and worker share a machine that may be busy.
-
-    The summary of the run names the tests that needed it.
-    """
-    for item in items:
-        if "browser" in item.fixturenames:
-            item.add_marker(pytest.mark.flaky(reruns=1))
+@pytest.fixture(scope="session", autouse=True)
+def warm_workers():
+    """Supervisors start workers that are warm; processes of their own, commands and notebooks, start cold ones."""
+    with pytest.MonkeyPatch.context() as changed:
+        if FORKS:
+            changed.setattr(supervisor, "start_worker", Forked)
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -23,57 +27,64 @@ def browser():
     if CHROMIUM is None:
         pytest.skip("no Chromium on this machine")
     playwright = pytest.importorskip("playwright.sync_api")
+    playwright.expect.set_options(timeout=1000 * WAIT_SECONDS)
     with playwright.sync_playwright() as started:
-        launched = started.chromium.launch(executable_path=CHROMIUM, args=list(ARGUMENTS))
+        launched = started.chromium.launch(executable_path=CHROMIUM, args=list(ARGUMENTS), timeout=1000 * WAIT_SECONDS)
         yield launched
         launched.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture
 def server(browser):
-    """The address of a server that the tests share."""
+    """The address of a server."""
     with served() as (address, _):
         yield address
 
 
 @pytest.fixture
 def open_page(browser):
-    """Opens addresses in contexts of their own; a page must cause no errors and leave the machine for nothing."""
-    contexts, troubles = [], []
+    """Opens addresses, and documents in servers of their own, in contexts of their own.
 
-    def opened(address, json_document=None, *, quiet=True, heard=None, **options):
-        context = browser.new_context(**{**DESKTOP, **options})
-        contexts.append(context)
-        page = context.new_page()
-        if heard is not None:
-            listen(page, heard)
-        if quiet:
-            page.on("console", lambda message: troubles.append(message.text) if trouble(message) else None)
-            page.on("pageerror", lambda error: troubles.append(str(error)))
-            page.on("request", lambda request: None if local(request.url) else troubles.append(request.url))
-        # by way of another map, so that nothing of the test before is left
-        page.goto(address + ("" if json_document is None else fragment(document(angles=10, walls=NO_WALLS))))
-        if json_document is not None:
-            until(page, "s.painted && s.document.angles === 10")
-            page.evaluate("(hash) => { location.hash = hash; }", fragment(json_document))
-            until(page, "s.document.angles === argument", json_document["angles"])
-        until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
-        if not address.startswith("file:"):  # of a run's draws the server tells after its picture
-            until(page, "s.document.source.kind !== 'run' || s.draws.count > 0")
-        return page
+    A page must cause no errors and leave the machine for nothing.
+    """
+    troubles = []
+    with contextlib.ExitStack() as opened:
 
-    yield opened
-    for context in contexts:
-        context.close()
+        def open_(where, *, quiet=True, heard=None, **options):
+            if isinstance(where, dict):
+                where, _ = opened.enter_context(served(started=parse_document(where)))
+            context = opened.enter_context(contextlib.closing(browser.new_context(**{**DESKTOP, **options})))
+            context.set_default_timeout(1000 * WAIT_SECONDS)
+            page = context.new_page()
+            if heard is not None:
+                listen(page, heard)
+            if quiet:
+                page.on("console", lambda message: troubles.append(message.text) if trouble(message) else None)
+                page.on("pageerror", lambda error: troubles.append(str(error)))
+                page.on("request", lambda request: None if local(request.url) else troubles.append(request.url))
+            page.goto(where)
+            until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
+            if not where.startswith("file:"):  # of a run's draws the server tells after its picture
+                until(page, "s.document.source.kind !== 'run' || s.draws.count > 0")
+            return page
+
+        yield open_
     assert troubles == []
 
 
 @pytest.fixture(scope="session")
-def room(tmp_path_factory, browser):
-    """A run of surfaces of a small room, two chains of ten draws, and the address of a server that shows it."""
+def room_of_surfaces(tmp_path_factory):
+    """A run of surfaces of a small room, two chains of ten draws, and its file."""
     run = room_run(bm.Surface(), draws=10)
     path = tmp_path_factory.mktemp("room") / "run.nc"
     run.save(path)
+    return run, path
+
+
+@pytest.fixture(scope="session")
+def room(room_of_surfaces, browser):
+    """A run of surfaces of a small room, two chains of ten draws, and the address of a server that shows it."""
+    run, path = room_of_surfaces
     with served(path) as (address, _):
         yield run, address
 
@@ -88,9 +99,6 @@ def local(url):
 
 
 @pytest.fixture
-def page(open_page, server):
-    """The page of the shared server, with the tutorial's map, its mean, and live."""
-    opened = open_page(server, document())
-    opened.get_by_role("radio", name="Mean").check()
-    opened.get_by_role("checkbox", name="Live").check()
-    return opened
+def page(open_page):
+    """A page with the tutorial's map, its mean, and live."""
+    return open_page(document())

@@ -1,20 +1,21 @@
 """Drives the page of a real server in a real browser, and reads back what it shows."""
 
+import asyncio
 import base64
 import contextlib
 import io
 import json
-import os
-import re
 import shutil
-import subprocess
-import sys
+import threading
 import time
 import zlib
+from urllib.parse import urlsplit
 
 import numpy as np
 from PIL import Image
 
+from bayesmap.app import server as app_server
+from bayesmap.app.hub import Hub
 from bayesmap.app.messages import unframe
 from bayesmap.app.parsing import parse_document
 from bayesmap.app.preview import Preview
@@ -32,7 +33,8 @@ ARGUMENTS = (
     "--disable-sync",
     "--no-first-run",
 )
-WAIT_SECONDS = 90.0
+WAIT_SECONDS = 180.0
+"""How long anything may take that a page does, on a machine that others use, too."""
 DESKTOP = {"viewport": {"width": 1280, "height": 860}, "color_scheme": "light"}
 
 NO_WALLS = base64.b64encode(bytes(56)).decode()
@@ -104,20 +106,64 @@ WATCH = """
 """
 
 
+class Served:
+    """A server on a thread of this process, until `stop`.
+
+    Attributes:
+        address: what it announced.
+    """
+
+    def __init__(self, file=None, port=0, started=None):
+        self._servers, self._hubs, ready = [], [], threading.Event()
+
+        class Server(app_server._Server):
+            def __init__(own, *arguments):
+                super().__init__(*arguments)
+                self._servers.append(own)
+
+        def hub():
+            self._hubs.append(Hub(started or tutorial_document(), file if file is None else str(file)))
+            return self._hubs[0]
+
+        def announce(address):
+            self.address = address
+            ready.set()
+
+        def run():
+            with contextlib.closing(app_server.listen("127.0.0.1", port)) as found:
+                asyncio.run(app_server._serve(hub, found, "127.0.0.1", announce, Server))
+
+        self._thread = threading.Thread(target=run, name="bayesmap_served")
+        self._thread.start()
+        deadline = time.monotonic() + WAIT_SECONDS
+        while not ready.wait(0.2):
+            assert self._thread.is_alive(), "the server ended before it answered"
+            assert time.monotonic() < deadline, "the server did not answer"
+
+    @property
+    def worker(self):
+        """The number of the process that computes."""
+        return self._hubs[0]._supervisor.pid
+
+    @property
+    def port(self):
+        return urlsplit(self.address).port
+
+    def stop(self):
+        """End it as one whose machine is switched off: connections end, and nobody is told why."""
+        for server in self._servers:
+            server.force_exit = server.should_exit = True
+        self._thread.join()
+
+
 @contextlib.contextmanager
-def served(*arguments):
-    """`bayesmap app` in a process of its own: its address, and the process."""
-    command = [sys.executable, "-m", "bayesmap", "app", "--no-browser", "--port", "0", *map(str, arguments)]
-    environment = {**os.environ, "NO_COLOR": "1"}
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(command, text=True, env=environment, **pipes) as process:
-        try:
-            address = process.stdout.readline().strip()
-            assert address.startswith("http://127.0.0.1:"), "the server did not start"
-            yield address, process
-        finally:
-            process.terminate()
-            process.wait(20)
+def served(file=None, port=0, started=None):
+    """The address of a server of a file, of a document, or of the tutorial's map, and the server."""
+    server = Served(file, port, started)
+    try:
+        yield server.address, server
+    finally:
+        server.stop()
 
 
 DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/auto|gibbs|block/.test(s.document.method)"
@@ -230,18 +276,6 @@ def colour_at(page, x, y, offset=(0.0, 0.0)):
 def brightness_at(page, x, y, offset=(0.0, 0.0)):
     """0 is black, 255 white."""
     return float(colour_at(page, x, y, offset).mean())
-
-
-def pid_of_worker(process):
-    """The server's child that computes."""
-    for _ in range(100):
-        listed = subprocess.run(
-            ["ps", "-o", "pid=,args=", "--ppid", str(process.pid)], check=True, capture_output=True, text=True
-        )
-        if found := re.search(r"^\s*(\d+) .*bayesmap\.app\.worker", listed.stdout, re.MULTILINE):
-            return int(found[1])
-        time.sleep(0.1)
-    raise AssertionError("the server has no worker")
 
 
 def show_layer(page, name):

@@ -13,7 +13,7 @@ from websockets.sync.client import connect
 
 from bayesmap.app.messages import unframe
 
-PATIENCE_S = 30.0
+PATIENCE_S = 180.0
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 
 
@@ -77,7 +77,7 @@ class Page:
             header, buffers = self.read()
             if header["type"] == kind and like(header):
                 return header, buffers
-        raise AssertionError(f"no {kind} came")
+        raise AssertionError(f"no {kind} came within {PATIENCE_S:.0f} s")
 
     def confirmed(self):
         """The state after the last message."""

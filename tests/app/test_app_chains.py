@@ -57,6 +57,7 @@ def test_a_run_is_that_of_the_library(changes):
     assert np.array_equal(stream.log_joint(), run.log_joint)
 
 
+@pytest.mark.full
 def test_maps_are_averaged_over_the_posterior_of_the_pose():
     """Against enumeration of all maps at 2000 poses of the prior, each weighed by its evidence.
 

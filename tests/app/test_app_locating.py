@@ -2,6 +2,7 @@
 
 import itertools
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,40 +22,59 @@ from bayesmap.app.trajectory_job import STAGES, TrajectoryJob, along, in_time
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.space.grid import Grid
 
-SCANS, TRUTH = recording(turn_bias=0.03, noise=2.0)
-LOG = opened_log(SCANS, "raw.log")
-FEW = replace(LOG.document, sweeps=3)
+
+@cache
+def recorded():
+    """Scans with raw odometry, and the true poses."""
+    return recording(turn_bias=0.03, noise=2.0)
+
+
+def raw_scans():
+    return recorded()[0]
+
+
+def true_poses():
+    return recorded()[1]
+
+
+@cache
+def raw_log():
+    return opened_log(raw_scans(), "raw.log")
+
+
+def few_sweeps():
+    return replace(raw_log().document, sweeps=3)
 
 
 @pytest.fixture(scope="module")
 def found():
     """An engine that has inferred the trajectory and some maps."""
-    heard = Heard(LOG)
-    heard.infer(FEW, "run", scan=20)
+    heard = Heard(raw_log())
+    heard.infer(few_sweeps(), "run", scan=20)
     return heard
 
 
 def test_poses_are_taken_for_what_they_look_like():
-    assert LOG.document.poses == "odometry"
-    assert opened_log(SCANS.moved_to(TRUTH), "true.log").document.poses == "logged"
+    assert raw_log().document.poses == "odometry"
+    assert opened_log(raw_scans().moved_to(true_poses()), "true.log").document.poses == "logged"
 
 
 def test_before_run_the_log_is_shown_as_it_is():
-    heard = Heard(LOG)
-    header, buffers = heard.infer(LOG.document)
+    heard = Heard(raw_log())
+    header, buffers = heard.infer(raw_log().document)
     assert header["method"] == "counts"
     assert heard.last("status")[0]["text"] == ASK_TO_RUN
     assert heard.all("stage") == []
-    counted = counted_map(SCANS, LOG.document.grid)
+    counted = counted_map(raw_scans(), raw_log().document.grid)
     assert np.abs(buffers["p"] / 255 - counted.p_wall).max() <= 0.5 / 255 + 1e-9
     assert np.array_equal(np.unpackbits(buffers["observed"], count=counted.observed.size), counted.observed.ravel())
-    assert np.allclose(heard.last("overlay")[1]["trajectory"], SCANS.poses[:, :2], atol=1e-5)
+    assert np.allclose(heard.last("overlay")[1]["trajectory"], raw_scans().poses[:, :2], atol=1e-5)
     assert heard.all("finished")[-1]["draws"]["count"] == 0
 
 
 def test_a_map_of_hits_can_be_asked_and_saved_but_is_no_run():
-    heard = Heard(LOG)
-    heard.infer(LOG.document)
+    heard = Heard(raw_log())
+    heard.infer(raw_log().document)
     (cell,) = heard.ask(Inspect(1, 5, 5))
     assert cell.header["beams"] == 0
     (refused,) = heard.ask(Export(1, "run"))
@@ -75,9 +95,9 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert said[: len(stages)] == [STAGES[name] for name in stages]
     assert said[-1].startswith("Trajectory inferred: odometry was off by up to")
     ways = [r.buffers["trajectory"] for r in found.reports if r.header["type"] == "overlay"]
-    truth = TRUTH[:, :2] - TRUTH[0, :2]
-    turn = SCANS.poses[0, 2] - TRUTH[0, 2]
-    turned = truth @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]) + SCANS.poses[0, :2]
+    truth = true_poses()[:, :2] - true_poses()[0, :2]
+    turn = raw_scans().poses[0, 2] - true_poses()[0, 2]
+    turned = truth @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]) + raw_scans().poses[0, :2]
     errors = [np.hypot(*(way - turned).T).max() for way in ways]
     assert errors[0] > 0.5
     assert errors[-1] < 0.05
@@ -98,7 +118,7 @@ def test_the_map_sharpens(found):
     grids = [header["grid"] for header in found.all("grid")]
     placed = found.engine._locating.placed.scans
     doubt = []
-    for scans in (SCANS, placed):
+    for scans in (raw_scans(), placed):
         grid = Grid.covering(scans, 0.1)
         p = counted_map(scans, grid).p_wall
         doubt.append(int((p > 0.5).sum()))
@@ -108,37 +128,37 @@ def test_the_map_sharpens(found):
 
 
 def test_the_same_log_gives_the_same_bits_again(found):
-    again = Heard(opened_log(SCANS, "raw.log"))
-    field = again.infer(FEW, "run")
+    again = Heard(opened_log(raw_scans(), "raw.log"))
+    field = again.infer(few_sweeps(), "run")
     assert np.array_equal(again.engine._locating.placed.scans.poses, found.engine._locating.placed.scans.poses)
     assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
 
 
 def test_what_was_inferred_is_kept_and_told_to_the_next_worker(found):
     known = found.all("trajectory")[0]["found"]
-    heard = Heard(LOG)
+    heard = Heard(raw_log())
     heard.engine.take(Remember(known.poses, known.angles_rad))
-    field = heard.infer(FEW, "run")
+    field = heard.infer(few_sweeps(), "run")
     assert heard.all("stage") == []
     assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
-    live = heard.infer(replace(FEW, prior=0.3))
+    live = heard.infer(replace(few_sweeps(), prior=0.3))
     assert live[0]["method"] == "gibbs"
-    logged = heard.infer(replace(FEW, poses="logged"))
-    assert heard.engine._result.document.grid == LOG.document.grid
-    assert logged[1]["p"].shape == LOG.document.grid.shape
-    heard.infer(FEW, "clear")
+    logged = heard.infer(replace(few_sweeps(), poses="logged"))
+    assert heard.engine._result.document.grid == raw_log().document.grid
+    assert logged[1]["p"].shape == raw_log().document.grid.shape
+    heard.infer(few_sweeps(), "clear")
     assert heard.all("trajectory")[-1]["found"] is None
     assert heard.last("field")[0]["method"] == "counts"
 
 
 def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of_its_scans(found):
-    heard = Heard(LOG)
-    coarse = replace(with_resolution(LOG.document, 0.2), scans_used=40, sweeps=3)
+    heard = Heard(raw_log())
+    coarse = replace(with_resolution(raw_log().document, 0.2), scans_used=40, sweeps=3)
     header, buffers = heard.infer(coarse, "coarse")
     assert header["method"] == "counts"  # nobody knows yet where the robot was
-    raw = Grid.covering(SCANS, 0.2)
+    raw = Grid.covering(raw_scans(), 0.2)
     assert coarse.grid == raw
-    assert np.abs(buffers["p"] / 255 - counted_map(SCANS.select(slice(40)), raw).p_wall).max() <= 0.5 / 255 + 1e-9
+    assert np.abs(buffers["p"] / 255 - counted_map(raw_scans().select(slice(40)), raw).p_wall).max() <= 0.5 / 255 + 1e-9
     known = found.all("trajectory")[0]["found"]
     heard.engine.take(Remember(known.poses, known.angles_rad))
     placed = heard.engine._locating.placed.scans
@@ -158,8 +178,8 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
 
 @pytest.mark.parametrize("stage", ["front end", "loops", "aligned"])
 def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
-    heard = Heard(LOG)
-    heard.engine.take(Infer(1, FEW, "run"))
+    heard = Heard(raw_log())
+    heard.engine.take(Infer(1, few_sweeps(), "run"))
     while not any(header["name"] == stage for header in heard.all("stage")):
         heard.engine.advance()
     heard.engine.take(ShowScan(5))
@@ -174,15 +194,15 @@ def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
 
 
 def test_another_job_takes_the_place_of_the_inference():
-    heard = Heard(LOG)
-    heard.engine.take(Infer(1, FEW, "run"))
+    heard = Heard(raw_log())
+    heard.engine.take(Infer(1, few_sweeps(), "run"))
     heard.engine.advance()
-    field = heard.infer(replace(FEW, poses="logged"))
+    field = heard.infer(replace(few_sweeps(), poses="logged"))
     assert field[0]["method"] == "gibbs"
 
 
 def test_trouble_of_the_inference_is_reported():
-    blind = replace(SCANS, ranges_m=np.full_like(SCANS.ranges_m, np.inf))
+    blind = replace(raw_scans(), ranges_m=np.full_like(raw_scans().ranges_m, np.inf))
     log = opened_log(blind, "blind.log")
     heard = Heard(log)
     heard.engine.take(Infer(1, replace(log.document, poses="odometry"), "run"))
@@ -192,22 +212,22 @@ def test_trouble_of_the_inference_is_reported():
 
 
 def test_scans_stay_in_the_order_of_the_log():
-    shuffled = np.random.default_rng(3).permutation(len(SCANS))
-    scans = SCANS.select(shuffled)
-    job = TrajectoryJob(scans, LOG.document.grid)
+    shuffled = np.random.default_rng(3).permutation(len(raw_scans()))
+    scans = raw_scans().select(shuffled)
+    job = TrajectoryJob(scans, raw_log().document.grid)
     looks = [look for look in job.looks() if look is not None]
     last = along(scans, job.found)
     assert np.array_equal(in_time(scans), np.argsort(scans.stamps_s))
     assert np.array_equal(last.stamps_s, scans.stamps_s)
-    error = off(last.poses[np.argsort(shuffled)], TRUTH)
+    error = off(last.poses[np.argsort(shuffled)], true_poses())
     assert np.hypot(error[:, 0], error[:, 1]).max() < 0.05
     assert np.array_equal(looks[-1].scans.poses, last.poses)
 
 
 def test_the_map_only_grows_and_on_the_same_lattice():
-    grid = LOG.document.grid
-    assert grown(grid, SCANS) == grid
-    away = SCANS.moved_to(SCANS.poses + np.array([-3.33, 0.0, 0.0]))
+    grid = raw_log().document.grid
+    assert grown(grid, raw_scans()) == grid
+    away = raw_scans().moved_to(raw_scans().poses + np.array([-3.33, 0.0, 0.0]))
     larger = grown(grid, away)
     x0, x1, y0, y1 = larger.extent_m
     assert x0 < grid.extent_m[0]
@@ -215,12 +235,12 @@ def test_the_map_only_grows_and_on_the_same_lattice():
     assert (y0, y1) == pytest.approx(grid.extent_m[2:])
     assert (grid.origin[0] - x0) / 0.1 == pytest.approx(round((grid.origin[0] - x0) / 0.1))
     assert counted_map(away, larger).observed.sum() > 1000
-    many = SCANS.select(np.arange(2000) % len(SCANS))
+    many = raw_scans().select(np.arange(2000) % len(raw_scans()))
     assert len(thinned(many)) == MOST_SCANS
 
 
 def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_worker():
-    acted = Acted(LOG.document)
+    acted = Acted(raw_log().document)
     acted.act("hello")
     acted.act("run")
     grid = Grid((30, 40), 0.1, (-1.0, 2.0))
@@ -246,7 +266,7 @@ def test_poses_are_a_setting_of_logs_alone():
     acted.act("hello")
     acted.act("set", patch={"poses": "odometry"})
     assert "there is no log" in acted.text
-    acted = Acted(LOG.document)
+    acted = Acted(raw_log().document)
     acted.act("hello")
     acted.act("set", patch={"pose_sigma": 0.5})
     assert "pose_sigma cannot be changed" in acted.text
@@ -254,10 +274,10 @@ def test_poses_are_a_setting_of_logs_alone():
 
 
 def test_a_link_to_a_log_that_was_inferred_fits_the_log_as_it_is_opened():
-    inferred = replace(LOG.document.on_grid(Grid((30, 40), 0.1)), sweeps=77)
+    inferred = replace(raw_log().document.on_grid(Grid((30, 40), 0.1)), sweeps=77)
     brought = parse_document({**inferred.to_json(), "walls": ""})
-    assert adopted(LOG.document, brought).sweeps == 77
-    assert adopted(LOG.document, brought).grid == LOG.document.grid
-    as_logged = [replace(document, poses="logged") for document in (LOG.document, brought)]
+    assert adopted(raw_log().document, brought).sweeps == 77
+    assert adopted(raw_log().document, brought).grid == raw_log().document.grid
+    as_logged = [replace(document, poses="logged") for document in (raw_log().document, brought)]
     with pytest.raises(Refused):
         adopted(*as_logged)

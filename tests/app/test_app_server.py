@@ -7,11 +7,14 @@ import os
 import signal
 import socket
 import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from page_driver import served
 from page_socket import PATIENCE_S, Page, children, serving, socket_address, start
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import connect
@@ -21,18 +24,20 @@ from bayesmap.cli.group import cli
 
 
 def call(*arguments):
-    return CliRunner().invoke(cli, [str(a) for a in arguments])
+    """The result of a command, on a thread: beside a test with a browser an event loop may be running on this one."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(CliRunner().invoke, cli, [str(a) for a in arguments]).result(PATIENCE_S)
 
 
 @pytest.fixture(scope="module")
 def server():
-    with serving() as found:
+    with served() as (_, found):
         yield found
 
 
 @pytest.fixture
 def address(server):
-    return server[1]
+    return server.address
 
 
 @pytest.fixture
@@ -219,10 +224,9 @@ def test_a_flood_is_stopped_and_the_server_lives(address):
 
 
 def test_a_killed_worker_is_restarted_and_the_picture_comes_back(server, page):
-    process, _ = server
     page.send("set", patch={"prior": 0.375})
     page.confirmed()
-    (worker,) = children(process.pid)
+    worker = server.worker
     os.kill(worker, signal.SIGKILL)
     page.until("worker", lambda h: h["state"] == "restarted")
     status, _ = page.until("status")
@@ -230,8 +234,7 @@ def test_a_killed_worker_is_restarted_and_the_picture_comes_back(server, page):
     page.until("worker", lambda h: h["state"] == "ready")
     header, _ = page.until("field")
     assert header["generation"] > 0
-    (again,) = children(process.pid)
-    assert again != worker
+    assert server.worker != worker
     page.send("hello")
     assert page.confirmed()["document"]["prior"] == 0.375
 
@@ -248,7 +251,7 @@ def test_the_same_document_gives_the_same_posterior_in_another_server(page):
     for i in range(5):  # a history of its own
         page.send("sensor", op="move", id=1, x=10 + 0.1 * i, y=9, drag=1)
     first = posterior(page)
-    with serving() as (_, elsewhere), Page(elsewhere) as other:
+    with served() as (elsewhere, _), Page(elsewhere) as other:
         assert np.array_equal(posterior(other), first)
 
 
@@ -256,23 +259,27 @@ def test_a_dropped_connection_takes_its_document_along(address):
     with Page(address) as page:
         page.send("new", shape=[9, 9], world="blank")
         document = page.confirmed()["document"]
-    with serving() as (_, elsewhere), Page(elsewhere) as other:
+    with served() as (elsewhere, _), Page(elsewhere) as other:
         other.send("hello", document=document)
         assert other.confirmed()["document"] == document
 
 
-def test_the_server_ends_with_ctrl_c_and_takes_its_worker_along():
-    with serving() as (process, address), Page(address) as page:
-        page.confirmed()
+def test_the_command_says_its_address_as_json_and_ends_with_ctrl_c_as_does_its_worker(tmp_path):
+    shown = {**tutorial_document().to_json(), "prior": 0.125}
+    (tmp_path / "document.json").write_text(json.dumps(shown))
+    process = start("app", "--no-browser", "--json", "-q", tmp_path / "document.json")
+    said = ""
+    while not said.endswith("}\n") and (line := process.stdout.readline()):
+        said += line
+    with Page(json.loads(said)["url"]) as page:
+        assert page.confirmed()["document"] == shown
         (worker,) = children(process.pid)
         process.send_signal(signal.SIGINT)
-        assert process.wait(PATIENCE_S) == 0
         with pytest.raises(ConnectionClosed):
             page.closed()
-    deadline = time.monotonic() + PATIENCE_S
-    while os.path.exists(f"/proc/{worker}"):
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    out, errors = process.communicate(timeout=PATIENCE_S)
+    assert (process.returncode, out, errors) == (0, "", "")
+    ended(worker)
 
 
 def test_a_killed_server_takes_its_worker_along():
@@ -280,10 +287,16 @@ def test_a_killed_server_takes_its_worker_along():
         (worker,) = children(process.pid)
         process.kill()
         process.wait(PATIENCE_S)
-        deadline = time.monotonic() + PATIENCE_S
-        while os.path.exists(f"/proc/{worker}"):
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
+        ended(worker)
+
+
+def ended(pid):
+    """Wait until a process has ended, though perhaps nobody has asked for its exit status yet."""
+    deadline = time.monotonic() + PATIENCE_S
+    status = Path(f"/proc/{pid}/status")
+    while status.exists() and "State:\tZ" not in status.read_text():
+        assert time.monotonic() < deadline, "the worker outlived its server"
+        time.sleep(0.05)
 
 
 def test_a_port_that_is_taken_is_bad_input():
@@ -297,25 +310,20 @@ def test_a_port_that_is_taken_is_bad_input():
 
 
 @pytest.mark.parametrize(
-    ("content", "named"), [(None, "no such file"), (b"nonsense", "saved run"), (b"", "saved run")], ids=range(3)
+    ("name", "content", "said"),
+    [
+        ("run.nc", None, "no such file"),
+        ("run.nc", "nonsense", "saved run"),
+        ("run.nc", "", "saved run"),
+        ("document.json", "{", "document.json"),
+        ("document.json", '{"version": 7}', "document.json"),
+        ("document.json", '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}', "document.json"),
+    ],
+    ids=range(6),
 )
-def test_a_file_that_cannot_be_shown_is_bad_input(content, named, tmp_path):
-    path = tmp_path / "run.nc"
+def test_a_file_that_cannot_be_shown_is_bad_input(name, content, said, tmp_path):
     if content is not None:
-        path.write_bytes(content)
-    # A process of its own: beside a test with a browser an event loop may be running in this one.
-    process = start("app", "--no-browser", path)
-    _, errors = process.communicate(timeout=PATIENCE_S)
-    assert process.returncode == 3, errors
-    assert named in errors
-
-
-def test_the_address_can_be_had_as_json():
-    process = start("app", "--no-browser", "--json", "-q")
-    document = ""
-    while not document.endswith("}\n") and (line := process.stdout.readline()):
-        document += line
-    assert json.loads(document)["url"].startswith("http://127.0.0.1:")
-    process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=PATIENCE_S)
-    assert (process.returncode, out, errors) == (0, "", "")
+        (tmp_path / name).write_text(content)
+    result = call("app", "--no-browser", tmp_path / name)
+    assert result.exit_code == 3, result.output
+    assert said in result.stderr

@@ -37,6 +37,7 @@ def test_the_committed_file_is_what_the_sources_build(npm):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.full
 def test_a_stale_file_is_found(npm, tmp_path):
     stale = tmp_path / "mapview.js"
     stale.write_text(BUILT.read_text() + "// stale\n")
@@ -45,6 +46,7 @@ def test_a_stale_file_is_found(npm, tmp_path):
     assert "make page" in done.stderr
 
 
+@pytest.mark.full
 def test_types_hold(npm):
     done = run(npm, "check")
     assert done.returncode == 0, done.stdout

@@ -3,9 +3,7 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, centre, document, press_and_drag, served, settled, snapshot, until
-
-import bayesmap as bm
+from page_driver import act, centre, document, press_and_drag, settled, snapshot, until
 
 VIEWS = "() => { const v = bayesmap.snapshot().decisions.views; return {pose: [...v.pose], nats: [...v.nats]}; }"
 
@@ -39,6 +37,7 @@ def test_two_clicks_give_a_path_and_its_probability(page):
     until(page, "s.layers.decisions > argument", before)
 
 
+@pytest.mark.full
 def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
     shown = settled(page)
     x, y = next((x, y) for x, y in np.argwhere(shown["walls"]).tolist() if shown["probability"][x, y] == 255)
@@ -56,8 +55,9 @@ def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
     playwright.expect(said).to_contain_text("One more scan would tell")
 
 
-def test_a_wall_drawn_across_is_decided_about_anew(open_page, server):
-    page = open_page(server, document(noise=0.1, prior=0.1))
+@pytest.mark.full
+def test_a_wall_drawn_across_is_decided_about_anew(open_page):
+    page = open_page(document(noise=0.1, prior=0.1))
     settled(page)
     page.get_by_role("radio", name="Path").check()
     click(page, 6, 15)
@@ -75,9 +75,7 @@ def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
     page.get_by_role("radio", name="Look next").check()
     settled(page)
     until(page, "s.decisions.views && s.decisions.views.nats.length > 5")
-    views = page.evaluate(
-        "() => { const v = bayesmap.snapshot().decisions.views; return {pose: [...v.pose], nats: [...v.nats]}; }"
-    )
+    views = page.evaluate(VIEWS)
     pose, nats = np.reshape(views["pose"], (-1, 3)), np.array(views["nats"])
     best = int(nats.argmax())
     before = snapshot(page)
@@ -93,26 +91,17 @@ def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
     until(page, "s.decisions.views && Math.max(...s.decisions.views.nats) !== argument", float(nats[best]))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_saved_run_of_surfaces_has_paths_and_views(open_page, tmp_path, scheme):
-    grid = bm.Grid((40, 30), 0.2)
-    walls = np.zeros(grid.shape, dtype=bool)
-    walls[[0, -1]] = walls[:, [0, -1]] = True
-    walls[20, :18] = True
-    poses = np.column_stack([np.linspace(1, 3, 8), np.linspace(2, 4.5, 8), np.linspace(0, 1, 8)])
-    sensor = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.01, p_no_return=0.01)
-    angles = np.linspace(-np.pi, np.pi, 120, endpoint=False)
-    scans = bm.simulate(walls, grid, poses, angles, sensor=sensor, max_range_m=12.0, seed=1)
-    bm.infer(scans, grid, prior=bm.Surface(), sensor=sensor, chains=2, warmup=10, draws=20).save(tmp_path / "run.nc")
-    with served(tmp_path / "run.nc") as (address, _):
-        page = open_page(address, color_scheme=scheme)
-        page.get_by_role("radio", name="Path").check()
-        click(page, 7, 12)
-        click(page, 12, 22)
-        assert found_path(page)["draws"] == 40
-        page.get_by_role("radio", name="Look next").check()
-        until(page, "s.decisions.views")
-        click(page, 12, 20)
-        playwright.expect(page.get_by_role("status").first).to_be_visible()
-        page.get_by_text("would tell").first.wait_for()
-        assert len(snapshot(page)["sensors"]) == 0
+def test_a_saved_run_of_surfaces_has_paths_and_views(open_page, room, scheme):
+    page = open_page(room[1], color_scheme=scheme)
+    page.get_by_role("radio", name="Path").check()
+    click(page, 7, 12)
+    click(page, 12, 22)
+    assert found_path(page)["draws"] == 20
+    page.get_by_role("radio", name="Look next").check()
+    until(page, "s.decisions.views")
+    click(page, 12, 20)
+    playwright.expect(page.get_by_role("status").first).to_be_visible()
+    page.get_by_text("would tell").first.wait_for()
+    assert len(snapshot(page)["sensors"]) == 0

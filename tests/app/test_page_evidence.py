@@ -27,13 +27,13 @@ def is_nearer(colour, one, other):
     return np.abs(colour - one).sum() < np.abs(colour - other).sum()
 
 
-def test_a_click_shows_each_beam_and_its_nats(open_page, server):
+def test_a_click_shows_each_beam_and_its_nats(open_page):
     asked = document(method="propagate")
     scene, preview = propagated(asked)
     p_wall = preview.p_wall()
     x, y = map(int, np.argwhere(preview.observed() & (p_wall < 0.1))[10])
     known = wall_ratios(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y)
-    page = open_page(server, asked)
+    page = open_page(asked)
     settled(page)
     for label in ("True walls", "Readings"):
         page.get_by_role("checkbox", name=label).uncheck()
@@ -56,8 +56,9 @@ def test_a_click_shows_each_beam_and_its_nats(open_page, server):
     assert not page.locator("canvas.rays").is_visible()  # the others would hide them
 
 
-def test_beams_for_are_blue_and_against_orange(open_page, server):
-    page = open_page(server, document(method="propagate"))
+@pytest.mark.full
+def test_beams_for_are_blue_and_against_orange(open_page):
+    page = open_page(document(method="propagate"))
     before = settled(page)
     for label in ("True walls", "Readings"):
         page.get_by_role("checkbox", name=label).uncheck()
@@ -74,21 +75,7 @@ def test_beams_for_are_blue_and_against_orange(open_page, server):
         assert is_nearer(colour, own, other), colour
 
 
-def test_the_keyboard_asks_too_and_another_tool_puts_it_away(open_page, server):
-    page = open_page(server, document(method="propagate"))
-    settled(page)
-    page.locator("canvas[role=application]").press("v")
-    for _ in range(2):
-        page.keyboard.press("ArrowUp")
-    page.keyboard.press(" ")
-    until(page, TOLD, [10, 12])
-    assert page.locator("canvas.evidence").is_visible()
-    page.keyboard.press("p")
-    until(page, "true")
-    assert not page.locator("canvas.evidence").is_visible()
-    assert page.locator("canvas.rays").is_visible()
-
-
+@pytest.mark.full
 def test_what_is_said_follows_the_map(page):
     settled(page)
     choose(page)
@@ -100,6 +87,7 @@ def test_what_is_said_follows_the_map(page):
     until(page, "s.evidence.together && s.evidence.together.nats_for > argument + 1", before["together"]["nats_for"])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_of_a_saved_run_of_surfaces_too(open_page, room, scheme):
     _, address = room

@@ -1,11 +1,8 @@
 """A log and a saved run in the page: scans and draws to look through, nothing to draw on."""
 
-import json
-import subprocess
-import sys
-
 import numpy as np
 import pytest
+from building_log import room_run, write_room_log
 from page_driver import act, document, fragment, served, show_layer, snapshot, until
 
 import bayesmap as bm
@@ -13,24 +10,8 @@ import bayesmap as bm
 
 @pytest.fixture(scope="module")
 def log(tmp_path_factory):
-    """A dozen scans of a small building."""
-    path = tmp_path_factory.mktemp("page") / "office.log"
-    size = ["--size", "12x8", "--resolution", "0.25", "--scans", "12", "--angles", "60", "--max-range", "12"]
-    command = [
-        sys.executable,
-        "-m",
-        "bayesmap",
-        "simulate",
-        "--world",
-        "building",
-        *size,
-        "-o",
-        path,
-        "--set",
-        "fov=180",
-    ]
-    subprocess.run(command, check=True, capture_output=True)
-    return path
+    """A dozen scans of a small room."""
+    return write_room_log(tmp_path_factory.mktemp("page") / "office.log")
 
 
 def test_a_log_is_inferred_while_its_scans_are_looked_through(open_page, log):
@@ -76,13 +57,13 @@ def test_a_saved_run_shows_its_mean_and_its_draws(open_page, tmp_path):
         assert np.array_equal(shown["scan"]["hit"] == 0, out)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("kind", ["log", "run"])
 def test_a_share_link_of_a_file_opens_and_a_lost_connection_is_found_again(open_page, log, tmp_path, kind):
     file = log
     if kind == "run":
         file = tmp_path / "run.nc"
-        command = ["infer", log, "-o", tmp_path, "--cells", "binary", "--draws", "5", "--warmup", "5", "--force"]
-        subprocess.run([sys.executable, "-m", "bayesmap", *command], check=True, capture_output=True)
+        room_run(bm.Independent(0.2), draws=5).save(file)
     with served(file) as (address, _):
         page = open_page(address)
         until(page, "s.painted")
@@ -110,27 +91,9 @@ CUT_ONCE = """
 """
 
 
+@pytest.mark.full
 def test_a_link_to_another_file_says_what_to_start(open_page, server):
     elsewhere = document(source={"kind": "log", "name": "office.log.gz", "scans": 910}, walls="", sensors=[])
     page = open_page(server + fragment(elsewhere))
     page.get_by_role("status").get_by_text("start bayesmap app with office.log.gz").wait_for()
     assert snapshot(page)["document"]["source"] == {"kind": "simulation"}
-
-
-def test_an_exported_document_is_opened_by_the_command(open_page, tmp_path):
-    path = tmp_path / "document.json"
-    path.write_text(json.dumps(document(prior=0.125)))
-    with served(path) as (address, _):
-        assert snapshot(open_page(address))["document"] == document(prior=0.125)
-
-
-@pytest.mark.parametrize(
-    "text", ["{", '{"version": 7}', '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}']
-)
-def test_a_file_that_is_no_document_is_refused_by_name(tmp_path, text):
-    path = tmp_path / "document.json"
-    path.write_text(text)
-    command = [sys.executable, "-m", "bayesmap", "app", path, "--no-browser"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 3
-    assert "document.json" in done.stderr

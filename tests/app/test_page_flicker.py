@@ -53,32 +53,7 @@ def test_a_draw_lies_over_the_mean(open_page, room):
     playwright.expect(page.locator("canvas.hypothesis")).to_be_hidden()
 
 
-@pytest.mark.parametrize("layer", ["Mean", "Width", "One draw"])
-def test_without_them_the_layer_before_is_back_and_nothing_moves(open_page, room, layer):
-    page = open_page(room[1])
-    show_layer(page, layer)
-    still(page)
-    before = snapshot(page)["view"]["layer"]
-    over(page)
-    page.get_by_role("combobox", name="Speed").select_option("30")
-    if layer != "One draw":
-        page.get_by_role("button", name="Play the draws").click()
-    page.get_by_role("checkbox", name="Draws over the mean").uncheck()
-    until(page, f"!s.over && s.view.layer === '{before}' && s.painted.layer === '{before}'")
-    playwright.expect(page.get_by_role("button", name="Play the draws")).to_be_visible()
-    still(page)
-
-
-def test_a_layer_that_was_chosen_since_stays(open_page, room):
-    page = open_page(room[1])
-    over(page)
-    show_layer(page, "Width")
-    until(page, "s.painted.layer === 'width'")
-    page.get_by_role("checkbox", name="Draws over the mean").uncheck()
-    still(page)
-    assert snapshot(page)["painted"]["layer"] == "width"
-
-
+@pytest.mark.full
 def test_they_are_played_without_end(open_page, room):
     page = open_page(room[1])
     over(page)
@@ -95,6 +70,7 @@ def test_they_are_played_without_end(open_page, room):
     assert snapshot(page)["painted"]["draw"] == paused
 
 
+@pytest.mark.full
 def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, room):
     page = open_page(room[1], reduced_motion="reduce")
     over(page)
@@ -108,14 +84,7 @@ def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, room):
     assert snapshot(page)["painted"]["draw"] == (first + 2) % 10
 
 
-def test_a_page_that_begins_at_a_draw_fetches_the_mean(open_page, room):
-    page = open_page(room[1])
-    show_layer(page, "One draw")
-    until(page, "s.painted.layer === 'draw'")
-    over(page)
-    assert snapshot(page)["view"]["layer"] == "draw"
-
-
+@pytest.mark.full
 def test_it_works_on_a_live_posterior_with_kept_draws(page):
     settled(page)
     playwright.expect(page.get_by_role("checkbox", name="Draws over the mean")).to_be_hidden()

@@ -1,11 +1,12 @@
 """Everything without a pointer, and said aloud."""
 
 import numpy as np
-from page_driver import NO_WALLS, act, document, settled, snapshot, until
+import pytest
+from page_driver import NO_WALLS, act, document, settled, until
 
 
-def test_a_map_is_drawn_undone_and_inferred_by_keys_alone(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS))
+def test_a_map_is_drawn_undone_and_inferred_by_keys_alone(open_page):
+    page = open_page(document(walls=NO_WALLS))
     settled(page)
     page.keyboard.press("d")  # draw, and the map has the focus
     for key in ("ArrowUp", "ArrowUp", "ArrowUp", "ArrowLeft"):
@@ -31,6 +32,7 @@ def test_a_map_is_drawn_undone_and_inferred_by_keys_alone(open_page, server):
     until(page, "s.painted.layer === 'mean'")
 
 
+@pytest.mark.full
 def test_the_robot_is_moved_turned_added_and_removed_by_keys(page):
     settled(page)
     page.keyboard.press("s")
@@ -46,6 +48,7 @@ def test_the_robot_is_moved_turned_added_and_removed_by_keys(page):
     assert len(settled(page)["sensors"]) == 1
 
 
+@pytest.mark.full
 def test_the_cell_under_the_cursor_is_said(page):
     settled(page)
     page.keyboard.press("d")
@@ -92,6 +95,7 @@ def test_help_opens_and_closes_and_gives_the_focus_back(page):
     assert focused == "CANVAS"
 
 
+@pytest.mark.full
 def test_the_export_menu_by_keys(page):
     settled(page)
     button = page.get_by_role("button", name="Export")
@@ -100,15 +104,3 @@ def test_the_export_menu_by_keys(page):
     page.keyboard.press("Escape")
     assert button.get_attribute("aria-expanded") == "false"
     assert not page.get_by_role("button", name="Picture (PNG)").is_visible()
-
-
-def test_zoom_keys(page):
-    scale = settled(page)["transform"]["scale"]
-    page.keyboard.press("+")
-    until(page, f"s.transform.scale > {scale * 1.3}")
-    page.keyboard.press("-")
-    page.keyboard.press("-")
-    until(page, f"s.transform.scale < {scale}")
-    page.keyboard.press("0")
-    until(page, f"s.transform.scale === {scale}")
-    assert snapshot(page)["connected"]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page_driver import act, brightness_at, colour_at, document, settled, snapshot, until
+from page_driver import act, brightness_at, colour_at, document, settled, until
 
 
 def test_the_first_picture_is_the_posterior_of_the_tutorial(page):
@@ -37,19 +37,9 @@ def test_pixels_tell_free_cells_walls_and_hatched_unobserved_ones_apart(page):
     assert free[0] - free[2] < 6  # not warm
 
 
-def test_the_page_cannot_be_had_without_its_token(browser, server):
-    context = browser.new_context()
-    try:
-        page = context.new_page()
-        assert page.goto(server.split("?")[0]).status == 403
-        assert page.goto(server).status == 200
-    finally:
-        context.close()
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_no_serious_violation(open_page, server, scheme):
-    page = open_page(server, document(), color_scheme=scheme, bypass_csp=True)
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.full)])
+def test_axe_finds_no_serious_violation(open_page, scheme):
+    page = open_page(document(), color_scheme=scheme, bypass_csp=True)
     settled(page)
     states = {"page": lambda: None, "help": lambda: page.keyboard.press("?"), "new map": lambda: press(page, "New map")}
     for name, reach in states.items():
@@ -66,8 +56,9 @@ def press(page, name):
     page.get_by_role("button", name=name).click()
 
 
-def test_light_and_dark_follow_the_system_and_the_button(open_page, server):
-    page = open_page(server, document(), color_scheme="dark")
+@pytest.mark.full
+def test_light_and_dark_follow_the_system_and_the_button(open_page):
+    page = open_page(document(), color_scheme="dark")
     settled(page)
     assert brightness_at(page, 10, 12) < 90
     button = page.get_by_role("button", name="Theme")
@@ -79,13 +70,8 @@ def test_light_and_dark_follow_the_system_and_the_button(open_page, server):
     assert brightness_at(page, 10, 12) < 90
 
 
-def test_a_second_page_shows_the_same(open_page, server, page):
-    other = open_page(server)
-    assert snapshot(other)["document"] == settled(page)["document"]
-
-
-def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, server, page):
-    other = open_page(server)
+def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, page):
+    other = open_page(page.url)
     other.get_by_role("radio", name="One draw").check()
     until(other, "s.painted.layer === 'draw'")
     act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.45") or page.keyboard.press("Tab"))
@@ -98,8 +84,8 @@ def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, server
     act(page, lambda: page.get_by_role("button", name="Undo").click())
 
 
-def test_the_tools_fit_into_a_window_of_any_width(open_page, server):
-    page = open_page(server, document())
+def test_the_tools_fit_into_a_window_of_any_width(open_page):
+    page = open_page(document())
     for width in (
         1400, 1361, 1360, 1300, 1280, 1261, 1260, 1201, 1200, 1000, 901, 900, 800, 761, 760, 700, 641, 640, 451, 450,
         421, 420, 381, 380, 320,

@@ -16,7 +16,7 @@ def legend():
     return lambda page: page.get_by_role("list", name="Legend")
 
 
-@pytest.mark.parametrize("width", [1280, 1000])
+@pytest.mark.parametrize("width", [1280, pytest.param(1000, marks=pytest.mark.full)])
 def test_the_map_stays_where_it_is_while_the_legend_of_a_run_grows(open_page, room, legend, width):
     page = open_page(room[1], viewport={"width": width, "height": 860})
     named = legend(page)
@@ -51,8 +51,9 @@ def test_the_map_stays_where_it_is_while_the_legend_of_a_run_grows(open_page, ro
     unmoved("width of the 90 % interval")
 
 
-def test_it_stays_on_a_drawn_map_too(open_page, server, legend):
-    page = open_page(server, document(), viewport={"width": 1000, "height": 860})
+@pytest.mark.full
+def test_it_stays_on_a_drawn_map_too(open_page, legend):
+    page = open_page(document(), viewport={"width": 1000, "height": 860})
     settled(page)
     heights = page.evaluate(HEIGHTS)
     for tool, known, words in (
@@ -72,6 +73,7 @@ def test_it_stays_on_a_drawn_map_too(open_page, server, legend):
 PHONE = {"has_touch": True, "is_mobile": True}
 
 
+@pytest.mark.full
 def test_on_a_narrow_phone_the_colours_and_their_numbers_are_in_one_row(open_page, room, legend):
     page = open_page(room[1], **PHONE, viewport={"width": 320, "height": 720})
     first = legend(page).locator("li").first
@@ -82,6 +84,7 @@ def test_on_a_narrow_phone_the_colours_and_their_numbers_are_in_one_row(open_pag
     assert first.locator(".scale").inner_text().split() == ["0", "1"]
 
 
+@pytest.mark.full
 def test_a_phone_in_landscape_has_a_legend_that_takes_nothing_from_the_map(open_page, room, legend):
     page = open_page(room[1], **PHONE, viewport={"width": 844, "height": 390})
     stage = page.locator(".stage").bounding_box()
@@ -92,6 +95,7 @@ def test_a_phone_in_landscape_has_a_legend_that_takes_nothing_from_the_map(open_
         assert box["y"] + box["height"] <= 390
 
 
+@pytest.mark.full
 def test_where_surfaces_are_too_small_to_be_drawn_it_says_so(open_page, room, legend):
     page = open_page(room[1], viewport={"width": 400, "height": 568})
     playwright.expect(legend(page).get_by_text("surface", exact=True)).to_be_visible()
@@ -119,6 +123,7 @@ WRITTEN = """() => {
 """From now on `window.written` is what is written on canvases, and where."""
 
 
+@pytest.mark.full
 def test_the_axis_s_unit_stands_apart_from_its_numbers(open_page, room):
     page = open_page(room[1], viewport={"width": 320, "height": 720})
     page.evaluate(WRITTEN)

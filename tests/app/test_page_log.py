@@ -4,7 +4,7 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from building_log import room_scans, write_room_log
-from page_driver import act, fragment, served, snapshot, until, watch
+from page_driver import act, fragment, served, settled, snapshot, until, watch
 
 import bayesmap as bm
 
@@ -60,6 +60,7 @@ def test_dragging_is_coarse_and_letting_go_samples(page):
     playwright.expect(page.get_by_text("all 12 scans")).to_be_visible()
 
 
+@pytest.mark.full
 def test_fewer_scans_see_less(page):
     whole = snapshot(page)["observed"].sum()
     scrubber(page).focus()
@@ -70,6 +71,7 @@ def test_fewer_scans_see_less(page):
     assert snapshot(page)["scan"]["pose"][:2] == pytest.approx(expected.poses[0, :2], abs=1e-3)
 
 
+@pytest.mark.full
 def test_scans_after_are_dimmed(page):
     page.get_by_role("slider", name="Scan number").fill("9")
     until(page, "s.scan.index === 9")
@@ -94,6 +96,7 @@ def darkness(page, canvas):
     )
 
 
+@pytest.mark.full
 def test_another_size_of_cells_is_another_grid_of_the_same_place(page):
     sizes = page.get_by_role("combobox", name="Cell size")
     playwright.expect(sizes).to_have_value("0.1")
@@ -107,6 +110,7 @@ def test_another_size_of_cells_is_another_grid_of_the_same_place(page):
     playwright.expect(sizes).to_have_value("0.1")
 
 
+@pytest.mark.full
 def test_a_share_link_holds_both(open_page, page, log):
     act(page, lambda: page.get_by_role("combobox", name="Cell size").select_option("0.4"))
     act(page, lambda: scrubber(page).fill("6"))
@@ -120,6 +124,7 @@ def test_a_share_link_holds_both(open_page, page, log):
     act(other, lambda: other.get_by_role("button", name="Undo").click())
 
 
+@pytest.mark.full
 def test_surfaces_of_a_log_are_painted_while_their_sensor_is_fitted(open_page, tmp_path):
     """With enough beams that a page which shares its core with others sees some of it, too."""
     with served(write_room_log(tmp_path / "long.log", 60)) as (address, _):
@@ -137,3 +142,19 @@ def test_surfaces_of_a_log_are_painted_while_their_sensor_is_fitted(open_page, t
         assert any("draws of one chain, sensor being fitted" in chip for chip, _ in said)
         assert any(status == "Fitting the sensor" for _, status in said)
         playwright.expect(page.locator("footer").get_by_role("status")).not_to_contain_text("Fitting")
+
+
+@pytest.mark.full
+def test_a_new_map_where_a_log_was_opened_is_its_own(open_page, log):
+    page = open_page(log)
+    until(page, "s.overlay?.trajectory === 12")
+    page.get_by_role("button", name="New map").click()
+    page.get_by_role("button", name="Create").click()
+    until(page, "s.document.source.kind === 'simulation' && s.painted?.generation === s.generation")
+    shown = settled(page)
+    assert shown["overlay"] is None
+    assert len(shown["scan"]["pose"]) == 3  # of one robot, not of the log's scans
+    assert shown["document"]["grid"]["shape"] == [21, 21]
+    page.get_by_role("checkbox", name="Trajectory").wait_for(state="hidden")
+    act(page, lambda: page.get_by_role("button", name="Undo").click())
+    until(page, "s.document.source.kind === 'log' && s.overlay?.trajectory === 12")

@@ -3,12 +3,14 @@
 import contextlib
 import os
 import time
+from pathlib import Path
 
 import notebook_driver
 import numpy as np
 import page_driver
 import pytest
-from page_driver import DESKTOP, act, brightness_at, pid_of_worker, press_and_drag, settled, show_layer, snapshot, until
+from page_driver import DESKTOP, act, brightness_at, press_and_drag, settled, show_layer, snapshot, until
+from page_socket import children
 
 import bayesmap as bm
 
@@ -53,7 +55,9 @@ def show(browser, tmp_path, monkeypatch):
     assert troubles == []
 
 
-@pytest.mark.parametrize("home", HOMES)
+@pytest.mark.parametrize(
+    "home", ["marimo run", *(pytest.param(home, marks=pytest.mark.full) for home in ("marimo edit", "jupyterlab"))]
+)
 def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
     page = show(home, LIVE)
     settled(page)  # panels have found their places
@@ -81,6 +85,7 @@ def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
     assert not page.get_by_role("button", name="Share").is_visible()  # a notebook's address holds no map
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("home", ["marimo run", "jupyterlab"])
 def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
     walls, pose = bm.worlds.tutorial()
@@ -102,16 +107,21 @@ def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
     assert not page.get_by_role("button", name="Run", exact=True).is_visible()
 
 
+@pytest.mark.full
 def test_the_worker_ends_when_the_visitor_of_an_app_has_gone(show):
     page = show("marimo run", LIVE)
     server = page.server
-    worker = pid_of_worker(server)
+    (worker,) = (pid for pid in children(server.pid) if b"bayesmap.app.worker" in command_of(pid))
     page.close()
     deadline = time.monotonic() + notebook_driver.CELL_SECONDS
     while runs(worker):
         assert time.monotonic() < deadline, "the worker outlived its page"
         time.sleep(0.1)
     assert server.poll() is None
+
+
+def command_of(pid):
+    return Path(f"/proc/{pid}/cmdline").read_bytes()
 
 
 def runs(pid):

@@ -2,14 +2,14 @@
 
 import os
 import signal
-import subprocess
-import sys
 
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, fragment, pid_of_worker, served, snapshot, until, watch
+from click.testing import CliRunner
+from page_driver import act, fragment, served, snapshot, until, watch
 
+from bayesmap.cli.group import cli
 from bayesmap.space.planar import between
 
 WORDS = {
@@ -20,15 +20,20 @@ WORDS = {
 }
 
 
+def raw_log(folder, size, scans, angles):
+    """Scans of a small building, with raw odometry that drifts."""
+    path = folder / "raw.log"
+    size = ["--size", size, "--scans", str(scans), "--angles", str(angles), "--max-range", "10"]
+    raw = ["--odometry", "typical,drift_rad_per_m=0.04"]
+    done = CliRunner().invoke(cli, ["simulate", "--world", "building", *size, *raw, "-o", str(path)])
+    assert done.exit_code == 0, done.output
+    return path
+
+
 @pytest.fixture(scope="module")
 def log(tmp_path_factory):
-    """A hundred scans of a small building, with raw odometry that drifts."""
-    path = tmp_path_factory.mktemp("page") / "raw.log"
-    size = ["--size", "14x10", "--scans", "110", "--angles", "120", "--max-range", "10"]
-    raw = ["--odometry", "typical,drift_rad_per_m=0.04"]
-    command = [sys.executable, "-m", "bayesmap", "simulate", "--world", "building", *size, *raw, "-o", path]
-    subprocess.run(command, check=True, capture_output=True)
-    return path
+    """A log whose trajectory takes long enough to be met on the way."""
+    return raw_log(tmp_path_factory.mktemp("page"), "14x10", 110, 120)
 
 
 @pytest.fixture
@@ -40,8 +45,8 @@ def heard():
 @pytest.fixture
 def raw(open_page, log, heard):
     """The page of such a log, and the server's process."""
-    with served(log) as (address, process):
-        yield open_page(address, heard=heard), process, address
+    with served(log) as (address, server):
+        yield open_page(address, heard=heard), server, address
 
 
 def stages(heard):
@@ -52,6 +57,7 @@ def stages(heard):
 
 def run(page):
     page.get_by_role("button", name="Run", exact=True).click()
+    until(page, "s.seq.confirmed === s.seq.sent")
 
 
 def done(page):
@@ -66,7 +72,8 @@ def few_sweeps(page):
 def off_m(page, log):
     """How far the pose of the last scan is from the truth, as seen from the first scan's."""
     poses = []
-    for number in ("0", "109"):
+    last = snapshot(page)["document"]["source"]["scans"] - 1
+    for number in ("0", str(last)):
         page.get_by_role("slider", name="Scan number").fill(number)
         until(page, "s.scan.index === argument", int(number))
         poses.append(snapshot(page)["scan"]["pose"][:3])
@@ -76,40 +83,43 @@ def off_m(page, log):
     return np.hypot(seen[0] - true[0], seen[1] - true[1])
 
 
-def test_run_shows_every_stage_and_ends_where_the_robot_was(raw, log, heard):
-    page, _, _ = raw
-    poses = page.get_by_label("Poses", exact=True)
-    assert poses.input_value() == "odometry"
-    playwright.expect(page.get_by_text("Run infers where the robot was.")).to_be_visible()
-    few_sweeps(page)
-    before = snapshot(page)
-    assert off_m(page, log) > 0.5
-    assert before["painted"]["method"] == "counts"
-    assert before["overlay"]["trajectory"] == 110
-    watch(page, "[s.stage?.name ?? '', s.layers.overlay]")
-    heard.clear()
-    run(page)
-    after = done(page)
-    found = stages(heard)
-    assert sorted(WORDS, key=found.index) == list(WORDS)
-    said = {message["text"].lower() for message in heard if message["type"] == "status"}
-    assert {words.lower() for words in WORDS.values()} <= said
-    seen = page.evaluate("window.seen")
-    assert {stage for stage, _ in seen} & set(WORDS)  # some of it was seen on the page
-    assert seen[-1][1] > seen[0][1] + 1
-    # the page was sent more of them than it may have had time to paint
-    assert sum(message["type"] == "overlay" for message in heard) > 5
-    assert after["status"]["text"].startswith("Trajectory inferred: odometry was off by up to")
-    assert off_m(page, log) < 0.1
-    assert after["draws"]["count"] == 5
-    # Once more: what was inferred is known.
-    heard.clear()
-    run(page)
-    again = done(page)
-    assert set(stages(heard)) <= {"placing"}
-    assert np.array_equal(again["probability"], after["probability"])
+def test_run_shows_every_stage_and_ends_where_the_robot_was(open_page, tmp_path, heard):
+    log = raw_log(tmp_path, "12x8", 70, 90)
+    with served(log) as (address, _):
+        page = open_page(address, heard=heard)
+        poses = page.get_by_label("Poses", exact=True)
+        assert poses.input_value() == "odometry"
+        playwright.expect(page.get_by_text("Run infers where the robot was.")).to_be_visible()
+        few_sweeps(page)
+        before = snapshot(page)
+        assert off_m(page, log) > 0.5
+        assert before["painted"]["method"] == "counts"
+        assert before["overlay"]["trajectory"] == 70
+        watch(page, "[s.stage?.name ?? '', s.layers.overlay]")
+        heard.clear()
+        run(page)
+        after = done(page)
+        found = stages(heard)
+        assert sorted(WORDS, key=found.index) == list(WORDS)
+        said = {message["text"].lower() for message in heard if message["type"] == "status"}
+        assert {words.lower() for words in WORDS.values()} <= said
+        seen = page.evaluate("window.seen")
+        assert {stage for stage, _ in seen} & set(WORDS)  # some of it was seen on the page
+        assert seen[-1][1] > seen[0][1] + 1
+        # the page was sent more of them than it may have had time to paint
+        assert sum(message["type"] == "overlay" for message in heard) > 5
+        assert after["status"]["text"].startswith("Trajectory inferred: odometry was off by up to")
+        assert off_m(page, log) < 0.1
+        assert after["draws"]["count"] == 5
+        # Once more: what was inferred is known.
+        heard.clear()
+        run(page)
+        again = done(page)
+        assert set(stages(heard)) <= {"placing"}
+        assert np.array_equal(again["probability"], after["probability"])
 
 
+@pytest.mark.full
 def test_cancel_is_prompt_and_what_there_is_stays(raw):
     page, _, _ = raw
     few_sweeps(page)
@@ -125,17 +135,18 @@ def test_cancel_is_prompt_and_what_there_is_stays(raw):
     assert done(page)["status"]["text"].startswith("Trajectory inferred")
 
 
+@pytest.mark.full
 def test_a_worker_that_is_killed_on_the_way_begins_anew(raw, heard):
-    page, process, _ = raw
+    page, server, _ = raw
     few_sweeps(page)
     run(page)
     until(page, "s.stage")
-    os.kill(pid_of_worker(process), signal.SIGKILL)
+    os.kill(server.worker, signal.SIGKILL)
     page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
     first = done(page)
     # Killed afterwards, the next one knows the trajectory.
     heard.clear()
-    os.kill(pid_of_worker(process), signal.SIGKILL)
+    os.kill(server.worker, signal.SIGKILL)
     page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
     until(page, "s.worker === 'ready' && s.generation > argument", first["generation"])
     until(page, "s.painted.method === 'gibbs' && s.painted.generation === s.generation")
@@ -146,6 +157,7 @@ def test_a_worker_that_is_killed_on_the_way_begins_anew(raw, heard):
 CONFIRMED = "s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation"
 
 
+@pytest.mark.full
 def test_the_choice_is_undone_and_travels_in_links(raw):
     page, _, _ = raw
     few_sweeps(page)
@@ -168,6 +180,7 @@ def test_the_choice_is_undone_and_travels_in_links(raw):
     assert snapshot(page)["document"]["grid"] == inferred["document"]["grid"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_it_can_be_read_in_light_and_dark(open_page, log, scheme):
     from axe_playwright_python.sync_playwright import Axe

@@ -5,35 +5,14 @@ import re
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
+from building_log import room_run, write_room_log
 from page_driver import act, centre, served, show_layer, snapshot, until
 
 import bayesmap as bm
 
-SENSOR = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.01, p_no_return=0.01)
 
-
-def infer(prior):
-    grid = bm.Grid((40, 30), 0.2)
-    walls = np.zeros(grid.shape, dtype=bool)
-    walls[[0, -1]] = walls[:, [0, -1]] = True
-    walls[20, :18] = True
-    poses = np.column_stack([np.linspace(1, 3, 8), np.linspace(2, 4.5, 8), np.linspace(0, 1, 8)])
-    angles = np.linspace(-np.pi, np.pi, 120, endpoint=False)
-    scans = bm.simulate(walls, grid, poses, angles, sensor=SENSOR, max_range_m=12.0, seed=1)
-    return bm.infer(scans, grid, prior=prior, sensor=SENSOR, chains=2, warmup=10, draws=20)
-
-
-@pytest.fixture(scope="module")
-def surfaces(tmp_path_factory, browser):
-    run = infer(bm.Surface())
-    path = tmp_path_factory.mktemp("surfaces") / "run.nc"
-    run.save(path)
-    with served(path) as (address, _):
-        yield run, address
-
-
-def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, surfaces):
-    run, address = surfaces
+def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, room):
+    run, address = room
     page = open_page(address)
     legend = page.get_by_role("list", name="Legend")
     playwright.expect(legend).to_contain_text(bm.Surface.words.mean)
@@ -51,8 +30,9 @@ def test_a_run_of_surfaces_names_its_quantity_everywhere(open_page, surfaces):
     playwright.expect(legend).to_contain_text(bm.Surface.words.value)
 
 
-def test_the_beams_of_a_cell_are_said_to_speak_for_what_is_there(open_page, surfaces):
-    run, address = surfaces
+@pytest.mark.full
+def test_the_beams_of_a_cell_are_said_to_speak_for_what_is_there(open_page, room):
+    run, address = room
     page = open_page(address)
     cell = np.unravel_index(np.argmax(np.where(run.observed, run.occupancy, 0)), run.grid.shape)
     page.mouse.move(*centre(page, *map(int, cell)))
@@ -63,8 +43,8 @@ def test_the_beams_of_a_cell_are_said_to_speak_for_what_is_there(open_page, surf
     assert "emptied" in readout.get_attribute("title")
 
 
-def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, surfaces):
-    run, address = surfaces
+def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, room):
+    run, address = room
     page = open_page(address)
     playwright.expect(page.get_by_role("radio", name="Entropy")).to_be_hidden()
     show_layer(page, "Width")
@@ -76,12 +56,12 @@ def test_the_width_of_the_interval_is_shown_in_place_of_an_entropy(open_page, su
     playwright.expect(page.locator(".readout")).to_contain_text("90 % interval")
 
 
-def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, surfaces):
-    run, address = surfaces
+def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, room):
+    run, address = room
     page = open_page(address)
     until(page, "s.overlay?.strokes > 10")
     found = snapshot(page)
-    assert found["overlay"]["trajectory"] == 8
+    assert found["overlay"]["trajectory"] == 12
     _, _, reflectivity = run.surfaces()
     assert found["overlay"]["strokes"] == (reflectivity >= 0.1).sum()
     overlay = page.locator("canvas.overlay")
@@ -93,36 +73,27 @@ def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, s
     playwright.expect(overlay).to_be_hidden()
 
 
-def test_a_saved_run_that_has_not_converged_is_called_so(open_page, surfaces):
-    page = open_page(surfaces[1])  # of two chains of 20 draws
-    assert snapshot(page)["painted"]["verdict"]["level"] == "bad"
-    assert page.locator("dd.bad").count() == 2
-    playwright.expect(page.locator(".verdict")).to_contain_text("Not converged: ")
-    playwright.expect(page.locator("footer [role=status]")).to_contain_text("the chains have not converged")
-
-
+@pytest.mark.full
 def test_a_run_of_walls_keeps_its_probabilities(open_page, tmp_path):
-    infer(bm.Independent(0.2)).save(tmp_path / "run.nc")
+    room_run(bm.Independent(0.2), draws=5).save(tmp_path / "run.nc")
     with served(tmp_path / "run.nc") as (address, _):
         page = open_page(address)
         playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("P(wall)")
         playwright.expect(page.get_by_role("radio", name="Width")).to_be_hidden()
-        assert snapshot(page)["overlay"] == {"strokes": 0, "trajectory": 8}
+        assert snapshot(page)["overlay"] == {"strokes": 0, "trajectory": 12}
 
 
 def test_an_exported_page_of_reflectivities_names_them(open_page, tmp_path):
     from bayesmap.app.recording import run_to_html
 
-    (tmp_path / "page.html").write_text(run_to_html(infer(bm.Beta())))
+    (tmp_path / "page.html").write_text(run_to_html(room_run(bm.Beta(), draws=5)))
     page = open_page((tmp_path / "page.html").as_uri())
     playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("mean reflectivity")
 
 
+@pytest.mark.full
 def test_a_log_is_inferred_as_surfaces_where_they_are_chosen(open_page, tmp_path):
-    from bayesmap.io.carmen_writer import write_carmen
-
-    write_carmen(tmp_path / "small.log", infer(bm.Independent(0.2)).posterior.scans)
-    with served(tmp_path / "small.log") as (address, _):
+    with served(write_room_log(tmp_path / "small.log")) as (address, _):
         page = open_page(address)
         act(page, lambda: page.get_by_role("slider", name="Sweeps").fill("0"))
         act(page, lambda: page.get_by_role("combobox", name="Cells").select_option("surface"))

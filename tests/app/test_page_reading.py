@@ -1,16 +1,12 @@
 """The reading under the pointer, in words: along its beam, and across and along the wall."""
 
-import os
 import re
-import signal
 
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from building_log import ANGLES, room_run, write_room_log
-from page_driver import END, pid_of_worker, served, snapshot, until
-
-import bayesmap as bm
+from building_log import ANGLES, write_room_log
+from page_driver import END, served, snapshot, until
 
 
 def point_at(page, beam):
@@ -39,21 +35,7 @@ def test_a_reading_is_told_along_its_beam_and_across_and_along_the_wall(open_pag
     assert f"{np.degrees(wall['incidence_rad']):.0f}\u00b0 from its normal" in words
 
 
-def test_an_answer_that_is_long_in_coming_is_said_to_be_prepared(open_page, tmp_path):
-    path = tmp_path / "run.nc"
-    room_run(bm.Beta(), draws=4).save(path)
-    with served(path) as (address, process):
-        page = open_page(address)
-        worker = pid_of_worker(process)
-        os.kill(worker, signal.SIGSTOP)  # as one that compiles
-        place = page.evaluate(END, 30)
-        page.mouse.move(place["x"], place["y"])
-        said = page.locator(".words.reading")
-        playwright.expect(said).to_contain_text("Beam 31 of scan 1: preparing the comparison")
-        os.kill(worker, signal.SIGCONT)
-        playwright.expect(said).to_contain_text("than the predicted median")
-
-
+@pytest.mark.full
 def test_it_is_marked_on_the_map_and_forgotten_with_the_scan(open_page, room):
     page = open_page(room[1])
     point_at(page, 30)
@@ -65,16 +47,7 @@ def test_it_is_marked_on_the_map_and_forgotten_with_the_scan(open_page, room):
     playwright.expect(page.locator(".words.reading")).to_contain_text("Point at a reading")
 
 
-def test_far_from_every_beam_nothing_is_picked(open_page, room):
-    page = open_page(room[1])
-    point_at(page, 30)
-    pose = room[0].posterior.scans.poses[0]
-    behind = pose[:2] - 0.7 * np.array([np.cos(pose[2]), np.sin(pose[2])])
-    at = page.evaluate("(p) => bayesmap.cellToClient(p[0] / 0.2 - 0.5, p[1] / 0.2 - 0.5)", behind.tolist())
-    page.mouse.move(at["x"], at["y"])
-    until(page, "!s.reading.picked")
-
-
+@pytest.mark.full
 def test_a_log_s_readings_are_compared_too_and_walls_have_no_surface(open_page, tmp_path):
     with served(write_room_log(tmp_path / "room.log")) as (address, _):
         page = open_page(address)
@@ -83,7 +56,3 @@ def test_a_log_s_readings_are_compared_too_and_walls_have_no_surface(open_page, 
         words = page.locator(".words.reading").inner_text()
         assert "than the predicted median" in words
         assert "wall" not in words
-
-
-def test_a_drawn_map_has_no_such_panel(page):
-    playwright.expect(page.locator(".words.reading")).to_be_hidden()

@@ -3,9 +3,11 @@
 import contextlib
 import os
 import signal
+from urllib.parse import urlsplit
 
 import numpy as np
 import playwright.sync_api as playwright
+import pytest
 from building_log import write_room_log
 from page_driver import (
     NO_WALLS,
@@ -13,22 +15,23 @@ from page_driver import (
     act,
     centre,
     document,
-    pid_of_worker,
+    fragment,
     press_and_drag,
     served,
     settled,
     snapshot,
     until,
 )
+from page_socket import serving
 
 
 def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(open_page, browser):
-    with served() as (address, process):
-        page = open_page(address, document())
+    with served() as (address, server):
+        page = open_page(address + fragment(document()))
         page.get_by_role("radio", name="Draw", exact=True).check()
         act(page, lambda: press_and_drag(page, [(7, 7), (9, 7)]))
         before = settled(page)
-        os.kill(pid_of_worker(process), signal.SIGKILL)
+        os.kill(server.worker, signal.SIGKILL)
         page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
         until(page, "s.worker === 'ready' && s.generation > argument", before["generation"])
         after = settled(page)
@@ -38,16 +41,17 @@ def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(ope
         act(page, lambda: page.get_by_role("button", name="Undo").click())
 
 
+@pytest.mark.full
 def test_a_worker_that_hangs_is_replaced_and_the_map_is_as_it_was(open_page, browser):
-    with served() as (address, process):
-        page = open_page(address, document())
+    with served() as (address, server):
+        page = open_page(address + fragment(document()))
         before = settled(page)
-        hanging = pid_of_worker(process)
+        hanging = server.worker
         os.kill(hanging, signal.SIGSTOP)
         page.get_by_role("alert").get_by_text("The worker stopped").wait_for(timeout=1000 * WAIT_SECONDS)
         until(page, "s.worker === 'ready' && s.generation > argument", before["generation"])
         after = settled(page)
-        assert pid_of_worker(process) != hanging
+        assert server.worker != hanging
         assert np.array_equal(after["probability"], before["probability"])
         page.get_by_role("alert").wait_for(state="hidden")
         page.get_by_role("radio", name="Draw", exact=True).check()
@@ -66,8 +70,8 @@ CUT = """
 """
 
 
-def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_meanwhile(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS))
+def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_meanwhile(open_page):
+    page = open_page(document(walls=NO_WALLS))
     settled(page)
     page.get_by_role("radio", name="Draw", exact=True).check()
     page.evaluate(CUT)
@@ -90,11 +94,12 @@ def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_mea
     until(page, "s.connected && s.seq.confirmed === s.seq.sent && s.painted.generation === s.generation")
     after = settled(page)["walls"]
     assert after.sum() == 6
-    assert np.array_equal(snapshot(open_page(server))["walls"], after)  # the server has it too
+    assert np.array_equal(snapshot(open_page(page.url))["walls"], after)  # the server has it too
 
 
-def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_page, server):
-    page = open_page(server, document(prior=0.3), quiet=False)
+@pytest.mark.full
+def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_page):
+    page = open_page(document(prior=0.3), quiet=False)
     settled(page)
     page.evaluate("""() => {
       const send = WebSocket.prototype.send;
@@ -111,16 +116,17 @@ def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_pag
 
 
 def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_meanwhile(open_page, browser):
-    with served() as (address, process):
-        page = open_page(address, document(walls=NO_WALLS), quiet=False)
-        port = address.split(":")[2].split("/")[0]
+    """The command itself, killed as by a machine that is switched off."""
+    with serving() as (process, address):
+        page = open_page(address + fragment(document(walls=NO_WALLS)), quiet=False)
         settled(page)
         process.kill()
         process.wait()
+        port = urlsplit(address).port
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
         page.get_by_role("radio", name="Draw", exact=True).check()
         press_and_drag(page, [(4, 8), (8, 8)])
-    with served("--port", port) as (address, _):
+    with served(port=port) as (address, _):
         page.get_by_role("alert").get_by_text("started again, with another address").wait_for()
         other = page.context.new_page()
         other.goto(address)
@@ -132,19 +138,18 @@ def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_m
         until(page, "s.connected && s.painted")
 
 
+@pytest.mark.full
 def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
-    with served() as (address, process):
-        page = open_page(address, document(walls=NO_WALLS), quiet=False)
-        port = address.split(":")[2].split("/")[0]
+    with served() as (address, server):
+        page = open_page(address + fragment(document(walls=NO_WALLS)), quiet=False)
         settled(page)
-        process.kill()
-        process.wait()
+        server.stop()
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
         page.get_by_role("radio", name="Draw", exact=True).check()
         press_and_drag(page, [(4, 8), (8, 8)])
         other = page.context.new_page()
         page.close()
-    with served("--port", port) as (address, _):
+    with served(port=server.port) as (address, _):
         other.goto(address)
         until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
         other.get_by_role("status").get_by_text("drawn here when the connection was lost").wait_for()
@@ -153,13 +158,12 @@ def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
         until(other, "s.painted && s.status.text === 'Ready'")  # and is kept no longer
 
 
+@pytest.mark.full
 def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_there(open_page, browser, tmp_path):
-    with served() as (address, process):
-        page = open_page(address, document(walls=NO_WALLS, sweeps=100_000), quiet=False)
-        port = address.split(":")[2].split("/")[0]
+    with served() as (address, server):
+        page = open_page(address + fragment(document(walls=NO_WALLS, sweeps=100_000)), quiet=False)
         until(page, "s.painted.sweeps > 20")
-        process.kill()
-        process.wait()
+        server.stop()
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
         page.get_by_text("sweeps, stopped").wait_for()  # and no time is foretold
         assert page.get_by_role("button", name="Run", exact=True).is_disabled()
@@ -167,19 +171,10 @@ def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_the
         press_and_drag(page, [(4, 8), (8, 8)])
         other = page.context.new_page()
         page.close()
-    with served("--port", port, write_room_log(tmp_path / "room.log")) as (address, _):
+    with served(write_room_log(tmp_path / "room.log"), server.port) as (address, _):
         other.goto(address)
         other.get_by_role("status").get_by_text("This server shows room.log, not a map that was drawn").wait_for()
         other.goto("about:blank")
-    with served("--port", port) as (address, _):
+    with served(port=server.port) as (address, _):
         other.goto(address)
         until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
-
-
-def test_what_was_said_goes_with_the_next_action(page):
-    settled(page)
-    while snapshot(page)["status"]["text"] != "Nothing to redo":
-        page.keyboard.press("Control+y")
-        page.wait_for_timeout(50)
-    act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.3") or page.keyboard.press("Tab"))
-    until(page, "s.status.text === 'Ready'")

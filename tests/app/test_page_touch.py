@@ -9,8 +9,8 @@ PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobil
 
 
 @pytest.fixture
-def phone(open_page, server):
-    page = open_page(server, document(walls=NO_WALLS), **PHONE)
+def phone(open_page):
+    page = open_page(document(walls=NO_WALLS), **PHONE)
     settled(page)
     return page
 
@@ -38,6 +38,7 @@ def test_a_finger_draws_and_a_tap_draws_one_cell(phone, touch):
     assert settled(phone)["walls"][5, 17]
 
 
+@pytest.mark.full
 def test_two_fingers_zoom_and_draw_nothing(phone, touch):
     scale = snapshot(phone)["transform"]["scale"]
     x, y = centre(phone, 10, 10)
@@ -51,6 +52,7 @@ def test_two_fingers_zoom_and_draw_nothing(phone, touch):
     assert np.allclose(centre(phone, 10, 10), (x, y), atol=12)
 
 
+@pytest.mark.full
 def test_a_finger_moves_the_robot(phone, touch):
     phone.get_by_role("radio", name="Sensor").check()
     touch("touchStart", centre(phone, 10, 10))
@@ -78,9 +80,10 @@ def test_everything_fits_and_fingers_find_it(phone):
 SIZES = pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
 
 
+@pytest.mark.full
 @SIZES
-def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, height):
-    page = open_page(server, document(), **{**PHONE, "viewport": {"width": width, "height": height}})
+def test_the_map_is_large_and_every_tool_is_there(open_page, width, height):
+    page = open_page(document(), **{**PHONE, "viewport": {"width": width, "height": height}})
     settled(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     for role, name in (
@@ -100,6 +103,7 @@ def test_the_map_is_large_and_every_tool_is_there(open_page, server, width, heig
     assert 21 * snapshot(page)["transform"]["scale"] > 0.7 * min(width, height)
 
 
+@pytest.mark.full
 @SIZES
 def test_the_status_is_whole(open_page, room, width, height):
     page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})
@@ -110,6 +114,7 @@ def test_the_status_is_whole(open_page, room, width, height):
     playwright.expect(page.get_by_text("Touch a cell")).to_be_visible()
 
 
+@pytest.mark.full
 @SIZES
 def test_a_finger_drags_the_ghost_through_a_building(open_page, room, width, height):
     page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})

@@ -21,9 +21,11 @@ def with_walls(**changes):
     return document(walls=base64.b64encode(np.packbits(cells.ravel()).tobytes()).decode(), **{**CLOSE, **changes})
 
 
-@pytest.mark.parametrize("start", [document(**CLOSE), with_walls()], ids=["the tutorial's map", "with walls"])
-def test_chains_that_disagree_are_called_so_and_a_click_mends_it(open_page, server, start):
-    page = open_page(server, start)
+@pytest.mark.parametrize(
+    "walls", [False, pytest.param(True, marks=pytest.mark.full)], ids=["the tutorial's map", "with walls"]
+)
+def test_chains_that_disagree_are_called_so_and_a_click_mends_it(open_page, walls):
+    page = open_page(with_walls() if walls else document(**CLOSE))
     shown = settled(page)
     assert shown["painted"]["verdict"]["level"] == "bad"
     chip = page.get_by_role("button", name="Not converged: try blocks")
@@ -41,18 +43,9 @@ def test_chains_that_disagree_are_called_so_and_a_click_mends_it(open_page, serv
     page.get_by_role("status").get_by_text("Ready", exact=True).wait_for()
 
 
-def test_a_finished_run_of_few_sweeps_is_judged_and_a_click_makes_more(open_page, server):
-    page = open_page(server, document(sweeps=10))
-    page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "!s.running && s.draws.count === 10 && s.painted.generation === s.generation && s.painted.verdict")
-    page.get_by_role("status").get_by_text("have not converged").wait_for()
-    assert page.locator("dd.bad").count() == 2
-    act(page, lambda: page.get_by_role("button", name="Not converged: try 200 sweeps").click())
-    assert settled(page)["painted"]["sweeps"] == 200
-
-
-def test_where_walls_are_rare_blocks_are_the_default(open_page, server):
-    page = open_page(server, document(**{**CLOSE, "method": "auto"}))
+@pytest.mark.full
+def test_where_walls_are_rare_blocks_are_the_default(open_page):
+    page = open_page(document(**{**CLOSE, "method": "auto"}))
     shown = settled(page)
     assert shown["painted"]["method"] == "block"
     assert shown["painted"]["verdict"]["level"] != "bad"
@@ -60,6 +53,7 @@ def test_where_walls_are_rare_blocks_are_the_default(open_page, server):
     assert settled(page)["painted"]["method"] == "gibbs"
 
 
+@pytest.mark.full
 def test_the_tutorial_s_chains_are_called_converged(page):
     shown = settled(page)
     assert shown["painted"]["verdict"]["level"] == "good"
@@ -102,8 +96,9 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
     assert min(page.locator(".chart canvas").first.evaluate(inked)) > 20
 
 
-def test_effective_draws_are_those_of_the_whole_trace(open_page, server):
-    page = open_page(server, document(sweeps=15_000))
+@pytest.mark.full
+def test_effective_draws_are_those_of_the_whole_trace(open_page):
+    page = open_page(document(sweeps=15_000))
     page.get_by_role("button", name="Run", exact=True).click()
     until(page, "!s.running && s.draws.count === 15000 && s.painted.sweeps === 15000")
     page.get_by_role("button", name="Export").click()
@@ -116,8 +111,9 @@ def test_effective_draws_are_those_of_the_whole_trace(open_page, server):
     assert snapshot(page)["painted"]["ess"] == pytest.approx(bulk_ess(log_joint), rel=0.01)
 
 
-def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page, server):
-    page = open_page(server, document(start="empty", sweeps=30))
+@pytest.mark.full
+def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page):
+    page = open_page(document(start="empty", sweeps=30))
     page.get_by_role("button", name="Run", exact=True).click()
     until(page, "!s.running && s.draws.count === 30 && s.painted.generation === s.generation")
     mean = snapshot(page)["probability"] > 128
@@ -136,8 +132,8 @@ def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page, server):
     show_layer(page, "Mean")
 
 
-def test_importance_sampling_shows_its_weights(open_page, server):
-    page = open_page(server, document(method="importance", sweeps=5000))
+def test_importance_sampling_shows_its_weights(open_page):
+    page = open_page(document(method="importance", sweeps=5000))
     page.get_by_role("button", name="Run", exact=True).click()
     until(page, "!s.running && s.painted.method === 'importance' && s.painted.sweeps === 5000")
     counts = page.evaluate("[...bayesmap.snapshot().painted.weights]")

@@ -47,8 +47,9 @@ def test_the_robot_of_the_tutorial_has_one_place(page):
     until(page, "!s.where.found")
 
 
-def test_a_square_room_has_four_places_with_probabilities(open_page, server):
-    page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
+@pytest.mark.full
+def test_a_square_room_has_four_places_with_probabilities(open_page):
+    page = open_page(document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
     settled(page)
     ask(page)
     answer = found(page)
@@ -67,8 +68,9 @@ def sensor(x, y, yaw=0.2):
     return {"id": 1, "x": x, "y": y, "yaw": yaw}
 
 
-def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page, server):
-    page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8, 9)]))
+@pytest.mark.full
+def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page):
+    page = open_page(document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8, 9)]))
     settled(page)
     ask(page)
     found(page)
@@ -90,8 +92,9 @@ def test_the_cloud_follows_the_robot_while_it_is_dragged(open_page, server):
     assert found(page)["pose"][0] == pytest.approx(13.0, abs=0.05)
 
 
-def test_a_room_that_loses_its_symmetry_loses_places(open_page, server):
-    page = open_page(server, document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
+@pytest.mark.full
+def test_a_room_that_loses_its_symmetry_loses_places(open_page):
+    page = open_page(document(walls=square(), noise=0.05, angles=90, sensors=[sensor(8.3, 9.1)]))
     settled(page)
     page.get_by_role("radio", name="Draw", exact=True).check()
     page.mouse.click(*centre(page, 13, 6))
@@ -101,6 +104,7 @@ def test_a_room_that_loses_its_symmetry_loses_places(open_page, server):
     playwright.expect(page.locator(".whereabouts")).to_contain_text("One place")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_scan_of_a_run_is_located_in_its_map(open_page, tmp_path, scheme):
     grid = bm.Grid((50, 36), 0.1)

@@ -3,6 +3,7 @@
 import re
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from page_driver import NEXT_FRAME, act, centre, document, propagated, settled, until
 
@@ -31,14 +32,14 @@ def number(text):
     return float(text.replace(",", "").replace("\u2212", "-"))
 
 
-@pytest.mark.parametrize("cell", ["wall", "free"])
-def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, server, cell):
+@pytest.mark.parametrize("cell", ["wall", pytest.param("free", marks=pytest.mark.full)])
+def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, cell):
     asked = document(method="propagate")
     scene, preview = propagated(asked)
     p_wall = preview.p_wall()
     sure = np.argwhere(preview.observed() & ((p_wall > 0.9) if cell == "wall" else (p_wall < 0.1)))
     x, y = map(int, sure[len(sure) // 2])
-    page = open_page(server, asked)
+    page = open_page(asked)
     settled(page)
     page.mouse.move(*centre(page, x, y))
     read_out = page.locator(".readout")
@@ -69,9 +70,11 @@ def labels(page, part):
     ]
 
 
-@pytest.mark.parametrize("noise", [0.2, 0.002], ids=["short numbers", "long numbers"])
-def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, server, noise):
-    page = open_page(server, document(noise=noise, method="gibbs", start="prior", sweeps=1000))
+@pytest.mark.parametrize(
+    "noise", [pytest.param(0.2, marks=pytest.mark.full), 0.002], ids=["short numbers", "long numbers"]
+)
+def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, noise):
+    page = open_page(document(noise=noise, method="gibbs", start="prior", sweeps=1000))
     settled(page)
     page.evaluate(LABELS)
     act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
@@ -86,3 +89,32 @@ def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, s
         assert trace.min() - 0.1 * spread - 1 <= number(text) <= trace.max() + 0.1 * spread + 1
     assert max(map(len, log_joint)) >= (8 if noise < 0.01 else 3)
     assert max(labels(page, "All")[1]) == 1000
+
+
+BARS = """
+() => {
+  // where bars are drawn on the trace from now on, and how far it reaches, pixels
+  window.bars = [];
+  const fill = CanvasRenderingContext2D.prototype.fillRect;
+  CanvasRenderingContext2D.prototype.fillRect = function (x, y, width, height) {
+    const chart = this.canvas.closest?.(".chart");
+    const over = chart?.querySelector(".u-over").getBoundingClientRect();
+    const own = this.canvas.getBoundingClientRect();
+    if (chart && width === 2) window.bars.push([x + 1, (over.right - own.left) * devicePixelRatio]);
+    return fill.call(this, x, y, width, height);
+  };
+}
+"""
+
+
+@pytest.mark.full
+def test_the_bar_on_a_runs_trace_is_at_the_draw_on_show(open_page, room):
+    """The room's run made ten sweeps of warm-up before its ten draws: sweeps are not draws."""
+    page = open_page(room[1])
+    playwright.expect(page.get_by_text("log joint by draw")).to_be_visible()
+    page.evaluate(BARS)
+    page.get_by_role("slider", name="Draw number").fill("9")
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 9")
+    until(page, "window.bars.length > 0")
+    middle, right = page.evaluate("window.bars.at(-1)")
+    assert middle == pytest.approx(right, abs=3)  # the last draw is at the axis's end

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 import warp as wp
 from oracle.enumeration import all_maps, log_prior_of_all, number_of
 from oracle.verdict import ALPHA, least_p_value
 from samplers.stop_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
-from scipy import special, stats
 
 import bayesmap as bm
 from bayesmap.cells import labels
@@ -34,7 +34,7 @@ def test_the_density_is_that_of_its_formula_up_to_a_constant():
     for solid in all_maps(6).reshape(-1, *shape):
         m = rng.uniform(0.1, 0.9, shape)
         a, b = np.where(solid, 2.0, 0.3), np.where(solid, 0.7, 2.0)
-        of_m = (stats.beta.logpdf(m, a, b) + np.log(m * (1 - m))).sum()  # of the log odds
+        of_m = (scipy.stats.beta.logpdf(m, a, b) + np.log(m * (1 - m))).sum()  # of the log odds
         found.append(PRIOR.log_prob({"reflectivity": m, "solid": solid}, bm.Grid(shape)) - of_m)
     np.testing.assert_allclose(np.array(found) - found[0], expected - expected[0], atol=1e-9)
 
@@ -47,9 +47,9 @@ def test_draws_are_exact():
     law = np.exp(log_prior_of_all(shape, 0.5, PRIOR.coupling))
     assert least_p_value(solid, law) > ALPHA / TESTS
     assert least_p_value(solid, np.exp(log_prior_of_all(shape, 0.5, 0.0))) < ALPHA / TESTS
-    assert stats.kstest(m[solid], stats.beta(2.0, 0.7).cdf).pvalue > ALPHA / TESTS
-    assert stats.kstest(m[~solid], stats.beta(0.3, 2.0).cdf).pvalue > ALPHA / TESTS
-    assert stats.ttest_1samp(m.mean(axis=1), PRIOR.mean).pvalue > ALPHA / TESTS
+    assert scipy.stats.kstest(m[solid], scipy.stats.beta(2.0, 0.7).cdf).pvalue > ALPHA / TESTS
+    assert scipy.stats.kstest(m[~solid], scipy.stats.beta(0.3, 2.0).cdf).pvalue > ALPHA / TESTS
+    assert scipy.stats.ttest_1samp(m.mean(axis=1), PRIOR.mean).pvalue > ALPHA / TESTS
     assert PRIOR.mean_stop(bm.Grid(shape))[0, 0] == PRIOR.mean
 
 
@@ -62,7 +62,7 @@ def test_the_kernel_s_log_gamma():
     x = np.concatenate([np.geomspace(1e-4, 1e7, 4000), [1.0, 2.0, 9.999999, 10.0]])
     out = wp.zeros(len(x), dtype=wp.float64, device="cpu")
     wp.launch(many_log_gammas, dim=len(x), inputs=[wp.array(x, dtype=wp.float64, device="cpu"), out], device="cpu")
-    np.testing.assert_allclose(out.numpy(), special.gammaln(x), rtol=1e-13, atol=1e-12)
+    np.testing.assert_allclose(out.numpy(), scipy.special.gammaln(x), rtol=1e-13, atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -129,8 +129,8 @@ def test_cells_that_no_beam_touches_draw_reflectivities_given_their_labels_where
     m, solid = sampler.stops(state), np.stack(before)
     np.testing.assert_array_equal(solid, [state.chains.solid(chain) for chain in range(2)])
     away = ~problem.touched().ravel()
-    assert stats.kstest(m[:, away][solid[:, away]], stats.beta(3.0, 0.8).cdf).pvalue > ALPHA / TESTS
-    assert stats.kstest(m[:, away][~solid[:, away]], stats.beta(0.5, 1.5).cdf).pvalue > ALPHA / TESTS
+    assert scipy.stats.kstest(m[:, away][solid[:, away]], scipy.stats.beta(3.0, 0.8).cdf).pvalue > ALPHA / TESTS
+    assert scipy.stats.kstest(m[:, away][~solid[:, away]], scipy.stats.beta(0.5, 1.5).cdf).pvalue > ALPHA / TESTS
     np.testing.assert_array_equal(sampler.stops(state), m)  # the same sweep, the same numbers
     state, _ = sampler.step(state, 1)
     assert (sampler.stops(state)[:, away] != m[:, away]).mean() > 0.99
@@ -162,8 +162,8 @@ def test_maps_and_predictions_of_cells_that_no_beam_touches_follow_their_labels(
     for x, y in np.argwhere(away)[::50]:
         share = solid[:, :, x, y].mean()
         for end, tail in ((lower[x, y], 0.1), (upper[x, y], 0.9)):
-            below = (1 - share) * stats.beta.cdf(end, prior.a, prior.b)
-            below += share * stats.beta.cdf(end, prior.a_solid, prior.b_solid)
+            below = (1 - share) * scipy.stats.beta.cdf(end, prior.a, prior.b)
+            below += share * scipy.stats.beta.cdf(end, prior.a_solid, prior.b_solid)
             assert below == pytest.approx(tail, abs=1e-6) or end < 1e-15
 
 
@@ -198,8 +198,8 @@ def test_the_fit_finds_both_betas():
 def test_mixture_quantiles():
     share = np.array([0.0, 0.3, 1.0, 0.3])
     found = labels.mixture_quantiles(share, (0.5, 3.0), (2.0, 1.0), (0.1, 0.9))
-    np.testing.assert_allclose(found[:, 0], stats.beta(0.5, 3.0).ppf([0.1, 0.9]), rtol=1e-9)
-    np.testing.assert_allclose(found[:, 2], stats.beta(2.0, 1.0).ppf([0.1, 0.9]), rtol=1e-9)
+    np.testing.assert_allclose(found[:, 0], scipy.stats.beta(0.5, 3.0).ppf([0.1, 0.9]), rtol=1e-9)
+    np.testing.assert_allclose(found[:, 2], scipy.stats.beta(2.0, 1.0).ppf([0.1, 0.9]), rtol=1e-9)
     assert (found[:, 1] == found[:, 3]).all()
 
 
@@ -212,7 +212,7 @@ def test_a_model_s_log_joint_has_the_labels():
     turned = {**cells, "solid": ~cells["solid"]}
     change = model.log_joint(model.state(turned)) - model.log_joint(model.state(cells))
     m = cells["reflectivity"].astype(float)
-    pairs = (stats.beta.logpdf(m, *PRIOR.beta_given(s)).sum() for s in (turned["solid"], cells["solid"]))
+    pairs = (scipy.stats.beta.logpdf(m, *PRIOR.beta_given(s)).sum() for s in (turned["solid"], cells["solid"]))
     assert change == pytest.approx(next(pairs) - next(pairs), abs=1e-4)  # all pairs are alike as before
     assert number_of(cells["solid"].ravel()) + number_of(turned["solid"].ravel()) == 63
 

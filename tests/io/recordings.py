@@ -6,6 +6,7 @@ Messages are plain dictionaries here, so that each writer serialises them in its
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -22,9 +23,20 @@ SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
 TF, ODOM = "tf2_msgs/msg/TFMessage", "nav_msgs/msg/Odometry"
 POSE, POSE_COV = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped"
 
-ROS2 = get_typestore(Stores.ROS2_HUMBLE)
-ROS1 = get_typestore(Stores.ROS1_NOETIC)
-ROS1.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms\n", TF))
+
+@cache
+def ros2():
+    """Return the message types of ROS 2."""
+    return get_typestore(Stores.ROS2_HUMBLE)
+
+
+@cache
+def ros1():
+    """Return the message types of ROS 1, with that of `/tf`."""
+    store = get_typestore(Stores.ROS1_NOETIC)
+    store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms\n", TF))
+    return store
+
 
 WRITERS = ("rosbag1", "sqlite3", "db3", "mcap-folder", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "mcap-ros1")
 
@@ -100,8 +112,8 @@ def _rosbag1(path, messages, _):
         connections = {}
         for topic, kind, seconds, message in messages:
             if topic not in connections:
-                connections[topic] = bag.add_connection(topic, kind, typestore=ROS1)
-            bag.write(connections[topic], ns(seconds), ROS1.serialize_ros1(_built(ROS1, kind, message), kind))
+                connections[topic] = bag.add_connection(topic, kind, typestore=ros1())
+            bag.write(connections[topic], ns(seconds), ros1().serialize_ros1(_built(ros1(), kind, message), kind))
     return file
 
 
@@ -115,8 +127,8 @@ def _ros2(path, messages, writer):
         connections = {}
         for topic, kind, seconds, message in messages:
             if topic not in connections:
-                connections[topic] = bag.add_connection(topic, kind, typestore=ROS2)
-            bag.write(connections[topic], ns(seconds), ROS2.serialize_cdr(_built(ROS2, kind, message), kind))
+                connections[topic] = bag.add_connection(topic, kind, typestore=ros2())
+            bag.write(connections[topic], ns(seconds), ros2().serialize_cdr(_built(ros2(), kind, message), kind))
     return {"db3": folder / "recording.db3", "mcap": folder / "recording.mcap"}.get(writer, folder)
 
 
@@ -131,7 +143,7 @@ def _mcap_ros2(path, messages, compression):
         bag, schemas = Writer(out, chunk_size=20_000, compression=chosen), {}
         for topic, kind, seconds, message in messages:
             if kind not in schemas:
-                schemas[kind] = bag.register_msgdef(kind, ROS2.generate_msgdef(kind, ros_version=2)[0])
+                schemas[kind] = bag.register_msgdef(kind, ros2().generate_msgdef(kind, ros_version=2)[0])
             bag.write_message(topic, schemas[kind], message, log_time=ns(seconds), publish_time=ns(seconds))
         bag.finish()
     return file
@@ -148,7 +160,7 @@ def _mcap_ros1(path, messages, _):
         for topic, kind, seconds, message in messages:
             old = kind.replace("/msg/", "/")
             if old not in classes:
-                classes[old] = generate_dynamic(old, ROS1.generate_msgdef(kind)[0])
+                classes[old] = generate_dynamic(old, ros1().generate_msgdef(kind)[0])
             bag.write_message(topic, _genpy(classes[old], classes[old][old](), message), log_time=ns(seconds))
         bag.finish()
     return file

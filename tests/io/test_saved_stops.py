@@ -1,12 +1,14 @@
 """A saved run over reflectivities or surfaces comes back equal, opens anywhere, and damage does not pass unnoticed."""
 
 from dataclasses import fields, replace
+from functools import cache
 
 import netCDF4
 import numpy as np
 import pytest
 from oracle.stop_worlds import scans_of_all_kinds
 from samplers.stop_rooms import assert_same, surfaces_of
+from tiers import latin
 
 import bayesmap as bm
 
@@ -22,6 +24,11 @@ def infer(kind, **options):
     return bm.infer(SCANS, GRID, **chosen)
 
 
+@cache
+def run_of(kind):
+    return infer(kind)
+
+
 def assert_equal(one, other):
     assert_same(one, other)
     for name in ("settings", "seconds", "notes", "grid", "log_evidence"):
@@ -30,9 +37,7 @@ def assert_equal(one, other):
         np.testing.assert_array_equal(*(getattr(run.posterior.scans, part.name) for run in (one, other)))
 
 
-@KINDS
-@pytest.mark.parametrize("draws", [0, 1, 5])
-@pytest.mark.parametrize("sensor", ["fit", SENSOR], ids=["fitted", "given"])
+@pytest.mark.parametrize(("kind", "draws", "sensor"), latin(2, list(PRIORS), [0, 1, 5], ["fit", SENSOR]))
 def test_a_run_comes_back_equal(kind, draws, sensor, tmp_path):
     run = infer(kind, draws=draws, sensor=sensor)
     run.save(tmp_path / "run.nc")
@@ -45,7 +50,7 @@ def test_a_run_comes_back_equal(kind, draws, sensor, tmp_path):
 
 @KINDS
 def test_it_opens_as_plain_netcdf(kind, tmp_path):
-    run = infer(kind)
+    run = run_of(kind)
     run.save(tmp_path / "run.nc")
     with netCDF4.Dataset(tmp_path / "run.nc") as file:
         draws = file["posterior"]
@@ -62,7 +67,7 @@ def test_it_opens_as_plain_netcdf(kind, tmp_path):
 
 
 def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
-    infer("surfaces").save(tmp_path / "run.nc")
+    run_of("surfaces").save(tmp_path / "run.nc")
     content = (tmp_path / "run.nc").read_bytes()
     copy = tmp_path / "damaged.nc"
     for length in [*range(0, 60, 11), *np.linspace(60, len(content) - 1, 30).astype(int)]:
@@ -83,7 +88,7 @@ def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
 )  # fmt: skip
 def test_a_number_that_was_changed_is_noticed(group, name, tmp_path):
     path = tmp_path / "changed.nc"
-    infer("surfaces").save(path)
+    run_of("surfaces").save(path)
     with netCDF4.Dataset(path, "a") as file:
         values = file[group][name][:]
         values.ravel()[-1] += 1
@@ -94,7 +99,7 @@ def test_a_number_that_was_changed_is_noticed(group, name, tmp_path):
 
 def test_an_attribute_that_was_changed_is_noticed(tmp_path):
     path = tmp_path / "changed.nc"
-    infer("surfaces").save(path)
+    run_of("surfaces").save(path)
     with netCDF4.Dataset(path, "a") as file:
         file.setncattr("bayesmap", file.getncattr("bayesmap").replace('"spread": 0.28', '"spread": 0.29'))
     with pytest.raises(bm.BadInput, match=r"changed\.nc: "):

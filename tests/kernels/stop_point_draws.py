@@ -1,6 +1,7 @@
 """Points of stops as the package draws them, many of one beam."""
 
 import math
+from functools import cache
 
 import numpy as np
 import warp as wp
@@ -25,11 +26,15 @@ def points(
     out[i] = stop_point_m(law, reading, decay, distance, variance, key, wp.uint64(i) * wp.uint64(4))
 
 
+law_of = cache(sensor_law)
+"""The law of a model of the user's own is tabulated, which takes seconds."""
+
+
 def draw_points(sensor, limits, reading_m, distance_m, spread_m, count, seed=0):
     """Distances at which a beam with this reading was stopped by a surface at about the distance, (count,), metres."""
     device.start()
     out = wp.zeros(count, dtype=wp.float64, device="cpu")
-    law = sensor_law(sensor, limits, "cpu", SensorLaw32)
+    law = law_of(sensor, limits, "cpu", SensorLaw32)
     inputs = [law, reading_m, distance_m, spread_m**2, mix(seed, math.floor(1e6 * spread_m)), out]
     wp.launch(points, dim=count, inputs=inputs, device="cpu")
     return np.array(out.numpy())

@@ -1,8 +1,11 @@
 """An endpoint cell's beams eight at a time say what they say one by one."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import warp as wp
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.cell_draws import ActiveCells
@@ -21,6 +24,8 @@ HARD = bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.05, p_no_return=0.1)
 CROWD = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_short=0.4, rate_short_per_m=3.0)
 SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)
 TAILS = bm.BeamMixture(bm.StudentT(0.01, 5.0, 0.005), p_random=0.02, p_no_return=0.05)
+
+SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS}
 
 
 @wp.kernel
@@ -67,6 +72,7 @@ def scans_of_a_room(rng, scans=60, beams=90):
     return bm.Scans(np.stack([x, y, np.zeros(scans)], axis=-1), angle, readings, max_range_m=6.0)
 
 
+@cache
 def weighed(sensor, seed, worse=0.0):
     """What `both_ways` says of a room's endpoint cells after a few sweeps, with random other surfaces."""
     rng = np.random.default_rng(seed)
@@ -91,10 +97,10 @@ def weighed(sensor, seed, worse=0.0):
     return one_by_one, least, out.numpy()
 
 
-@pytest.mark.parametrize("sensor", [HARD, CROWD, SHARP, TAILS], ids=["hard", "crowd", "sharp", "heavy tails"])
-@pytest.mark.parametrize("worse", [0.0, 0.05], ids=["where they stand", "beside it"])
-def test_eight_at_a_time_say_what_each_says(sensor, worse):
-    plain, least, (_, lanes, whole, cut, others, stopped) = weighed(sensor, 10, worse)
+@pytest.mark.parametrize(("name", "worse"), latin(2, list(SENSORS), [0.0, 0.05]))
+def test_eight_at_a_time_say_what_each_says(name, worse):
+    """Where surfaces stand, and beside it."""
+    plain, least, (_, lanes, whole, cut, others, stopped) = weighed(SENSORS[name], 10, worse)
     close = 2e-5 * (1 + np.abs(plain)) + 2e-5 * stopped
     assert np.all(np.abs(whole - plain) <= close)
     known = (others == 0) & (lanes != float(UNKNOWN))

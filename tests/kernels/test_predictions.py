@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.predict import forecast, log_densities
@@ -210,8 +211,7 @@ class Own(SensorModel):
 OWN = ["mixture", "student-t", "mixture of student-t"]
 
 
-@pytest.mark.parametrize("binary", [False, True])
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize(("name", "binary"), latin(2, OWN, [False, True]))
 def test_a_sensor_of_the_user_s_own_predicts_by_a_table_what_its_formula_says(name, binary):
     formula = SENSORS[name]
     own = Own(formula)

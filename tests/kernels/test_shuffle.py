@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+import scipy
 from kernels.shuffle_orders import shuffles, shuffles_of_chains
-from scipy import stats
 
 
 def test_it_is_a_permutation_for_every_size_up_to_2000():
@@ -28,7 +28,7 @@ def test_every_cell_comes_in_every_place_equally_often(size):
     found = shuffles(size, np.random.default_rng(1).integers(0, 2**63, 20_000))
     for cell in range(0, size, max(1, size // 7)):
         counts = np.bincount(np.argmax(found == cell, axis=1), minlength=size)
-        assert stats.chisquare(counts).pvalue > 1e-5
+        assert scipy.stats.chisquare(counts).pvalue > 1e-5
 
 
 @pytest.mark.parametrize("size", [2, 3, 4, 7])
@@ -46,4 +46,4 @@ def test_which_of_two_neighbours_comes_first_is_a_fair_coin(size):
     place = np.argsort(found, axis=1)
     for c in range(0, size - 1, max(1, size // 10)):
         first = (place[:, c] < place[:, c + 1]).sum()
-        assert stats.binomtest(int(first), len(found)).pvalue > 1e-6
+        assert scipy.stats.binomtest(int(first), len(found)).pvalue > 1e-6

@@ -3,11 +3,14 @@
 False alarms: `ALPHA` = 1e-4 over this module. The kernel reads the law from a table, off by up to a hundredth.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
+import scipy
 from oracle.verdict import ALPHA
-from scipy import stats
 from stop_point_draws import draw_points
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.sensors.model import RangeLimits, SensorModel
@@ -16,11 +19,19 @@ LIMITS = RangeLimits(0.05, 8.0)
 DRAWS, TESTS = 3000, 20
 
 
+@dataclass(frozen=True)
 class Late(SensorModel):
     """Readings that come late, by a gamma distributed delay, one in ten anywhere; more are lost from far away."""
 
-    def __init__(self, delay_m):
-        self.delay = stats.gamma(3.0, scale=delay_m / 3.0)
+    delay_m: float
+
+    @property
+    def scale_m(self):
+        return self.delay_m / 3.0
+
+    def came(self, late_m):
+        """The chance that the delay is shorter: the law of the sum of three exponential ones."""
+        return scipy.special.gammainc(3.0, np.maximum(late_m, 0.0) / self.scale_m)
 
     def lost(self, d, limits):
         """The chance of no return, but for readings past the limit."""
@@ -31,10 +42,11 @@ class Late(SensorModel):
         there, read = np.isfinite(d), np.isfinite(z)
         wall = np.where(there, d, 0.0)
         comes = np.where(there, 1 - self.lost(wall, limits), 0.0)
-        density = 0.9 * self.delay.pdf(np.where(read, z - wall, -1.0)) + 0.1 / (limits.max_m - limits.min_m)
+        late = np.maximum(np.where(read, z - wall, -1.0), 0.0) / self.scale_m
+        density = 0.9 * 0.5 * late**2 * np.exp(-late) / self.scale_m + 0.1 / (limits.max_m - limits.min_m)
         density = np.where((z < limits.min_m) | (z > limits.max_m), 0.0, comes * density)
-        never = 1 - comes * (0.1 + 0.9 * self.delay.cdf(limits.max_m - wall))
-        close = 0.9 * comes * self.delay.cdf(limits.min_m - wall)
+        never = 1 - comes * (0.1 + 0.9 * self.came(limits.max_m - wall))
+        close = 0.9 * comes * self.came(limits.min_m - wall)
         with np.errstate(divide="ignore"):
             out = np.log(np.where(read, density, np.where(z > 0, never, close)))
         return np.where(np.isnan(z), 0.0, out)
@@ -44,7 +56,7 @@ class Late(SensorModel):
 
     def sample(self, rng, distance_m, limits):
         d = np.asarray(distance_m, dtype=float)
-        late = d + self.delay.rvs(d.shape, rng)
+        late = d + rng.gamma(3.0, self.scale_m, d.shape)
         reading = np.where(rng.random(d.shape) < 0.1, rng.uniform(limits.min_m, limits.max_m, d.shape), late)
         lost = ~np.isfinite(d) | (rng.random(d.shape) < self.lost(d, limits)) | (reading > limits.max_m)
         return np.where(lost, np.inf, np.where(reading < limits.min_m, -np.inf, reading))
@@ -53,7 +65,7 @@ class Late(SensorModel):
 def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
     """Distances, and the cumulative distribution there: a normal law times the reading's likelihood, added up."""
     t = np.linspace(distance_m - 7 * spread_m, distance_m + 7 * spread_m, 20_001)
-    log_p = stats.norm.logpdf(t, distance_m, spread_m)
+    log_p = scipy.stats.norm.logpdf(t, distance_m, spread_m)
     if given_reading:
         log_p = log_p + sensor.log_likelihood(np.full_like(t, reading_m), t, LIMITS)
     p = np.exp(log_p - log_p.max())
@@ -72,7 +84,9 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case", full_but(CASES, "a thin surface and a blunt sensor", "the surface's far end", "no return")
+)
 def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
     delay_m, reading_m, distance_m, spread_m = CASES[case]
     sensor = Late(delay_m)
@@ -80,7 +94,7 @@ def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
 
     def p_value(given_reading):
         t, below = plain_law(sensor, reading_m, distance_m, spread_m, given_reading)
-        return stats.kstest(found, lambda x: np.interp(x, t, below)).pvalue
+        return scipy.stats.kstest(found, lambda x: np.interp(x, t, below)).pvalue
 
     assert p_value(True) > ALPHA / TESTS
     if abs(reading_m - distance_m) < 4 * spread_m:  # else it says nothing of the point
@@ -103,8 +117,8 @@ def test_points_of_a_mixture_lie_between_surface_and_reading_if_it_came_from_the
     by_chance = chance / np.exp(density[0])
 
     def below(x):
-        there = stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))
-        return by_chance * stats.norm.cdf(x, 3.0, 0.05) + (1 - by_chance) * there
+        there = scipy.stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))
+        return by_chance * scipy.stats.norm.cdf(x, 3.0, 0.05) + (1 - by_chance) * there
 
-    assert stats.kstest(found, below).pvalue > ALPHA / TESTS
-    assert stats.kstest(found, lambda x: stats.norm.cdf(x, 3.0, 0.05)).pvalue < ALPHA / TESTS
+    assert scipy.stats.kstest(found, below).pvalue > ALPHA / TESTS
+    assert scipy.stats.kstest(found, lambda x: scipy.stats.norm.cdf(x, 3.0, 0.05)).pvalue < ALPHA / TESTS

@@ -5,10 +5,10 @@ False alarms: `ALPHA` = 1e-4 over this module.
 
 import numpy as np
 import pytest
+import scipy
 import warp as wp
 from oracle.stop_law import draw_covariances
 from oracle.verdict import ALPHA
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels.cell_prior import CellPrior, fresh_surface
@@ -63,20 +63,20 @@ def drawn(kernel, *numbers):
 
 
 def follows(sample, cdf):
-    return stats.kstest(sample, cdf).pvalue > ALPHA / CASES
+    return scipy.stats.kstest(sample, cdf).pvalue > ALPHA / CASES
 
 
 def test_normal_variates():
-    assert follows(drawn(draw_normal), stats.norm.cdf)
-    assert not follows(1.04 * drawn(draw_normal), stats.norm.cdf)
+    assert follows(drawn(draw_normal), scipy.stats.norm.cdf)
+    assert not follows(1.04 * drawn(draw_normal), scipy.stats.norm.cdf)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_logarithms_of_gamma_variates(shape):
     sample = drawn(draw_log_gamma, shape)
     assert np.isfinite(sample).all()
-    assert follows(sample, stats.loggamma(shape).cdf)
-    assert not follows(sample, stats.loggamma(shape * 1.03).cdf)
+    assert follows(sample, scipy.stats.loggamma(shape).cdf)
+    assert not follows(sample, scipy.stats.loggamma(shape * 1.03).cdf)
 
 
 @pytest.mark.parametrize(("a", "b"), BETAS)
@@ -85,12 +85,12 @@ def test_beta_variates(a, b):
     assert ((sample >= 0) & (sample <= 1)).all()
     # What underflows, or rounds to one, is compared as a share.
     inner = (1e-280, 1 - 1e-15)
-    law = stats.beta(a, b)
+    law = scipy.stats.beta(a, b)
     for end, p in ((sample < inner[0], law.cdf(inner[0])), (sample > inner[1], law.sf(inner[1]))):
-        assert stats.binomtest(int(end.sum()), COUNT, min(p, 1.0)).pvalue > ALPHA / CASES
+        assert scipy.stats.binomtest(int(end.sum()), COUNT, min(p, 1.0)).pvalue > ALPHA / CASES
     inside = sample[(sample >= inner[0]) & (sample <= inner[1])]
     low, high = law.cdf(inner)
-    assert follows((law.cdf(inside) - low) / (high - low), stats.uniform.cdf)
+    assert follows((law.cdf(inside) - low) / (high - low), scipy.stats.uniform.cdf)
 
 
 @wp.kernel
@@ -121,7 +121,7 @@ def test_nearly_normal_numbers_are_symmetric_and_have_a_normal_s_first_moments()
         error = np.std(sample**power) / np.sqrt(COUNT)
         assert abs((sample**power).mean() - expected) < 4.5 * error
     assert abs((sample**4).mean() - 3.0) > 4.5 * np.std(sample**4) / np.sqrt(COUNT)  # the twin: a normal's
-    assert stats.ks_2samp(sample, -sample).pvalue > ALPHA / CASES
+    assert scipy.stats.ks_2samp(sample, -sample).pvalue > ALPHA / CASES
 
 
 def test_the_counters_of_one_variate_do_not_meet_those_of_the_next():
@@ -129,7 +129,7 @@ def test_the_counters_of_one_variate_do_not_meet_those_of_the_next():
     logs = drawn(draw_log_gamma, 0.7)
     at = wp.zeros(COUNT, dtype=wp.float64, device="cpu")
     wp.launch(draw_next_log_gamma, dim=COUNT, inputs=[KEY, wp.float64(0.7), at], device="cpu")
-    assert abs(np.corrcoef(stats.rankdata(logs), stats.rankdata(at.numpy()))[0, 1]) < 4.5 / np.sqrt(COUNT)
+    assert abs(np.corrcoef(scipy.stats.rankdata(logs), scipy.stats.rankdata(at.numpy()))[0, 1]) < 4.5 / np.sqrt(COUNT)
 
 
 @wp.kernel
@@ -176,7 +176,7 @@ def by_scipy(prior, *, inside=True):
     sigma = draw_covariances(rng, prior, COUNT)
     factor = np.linalg.cholesky(sigma)
     most = 0.5 / prior.mean_scale if inside else np.inf
-    mean = stats.truncnorm.rvs(-most, most, scale=prior.mean_scale, size=(COUNT, 2), random_state=rng)
+    mean = scipy.stats.truncnorm.rvs(-most, most, scale=prior.mean_scale, size=(COUNT, 2), random_state=rng)
     return np.column_stack([mean, factor[:, 0, 0], factor[:, 1, 0], factor[:, 1, 1]])
 
 
@@ -187,11 +187,11 @@ def test_prior_surfaces_follow_the_inverse_wishart_thinned_by_their_size(draw, e
     prior = bm.Surface(1, 1, wander=0.4, spread=0.28, dof=dof, extent=extent)
     mine, theirs = surface_functions(draw(prior)), surface_functions(by_scipy(prior, inside=draw is by_numpy))
     for name, sample in mine.items():
-        assert stats.ks_2samp(sample, theirs[name]).pvalue > ALPHA / CASES / 9, name
+        assert scipy.stats.ks_2samp(sample, theirs[name]).pvalue > ALPHA / CASES / 9, name
 
 
 def test_prior_surfaces_with_x_and_y_the_wrong_way_round_are_rejected():
     prior = bm.Surface(1, 1)
     wrong = by_numpy(prior)[:, [0, 1, 4, 3, 2]]
     mine, theirs = surface_functions(wrong), surface_functions(by_scipy(prior))
-    assert min(stats.ks_2samp(mine[name], theirs[name]).pvalue for name in mine) < ALPHA / CASES / 9
+    assert min(scipy.stats.ks_2samp(mine[name], theirs[name]).pvalue for name in mine) < ALPHA / CASES / 9

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+import scipy
 from rooms import ANGLES, known, scan_from, walls_of
-from scipy.stats import f, kstest, t
 
 from bayesmap.localization.approach import approached
 from bayesmap.localization.endpoint_field import FLOOR, endpoint_field
@@ -66,10 +66,10 @@ def test_evenly_spread_draws_have_the_student_distribution():
     rng = np.random.default_rng(0)
     draws = np.array([student_draws(16, rng)[7] for _ in range(600)])
     for k in range(3):
-        assert kstest(draws[:, k], t(DOF).cdf).pvalue > 1e-4
+        assert scipy.stats.kstest(draws[:, k], scipy.stats.t(DOF).cdf).pvalue > 1e-4
     radius = (draws**2).sum(axis=1) / 3.0
-    assert kstest(radius, f(3, DOF).cdf).pvalue > 1e-4
-    assert kstest(radius, f(3, 4 * DOF).cdf).pvalue < 1e-4
+    assert scipy.stats.kstest(radius, scipy.stats.f(3, DOF).cdf).pvalue > 1e-4
+    assert scipy.stats.kstest(radius, scipy.stats.f(3, 4 * DOF).cdf).pvalue < 1e-4
 
 
 def test_unequal_draws_of_places_leave_the_integral_right():

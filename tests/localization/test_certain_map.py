@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from rooms import ANGLES, known, offset, scan_from, walls_of
+from tiers import full_but
 
 from bayesmap.localization.certain_map import distinct, locate
 from bayesmap.localization.filter import Scan
@@ -46,7 +47,7 @@ def test_the_posterior_is_that_of_enumerated_poses():
     assert (enumerated(0.5)[1] > 1.2 * sd).all()
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", full_but(range(6), 0, 3))
 def test_a_square_room_has_four_places_alike(seed):
     """Full circles in a square room: turned by quarters all is alike but for 36 beams' own noise, which is the same."""
     walls, grid = walls_of(4.0, 4.0, alcove=False)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from rooms import ANGLES, offset, scan_from, walls_of
+from tiers import full_but
 
 from bayesmap.localization.field import likelihood_field
 from bayesmap.localization.search import APART_M, APART_RAD, HEADINGS, POINTS, _coarse_poses, end_points, refine, search
@@ -37,7 +38,7 @@ def test_the_coarse_search_scores_every_position_and_heading(room):
     assert max(scores) == best
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", full_but(range(5), 0, 4))
 def test_the_true_pose_is_found(room, seed):
     walls, grid, field = room
     rng = np.random.default_rng(seed)

@@ -8,9 +8,9 @@ is worked out beam by beam, ways with the same counts of hits and passes being t
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from oracle.enumeration import all_maps, log_prior_of_all
 from oracle.stop_law import reading_law
-from scipy import special, stats
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class BetaMixture:
         """Cumulative distribution of a cell's reflectivity."""
         pairs, which = np.unique(np.stack([self.a[:, cell], self.b[:, cell]]), axis=1, return_inverse=True)
         weight = np.bincount(which.ravel(), self.weight)
-        return lambda m: stats.beta.cdf(np.atleast_1d(m)[:, None], *pairs) @ weight
+        return lambda m: scipy.stats.beta.cdf(np.atleast_1d(m)[:, None], *pairs) @ weight
 
     def mean(self):
         return self.weight @ (self.a / (self.a + self.b))
@@ -73,7 +73,7 @@ def exact_reflectivities(paths, cells, prior, sensor, beta=1.0):
     """Enumerate; ``cells`` is how many there are, ``beta`` the inverse temperature."""
     counts, log_readings = ways_to_stop(paths, cells, sensor, beta)
     a, b = prior.a + counts[:, 0], prior.b + counts[:, 1]
-    log_weight = log_readings + (special.betaln(a, b) - special.betaln(prior.a, prior.b)).sum(axis=1)
+    log_weight = log_readings + (scipy.special.betaln(a, b) - scipy.special.betaln(prior.a, prior.b)).sum(axis=1)
     weight = np.exp(log_weight - log_weight.max())
     return BetaMixture(weight / weight.sum(), a, b)
 
@@ -85,7 +85,7 @@ def exact_labels(paths, shape, prior, sensor, beta=1.0):
     solid = all_maps(cells)[:, None]  # (2^n, 1, n) beside the ways, (1, J, n)
     a_0, b_0 = np.where(solid, prior.a_solid, prior.a), np.where(solid, prior.b_solid, prior.b)
     a, b = a_0 + counts[None, :, 0], b_0 + counts[None, :, 1]
-    log_weight = log_readings + (special.betaln(a, b) - special.betaln(a_0, b_0)).sum(axis=-1)
+    log_weight = log_readings + (scipy.special.betaln(a, b) - scipy.special.betaln(a_0, b_0)).sum(axis=-1)
     log_weight += log_prior_of_all(shape, 0.5, prior.coupling)[:, None]
     weight = np.exp(log_weight - log_weight.max())
     weight /= weight.sum()

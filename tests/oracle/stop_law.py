@@ -8,7 +8,7 @@ axes are any number of states at once. Stops are numbered 0 .. K - 1 by entry, K
 from typing import NamedTuple
 
 import numpy as np
-from scipy import special, stats
+import scipy
 
 GATE_WIDTH = 2.2
 DIRECTION_RAD = 0.005
@@ -85,7 +85,7 @@ def noise_of(sensor, wall, variance):
     """Scale of the noise about stops, and its standard law."""
     numbers = sensor.noise.kernel_parameters()
     scale = np.sqrt((numbers.sigma_m + numbers.sigma_per_m * wall) ** 2 + variance)
-    return scale, stats.t(numbers.dof) if numbers.dof else stats.norm()
+    return scale, scipy.stats.t(numbers.dof) if numbers.dof else scipy.stats.norm()
 
 
 def reading_law(z, distance, variance, sensor, limits):
@@ -168,15 +168,15 @@ def log_prior(prior, states, centres):
     """
     centres, edge = centres
     m = states[..., 0]
-    total = prior.a * np.log(m) + prior.b * np.log1p(-m) - special.betaln(prior.a, prior.b)
+    total = prior.a * np.log(m) + prior.b * np.log1p(-m) - scipy.special.betaln(prior.a, prior.b)
     if hasattr(prior, "dof"):
         scale = (prior.spread * edge) ** 2
         sigma = covariances(states).reshape(-1, 2, 2)
-        law = stats.invwishart(prior.dof, scale * np.eye(2))
+        law = scipy.stats.invwishart(prior.dof, scale * np.eye(2))
         of_sigma = np.reshape([law.logpdf(one) for one in sigma], m.shape)
         # d(Sigma11, Sigma21, Sigma22) = 4 l11^3 l22^2 d(log l11, l21, log l22)
         jacobian = np.log(4) + 3 * np.log(states[..., 3]) + 2 * np.log(states[..., 5])
-        of_mean = stats.norm.logpdf(states[..., 1:3], centres, prior.wander * edge).sum(axis=-1)
+        of_mean = scipy.stats.norm.logpdf(states[..., 1:3], centres, prior.wander * edge).sum(axis=-1)
         thinned = -np.trace(sigma, axis1=1, axis2=2).reshape(m.shape) / (2 * (prior.extent * edge) ** 2)
         outside = (abs(states[..., 1:3] - centres) > 0.5 * edge).any(axis=-1)
         total = np.where(outside, -np.inf, total + of_sigma + jacobian + of_mean + thinned)

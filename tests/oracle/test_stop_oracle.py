@@ -3,15 +3,17 @@
 False alarms: `ALPHA` = 1e-4 over this module.
 """
 
+from itertools import product
+
 import numpy as np
 import pytest
+import scipy
 from oracle import density
 from oracle.stop_exact import exact_reflectivities
 from oracle.stop_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
 from oracle.stop_worlds import build_worlds, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit
 from oracle.worlds import bm_limits
-from scipy import special, stats
 
 import bayesmap as bm
 
@@ -46,13 +48,14 @@ def law_at(z, plain):
     return np.exp(log_likelihoods(same_path(z), STATES, SENSOR, plain))
 
 
-@pytest.mark.parametrize("z", [0.21, 0.9, 1.0, 2.49, np.inf, -np.inf])
-@pytest.mark.parametrize("d", [0.0, 0.1, 0.9, 1.1, 2.45, 2.6, np.inf])
-def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s(z, d):
-    expected = density.mixture(
-        z, d, sigma=0.06, per_m=0.02, min_m=0.2, max_m=2.5, p_random=0.08, p_no_return=0.15, p_short=0.2, rate=0.7
-    )
-    assert np.log(reading_law(z, d, 0.0, SENSOR, LIMITS)) == pytest.approx(expected, rel=1e-9)
+def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s():
+    numbers = {
+        "sigma": 0.06, "per_m": 0.02, "min_m": 0.2, "max_m": 2.5,
+        "p_random": 0.08, "p_no_return": 0.15, "p_short": 0.2, "rate": 0.7,
+    }  # fmt: skip
+    cases = list(product([0.21, 0.9, 1.0, 2.49, np.inf, -np.inf], [0.0, 0.1, 0.9, 1.1, 2.45, 2.6, np.inf]))
+    found = {case: np.log(reading_law(*case, 0.0, SENSOR, LIMITS)) for case in cases}
+    assert found == pytest.approx({case: density.mixture(*case, **numbers) for case in cases}, rel=1e-9)
 
 
 def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says():
@@ -63,7 +66,7 @@ def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says(
     for state in STATES:
         factor = np.array([[state[3], 0.0], [state[4], state[5]]])
         across = np.outer([-u[1], u[0]], [-u[1], u[0]]) * (0.005 * (state[1:3] - start) @ u) ** 2
-        weight = stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
+        weight = scipy.stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
         mean = np.average(t, weights=weight)
         _, distance, variance = cross_surface(state, start, u)
         assert distance == pytest.approx(mean, abs=1e-6)
@@ -115,9 +118,9 @@ def test_the_prior_of_surfaces_has_the_jacobian_of_its_coordinates():
     s11, s12, s22 = sigma(*at)
     expected = (
         np.log(abs(np.linalg.det(columns)))
-        + stats.invwishart(3.5, (0.4 * 0.5) ** 2 * np.eye(2)).logpdf([[s11, s12], [s12, s22]])
-        + stats.norm(0.25, 0.25).logpdf(state[1:3]).sum()
-        + stats.beta(0.7, 1.3).logpdf(0.6)
+        + scipy.stats.invwishart(3.5, (0.4 * 0.5) ** 2 * np.eye(2)).logpdf([[s11, s12], [s12, s22]])
+        + scipy.stats.norm(0.25, 0.25).logpdf(state[1:3]).sum()
+        + scipy.stats.beta(0.7, 1.3).logpdf(0.6)
         + np.log(0.6 * 0.4)  # d m / d logit m
         - (s11 + s22) / (2 * 0.3**2)
     )
@@ -137,7 +140,7 @@ def test_the_enumeration_of_stops_equals_quadrature_over_reflectivities(prior):
         cells = worlds.cells()[w]
         mine = mine._replace(cell=np.where(mine.there, np.searchsorted(cells, mine.cell), 0))
         exact = exact_reflectivities(mine, 4, prior, SENSOR)
-        nodes, weights = special.roots_jacobi(8, prior.b - 1, prior.a - 1)
+        nodes, weights = scipy.special.roots_jacobi(8, prior.b - 1, prior.a - 1)
         m = np.stack(np.meshgrid(*[(nodes + 1) / 2] * 4, indexing="ij"), axis=-1).reshape(-1, 4)
         states = np.zeros((len(m), 4, 6))
         states[..., 0] = m

@@ -5,16 +5,16 @@ samplers fails for one in ten thousand choices of its seeds.
 """
 
 import numpy as np
+import scipy
 from oracle.enumeration import all_maps, number_of
-from scipy import stats
 
 ALPHA = 1e-4
 
 
 def two_sided(successes, trials, p):
     """Exact binomial p-values: twice the smaller tail."""
-    low = stats.binom.cdf(successes, trials, p)
-    high = stats.binom.sf(np.asarray(successes) - 1, trials, p)
+    low = scipy.stats.binom.cdf(successes, trials, p)
+    high = scipy.stats.binom.sf(np.asarray(successes) - 1, trials, p)
     return np.minimum(1.0, 2 * np.minimum(low, high))
 
 
@@ -27,7 +27,7 @@ def goodness_of_fit(counts, p, least=10.0):
     if last > 0 and expected[group == last].sum() < least / 2:
         group[group == last] = last - 1
     e, c = np.bincount(group, expected), np.bincount(group, counts)
-    return float(stats.chi2.sf(((c - e) ** 2 / e).sum(), len(e) - 1)) if len(e) > 1 else 1.0
+    return float(scipy.stats.chi2.sf(((c - e) ** 2 / e).sum(), len(e) - 1)) if len(e) > 1 else 1.0
 
 
 def least_p_value(draws, p):

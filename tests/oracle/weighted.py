@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import stats
+import scipy
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,13 @@ def p_values(draws, law):
         below, above = upto[np.searchsorted(at, x, side="left")], upto[np.searchsorted(at, x, side="right")]
         step = np.arange(n + 1) / n
         distance = max((below - step[:-1]).max(), (step[1:] - above).max())
-        out.append(stats.kstwobign.sf(max(distance, 0.0) * np.sqrt(size)))
+        out.append(scipy.stats.kstwobign.sf(max(distance, 0.0) * np.sqrt(size)))
         mine[i] = upto[np.searchsorted(at, draws[:, i], side="right")] - 0.5
     i, j = np.tril_indices(width, -1)
     drawn, drawn_sq = ((of @ of.T)[i, j] / n for of in (mine, mine**2))
     mean, mean_sq = (((of * law.weight) @ of.T)[i, j] for of in (theirs, theirs**2))
     variance = (drawn_sq - drawn**2) / n + (mean_sq - mean**2) / law.size
-    out.extend(2 * stats.norm.sf(abs(drawn - mean) / np.sqrt(variance)))
+    out.extend(2 * scipy.stats.norm.sf(abs(drawn - mean) / np.sqrt(variance)))
     return np.array(out)
 
 

@@ -1,7 +1,7 @@
 """Pose graphs: sparse against dense, loops that are wrong, covariances."""
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from bayesmap.poses.graph import (
     ANCHOR,
@@ -88,7 +88,7 @@ def test_the_pattern_holds_every_entry_of_the_factor():
         links = rng.random((30, 30)) < 0.06
         dense_matrix = np.where(links | links.T, 0.1 * rng.normal(), 0.0) + 5.0 * np.eye(30)
         place = rng.permutation(30)
-        begin, row = filled_pattern(sparse.csc_matrix(dense_matrix), place)
+        begin, row = filled_pattern(scipy.sparse.csc_matrix(dense_matrix), place)
         moved = np.empty_like(dense_matrix)
         moved[np.ix_(place, place)] = dense_matrix
         held = np.zeros((30, 30), bool)

@@ -1,5 +1,7 @@
 """Point-to-line pairs: derivatives, and what errors of normals add to them."""
 
+from functools import cache
+
 import numpy as np
 from simulated import path_around, ring, scans_of
 
@@ -11,14 +13,20 @@ from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
 
 TRUTH = path_around()
-ANGLES, RANGES = scans_of(ring(), TRUTH[:12], noise_m=0.005)
-GEOMETRY = scan_geometry(Scans(TRUTH[:12], ANGLES, RANGES, max_range_m=12.0))
 REACH, SCALE, ALIKE = 0.3, 0.1, 0.7
+
+
+@cache
+def ring_geometry():
+    """Return the points and normals of twelve scans along the path."""
+    angles, ranges = scans_of(ring(), TRUTH[:12], noise_m=0.005)
+    return scan_geometry(Scans(TRUTH[:12], angles, ranges, max_range_m=12.0))
 
 
 def plain(i, j, z):
     """The sums by NumPy: nearest point of j, mean normal, Geman and McClure's weight."""
-    points, normals, kind = GEOMETRY.host_points, GEOMETRY.host_normals, GEOMETRY.host_kind
+    geometry = ring_geometry()
+    points, normals, kind = geometry.host_points, geometry.host_normals, geometry.host_kind
     second, first, cost = np.zeros((3, 3)), np.zeros(3), 0.0
     there = points[j][kind[j] > 0]
     index = np.nonzero(kind[j] > 0)[0]
@@ -30,7 +38,7 @@ def plain(i, j, z):
         if ((there[k] - x) ** 2).sum() >= REACH**2 or kind[j, near] != kind[i, b]:
             continue
         if kind[i, b] == 1:  # no walls: point to point
-            sides = [m for m in (near - 1, near + 1) if 0 <= m < len(ANGLES) and kind[j, m] > 0]
+            sides = [m for m in (near - 1, near + 1) if 0 <= m < kind.shape[1] and kind[j, m] > 0]
             apart = 0.5 * max(0.1, min([2.0, *(np.linalg.norm(points[j, m] - points[j, near]) for m in sides)]))
             if apart > 0.15:
                 continue
@@ -57,7 +65,7 @@ def plain(i, j, z):
 
 def kernel(i, j, z):
     one = [np.array([k], np.int32) for k in (i, j)]
-    second, slack, first, totals = pair_sums(GEOMETRY, None, *one, np.array([z]), REACH, SCALE, ALIKE)
+    second, slack, first, totals = pair_sums(ring_geometry(), None, *one, np.array([z]), REACH, SCALE, ALIKE)
     return second[0], slack[0], first[0], totals[0]
 
 

@@ -1,5 +1,7 @@
 """Correlative matching is exact, and finds what there is to find."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -38,18 +40,27 @@ def room(poses, notch=0.0, noise_m=0.0, seed=1):
 
 
 POSES = np.array([[0.0, 0.0, 0.0], [0.3, -0.2, 0.5], [-0.5, 0.4, -1.0]])
-SCANS = room(POSES, notch=0.8, noise_m=0.01)
-GEOMETRY = scan_geometry(SCANS)
-GRIDS = likelihood_grids(GEOMETRY, [[0, 1]], [POSES[:2]], [[0.0, 0.0]], 3.0, levels=4)
+
+
+@cache
+def notched_geometry():
+    """Return the points of three scans of a room with a notch."""
+    return scan_geometry(room(POSES, notch=0.8, noise_m=0.01))
+
+
+@cache
+def notched_grids():
+    """Return the likelihood grid of the first two scans."""
+    return likelihood_grids(notched_geometry(), [[0, 1]], [POSES[:2]], [[0.0, 0.0]], 3.0, levels=4)
 
 
 def everywhere(grid, points, centre, half_m, half_rad, pull):
     """The score of every shift and angle of a window, by the plain formula: (angles, x, y)."""
-    cells, steps = round(half_m / GRIDS.resolution), int(half_rad / STEP + 1e-9)
-    shifts = np.arange(-cells, cells + 1) * GRIDS.resolution
+    cells, steps = round(half_m / notched_grids().resolution), int(half_rad / STEP + 1e-9)
+    shifts = np.arange(-cells, cells + 1) * notched_grids().resolution
     off = np.arange(-steps, steps + 1) * STEP
     poses = np.stack(np.meshgrid(off, shifts, shifts, indexing="ij"), axis=-1)[..., [1, 2, 0]]
-    score = score_at(GRIDS, grid, points, (poses + centre).reshape(-1, 3)).reshape(poses.shape[:3])
+    score = score_at(notched_grids(), grid, points, (poses + centre).reshape(-1, 3)).reshape(poses.shape[:3])
     if pull is not None:
         score = score - pull.weight * (
             (poses[..., 0] ** 2 + poses[..., 1] ** 2) / (2 * pull.sigma_m**2)
@@ -61,19 +72,19 @@ def everywhere(grid, points, centre, half_m, half_rad, pull):
 @pytest.mark.parametrize("pull", [None, Pull(0.2, 0.3, 0.05)], ids=["alone", "pulled"])
 @pytest.mark.parametrize("centre", [(0.1, 0.2, 0.3), (-0.4, 0.3, -0.9), (2.9, 2.9, 0.0)], ids=["a", "b", "border"])
 def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
-    points = GEOMETRY.points_of(2)
+    points = notched_geometry().points_of(2)
     score, poses = everywhere(0, points, np.array(centre), 0.5, 0.5, pull)
-    found = match(GRIDS, [points], [centre], 0.5, 0.5, step_rad=STEP, least=-9.0, pull=pull)
+    found = match(notched_grids(), [points], [centre], 0.5, 0.5, step_rad=STEP, least=-9.0, pull=pull)
     assert found.scores[0, 0] == pytest.approx(score.max(), abs=1e-12)
     first = np.unravel_index(np.argmax(score > score.max() - 1e-12), score.shape)
     np.testing.assert_allclose(found.poses[0, 0], poses[first], atol=1e-9)
 
 
 def test_further_modes_are_the_best_that_lie_apart():
-    points = GEOMETRY.points_of(2)
+    points = notched_geometry().points_of(2)
     centre = np.array([0.0, 0.0, 0.0])
     score, poses = everywhere(0, points, centre, 1.0, 1.2, None)
-    found = match(GRIDS, [points], [centre], 1.0, 1.2, step_rad=STEP, modes=3, apart_m=0.3, apart_rad=0.32)
+    found = match(notched_grids(), [points], [centre], 1.0, 1.2, step_rad=STEP, modes=3, apart_m=0.3, apart_rad=0.32)
     left = score.copy()
     for m in range(3):
         assert found.scores[0, m] == pytest.approx(left.max(), abs=1e-12)
@@ -82,18 +93,20 @@ def test_further_modes_are_the_best_that_lie_apart():
 
 
 def test_the_result_does_not_depend_on_threads():
-    points = [GEOMETRY.points_of(k) for k in range(3)]
+    points = [notched_geometry().points_of(k) for k in range(3)]
     centres = POSES + np.array([0.15, -0.1, 0.1])
     kwargs = {"step_rad": STEP, "modes": 2, "apart_m": 0.2}
-    one = match(GRIDS, points, centres, 0.6, np.pi, threads=1, strands=1, **kwargs)
+    one = match(notched_grids(), points, centres, 0.6, np.pi, threads=1, strands=1, **kwargs)
     for threads, strands in ((2, 1), (2, 3), (4, 8)):
-        other = match(GRIDS, points, centres, 0.6, np.pi, threads=threads, strands=strands, **kwargs)
+        other = match(notched_grids(), points, centres, 0.6, np.pi, threads=threads, strands=strands, **kwargs)
         np.testing.assert_array_equal(one.scores, other.scores)
         np.testing.assert_array_equal(one.poses, other.poses)
 
 
 def test_scans_are_found_where_they_were_taken():
-    found = match(GRIDS, [GEOMETRY.points_of(2)], [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0))
+    found = match(
+        notched_grids(), [notched_geometry().points_of(2)], [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0)
+    )
     off = between(POSES[2], found.poses[0, 0])
     assert np.hypot(off[0], off[1]) < 0.06
     assert abs(off[2]) < np.radians(1.5)
@@ -111,23 +124,25 @@ def test_a_symmetrical_room_gives_both_poses():
 
 
 def test_nothing_is_found_where_nothing_scores():
-    found = match(GRIDS, [GEOMETRY.points_of(2)], [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, least=0.1)
+    found = match(
+        notched_grids(), [notched_geometry().points_of(2)], [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, least=0.1
+    )
     assert not found.found.any()
     assert np.isnan(found.poses).all()
 
 
 def test_bad_input_is_refused():
-    points = [GEOMETRY.points_of(2)]
+    points = [notched_geometry().points_of(2)]
     with pytest.raises(BadInput, match="1 sets of points but 2 windows"):
-        match(GRIDS, points, np.zeros((2, 3)), 0.5, 0.5)
+        match(notched_grids(), points, np.zeros((2, 3)), 0.5, 0.5)
     with pytest.raises(BadInput, match="positive"):
-        match(GRIDS, points, np.zeros((1, 3)), 0.5, 0.5, step_rad=0.0)
+        match(notched_grids(), points, np.zeros((1, 3)), 0.5, 0.5, step_rad=0.0)
     with pytest.raises(BadInput, match="not be negative"):
-        match(GRIDS, points, np.zeros((1, 3)), -0.5, 0.5)
+        match(notched_grids(), points, np.zeros((1, 3)), -0.5, 0.5)
     with pytest.raises(BadInput, match="grid_of"):
-        match(GRIDS, points, np.zeros((1, 3)), 0.5, 0.5, grid_of=np.array([3]))
+        match(notched_grids(), points, np.zeros((1, 3)), 0.5, 0.5, grid_of=np.array([3]))
     with pytest.raises(BadInput, match="finite"):
-        match(GRIDS, points, np.full((1, 3), np.nan), 0.5, 0.5)
+        match(notched_grids(), points, np.full((1, 3), np.nan), 0.5, 0.5)
 
 
 def test_maxima_by_numpy_are_those_of_the_kernel():
@@ -149,13 +164,13 @@ def test_maxima_by_numpy_are_those_of_the_kernel():
 
 def test_further_modes_that_score_too_little_are_not_looked_for():
     """Below the share that is asked for they are not there; above it they are what they are without it."""
-    points = GEOMETRY.points_of(2)
+    points = notched_geometry().points_of(2)
     several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "least": 0.1}
-    whole = match(GRIDS, [points], [np.zeros(3)], 1.0, 1.2, **several)
+    whole = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, **several)
     ratio = whole.scores[0] / whole.scores[0, 0]
     assert ratio[1] > ratio[2] > 0.1
     for share in (ratio[1] - 1e-9, ratio[1] + 1e-9, ratio[2] - 1e-9):
-        some = match(GRIDS, [points], [np.zeros(3)], 1.0, 1.2, share=share, **several)
+        some = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, share=share, **several)
         np.testing.assert_array_equal(some.scores[0], np.where(ratio > share, whole.scores[0], -np.inf))
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from simulated import off, path_around, recording, ring, scans_of
+from tiers import latin
 
 from bayesmap.poses import scan_geometry as geometry_module
 from bayesmap.poses.point_noise import LEAST_M, MOST_M, range_noise_m
@@ -18,8 +19,7 @@ def found_m(noise_m, beams=180):
     return range_noise_m(ranges, float(angles[1] - angles[0]))
 
 
-@pytest.mark.parametrize("noise_m", [0.015, 0.03, 0.045])
-@pytest.mark.parametrize("beams", [90, 180, 720])
+@pytest.mark.parametrize(("noise_m", "beams"), latin(3, [0.015, 0.03, 0.045], [90, 180, 720]))
 def test_the_noise_is_found_to_an_eighth(noise_m, beams):
     assert found_m(noise_m, beams) == pytest.approx(noise_m, rel=0.125)
 
@@ -48,6 +48,7 @@ def test_noisy_scans_have_normals_too(monkeypatch):
     assert share() < 0.45
 
 
+@pytest.mark.full
 def test_a_noisy_laser_s_trajectory_is_right_and_knows_how_far(monkeypatch):
     scans, truth = recording(noise=2.0, turn_bias=0.03, laser_noise_m=0.03)
 

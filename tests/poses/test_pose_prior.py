@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy import integrate, stats
+import scipy
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.prior import FREE, Known, Motions, Odometry, Uncertain
@@ -101,7 +101,7 @@ def test_the_density_of_a_motion_integrates_to_one():
     density = np.exp(law.log_prob(poses))
     total = density
     for axis in reversed(axes):
-        total = integrate.trapezoid(total, axis)
+        total = scipy.integrate.trapezoid(total, axis)
     assert total == pytest.approx(1.0, abs=1e-4)
 
 
@@ -116,8 +116,8 @@ def test_samples_of_odometry_have_its_errors():
     error[:, 2] = wrapped(error[:, 2])
     standard = error / prior.sigmas(motions)
     for axis in range(3):
-        assert stats.kstest(standard[:, axis], "norm").pvalue > 1e-4 / 3
-        assert stats.kstest(1.15 * standard[:, axis], "norm").pvalue < 1e-4 / 3  # a wrong twin
+        assert scipy.stats.kstest(standard[:, axis], "norm").pvalue > 1e-4 / 3
+        assert scipy.stats.kstest(1.15 * standard[:, axis], "norm").pvalue < 1e-4 / 3  # a wrong twin
 
 
 def test_samples_of_slipping_odometry_have_its_errors():
@@ -127,11 +127,11 @@ def test_samples_of_slipping_odometry_have_its_errors():
     error = between(poses[:-1], poses[1:]) - between(log[:-1], log[1:])
 
     def mixture(p_slip):
-        return lambda e: (1 - p_slip) * stats.norm.cdf(e, scale=0.05) + p_slip * stats.norm.cdf(e)
+        return lambda e: (1 - p_slip) * scipy.stats.norm.cdf(e, scale=0.05) + p_slip * scipy.stats.norm.cdf(e)
 
     for axis in range(2):  # headings wrap
-        assert stats.kstest(error[:, axis], mixture(0.2)).pvalue > 1e-4 / 2
-        assert stats.kstest(error[:, axis], mixture(0.3)).pvalue < 1e-4 / 2  # a wrong twin
+        assert scipy.stats.kstest(error[:, axis], mixture(0.2)).pvalue > 1e-4 / 2
+        assert scipy.stats.kstest(error[:, axis], mixture(0.3)).pvalue < 1e-4 / 2  # a wrong twin
 
 
 def test_a_motion_that_odometry_missed_pulls_at_no_pose():

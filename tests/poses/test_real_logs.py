@@ -1,6 +1,7 @@
 """Public logs from raw odometry, where they are at hand. Thresholds leave room for other machines' rounding."""
 
 import numpy as np
+import pytest
 from data import intel_log
 
 from bayesmap.io.logs import read_log
@@ -9,6 +10,7 @@ from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between
 
 
+@pytest.mark.full
 def test_intel_is_as_close_to_the_known_relations_as_was_asked():
     trajectory = infer_trajectory(read_log(intel_log("intel-odometry.log.gz")))
     truth = read_relations(intel_log("intel.relations.gz"))

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+import scipy
 from oracle.formula import beams, distances
-from scipy import special, stats
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
@@ -41,7 +41,7 @@ def test_stops_are_drawn_with_the_chances_that_beams_have():
         assert counts.sum() == draws
         keep = expected > 5
         chi2 = ((counts - expected)[keep] ** 2 / expected[keep]).sum()
-        assert stats.chi2.sf(chi2, keep.sum() - 1) > 1e-4 / 3
+        assert scipy.stats.chi2.sf(chi2, keep.sum() - 1) > 1e-4 / 3
 
 
 def exact_information(maps, weights, sensor, count, seed):
@@ -52,8 +52,8 @@ def exact_information(maps, weights, sensor, count, seed):
         np.minimum(distances(m.reshape(GRID.shape), *beams(POSE, ANGLES, GRID)) * GRID.resolution, 6.0) for m in maps
     ])  # fmt: skip
     readings = at[which] + sensor.sigma_m * rng.standard_normal((count, len(ANGLES)))
-    log_p = stats.norm.logpdf(readings[:, None], at[None], sensor.sigma_m).sum(axis=2)
-    gains = log_p[np.arange(count), which] - special.logsumexp(log_p + np.log(weights), axis=1)
+    log_p = scipy.stats.norm.logpdf(readings[:, None], at[None], sensor.sigma_m).sum(axis=2)
+    gains = log_p[np.arange(count), which] - scipy.special.logsumexp(log_p + np.log(weights), axis=1)
     return gains.mean(), gains.std() / np.sqrt(count)
 
 
@@ -117,7 +117,7 @@ def plain_fsmi(occupied, pose, angle, sigma, hit, passed):
     for enter, leave, p in crossed:
         middle = 0.5 * (enter + leave)
         for k, (low, high, _) in enumerate(crossed):
-            share = stats.norm.cdf((high - middle) / sigma) - stats.norm.cdf((low - middle) / sigma)
+            share = scipy.stats.norm.cdf((high - middle) / sigma) - scipy.stats.norm.cdf((low - middle) / sigma)
             total += survive * p * share * (learnt[k] + f(hit, odds[k]))
         survive *= 1 - p
     return total + survive * learnt[-1]

@@ -7,8 +7,8 @@ import dataclasses
 
 import numpy as np
 import pytest
+import scipy
 from oracle.verdict import ALPHA
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
@@ -57,10 +57,10 @@ def drawn_from_the_model(sensor, seed, scans=150, rays=24):
 def test_predictions_of_the_model_s_own_data_are_calibrated(name):
     predictor, scans = drawn_from_the_model(SENSORS[name], 1)
     found = score_prediction(predictor, scans)
-    assert stats.kstest(found.pit, "uniform").pvalue > ALPHA
+    assert scipy.stats.kstest(found.pit, "uniform").pvalue > ALPHA
     for interval in found.coverage:
         inside_all = round(interval.share.value * found.beams)
-        assert stats.binomtest(inside_all, found.beams, interval.level).pvalue > ALPHA
+        assert scipy.stats.binomtest(inside_all, found.beams, interval.level).pvalue > ALPHA
     # Each event has its chance given all before it: the sum of surprises is a martingale.
     predicted = np.array([p * n for p, _, n in found.reliability]).sum()
     happened = np.array([share * n for _, share, n in found.reliability]).sum()
@@ -85,7 +85,7 @@ def test_those_of_a_wrong_twin_are_not(change):
     predictor, scans = drawn_from_the_model(SENSORS["mixture"], 1)
     right = score_prediction(predictor, scans)
     wrong = score_prediction(dataclasses.replace(predictor, **change), scans)
-    assert stats.kstest(wrong.pit, "uniform").pvalue < ALPHA
+    assert scipy.stats.kstest(wrong.pit, "uniform").pvalue < ALPHA
     assert wrong.pit_p_value < 0.01 < right.pit_p_value
     assert wrong.nats_per_beam < right.nats_per_beam
     assert wrong.log_loss.value > right.log_loss.value
@@ -94,7 +94,7 @@ def test_those_of_a_wrong_twin_are_not(change):
 def test_the_transform_spreads_atoms_over_their_share():
     u = randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), seed=3)
     assert (u[::2] == 0.2).all()
-    assert stats.kstest(u[1::2], "uniform", args=(0.7, 0.2)).pvalue > ALPHA
+    assert scipy.stats.kstest(u[1::2], "uniform", args=(0.7, 0.2)).pvalue > ALPHA
     np.testing.assert_array_equal(
         u[:100], randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), 3)[:100]
     )
@@ -149,6 +149,6 @@ def test_the_test_of_uniformity_respects_scans():
     u = np.clip(np.repeat((np.arange(80) + 0.5) / 80, 40) + rng.normal(0, 0.02, 3200), 0, 1)
     u = np.where(rng.random(3200) < 0.5, u, u**1.15)
     block = np.repeat(rng.permutation(80), 40)
-    assert stats.kstest(u, "uniform").pvalue < 0.05
+    assert scipy.stats.kstest(u, "uniform").pvalue < 0.05
     assert Blocks.make(block).uniformity(u)[1] > 0.2
     assert Blocks.make(block).uniformity(u**2)[1] == 0.0

@@ -6,10 +6,10 @@ import json
 
 import numpy as np
 import pytest
+import scipy
 import warp as wp
 from oracle.formula import beams, distances
 from oracle.worlds import make_case
-from scipy import special
 
 import bayesmap as bm
 from bayesmap.cells.draws import Draws
@@ -64,7 +64,7 @@ def test_the_log_score_is_the_log_mean_density_over_draws(case, run):
         case.sensor.log_likelihood(z, distances(walls, starts, angles) * case.grid.resolution, limits)
         for walls in run.draws.reshape(-1, 4, 4)
     ]
-    plain = (special.logsumexp(worth, axis=0) - np.log(len(worth)))[~np.isnan(z)]
+    plain = (scipy.special.logsumexp(worth, axis=0) - np.log(len(worth)))[~np.isnan(z)]
     found = beam_log_scores(predictor_of(run.posterior), held)
     np.testing.assert_array_equal(np.isnan(found), np.isnan(z))
     np.testing.assert_allclose(found[~np.isnan(z)], plain, atol=1e-6)

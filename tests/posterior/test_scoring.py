@@ -5,9 +5,9 @@ import json
 
 import numpy as np
 import pytest
+import scipy
 from oracle.worlds import make_case
 from posterior.test_scores import without_draws
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.posterior.predictor import Predictor, fixed_maps
@@ -19,7 +19,7 @@ SENSOR = bm.BeamMixture(bm.Gaussian(0.1), 0.1, 0.2, 0.0)
 
 def below(z):
     """P(reading <= z) of a beam from the left through cells with stop probabilities 0.3 and 0.5, hit at their edges."""
-    walls = 0.3 * stats.norm.cdf(z, 1.0, 0.1) + 0.35 * stats.norm.cdf(z, 2.0, 0.1)
+    walls = 0.3 * scipy.stats.norm.cdf(z, 1.0, 0.1) + 0.35 * scipy.stats.norm.cdf(z, 2.0, 0.1)
     return 0.1 * z / 4.0 + 0.9 * 0.8 * walls
 
 
@@ -33,7 +33,10 @@ def test_three_beams_by_hand():
     assert told == sorted(told)
     assert told[-1] == pytest.approx(1.0)
     p_none = 1.0 - below(4.0)
-    density = [0.1 / 4 + 0.72 * (0.3 * stats.norm.pdf(r, 1.0, 0.1) + 0.35 * stats.norm.pdf(r, 2.0, 0.1)) for r in z[:2]]
+    density = [
+        0.1 / 4 + 0.72 * (0.3 * scipy.stats.norm.pdf(r, 1.0, 0.1) + 0.35 * scipy.stats.norm.pdf(r, 2.0, 0.1))
+        for r in z[:2]
+    ]
     assert (found.beams, found.scans) == (3, 3)
     assert found.nats_per_beam == pytest.approx(np.log([*density, p_none]).mean(), abs=1e-6)
     np.testing.assert_allclose(found.pit[:2], below(z[:2]), atol=1e-6)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy import stats
+import scipy
 
 from bayesmap.poses.relations import Relations
 from bayesmap.posterior.trajectory_scoring import LEVELS, score_trajectory
@@ -51,7 +51,7 @@ def test_regions_of_right_covariances_hold_their_share():
     for level in LEVELS:
         assert score.coverage(level) == pytest.approx(level, abs=0.06)
     assert score.nees.mean() == pytest.approx(3.0, abs=0.4)
-    assert stats.kstest(score.region, "uniform").pvalue > 1e-4
+    assert scipy.stats.kstest(score.region, "uniform").pvalue > 1e-4
 
 
 def test_regions_of_covariances_that_are_too_small_do_not():
@@ -73,7 +73,7 @@ def test_a_region_of_few_draws_holds_its_share_too(count):
         assert score.coverage(level) == pytest.approx(level, abs=0.06)
     # Its twin takes the estimated covariance for the true one.
     if count == 12:
-        assert (score.nees < stats.chi2.ppf(0.8, 3)).mean() < 0.7
+        assert (score.nees < scipy.stats.chi2.ppf(0.8, 3)).mean() < 0.7
 
 
 def test_figures_are_json():

@@ -4,9 +4,11 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 from oracle.enumeration import all_maps
 from oracle.transitions import block_sites, single_sites
 from oracle.worlds import make_case
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -45,6 +47,15 @@ NAMES = [
     f"{'mixture' if robust else 'gaussian'}-noise{noise}-prior{prior}-{shape[0]}x{shape[1]}-{poses}poses-{beams}beams"
     for prior, noise, robust, shape, poses, beams in WORLDS
 ]
+
+
+def matrix(worlds, orders=ORDERS, names=NAMES):
+    """Parametrise a test over numbers of worlds, methods and orders; the landing run takes each world with each method
+    in one order, and so each method and order with one world in three (in two, where there are two orders).
+    """
+    cases = latin(len(orders), worlds, list(SAMPLERS), orders)
+    ids = [f"{names[number]}-{method}-{order}" for number, method, order in (case.values for case in cases)]
+    return pytest.mark.parametrize(("number", "method", "order"), cases, ids=ids)
 
 
 @cache

@@ -9,9 +9,9 @@ False alarms: `ALPHA` = 1e-4 for all methods and functions together.
 
 import numpy as np
 import pytest
+import scipy
 from oracle.formula import beams, distances
 from oracle.verdict import ALPHA
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.kernels.trace import trace
@@ -62,13 +62,15 @@ def rank_of_truth(number, true_sensor, sensor, options):
 
 def p_values(true_sensor, sensor, options, worlds=WORLDS):
     ranks = np.stack([rank_of_truth(i, true_sensor, sensor, options) for i in range(worlds)])
-    return np.array([stats.chisquare(np.bincount(r * BINS // (DRAWS + 1), minlength=BINS)).pvalue for r in ranks.T])
+    return np.array(
+        [scipy.stats.chisquare(np.bincount(r * BINS // (DRAWS + 1), minlength=BINS)).pvalue for r in ranks.T]
+    )
 
 
 @pytest.mark.parametrize(
     ("method", "sensor"),
     [
-        ("gibbs", bm.Gaussian(0.4)),
+        pytest.param("gibbs", bm.Gaussian(0.4), marks=pytest.mark.full),
         ("block", bm.BeamMixture(bm.Gaussian(0.2))),
         ("gibbs started by belief propagation", bm.Gaussian(0.4)),
     ],

@@ -10,12 +10,13 @@ from functools import cache
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_exact import exact_reflectivities
 from oracle.stop_law import draw_states, log_likelihoods, paths_of
 from oracle.stop_worlds import beam_rays, build_worlds, copies, touching
 from oracle.verdict import ALPHA
-from scipy import stats
 from stop_rooms import PRIORS, infer, scans
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.cells.surface import PARTS
@@ -24,7 +25,7 @@ from bayesmap.samplers.sampler import Keep
 
 EDGE, COPIES, DRAWS, FROM_PRIOR = 0.5, 2000, 4, 100_000
 TESTS = 200  # p-values in this module, at most
-LIMIT = stats.norm.isf(ALPHA / TESTS / 2)
+LIMIT = -scipy.special.ndtri(ALPHA / TESTS / 2)
 
 LAW = bm.BeamMixture(bm.Gaussian(0.1, 0.02), p_random=0.1, p_no_return=0.15, p_short=0.15, rate_short_per_m=0.8)
 SCANS = bm.Scans(
@@ -132,8 +133,7 @@ def met_counted_twice(hits, met, prior, drawn, solid=None):
     return (prior.a + hits) / (prior.a + prior.b + hits + 2 * met)
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("twin", [without_b, met_counted_twice])
+@pytest.mark.parametrize(("case", "twin"), latin(2, list(CASES), [without_b, met_counted_twice]))
 def test_wrong_twins_are_rejected(case, twin, monkeypatch):
     monkeypatch.setattr(stop_draws, "expected_reflectivity", twin)
     expected, _ = predicted(case)

@@ -12,6 +12,7 @@ from oracle.stop_law import draw_readings, draw_states, paths_of
 from oracle.stop_worlds import beam_rays, centres_of, touching
 from oracle.worlds import bm_limits
 from stop_rooms import GRID, TRUTH, assert_same, infer, scans
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -53,7 +54,7 @@ def fitted_to_known_stops(seed, least_m, count=12_000):
     return numbers(sensor)
 
 
-@pytest.mark.parametrize("least_m", [0.05, 0.3])
+@pytest.mark.parametrize("least_m", full_but([0.05, 0.3], 0.3))
 def test_with_known_stops_the_fit_is_right_within_its_standard_error(least_m):
     found = np.array([fitted_to_known_stops(seed, least_m) for seed in range(8)])
     error = found.std(axis=0, ddof=1) / np.sqrt(len(found))
@@ -73,7 +74,7 @@ def drawn_map(prior, seed, poses=250, beams=30):
     return replace(nothing, ranges_m=readings.reshape(poses, beams)), grid
 
 
-@pytest.mark.parametrize("prior", [bm.Beta(0.2, 1.0), bm.Surface(0.2, 1.0)])
+@pytest.mark.parametrize("prior", full_but([bm.Beta(0.2, 1.0), bm.Surface(0.2, 1.0)], bm.Surface(0.2, 1.0)))
 def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     """7500 beams, of which some thousand say something about each number: a standard error of 3 to 15 %."""
     data, grid = drawn_map(prior, 4)
@@ -88,7 +89,7 @@ def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     assert abs(np.log(found.prior.a / prior.a)) < 0.6
 
 
-@pytest.mark.parametrize("kind", ["reflectivities", "surfaces"])
+@pytest.mark.parametrize("kind", full_but(["reflectivities", "surfaces"], "reflectivities"))
 def test_in_a_room_of_walls_and_glass_too(kind):
     """Cells there are not drawn from a Beta: objects that pass are taken for half-filled cells now and then."""
     run = infer(kind, scans(poses=80), warmup=60, draws=1)

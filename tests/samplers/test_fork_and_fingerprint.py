@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from scipy.stats import laplace
+import scipy
 
 import bayesmap as bm
 from bayesmap.sensors.model import SensorModel
@@ -22,7 +22,7 @@ class Sonar(SensorModel):
         self.scale_m = scale_m
 
     def log_likelihood(self, range_m, distance_m, limits):
-        return laplace.logpdf(range_m, np.minimum(distance_m, limits.max_m), self.scale_m)
+        return scipy.stats.laplace.logpdf(range_m, np.minimum(distance_m, limits.max_m), self.scale_m)
 
     def reach_m(self, range_m, limits):
         return np.full(np.shape(range_m), np.inf)

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_worlds import beam_rays, scans_of_all_kinds
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.samplers import initial_estimate as module
@@ -111,10 +111,10 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     surfaces = prior.sample_surfaces(np.random.default_rng(4), 20_000) * grid.resolution
     for state in states:
         away = state[untouched, 1:3] - grid.cell_centres_m(untouched)
-        assert stats.kstest(state[untouched, 0], stats.beta(prior.a, prior.b).cdf).pvalue > 1e-6
+        assert scipy.stats.kstest(state[untouched, 0], scipy.stats.beta(prior.a, prior.b).cdf).pvalue > 1e-6
         for drawn, expected in ((away[:, 0], surfaces[:, 0]), (state[untouched, 3], surfaces[:, 2])):
-            assert stats.ks_2samp(drawn, expected).pvalue > 1e-6
-        assert stats.ks_2samp(away[:, 0], 1.3 * surfaces[:, 0]).pvalue < 1e-6
+            assert scipy.stats.ks_2samp(drawn, expected).pvalue > 1e-6
+        assert scipy.stats.ks_2samp(away[:, 0], 1.3 * surfaces[:, 0]).pvalue < 1e-6
     assert (states[0][problem.estimate.endpoint_cells] != states[1][problem.estimate.endpoint_cells]).all()
 
 

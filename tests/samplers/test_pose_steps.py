@@ -10,6 +10,7 @@ import pytest
 from oracle.density import gaussian
 from oracle.formula import beams, distances
 from oracle.verdict import ALPHA, goodness_of_fit
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.scan_likelihood import ScanLikelihood
@@ -98,11 +99,9 @@ def lattice_draws(p, rng, count, centre):
     return poses
 
 
-@pytest.mark.parametrize("beta", [1.0, 0.4])
-@pytest.mark.parametrize("seed", [0, 1, 2])
-@pytest.mark.parametrize("prior", PRIORS.values(), ids=PRIORS)
-def test_poses_drawn_by_enumeration_still_follow_it_after_many_steps(prior, seed, beta):
-    walls, scans, law = scene(seed, prior)
+@pytest.mark.parametrize(("name", "seed", "beta"), latin(2, list(PRIORS), [0, 1, 2], [1.0, 0.4]))
+def test_poses_drawn_by_enumeration_still_follow_it_after_many_steps(name, seed, beta):
+    walls, scans, law = scene(seed, PRIORS[name])
     law, chains = FirstStays(law), 3000
     centre = np.broadcast_to(scans.poses, (chains, 3, 3))
     sampler = LatticeSteps(

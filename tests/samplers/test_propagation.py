@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 from oracle.enumeration import marginals
 from oracle.worlds import make_case
 from plain_propagation import plain_rounds
-from scipy import special
 
 import bayesmap as bm
 from bayesmap.kernels.beliefs import Beliefs
@@ -41,7 +41,7 @@ def test_messages_are_sums_over_all_configurations_of_a_beam(seed, damping):
     expected, messages = plain_rounds(problem.table, problem.p_wall, 6, damping)
     assert abs(messages).max() < np.log(1e6)
     found = beliefs_by_round(problem, 6, damping)
-    np.testing.assert_allclose(found, special.logit(expected), atol=SINGLE, rtol=1e-5)
+    np.testing.assert_allclose(found, scipy.special.logit(expected), atol=SINGLE, rtol=1e-5)
 
 
 def test_one_beam_is_exact_after_one_undamped_round():

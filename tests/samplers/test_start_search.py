@@ -79,12 +79,11 @@ def test_a_search_ends_when_it_is_to_and_reports_all_its_sweeps():
     assert state.sweep == 12
 
 
-@pytest.mark.parametrize("warmup", range(60))
-def test_surfaces_are_joined_in_the_warm_up_alone(warmup):
-    after = joining_after(int(SEARCH_SHARE * warmup))
-    assert len(after) == (0 if warmup < 2 else 1 if warmup < 13 else 3)
-    assert len(set(after)) == len(after)
-    assert max(after, default=0) <= warmup
+def test_surfaces_are_joined_in_the_warm_up_alone():
+    after = [joining_after(int(SEARCH_SHARE * warmup)) for warmup in range(60)]
+    assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
+    assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
+    assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
 
 
 @pytest.mark.parametrize("cuts", [[30], [7, 3, 1, 1, 0, 1, 4, 13], [1] * 30])

@@ -3,6 +3,7 @@ one sentence.
 """
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -11,35 +12,39 @@ from stop_rooms import GRID, PRIORS, TRUTH, infer, scans
 import bayesmap as bm
 
 KINDS = pytest.mark.parametrize("kind", PRIORS)
-ROOM = scans(poses=6)
 INF, NAN = np.inf, np.nan
 
 
+@cache
+def room():
+    return scans(poses=6)
+
+
 def filled(value):
-    return replace(ROOM, ranges_m=np.full(ROOM.ranges_m.shape, value))
+    return replace(room(), ranges_m=np.full(room().ranges_m.shape, value))
 
 
 def storm(seed=1):
     """Nine readings of ten are invalid."""
-    invalid = np.random.default_rng(seed).random(ROOM.ranges_m.shape) < 0.9
-    return replace(ROOM, ranges_m=np.where(invalid, NAN, ROOM.ranges_m))
+    invalid = np.random.default_rng(seed).random(room().ranges_m.shape) < 0.9
+    return replace(room(), ranges_m=np.where(invalid, NAN, room().ranges_m))
 
 
 ODD = {
-    "no hit at all": filled(INF),
-    "all too close": filled(-INF),
-    "no valid reading": filled(NAN),
-    "a storm of invalid readings": storm(),
-    "one beam": bm.Scans([3.0, 2.4, 0.0], [0.0], [[1.1]], max_range_m=6.0),
-    "one beam, no return": bm.Scans([3.0, 2.4, 0.0], [0.0], [[INF]], max_range_m=6.0),
-    "no beam through the grid": bm.Scans([-5.0, 2.0, np.pi], [0.0, 0.2], [[1.0, INF]], max_range_m=6.0),
-    "all the same reading": filled(1.0),
-    "readings of nothing": filled(0.0),
-    "readings past the range": filled(7.5),
-    "a scan of beams along lines": bm.Scans(
+    "no hit at all": lambda: filled(INF),
+    "all too close": lambda: filled(-INF),
+    "no valid reading": lambda: filled(NAN),
+    "a storm of invalid readings": storm,
+    "one beam": lambda: bm.Scans([3.0, 2.4, 0.0], [0.0], [[1.1]], max_range_m=6.0),
+    "one beam, no return": lambda: bm.Scans([3.0, 2.4, 0.0], [0.0], [[INF]], max_range_m=6.0),
+    "no beam through the grid": lambda: bm.Scans([-5.0, 2.0, np.pi], [0.0, 0.2], [[1.0, INF]], max_range_m=6.0),
+    "all the same reading": lambda: filled(1.0),
+    "readings of nothing": lambda: filled(0.0),
+    "readings past the range": lambda: filled(7.5),
+    "a scan of beams along lines": lambda: bm.Scans(
         [3.0, 2.4, 0.0], np.arange(8) * np.pi / 4, [[1.0, INF, -INF, NAN, 2.0, 0.2, 1.5, INF]], max_range_m=6.0
     ),
-    "too close though nothing can be": replace(filled(-INF), min_range_m=0.0),
+    "too close though nothing can be": lambda: replace(filled(-INF), min_range_m=0.0),
 }
 
 
@@ -63,16 +68,16 @@ def assert_sound(run):
 @KINDS
 @pytest.mark.parametrize("name", ODD)
 def test_a_run_is_made_of_scans_that_say_little(kind, name, tmp_path):
-    run = infer(kind, ODD[name], warmup=8, draws=5)
+    run = infer(kind, ODD[name](), warmup=8, draws=5)
     assert_sound(run)
     run.save(tmp_path / "run.nc")
     np.testing.assert_array_equal(bm.load(tmp_path / "run.nc").draws, run.draws)
-    assert np.isfinite(run.log_score(ROOM))
+    assert np.isfinite(run.log_score(room()))
 
 
 @KINDS
 def test_where_nothing_was_seen_the_prior_stays(kind):
-    run = infer(kind, ODD["no beam through the grid"], sensor=TRUTH, draws=4)
+    run = infer(kind, ODD["no beam through the grid"](), sensor=TRUTH, draws=4)
     np.testing.assert_allclose(run.occupancy, PRIORS[kind].mean)
     assert not run.observed.any()
 
@@ -82,7 +87,7 @@ def test_a_fit_from_almost_nothing_stays_almost_where_it_began(kind):
     from bayesmap.samplers.fit import first_sensor
 
     start = first_sensor(PRIORS[kind], GRID.resolution)
-    found = infer(kind, ODD["no valid reading"], warmup=30).posterior.sensor
+    found = infer(kind, ODD["no valid reading"](), warmup=30).posterior.sensor
     for name in ("p_random", "p_no_return", "p_short", "rate_short_per_m"):
         assert getattr(found, name) == pytest.approx(getattr(start, name), rel=1e-6)
     assert found.noise.sigma_m == pytest.approx(start.noise.sigma_m)
@@ -96,9 +101,9 @@ def test_half_a_thousand_scans_of_one_pose_and_a_grid_of_one_cell():
 @pytest.mark.parametrize("a", [1e-6, 1e-3, 50.0])
 @pytest.mark.parametrize("b", [1e-6, 500.0])
 def test_priors_of_any_size_give_reflectivities(a, b):
-    run = infer("reflectivities", ROOM, prior=bm.Beta(a, b), sensor=TRUTH, draws=3)
+    run = infer("reflectivities", room(), prior=bm.Beta(a, b), sensor=TRUTH, draws=3)
     assert_sound(run)
-    assert np.isfinite(run.log_score(ROOM))
+    assert np.isfinite(run.log_score(room()))
 
 
 @pytest.mark.parametrize(
@@ -108,7 +113,7 @@ def test_priors_of_any_size_give_reflectivities(a, b):
 )
 def test_priors_of_any_shape_give_surfaces(shape):
     sharp = bm.BeamMixture(bm.Gaussian(1e-3, 1e-4))
-    assert_sound(infer("surfaces", ROOM, prior=bm.Surface(**shape), sensor=sharp, warmup=40))
+    assert_sound(infer("surfaces", room(), prior=bm.Surface(**shape), sensor=sharp, warmup=40))
 
 
 @pytest.mark.parametrize("sensor", [bm.Gaussian(0.1), bm.StudentT(0.1)])
@@ -139,19 +144,19 @@ def test_words_that_are_no_sensor_are_refused():
 
 
 def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
-    walls = bm.infer(ROOM, GRID, prior=bm.Independent(0.1), sensor=TRUTH, chains=1, warmup=2, draws=2)
-    surfaces = infer("surfaces", ROOM)
+    walls = bm.infer(room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, chains=1, warmup=2, draws=2)
+    surfaces = infer("surfaces", room())
     with pytest.raises(bm.BadInput, match="one over walls or free, not over reflectivities and surfaces"):
-        infer("surfaces", ROOM, resume=walls)
+        infer("surfaces", room(), resume=walls)
     with pytest.raises(bm.BadInput, match="over reflectivities and surfaces, not over walls or free"):
-        bm.infer(ROOM, GRID, prior=bm.Independent(0.1), sensor=TRUTH, resume=surfaces)
+        bm.infer(room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, resume=surfaces)
     with pytest.raises(bm.BadInput, match="over reflectivities and surfaces, not over reflectivities"):
-        infer("surfaces", ROOM, resume=surfaces, prior=bm.Beta())
+        infer("surfaces", room(), resume=surfaces, prior=bm.Beta())
     for options, word in (
         ({"seed": 1}, "seed"), ({"sensor": TRUTH}, "sensor"), ({"chains": 3}, "chains"), ({"draws": 7}, "draws"),
         ({"prior": bm.Surface(wander=0.5)}, "prior"), ({"hit_depth": 0.2}, "hit_dep"),
     ):  # fmt: skip
         with pytest.raises(bm.BadInput, match=f"resume: the saved run was made with other .*{word}"):
-            infer("surfaces", ROOM, resume=surfaces, **options)
+            infer("surfaces", room(), resume=surfaces, **options)
     with pytest.raises(bm.BadInput, match="resume: the saved run was made with other scans"):
         infer("surfaces", storm(), resume=surfaces)

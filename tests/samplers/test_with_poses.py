@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 from oracle.formula import beams, distances
 from oracle.verdict import ALPHA
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -74,9 +74,9 @@ def test_ranks_of_the_truth_among_draws_are_uniform(name):
         ranks["likelihood"].append(rank(model.log_likelihood(state), chains.log_likelihood[0]))
     for what, found in ranks.items():
         counts = np.bincount(found, minlength=draws + 1)
-        assert stats.chisquare(counts).pvalue > ALPHA / (len(ranks) * len(PRIORS)), what
+        assert scipy.stats.chisquare(counts).pvalue > ALPHA / (len(ranks) * len(PRIORS)), what
     counts = np.bincount(biased, minlength=draws + 1)  # a wrong twin: poses 15 cm off
-    assert stats.chisquare(counts).pvalue < ALPHA / (len(ranks) * len(PRIORS))
+    assert scipy.stats.chisquare(counts).pvalue < ALPHA / (len(ranks) * len(PRIORS))
 
 
 def test_a_chain_does_not_depend_on_its_company_nor_on_steps():

@@ -27,6 +27,11 @@ DISTANCES = (0.0, 0.1, 0.3, 1.7, 7.9, 8.0, 8.5, np.inf)
 """At the sensor, below its least range, at it, inside, near its largest range, at it, above it, nothing."""
 
 
+def jumps(d):
+    """Where a mixture's density jumps, within the limits: at the wall."""
+    return [d] if LIMITS.min_m < d < LIMITS.max_m else []
+
+
 def density(sensor, z, d):
     """p(z | d) for an array of readings."""
     return np.exp(sensor.log_likelihood(np.asarray(z, dtype=float), np.float64(d), LIMITS))

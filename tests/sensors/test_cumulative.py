@@ -5,37 +5,41 @@ Kolmogorov-Smirnov on 20 000 readings a case, seeds fixed; false alarms of the w
 
 import numpy as np
 import pytest
+import scipy
 from oracle.verdict import ALPHA
-from scipy import stats
-from sensor_cases import ALL, DISTANCES, LIMITS, MIXTURES, NOISES, density, integral
+from sensor_cases import ALL, DISTANCES, LIMITS, MIXTURES, NOISES, density, integral, jumps
 
 import bayesmap as bm
 
 RANGES = np.linspace(LIMITS.min_m, LIMITS.max_m, 12)
 N = 20_000
-CASES = [(name, d) for name in ALL for d in DISTANCES]
+TESTS = len(ALL) * len(DISTANCES)
 
 
-@pytest.mark.parametrize("d", DISTANCES)
 @pytest.mark.parametrize("name", MIXTURES)
-def test_a_mixture_s_is_too_close_and_the_density_below(name, d):
-    sensor = MIXTURES[name]
-    inside = [d] if LIMITS.min_m < d < LIMITS.max_m else []  # the density jumps at the wall
-    edges = np.unique([*RANGES, *inside])
-    # an atom that is impossible is floored at exp(-30)
-    expected = density(sensor, [-np.inf], d) + np.append(0.0, np.cumsum(integral(sensor, d, edges)))
-    np.testing.assert_allclose(sensor.cumulative(edges, np.float64(d), LIMITS), expected, atol=1e-9)
-    top = sensor.cumulative(np.float64(LIMITS.max_m), np.float64(d), LIMITS)
-    assert 1.0 - top == pytest.approx(float(density(sensor, [np.inf], d)[0]), abs=1e-9)
+def test_a_mixture_s_is_too_close_and_the_density_below(name):
+    sensor, found, expected = MIXTURES[name], {}, {}
+    for d in DISTANCES:
+        edges = np.unique([*RANGES, *jumps(d)])
+        found[d] = sensor.cumulative(edges, np.float64(d), LIMITS)
+        # an atom that is impossible is floored at exp(-30)
+        expected[d] = density(sensor, [-np.inf], d) + np.append(0.0, np.cumsum(integral(sensor, d, edges)))
+    assert found == {d: pytest.approx(values, rel=1e-7, abs=1e-9) for d, values in expected.items()}
+    d = np.array(DISTANCES)
+    top = sensor.cumulative(np.full(len(d), LIMITS.max_m), d, LIMITS)
+    np.testing.assert_allclose(1.0 - top, density(sensor, np.full(len(d), np.inf), d), rtol=1e-6, atol=1e-9)
 
 
-@pytest.mark.parametrize("d", DISTANCES)
 @pytest.mark.parametrize("name", NOISES)
-def test_that_of_noise_alone_is_the_density_s_between_any_two_ranges(name, d):
-    sensor, edges = NOISES[name], np.unique([*np.linspace(-1.0, 10.0, 40), min(d, LIMITS.max_m)])
-    found = np.diff(sensor.cumulative(edges, np.float64(d), LIMITS))
-    np.testing.assert_allclose(found, integral(sensor, d, edges), atol=1e-9)
-    assert sensor.cumulative(np.float64(-1e9), np.float64(d), LIMITS) == pytest.approx(0.0, abs=1e-9)
+def test_that_of_noise_alone_is_the_density_s_between_any_two_ranges(name):
+    sensor, found, expected = NOISES[name], {}, {}
+    for d in DISTANCES:
+        edges = np.unique([*np.linspace(-1.0, 10.0, 40), min(d, LIMITS.max_m)])
+        found[d] = np.diff(sensor.cumulative(edges, np.float64(d), LIMITS))
+        expected[d] = integral(sensor, d, edges)
+    assert found == {d: pytest.approx(values, rel=1e-7, abs=1e-9) for d, values in expected.items()}
+    lowest = sensor.cumulative(np.full(len(DISTANCES), -1e9), np.array(DISTANCES), LIMITS)
+    np.testing.assert_allclose(lowest, 0.0, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", MIXTURES)
@@ -48,19 +52,24 @@ def test_typed_readings(name):
     assert np.isnan(sensor.cumulative(np.full(len(d), np.nan), d, LIMITS)).all()
 
 
-@pytest.mark.parametrize(("name", "d"), CASES)
-def test_drawn_readings_follow_it(name, d):
-    """The randomised transform of draws is uniform."""
-    rng = np.random.default_rng([CASES.index((name, d)), 1])
-    sensor = ALL[name]
-    z = sensor.sample(rng, np.full(N, d), LIMITS)
-    high = sensor.cumulative(z, np.full(N, d), LIMITS)
+def transforms(rng, sensor, z, d):
+    """Return the randomised transform of readings: uniform where they follow the cumulative distribution."""
+    high = sensor.cumulative(z, d, LIMITS)
     low = high.copy()
-    if name in MIXTURES:
+    if isinstance(sensor, bm.BeamMixture):
         low[np.isneginf(z)] = 0.0
-        low[np.isposinf(z)] = sensor.cumulative(np.full(N, LIMITS.max_m), np.full(N, d), LIMITS)[np.isposinf(z)]
-    u = low + rng.random(N) * (high - low)
-    assert stats.kstest(u, "uniform").pvalue > ALPHA / len(CASES)
+        top = sensor.cumulative(np.full(z.shape, LIMITS.max_m), d, LIMITS)
+        low[np.isposinf(z)] = top[np.isposinf(z)]
+    return low + rng.random(z.shape) * (high - low)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_drawn_readings_follow_it(name):
+    rng, sensor = np.random.default_rng([list(ALL).index(name), 1]), ALL[name]
+    d = np.repeat(DISTANCES, N).reshape(-1, N)
+    u = transforms(rng, sensor, sensor.sample(rng, d, LIMITS), d)
+    p_values = dict(zip(DISTANCES, (scipy.stats.kstest(row, "uniform").pvalue for row in u), strict=True))
+    assert {d: p for d, p in p_values.items() if p <= ALPHA / TESTS} == {}
 
 
 def test_a_wrong_twin_is_told_apart():
@@ -68,7 +77,7 @@ def test_a_wrong_twin_is_told_apart():
     rng = np.random.default_rng(1)
     z = bm.Gaussian(0.22).sample(rng, np.full(N, 1.7), LIMITS)
     u = bm.Gaussian(0.2).cumulative(z, np.full(N, 1.7), LIMITS)
-    assert stats.kstest(u, "uniform").pvalue < ALPHA / len(CASES)
+    assert scipy.stats.kstest(u, "uniform").pvalue < ALPHA / TESTS
 
 
 def test_a_spread_adds_to_the_noise_in_quadrature():

@@ -1,6 +1,5 @@
 """The law of a reading is one: NumPy's, both precisions of the compiled one, and JAX's say the same."""
 
-import jax.numpy as jnp
 import numpy as np
 import pytest
 import warp as wp
@@ -8,9 +7,6 @@ from sensor_cases import ALL, LIMITS
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.sensor_law import SensorLaw32, SensorLaw64, cumulative, object_decay, sensor_law, stop_log_density
-from bayesmap.programs.reading_law import reading_law
-
-devices.start()
 
 READINGS = np.concatenate([np.linspace(0.31, 7.9, 60), [np.inf, -np.inf]])
 DISTANCES = np.concatenate([np.linspace(0.02, 7.95, 70), [8.5, np.inf]])
@@ -38,6 +34,7 @@ def densities_32(
 
 
 def compiled(sensor, z, d, spread, precision):
+    devices.start()
     law, real, _ = PRECISIONS[precision]
     kernel = densities_64 if precision == "double" else densities_32
     inputs = [wp.array(a.ravel(), dtype=real, device="cpu") for a in np.broadcast_arrays(z, d, np.asarray(spread) ** 2)]
@@ -45,17 +42,17 @@ def compiled(sensor, z, d, spread, precision):
     wp.launch(
         kernel, dim=inputs[0].shape[0], inputs=[sensor_law(sensor, LIMITS, "cpu", law), *inputs, *out], device="cpu"
     )
-    shape = np.broadcast_shapes(np.shape(z), np.shape(d))
+    shape = np.broadcast_shapes(np.shape(z), np.shape(d), np.shape(spread))
     return [a.numpy().reshape(shape).astype(float) for a in out]
 
 
-@pytest.mark.parametrize("spread", [0.0, 0.15])
 @pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("name", ALL)
-def test_the_compiled_law_is_numpy_s(name, precision, spread):
-    z, d = READINGS[:, None], DISTANCES[None]
+def test_the_compiled_law_is_numpy_s(name, precision):
+    """On all readings, distances and two spreads of the stop, which are axes of an array."""
+    z, d, spread = READINGS[:, None, None], DISTANCES[:, None], np.array([0.0, 0.15])
     found, below = compiled(ALL[name], z, d, spread, precision)
-    expected = ALL[name].stop_log_likelihood(z, d, np.full((1, 1), spread), LIMITS)
+    expected = ALL[name].stop_log_likelihood(z, d, spread, LIMITS)
     close = PRECISIONS[precision][2]
     # Single precision knows the probabilities of typed readings as differences of numbers near one.
     certain = (np.isfinite(z) & (d >= 0)) | (expected > (-18.0 if precision == "double" else -6.0))
@@ -69,6 +66,10 @@ def test_the_compiled_law_is_numpy_s(name, precision, spread):
 
 @pytest.mark.parametrize("name", ALL)
 def test_jax_s_law_is_numpy_s(name):
+    import jax.numpy as jnp
+
+    from bayesmap.programs.reading_law import reading_law
+
     z, d = np.broadcast_arrays(READINGS[:, None], DISTANCES[None])
     found = reading_law(ALL[name], LIMITS).logpdf(jnp.asarray(z), jnp.asarray(d))
     np.testing.assert_allclose(found, ALL[name].log_likelihood(z, d, LIMITS), rtol=2e-3, atol=2e-3)

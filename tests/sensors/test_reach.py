@@ -24,11 +24,9 @@ def test_a_sharp_mixture_ends_most_beams_early():
     assert (reaches < np.array([1.5, 2.5, 3.5])).all()
 
 
-@pytest.mark.parametrize("name", NOISES)
-def test_additive_noise_is_nowhere_flat(name):
-    assert np.isinf(NOISES[name].reach_m(READINGS, LIMITS)).all()
+def test_additive_noise_is_nowhere_flat():
+    assert [name for name, noise in NOISES.items() if np.isfinite(noise.reach_m(READINGS, LIMITS)).any()] == []
 
 
-@pytest.mark.parametrize("name", ALL)
-def test_an_invalid_reading_reaches_nothing(name):
-    assert ALL[name].reach_m(np.array([np.nan]), LIMITS)[0] == 0.0
+def test_an_invalid_reading_reaches_nothing():
+    assert [name for name, sensor in ALL.items() if sensor.reach_m(np.array([np.nan]), LIMITS)[0] != 0.0] == []

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy import stats
+import scipy
 from sensor_cases import ALL, LIMITS
 
 import bayesmap as bm
@@ -36,7 +36,7 @@ class Own(SensorModel):
 
     def log_likelihood(self, range_m, distance_m, limits):
         z = np.nan_to_num(range_m, nan=0.0, posinf=limits.max_m, neginf=limits.min_m)
-        log_p = stats.norm.logpdf(z, np.minimum(distance_m, limits.max_m), self.sigma_m)
+        log_p = scipy.stats.norm.logpdf(z, np.minimum(distance_m, limits.max_m), self.sigma_m)
         return np.where(np.isnan(range_m), 0.0, log_p)
 
     def reach_m(self, range_m, limits):
@@ -53,7 +53,7 @@ def test_a_model_of_the_user_s_own_has_the_mean_over_stops(sigma_m, spread_m):
     z, d = np.linspace(4.0, 6.0, 41), np.full(41, 5.0)
     found = Own(sigma_m).stop_log_likelihood(z, d, np.full(41, spread_m), LIMITS)
     wide = np.hypot(sigma_m, spread_m)
-    expected = stats.norm.logpdf(z, 5.0, wide)
+    expected = scipy.stats.norm.logpdf(z, 5.0, wide)
     near = np.abs(z - 5.0) < 4 * wide
     np.testing.assert_allclose(found[near], expected[near], atol=0.02)
     invalid = Own(sigma_m).stop_log_likelihood(np.array([np.nan]), np.array([5.0]), np.array([spread_m]), LIMITS)

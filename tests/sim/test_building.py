@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from scipy import ndimage
+import scipy
 
 from bayesmap.errors import BadInput
 from bayesmap.sim.worlds import building
@@ -27,7 +27,7 @@ def cells_of(room, made):
 
 
 def flooded(free, start):
-    labels, _ = ndimage.label(free)
+    labels, _ = scipy.ndimage.label(free)
     return labels == labels[start]
 
 

@@ -110,14 +110,14 @@ export function traceChart(ui: Ui, theme: () => Theme) {
 }
 
 /** [sweeps, log joint of each chain] of the first sweeps, or of evenly many over all. */
-function shownPart({ trace, traced }: Field, chains: number, range: Range) {
-  const some = range === "all" ? even(traced) : [...traced.keys()].filter((i) => traced[i] <= FIRST_SWEEPS);
+export function shownPart({ trace, traced }: Field, chains: number, range: Range) {
+  const some = range === "all" ? evenSweeps(traced) : [...traced.keys()].filter((i) => traced[i] <= FIRST_SWEEPS);
   const at = (values: Float32Array) => Float32Array.from(some, (i) => values[i]);
   return [at(traced), ...Array.from({ length: chains }, (_, c) => at(trace.subarray(c * traced.length, (c + 1) * traced.length)))];
 }
 
 /** Where sweeps stand that are evenly far apart: the first ones are all there, and would look more restless than the rest. */
-function even(traced: Float32Array) {
+export function evenSweeps(traced: Float32Array) {
   const n = traced.length;
   const step = n > 2 ? Math.min(traced[n - 1] - traced[n - 2], traced[n - 2] - traced[n - 3]) : 1;
   let next = -Infinity;
@@ -129,7 +129,7 @@ function even(traced: Float32Array) {
 }
 
 /** The lowest log joint of any chain in the later part. */
-function lowestSettled({ trace, traced }: Field, chains: number) {
+export function lowestSettled({ trace, traced }: Field, chains: number) {
   const n = traced.length;
   const from = traced.findIndex((sweep) => sweep >= SETTLED_FROM * traced[n - 1]);
   return Math.min(...Array.from({ length: chains }, (_, c) => Math.min(...trace.slice(c * n + from, (c + 1) * n))));

@@ -143,7 +143,13 @@ class _Server(uvicorn.Server):
             yield
 
 
-async def _serve(hub_of: Callable[[], Hub], found: socket.socket, host: str, announce: Callable[[str], None]) -> None:
+async def _serve(
+    hub_of: Callable[[], Hub],
+    found: socket.socket,
+    host: str,
+    announce: Callable[[str], None],
+    server_of: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
+) -> None:
     port = found.getsockname()[1]
     token = secrets.token_urlsafe(24)
     hub = hub_of()
@@ -162,7 +168,7 @@ async def _serve(hub_of: Callable[[], Hub], found: socket.socket, host: str, ann
             server_header=False,
             timeout_graceful_shutdown=1,
         )
-        await _Server(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[found])
+        await server_of(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[found])
     finally:
         hub.stop()
 

@@ -12,7 +12,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import Any, Protocol
 
 from bayesmap.app.tasks import ALIVE_SECONDS, Infer, Report, Task
 
@@ -25,6 +25,27 @@ SILENT_SECONDS = 15.0
 
 SLOW_BIRTH_SECONDS = 60.0
 """A new one has so much longer: a cold disk has to load Python and its libraries first."""
+
+
+class Process(Protocol):
+    """A worker, as far as its supervisor has to do with it."""
+
+    @property
+    def pid(self) -> int | None:
+        """Its number."""
+
+    def kill(self) -> None:
+        """End it."""
+
+    def wait(self) -> Any:
+        """Wait for its end."""
+
+
+def start_worker(end: socket.socket, path: str | None, reading: Mapping[str, Any]) -> Process:
+    """Start a worker with one end of a socket pair: nothing of the caller's is imported again or inherited."""
+    command = [sys.executable, "-m", "bayesmap.app.worker", str(end.fileno())]
+    command += [path, json.dumps(reading)] if path is not None else []
+    return subprocess.Popen(command, pass_fds=[end.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
 
 
 class Supervisor:
@@ -51,7 +72,7 @@ class Supervisor:
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         self._lock = threading.Lock()
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: Process | None = None
         self._pipe: Connection | None = None
         self._heard = 0.0
 
@@ -82,17 +103,12 @@ class Supervisor:
                     self._pipe.close()
 
     def _spawn(self) -> Connection | None:
-        # A plain child with one end of a socket pair: nothing of the caller's is imported again or inherited.
         with self._lock:
             if self._stopping.is_set():
                 return None
             ours, theirs = socket.socketpair()
             with theirs:
-                command = [sys.executable, "-m", "bayesmap.app.worker", str(theirs.fileno())]
-                command += [self._path, json.dumps(self._reading)] if self._path is not None else []
-                self._process = subprocess.Popen(
-                    command, pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
-                )
+                self._process = start_worker(theirs, self._path, self._reading)
             self._pipe = Connection(ours.detach())
             self._heard = time.monotonic() + SLOW_BIRTH_SECONDS
             return self._pipe

@@ -13,8 +13,9 @@ the truth as maps grow. Cells that the prior fixes count as neighbours and have 
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize, special
+from scipy import special
 
 from bayesmap.errors import BadInput
 
@@ -87,4 +88,4 @@ def likeliest(
         return 0.0
     if slope(LARGEST_FITTED) >= 0.0:
         return LARGEST_FITTED
-    return float(optimize.brentq(slope, 0.0, LARGEST_FITTED, xtol=1e-6))
+    return float(scipy.optimize.brentq(slope, 0.0, LARGEST_FITTED, xtol=1e-6))

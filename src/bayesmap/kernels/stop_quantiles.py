@@ -15,7 +15,7 @@ from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, is_before, is_behi
 from bayesmap.kernels.stop_mixture import LEAST_WEIGHT, StopMixture, Stops, mixture_below, put_stops
 from bayesmap.sensors.model import SensorModel
 
-wp.set_module_options({"enable_backward": False})
+wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings unrolled take minutes to compile
 
 Floats = NDArray[np.float64]
 HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at most a 30 000th of it

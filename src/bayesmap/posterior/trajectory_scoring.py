@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import stats
 
 from bayesmap.poses.relations import RelationErrors, Relations, relation_errors
 from bayesmap.poses.se2 import between_jacobians, rotation
@@ -100,7 +100,7 @@ def score_trajectory(
     if moved.covariances is not None:
         covariance = _independent(moved, stamps, used)
         nees = np.einsum("ni,nij,nj->n", errors.errors, np.linalg.inv(covariance), errors.errors)
-        return TrajectoryScore(errors, nees, stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
+        return TrajectoryScore(errors, nees, scipy.stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
     return TrajectoryScore(errors)
 
 
@@ -114,7 +114,7 @@ def _by_law(
     turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
     scale = turn @ law.scales(first, second) @ np.swapaxes(turn, 1, 2) + 1e-15 * np.eye(DIMENSIONS)
     square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)
-    return square * (law.dof - 2.0) / law.dof, np.asarray(stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
+    return square * (law.dof - 2.0) / law.dof, np.asarray(scipy.stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
 
 
 def _nearest(stamps_s: Floats, at_s: Floats) -> NDArray[np.intp]:
@@ -140,7 +140,7 @@ def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Fl
     covariance = np.einsum("dni,dnj->nij", spread, spread) / (count - 1) + 1e-15 * np.eye(DIMENSIONS)
     nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)
     scaled = nees * count * (count - DIMENSIONS) / (DIMENSIONS * (count + 1) * (count - 1))
-    return nees, np.asarray(stats.f.cdf(scaled, DIMENSIONS, count - DIMENSIONS))
+    return nees, np.asarray(scipy.stats.f.cdf(scaled, DIMENSIONS, count - DIMENSIONS))
 
 
 def _independent(trajectory: Trajectory, stamps_s: Floats, relations: Relations) -> Floats:

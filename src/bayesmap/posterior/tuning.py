@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import optimize
 
 from bayesmap.posterior.progress_shares import OnShare, ignored, parts
 from bayesmap.sensors.mixture import BeamMixture
@@ -113,7 +113,7 @@ def maximise(
             on_share(0.9 * calls / usual if calls < usual else 1.0 - 0.1 * usual / calls)  # never all before the end
             return -what(values_at(point))
 
-        found = optimize.minimize(
+        found = scipy.optimize.minimize(
             descend,
             np.array([p.inner(start[p.name]) for p in parameters]),
             method="L-BFGS-B",

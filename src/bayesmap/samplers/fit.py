@@ -20,8 +20,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import optimize, special
+from scipy import special
 
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
@@ -281,6 +282,6 @@ def _likeliest_beta(
 
     first = np.log([a, b])
     bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]
-    found = optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
+    found = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
     a, b = np.exp((1 - step) * first + step * found.x)
     return float(a), float(b)

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import optimize
 
 from bayesmap.sensors.noise import AdditiveNoise, noise_with
 
@@ -51,7 +51,7 @@ class Residuals:
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
         """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
         first = np.log([scale_m, max(per_m, 1e-5)])
-        found = optimize.minimize(
+        found = scipy.optimize.minimize(
             lambda logs: self.cost(dof, *np.exp(logs)),
             first,
             method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra

@@ -1,0 +1,337 @@
+import { browser, keptElsewhere } from "./dom";
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { mock, test } from "node:test";
+import { fromFragment, takeFragment, toFragment } from "../src/fragment";
+import { deflate, fromBase64, packBits, toBase64, unpackBits } from "../src/geometry/bits";
+import { LIMITS, type Buffers, type Connection, type MapDocument, type Message } from "../src/protocol";
+import { forget, keep, keptDocument, keepToken, onToken } from "../src/state/kept";
+import { unpackFrame } from "../src/transport/frame";
+import { recordedTransport, type Recording } from "../src/transport/recorded";
+import { webSocketTransport } from "../src/transport/socket";
+import { widgetTransport, type Model } from "../src/transport/widget";
+import { aDocument, LOG, wallsOf } from "./desk";
+
+/** What the library says, where its tests run these (tests/app/test_page_logic.py). */
+const file = process.env.BAYESMAP_LIBRARY;
+const library = file ? JSON.parse(readFileSync(file, "utf8")) : null;
+const withoutLibrary = "run by pytest, this is compared with the library";
+
+/** A frame as docs/app.md says. */
+function framed(message: object, ...buffers: Uint8Array[]) {
+  const header = new TextEncoder().encode(JSON.stringify(message).padEnd(8 * Math.ceil((JSON.stringify(message).length + 4) / 8) - 4));
+  const sizes = buffers.map((buffer) => Math.ceil(buffer.length / 8) * 8);
+  const bytes = new Uint8Array(4 + header.length + sizes.reduce((a, b) => a + b, 0));
+  new DataView(bytes.buffer).setUint32(0, header.length, true);
+  bytes.set(header, 4);
+  let at = 4 + header.length;
+  buffers.forEach((buffer, i) => {
+    bytes.set(buffer, at);
+    at += sizes[i];
+  });
+  return bytes.buffer;
+}
+
+test("a frame's buffers are found by name, of their type, whatever their sizes", () => {
+  const buffers = [
+    { name: "p", dtype: "uint8", shape: [3, 1] },
+    { name: "pose", dtype: "float64", shape: [1, 3] },
+    { name: "none", dtype: "float32", shape: [0] },
+    { name: "ranges", dtype: "float32", shape: [2] },
+  ];
+  const ranges = Float32Array.of(1.5, Infinity);
+  const pose = Float64Array.of(0.1, -2, Math.PI);
+  const [message, found] = unpackFrame(framed({ type: "field", generation: 7, buffers }, Uint8Array.of(1, 2, 255), new Uint8Array(pose.buffer), new Uint8Array(0), new Uint8Array(ranges.buffer)));
+  assert.equal(message.generation, 7);
+  assert.deepEqual(found, { p: Uint8Array.of(1, 2, 255), pose, none: new Float32Array(0), ranges });
+});
+
+test("the library's frame, its links and its limits are understood", async (context) => {
+  if (!library) return context.skip(withoutLibrary);
+  const [message, buffers] = unpackFrame(fromBase64(library.frame).buffer as ArrayBuffer);
+  assert.equal(message.type, "field");
+  for (const [name, values] of Object.entries<number[]>(library.buffers)) assert.deepEqual(Array.from(buffers[name]), values, name);
+  assert.deepEqual(await fromFragment(library.fragment), library.document);
+  const { cells, sensors, fov_deg, heading_sigma_deg, side_of_log, ...numbers } = LIMITS;
+  const known = library.limits;
+  assert.deepEqual(cells, known.side);
+  assert.equal(sensors, known.sensors[1]);
+  assert.equal(side_of_log, known.side_of_log);
+  assert.deepEqual(known.fov.map((v: number) => Math.round((v * 1.8e6) / Math.PI) / 1e4), fov_deg);
+  assert(heading_sigma_deg[0] === known.heading_sigma[0] && heading_sigma_deg[1] <= (known.heading_sigma[1] * 180) / Math.PI);
+  for (const [name, limits] of Object.entries(numbers)) assert.deepEqual(limits, known[name], name);
+});
+
+test("a link holds the document, and is read back from the address and taken off it", async () => {
+  const document = aDocument({ prior: 0.375 });
+  const link = await toFragment(document);
+  assert.match(link, /^#m=[\w-]+$/);
+  assert(link.length < 1000);
+  assert.deepEqual(await fromFragment(link), document);
+  assert.equal(await fromFragment(""), null);
+  assert.equal(await fromFragment("#other"), null);
+  location.hash = link;
+  assert.deepEqual(await takeFragment(), { document, damaged: false });
+  assert.equal(location.hash, "");
+  assert.deepEqual(await takeFragment(), { document: null, damaged: false });
+});
+
+test("a damaged link is said to be one", async () => {
+  const whole = await toFragment(aDocument());
+  for (const damaged of ["#m=nonsense", "#m=eyJ2ZXJzaW9uIjoxfQ", "#m=", whole.slice(0, -9)]) {
+    location.hash = damaged;
+    assert.deepEqual(await takeFragment(), { document: null, damaged: true }, damaged);
+  }
+  location.hash = "";
+});
+
+test("a drawn map is kept while the connection is lost, and a file's map and a page in one file are not", () => {
+  keep(aDocument(LOG));
+  assert.equal(keptDocument(), null);
+  Object.assign(location, { protocol: "file:" });
+  keep(aDocument());
+  assert.equal(keptDocument(), null);
+  Object.assign(location, { protocol: "http:" });
+  keep(aDocument());
+  assert.deepEqual(keptDocument(), aDocument());
+  forget();
+  assert.equal(keptDocument(), null);
+  browser.kept.set("bayesmap-kept", "{");
+  assert.equal(keptDocument(), null);
+  forget();
+});
+
+test("another tab's token is told, and what else it keeps is not", () => {
+  const told: string[] = [];
+  const end = onToken((token) => told.push(token));
+  keepToken("first");
+  assert.equal(browser.kept.get("bayesmap-token"), "first");
+  keepToken(null);
+  assert.equal(browser.kept.get("bayesmap-token"), "first");
+  keptElsewhere("bayesmap-token", "second");
+  keptElsewhere("bayesmap-kept", "{}");
+  end();
+  keptElsewhere("bayesmap-token", "third");
+  assert.deepEqual(told, ["second"]);
+});
+
+/** A line that opens and closes as the test says. */
+class Line {
+  static readonly OPEN = 1;
+  static all: Line[] = [];
+  readyState = 0;
+  binaryType = "";
+  readonly sent: string[] = [];
+  onopen = () => {};
+  onclose = () => {};
+  onmessage: (event: { data: unknown }) => void = () => {};
+  constructor(readonly url: URL) {
+    Line.all.push(this);
+  }
+  send(text: string) {
+    this.sent.push(text);
+  }
+  close() {
+    this.readyState = 3;
+    this.onclose();
+  }
+  open() {
+    this.readyState = 1;
+    this.onopen();
+  }
+}
+
+/** The transport of a server, and what it told. */
+function connected(answer: number | null = null) {
+  Line.all = [];
+  const asked: string[] = [];
+  const fetch = async (address: string) => {
+    asked.push(address);
+    if (answer === null) throw new Error("nobody is there");
+    return { status: answer };
+  };
+  Object.assign(globalThis, { WebSocket: Line, fetch });
+  const statuses: Connection[] = [];
+  const messages: [Message, Buffers][] = [];
+  const transport = webSocketTransport(() => new URL("http://127.0.0.1:8000/?token=abc"));
+  Object.assign(transport, { onstatus: (status: Connection) => statuses.push(status), onmessage: (...message: [Message, Buffers]) => messages.push(message) });
+  transport.open();
+  return { transport, statuses, messages, asked };
+}
+
+test("the socket is the page's own server's, with its token, and carries text and frames", () => {
+  const { transport, statuses, messages } = connected();
+  const [line] = Line.all;
+  assert.equal(String(line.url), "ws://127.0.0.1:8000/socket?token=abc");
+  transport.send({ type: "early", seq: 1 });
+  assert.deepEqual(line.sent, []);
+  line.open();
+  assert.deepEqual(statuses, [{ connected: true }]);
+  transport.send({ type: "hello", seq: 1 });
+  assert.deepEqual(line.sent.map((text) => JSON.parse(text)), [{ type: "hello", seq: 1 }]);
+  line.onmessage({ data: '{"type":"welcome"}' });
+  line.onmessage({ data: framed({ type: "field", buffers: [{ name: "p", dtype: "uint8", shape: [1] }] }, Uint8Array.of(9)) });
+  assert.deepEqual(messages.map(([{ type }]) => type), ["welcome", "field"]);
+  assert.deepEqual(messages[1][1].p, Uint8Array.of(9));
+});
+
+test("a lost line is tried again, each time after twice as long, at most eight seconds; a click tries at once", () => {
+  mock.timers.enable({ apis: ["setTimeout"] });
+  try {
+    const { transport, statuses } = connected();
+    Line.all[0].open();
+    const waits = [250, 500, 1000, 2000, 4000, 8000, 8000];
+    for (const wait of waits) {
+      const before = Line.all.length;
+      Line.all.at(-1)!.close();
+      assert.deepEqual(statuses.at(-1), { connected: false, retryIn_ms: wait });
+      mock.timers.tick(wait - 1);
+      assert.equal(Line.all.length, before);
+      mock.timers.tick(1);
+      assert.equal(Line.all.length, before + 1);
+    }
+    Line.all.at(-1)!.close();
+    const before = Line.all.length;
+    transport.retry!();
+    assert.equal(Line.all.length, before + 1);
+    Line.all.at(-1)!.open();
+    transport.retry!(); // there is nothing to try
+    assert.equal(Line.all.length, before + 1);
+    Line.all.at(-1)!.close();
+    assert.equal(statuses.at(-1)!.retryIn_ms, 250); // from the beginning again
+    transport.close();
+    mock.timers.tick(60_000);
+    assert.equal(Line.all.length, before + 1);
+  } finally {
+    mock.timers.reset();
+  }
+});
+
+test("a server that is there and refuses the token is told from one that is not there", async () => {
+  for (const [answer, refused] of [[403, true], [200, undefined], [null, undefined]] as const) {
+    const { transport, statuses, asked } = connected(answer);
+    Line.all[0].close();
+    await new Promise((done) => setTimeout(done, 1));
+    assert.deepEqual(asked, ["/?token=abc"]);
+    assert.equal(statuses.at(-1)!.refused, refused);
+    transport.close();
+  }
+});
+
+test("a notebook's kernel sends buffers beside their message", () => {
+  let listener: ((message: Message, views: DataView[]) => void) | null = null;
+  const sent: Message[] = [];
+  const model: Model = { on: (_, listen) => (listener = listen), off: () => (listener = null), send: (message) => sent.push(message) };
+  const transport = widgetTransport(model);
+  const heard: [Message, Buffers][] = [];
+  const statuses: Connection[] = [];
+  Object.assign(transport, { onmessage: (...message: [Message, Buffers]) => heard.push(message), onstatus: (status: Connection) => statuses.push(status) });
+  transport.open();
+  assert.deepEqual(statuses, [{ connected: true }]);
+  const bytes = new Uint8Array(24);
+  new Float32Array(bytes.buffer, 8, 2).set([1.5, -2]);
+  listener!({ type: "scan", buffers: [{ name: "ranges", dtype: "float32", shape: [2] }] }, [new DataView(bytes.buffer, 8, 8)]);
+  listener!({ type: "status", text: "x" }, []);
+  assert.deepEqual(heard.map(([, buffers]) => buffers), [{ ranges: Float32Array.of(1.5, -2) }, {}]);
+  transport.send({ type: "run" });
+  assert.deepEqual(sent, [{ type: "run" }]);
+  transport.close();
+  assert.equal(listener, null);
+});
+
+/** What a recording answers to some messages, after the draws were unpacked. */
+async function played(recording: Recording, ...asked: Message[]) {
+  const heard: [Message, Buffers][] = [];
+  const transport = recordedTransport(recording);
+  Object.assign(transport, { onmessage: (...message: [Message, Buffers]) => heard.push(message) });
+  let seq = 0;
+  transport.open();
+  transport.send({ type: "hello", seq: ++seq });
+  for (let tries = 0; recording.draws && tries < 1000 && !heard.some(([message]) => message.type === "state" && message.draws.count); tries++) {
+    await new Promise((done) => setTimeout(done, 1));
+  }
+  const first = heard.splice(0);
+  for (const message of asked) transport.send({ ...message, seq: ++seq });
+  return { first, heard };
+}
+
+const SMALL: MapDocument = aDocument({ grid: { shape: [3, 2], resolution: 1, origin: [0, 0] }, walls: wallsOf([[2, 0]], [3, 2]), sensors: [{ id: 1, x: 0.5, y: 0.5, yaw: 0 }], angles: 2 });
+
+/** Two chains of three draws of six cells: draw d of chain c has walls in the cells below c + d. */
+async function recording(changes: Partial<Recording> = {}): Promise<Recording> {
+  const bits = Uint8Array.from({ length: 36 }, (_, i) => Number(i % 6 < Math.floor(i / 18) + (Math.floor(i / 6) % 3)));
+  return {
+    version: 1,
+    document: SMALL,
+    scans: { ids: [1], pose: [[0.5, 0.5, 0]], angles: [0, Math.PI / 2], ranges: [[1.5, null]], exact: [[1.4, null]], hit: toBase64(packBits(Uint8Array.of(1, 0))) },
+    mean: toBase64(Uint8Array.of(0, 51, 102, 153, 204, 255)),
+    observed: toBase64(packBits(Uint8Array.of(1, 1, 1, 0, 0, 1))),
+    draws: { chains: 2, count: 3, data: toBase64(await deflate(packBits(bits))) },
+    log_joint: [[-9, -8, -7], [-6, -5, -4]],
+    settings: { method: "gibbs", sweeps: 30, ess: 12 },
+    ...changes,
+  };
+}
+
+test("a recording says hello as a session does, and tells of its draws once they are unpacked", async () => {
+  const { first } = await played(await recording());
+  assert.deepEqual(first.map(([{ type }]) => type), ["welcome", "state", "scan", "field", "state"]);
+  const [[welcome], [state], [scan, { ranges, exact, hit }], [field, { p, observed, trace, traced }], [last]] = first;
+  assert(welcome.recorded && !state.running && !state.can_undo);
+  assert.deepEqual([state.draws.count, last.draws], [0, { chains: 2, count: 3 }]);
+  assert.deepEqual([scan.ids, scan.index], [[1], null]);
+  assert.deepEqual([ranges, exact, hit], [Float32Array.of(1.5, Infinity), Float32Array.of(1.4, Infinity), Uint8Array.of(1, 0)]);
+  assert.deepEqual([field.layer, field.sweeps, field.total, field.ess, field.log_joint], ["mean", 30, 30, 12, -7]);
+  assert.deepEqual([...p], [0, 51, 102, 153, 204, 255]);
+  assert.deepEqual([...unpackBits(observed as Uint8Array, 6)], [1, 1, 1, 0, 0, 1]);
+  assert.deepEqual([[...trace], [...traced]], [[-9, -8, -7, -6, -5, -4], [10, 20, 30]]);
+});
+
+test("each draw of a recording is that chain's that draw", async () => {
+  const views = [0, 1].flatMap((chain) => [0, 1, 2].map((draw) => ({ type: "view", layer: "draw", chain, draw })));
+  const { heard } = await played(await recording(), ...views, { type: "view", layer: "draw", chain: 0 }, { type: "view", layer: "entropy" });
+  const fields = heard.filter(([{ type }]) => type === "field");
+  views.forEach(({ chain, draw }, i) => {
+    const [message, { p }] = fields[i];
+    assert.deepEqual([message.layer, message.chain, message.draw], ["draw", chain, draw]);
+    assert.deepEqual([...p], Array.from({ length: 6 }, (_, cell) => (cell < chain + draw ? 255 : 0)));
+    assert.equal(message.log_joint, [[-9, -8, -7], [-6, -5, -4]][chain][draw]);
+  });
+  assert.equal(fields[6][0].draw, 2); // without a number the last
+  assert.equal(fields[7][0].layer, "entropy");
+  assert.deepEqual([...fields[7][1].p], [0, 51, 102, 153, 204, 255]); // of the mean, made by the page
+});
+
+test("of a file's recording one scan is shown at a time", async () => {
+  const scans = { ids: [], pose: [[0.5, 0.5, 0], [1.5, 0.5, 1]], angles: [0, 1], ranges: [[1, 2], [3, null]], hit: toBase64(packBits(Uint8Array.of(1, 1, 1, 0))) };
+  const document = { ...SMALL, source: { kind: "run", name: "run.nc", scans: 2 } as const };
+  const { first, heard } = await played(await recording({ scans, document }), { type: "scan", index: 1 });
+  const [[before, at], [after, then]] = [...first, ...heard].filter(([{ type }]) => type === "scan");
+  assert.deepEqual([before.index, after.index], [0, 1]);
+  assert.deepEqual([[...at.ranges], [...then.ranges], [...then.hit], [...then.pose]], [[1, 2], [3, Infinity], [1, 0], [1.5, 0.5, 1]]);
+});
+
+test("a recording without draws shows its mean where a draw is asked for", async () => {
+  const { heard } = await played(await recording({ draws: undefined, log_joint: undefined, settings: undefined }), { type: "view", layer: "draw", chain: 0 });
+  const [field, { p }] = heard.find(([{ type }]) => type === "field")!;
+  assert.deepEqual([field.layer, p[5], field.method], ["mean", 255, "auto"]);
+});
+
+test("the beams through a cell of a recording are those that reach it", async () => {
+  const cells = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1]];
+  const { heard } = await played(await recording(), ...cells.map(([x, y]) => ({ type: "inspect", x, y })));
+  // the beam to the right ends at 2.0, the one upwards never
+  assert.deepEqual(heard.map(([{ beams }]) => beams), [2, 1, 0, 1, 0]);
+});
+
+test("the tutorial's page plays", async (context) => {
+  if (!library) return context.skip(withoutLibrary);
+  const html = readFileSync(library.tutorial, "utf8");
+  const found: Recording = JSON.parse(/<script[^>]*data-recording[^>]*>(.*?)<\/script>/s.exec(html)![1]);
+  const { first, heard } = await played(found, { type: "view", layer: "draw", chain: 0 });
+  const field = first.find(([{ type }]) => type === "field")!;
+  assert.equal(field[0].sweeps, 1000);
+  assert.equal(field[1].p.length, 441);
+  const draw = heard.find(([{ type }]) => type === "field")![1].p;
+  assert.deepEqual([...new Set(draw)].sort(), [0, 255]);
+});
