@@ -222,7 +222,7 @@ def _posterior(
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
     specs = (*prior.arrays, POSES) if POSES.name in draws.variables else prior.arrays
-    dimensions = sorted({dim for spec in prior.arrays for dim in spec.dims} - {"x", "y"})
+    dimensions = sorted({dim for spec in specs for dim in spec.dims} - {"x", "y"})
     index = {dim: _index(draws, dim, grid) for dim in dimensions}
     empty = Draws(grid, specs, {}, index)
     arrays = {spec.name: read_draws(draws[spec.name], spec, empty.shape_of(spec)) for spec in specs}
