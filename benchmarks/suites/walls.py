@@ -97,7 +97,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
 def agreement(name: str, posterior: Posterior) -> Iterator[Figure]:
     """Do the chains agree about what is reported?"""
     found = diagnose_cells(posterior.prior, posterior.draws, posterior.observed)
-    summary = bm.FieldRun(posterior).summary()
+    summary = bm.Run(posterior).summary()
     likelihood = f"of the log likelihood {summary.rhat_log_likelihood:.3f}"
     yield Figure(f"{name}/rhat_log_joint", summary.rhat_log_joint, "", against=likelihood)
     judged = max(found.judged, 1)

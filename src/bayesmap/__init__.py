@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from bayesmap.posterior.passage import FreeProbability as FreeProbability
     from bayesmap.posterior.route import Route as Route
     from bayesmap.programs.mapping import mapping_model as mapping_model
-    from bayesmap.result import Run as FieldRun  # noqa: F401 -- what runs of two kinds of cells were once called
     from bayesmap.result import Run as Run
     from bayesmap.result import load as load
     from bayesmap.result import score as score
@@ -56,7 +55,6 @@ _HOME = {
     "BadInput": "bayesmap.errors",
     "Beta": "bayesmap.cells.reflectivity",
     "BeamMixture": "bayesmap.sensors.mixture",
-    "FieldRun": "bayesmap.result",
     "FreeProbability": "bayesmap.posterior.passage",
     "Gaussian": "bayesmap.sensors.noise",
     "Grid": "bayesmap.space.grid",
@@ -99,9 +97,7 @@ def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'bayesmap' has no attribute {name!r}")
     module = importlib.import_module(_HOME[name])
-    if name == "worlds":
-        return module
-    return getattr(module, "Run" if name == "FieldRun" else name)  # what runs of two kinds of cells were once called
+    return module if name == "worlds" else getattr(module, name)
 
 
 def __dir__() -> list[str]:

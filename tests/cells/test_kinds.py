@@ -43,15 +43,6 @@ def test_surfaces_that_can_hardly_be_as_small_as_they_must_are_refused():
     assert bm.Surface(spread=0.9, size_scale=0.31).sample_surfaces(np.random.default_rng(1), 100).shape == (100, 5)
 
 
-def test_the_old_names_of_a_surface_s_numbers_still_work():
-    old = bm.Surface(wander=0.3, extent=0.5)
-    assert old == bm.Surface(mean_scale=0.3, size_scale=0.5)
-    assert (old.wander, old.extent) == (0.3, 0.5)
-    assert prior_from(
-        {"kind": "surface", "a": 0.1, "b": 0.2, "wander": 0.3, "spread": 0.2, "dof": 3.0, "extent": 0.5}
-    ) == (bm.Surface(0.1, 0.2, 0.3, 0.2, 3.0, 0.5))
-
-
 @pytest.fixture(scope="module", params=[bm.Independent(0.2), bm.Beta(), bm.Surface()], ids=lambda p: p.words.kind)
 def run(request):
     grid = bm.Grid((8, 6), 0.5)

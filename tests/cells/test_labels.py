@@ -24,7 +24,7 @@ from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 
 TESTS = 50  # p-values in this module, at most
-PRIOR = bm.Beta(0.3, 2.0, 0.8, 2.0, 0.7)
+PRIOR = bm.Beta(0.3, 2.0, coupling=0.8, a_solid=2.0, b_solid=0.7)
 KINDS = pytest.mark.parametrize("kind", LABELLED)
 
 
@@ -120,7 +120,7 @@ def test_unknown_poses_go_with_labels_bit_for_bit(kind, tmp_path):
 
 
 def test_cells_that_no_beam_touches_draw_reflectivities_given_their_labels_where_poses_move():
-    prior = bm.Beta(0.5, 1.5, 0.6, 3.0, 0.8)
+    prior = bm.Beta(0.5, 1.5, coupling=0.6, a_solid=3.0, b_solid=0.8)
     one = bm.Scans([0.5, 0.5, 0.0], [0.0], [[0.8]], max_range_m=2.0)
     problem = trace_stops(one, bm.Grid((60, 60), 0.2), prior, TRUTH, threads=1)
     sampler = StopGibbs()
@@ -179,7 +179,7 @@ def test_the_fit_finds_both_betas():
     """40 000 cells with known labels: within a tenth; labels that are mixed up it does not."""
     rng = np.random.default_rng(8)
     solid = rng.random(40_000) < 0.3
-    truth = bm.Beta(0.1, 4.0, 1.0, 2.0, 0.5)
+    truth = bm.Beta(0.1, 4.0, coupling=1.0, a_solid=2.0, b_solid=0.5)
     m = rng.beta(*truth.beta_given(solid))
     met = rng.integers(1, 60, len(m))
     hits = rng.binomial(met, m)

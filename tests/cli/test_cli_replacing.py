@@ -71,7 +71,7 @@ def test_a_full_disk_says_what_is_kept(office, finished, short, monkeypatch):
     def full(self, path, *told):
         raise OSError(28, "No space left on device", str(path))
 
-    monkeypatch.setattr(bm.FieldRun, "save", full)
+    monkeypatch.setattr(bm.Run, "save", full)
     result = call("infer", office, "-o", finished, *short, "--seed", 5, "--force")
     assert result.exit_code == 1
     assert "No space left on device; run.nc still holds the run to be replaced" in result.stderr

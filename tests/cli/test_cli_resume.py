@@ -265,8 +265,7 @@ def test_resumed_from_a_file_without_a_sweep_there_is_still_that_file(office, tm
 
 @BOTH
 def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monkeypatch, cells):
-    kind = bm.Run if cells == "binary" else bm.FieldRun
-    save = kind.save
+    save = bm.Run.save
     calls = []
 
     def full(self, path, *told):
@@ -275,7 +274,7 @@ def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monke
             raise OSError(28, "No space left on device")
         save(self, path)
 
-    monkeypatch.setattr(kind, "save", full)
+    monkeypatch.setattr(bm.Run, "save", full)
     result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells)
     assert result.exit_code == 0
     assert "checkpoint could not be written: No space left on device" in result.stderr

@@ -42,7 +42,7 @@ def test_a_run_comes_back_equal(kind, draws, sensor, tmp_path):
     run = infer(kind, draws=draws, sensor=sensor)
     run.save(tmp_path / "run.nc")
     loaded = bm.load(tmp_path / "run.nc")
-    assert isinstance(loaded, bm.FieldRun)
+    assert isinstance(loaded, bm.Run)
     assert_equal(loaded, run)
     if draws:
         assert loaded.log_score(SCANS) == run.log_score(SCANS)

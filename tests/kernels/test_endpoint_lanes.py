@@ -19,7 +19,7 @@ from bayesmap.model import Model
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.sensors.model import RangeLimits
 
-PRIOR = bm.Surface(0.5, 1.0, wander=0.4, spread=0.3, dof=3.0)
+PRIOR = bm.Surface(0.5, 1.0, mean_scale=0.4, spread=0.3, dof=3.0)
 HARD = bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.05, p_no_return=0.1)
 CROWD = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_short=0.4, rate_short_per_m=3.0)
 SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)

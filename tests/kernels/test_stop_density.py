@@ -19,7 +19,7 @@ PRIORS = {
     "reflectivities": bm.Beta(0.8, 1.5),
     "reflectivities by default": bm.Beta(),
     "surfaces": bm.Surface(0.8, 1.5),
-    "thin surfaces": bm.Surface(0.8, 1.5, wander=0.6, spread=0.05, dof=4.0),
+    "thin surfaces": bm.Surface(0.8, 1.5, mean_scale=0.6, spread=0.05, dof=4.0),
     "surfaces by default": bm.Surface(),
 }
 # Single precision: a density is off by 1e-6 of itself, more where a surface is seen edge on.

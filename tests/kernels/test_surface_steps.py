@@ -27,7 +27,7 @@ from bayesmap.kernels.stops import GAIN_UNITS, ChainArrays, TracedRays
 from bayesmap.kernels.surface_crossing import Cell
 
 EDGE, CELLS = 0.5, 10_000
-UNBOUNDED = bm.Surface(1.0, 1.0, wander=0.4, spread=0.3, dof=3.5, extent=1e6)
+UNBOUNDED = bm.Surface(1.0, 1.0, mean_scale=0.4, spread=0.3, dof=3.5, size_scale=1e6)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.08, 0.01), p_random=0.05, p_no_return=0.1)
 N = wp.constant(3.0)
 S11, S12, S22 = wp.constant(0.03), wp.constant(-0.012), wp.constant(0.02)  # square metres
@@ -93,7 +93,7 @@ def closed_form_p_values(surfaces):
     x, y, l11, l21, l22 = surfaces.T
     psi, n, width = (UNBOUNDED.spread * EDGE) ** 2, float(N), float(WIDTH)
     p11, p12, p22 = psi + float(S11), float(S12), psi + float(S22)
-    nu, tau = UNBOUNDED.dof + n, UNBOUNDED.wander * EDGE
+    nu, tau = UNBOUNDED.dof + n, UNBOUNDED.mean_scale * EDGE
     weight, spread = width**-2 / (width**-2 + tau**-2), (width**-2 + tau**-2) ** -0.5
     slope = (l21 / l11 - p12 / p11) * np.sqrt(p11) / l22
     one, two = p11 / l11**2, (p22 - p12**2 / p11) / l22**2
@@ -125,8 +125,8 @@ ENDING = bm.Scans(
     [[0.5, np.inf, 0.75], [np.inf, np.inf, 0.8]], max_range_m=2.0,
 )  # fmt: skip
 PRIORS = {
-    "wide": bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.8),
-    "narrow": bm.Surface(0.5, 1.5, wander=0.3, spread=0.3, dof=3.0),
+    "wide": bm.Surface(1.0, 1.0, mean_scale=0.4, spread=0.4, dof=4.0, size_scale=0.8),
+    "narrow": bm.Surface(0.5, 1.5, mean_scale=0.3, spread=0.3, dof=3.0),
 }
 
 

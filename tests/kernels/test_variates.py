@@ -158,7 +158,7 @@ def by_kernel(prior):
     """Prior surfaces of the kernel, about their centre, in edges of a cell, which are 0.5 m here."""
     packed = CellPrior()
     packed.a, packed.b = prior.a, prior.b
-    packed.tau_m, packed.psi_m2, packed.nu = prior.wander * 0.5, (prior.spread * 0.5) ** 2, prior.dof
+    packed.tau_m, packed.psi_m2, packed.nu = prior.mean_scale * 0.5, (prior.spread * 0.5) ** 2, prior.dof
     out = wp.zeros(COUNT, dtype=Cell, device="cpu")
     wp.launch(draw_surface, dim=COUNT, inputs=[packed, KEY, out], device="cpu")
     surfaces = out.numpy()[:, 1:6].astype(float)
@@ -184,7 +184,7 @@ def by_scipy(prior, *, inside=True):
 @pytest.mark.parametrize(("draw", "extent"), [(by_kernel, HUGE), (by_numpy, HUGE), (by_numpy, 0.35)])
 def test_prior_surfaces_follow_the_inverse_wishart_thinned_by_their_size(draw, extent, dof):
     """The kernel's are thinned, and kept within their cell, when they are accepted, and not before."""
-    prior = bm.Surface(1, 1, wander=0.4, spread=0.28, dof=dof, extent=extent)
+    prior = bm.Surface(1, 1, mean_scale=0.4, spread=0.28, dof=dof, size_scale=extent)
     mine, theirs = surface_functions(draw(prior)), surface_functions(by_scipy(prior, inside=draw is by_numpy))
     for name, sample in mine.items():
         assert scipy.stats.ks_2samp(sample, theirs[name]).pvalue > ALPHA / CASES / 9, name

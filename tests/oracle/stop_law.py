@@ -138,9 +138,9 @@ def draw_states(rng, prior, centres, count=(), *, anywhere=False):
         size = int(np.prod(shape))
         sigma = draw_covariances(rng, prior, size) * edge**2
         factor = np.linalg.cholesky(np.reshape(sigma, (*shape, 2, 2)))
-        away = prior.wander * rng.standard_normal((*shape, 2))
+        away = prior.mean_scale * rng.standard_normal((*shape, 2))
         while not anywhere and (outside := abs(away) > 0.5).any():  # a mean lies in its own cell
-            away[outside] = prior.wander * rng.standard_normal(outside.sum())
+            away[outside] = prior.mean_scale * rng.standard_normal(outside.sum())
         states[..., 1:3] = centres + edge * away
         states[..., 3], states[..., 4], states[..., 5] = factor[..., 0, 0], factor[..., 1, 0], factor[..., 1, 1]
     return states
@@ -176,7 +176,7 @@ def log_prior(prior, states, centres):
         of_sigma = np.reshape([law.logpdf(one) for one in sigma], m.shape)
         # d(Sigma11, Sigma21, Sigma22) = 4 l11^3 l22^2 d(log l11, l21, log l22)
         jacobian = np.log(4) + 3 * np.log(states[..., 3]) + 2 * np.log(states[..., 5])
-        of_mean = scipy.stats.norm.logpdf(states[..., 1:3], centres, prior.wander * edge).sum(axis=-1)
+        of_mean = scipy.stats.norm.logpdf(states[..., 1:3], centres, prior.mean_scale * edge).sum(axis=-1)
         thinned = -np.trace(sigma, axis1=1, axis2=2).reshape(m.shape) / (2 * (prior.extent * edge) ** 2)
         outside = (abs(states[..., 1:3] - centres) > 0.5 * edge).any(axis=-1)
         total = np.where(outside, -np.inf, total + of_sigma + jacobian + of_mean + thinned)

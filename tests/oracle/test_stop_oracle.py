@@ -105,7 +105,7 @@ def test_drawn_readings_follow_the_density(plain):
 
 
 def test_the_prior_of_surfaces_has_the_jacobian_of_its_coordinates():
-    prior = bm.Surface(0.7, 1.3, wander=0.5, spread=0.4, dof=3.5, extent=0.6)
+    prior = bm.Surface(0.7, 1.3, mean_scale=0.5, spread=0.4, dof=3.5, size_scale=0.6)
     centres = (np.array([[0.25, 0.25]]), 0.5)
     state = STATES[0]
 

@@ -36,7 +36,7 @@ def of(run, name):
 @KINDS
 def test_draws_and_their_mean_cover_the_grid(kind):
     run = run_of(kind)
-    assert isinstance(run, bm.FieldRun)
+    assert isinstance(run, bm.Run)
     assert run.draws.shape == (2, 8, 4, 3)
     assert run.n_draws == 8
     drawn, expected = (of(run, name) for name in SHOWN[kind])

@@ -42,7 +42,7 @@ LEFT = {"reflectivities": 0.4, "rare walls": 0.65, "surfaces": 0.85}
 CASES = {
     "reflectivities": ((2, 2), bm.Beta(0.5, 1.5)),
     "rare walls": ((2, 2), bm.Beta(0.1, 0.6)),
-    "surfaces": ((2, 1), bm.Surface(1.0, 1.5, wander=0.3, spread=0.3, dof=5.0)),
+    "surfaces": ((2, 1), bm.Surface(1.0, 1.5, mean_scale=0.3, spread=0.3, dof=5.0)),
 }
 
 
@@ -146,7 +146,7 @@ def test_few_draws_score_better(kind):
     run = infer(kind, scans(poses=8), warmup=20, draws=3)
     draws = run.posterior.draws
     drawn = replace(draws, arrays={**draws.arrays, "expected": draws.arrays["reflectivity"]})
-    by_draws = bm.FieldRun(replace(run.posterior, draws=drawn))
+    by_draws = bm.Run(replace(run.posterior, draws=drawn))
     held_out = scans(poses=20, seed=2)
     assert run.log_score(held_out) > by_draws.log_score(held_out) + 0.03
 

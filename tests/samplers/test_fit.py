@@ -148,13 +148,13 @@ def test_the_prior_s_counts_are_found_from_hits_and_passes():
     m = rng.beta(0.3, 1.2, 20_000)
     met = rng.integers(0, 30, m.size)
     hits = rng.binomial(met, m)
-    found = refit_prior(bm.Surface(0.02, 0.2, wander=0.5), hits, met - hits, 1.0)
+    found = refit_prior(bm.Surface(0.02, 0.2, mean_scale=0.5), hits, met - hits, 1.0)
     assert (found.a, found.b) == (pytest.approx(0.3, rel=0.06), pytest.approx(1.2, rel=0.06))
-    assert found.wander == 0.5
+    assert found.mean_scale == 0.5
     half = refit_prior(bm.Beta(0.02, 0.2), hits, met - hits, 0.5)
     assert half.a == pytest.approx(np.sqrt(0.02 * found.a), rel=1e-3)
     # cells that have not counted yet are left out
-    some = refit_prior(bm.Surface(0.02, 0.2, wander=0.5), hits, np.where(m > 0.9, -1, met - hits), 1.0)
+    some = refit_prior(bm.Surface(0.02, 0.2, mean_scale=0.5), hits, np.where(m > 0.9, -1, met - hits), 1.0)
     assert some.a != found.a
     assert refit_prior(bm.Beta(), hits, np.full(m.size, -1), 1.0) == bm.Beta()
 

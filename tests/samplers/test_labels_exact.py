@@ -34,13 +34,13 @@ TESTS = 500  # p-values in this module, at most
 
 # Shape, noise, prior: weak and strong couplings; labels that say much of a reflectivity, and little.
 CASES = {
-    "a cell alone": ((1, 1), 0.05, bm.Beta(0.5, 2.0, 1.0, 2.0, 1.0)),
-    "two cells": ((2, 1), 0.05, bm.Beta(0.5, 2.0, 0.8, 2.0, 1.0)),
-    "a row": ((4, 1), 0.1, bm.Beta(0.3, 3.0, 1.2, 1.5, 0.5)),
-    "a square": ((2, 2), 0.1, bm.Beta(0.5, 1.5, 0.6, 1.5, 0.5)),
-    "a square, hardly coupled": ((2, 2), 0.3, bm.Beta(0.2, 2.0, 0.05, 3.0, 0.7)),
-    "some that no beam touches": ((2, 3), 0.1, bm.Beta(0.4, 2.0, 1.0, 2.0, 0.5)),
-    "strongly coupled": ((2, 2), 0.2, bm.Beta(0.6, 1.5, 2.5, 1.2, 0.6)),
+    "a cell alone": ((1, 1), 0.05, bm.Beta(0.5, 2.0, coupling=1.0, a_solid=2.0, b_solid=1.0)),
+    "two cells": ((2, 1), 0.05, bm.Beta(0.5, 2.0, coupling=0.8, a_solid=2.0, b_solid=1.0)),
+    "a row": ((4, 1), 0.1, bm.Beta(0.3, 3.0, coupling=1.2, a_solid=1.5, b_solid=0.5)),
+    "a square": ((2, 2), 0.1, bm.Beta(0.5, 1.5, coupling=0.6, a_solid=1.5, b_solid=0.5)),
+    "a square, hardly coupled": ((2, 2), 0.3, bm.Beta(0.2, 2.0, coupling=0.05, a_solid=3.0, b_solid=0.7)),
+    "some that no beam touches": ((2, 3), 0.1, bm.Beta(0.4, 2.0, coupling=1.0, a_solid=2.0, b_solid=0.5)),
+    "strongly coupled": ((2, 2), 0.2, bm.Beta(0.6, 1.5, coupling=2.5, a_solid=1.2, b_solid=0.6)),
 }
 SEEN = {"some that no beam touches": 2}
 
@@ -152,8 +152,8 @@ def test_at_an_inverse_temperature_the_coupling_is_not_tempered(beta):
 
 
 SURFACES = {
-    "where readings end": (TWO, bm.Surface(0.6, 2.0, wander=0.3, spread=0.3, dof=5.0, coupling=1.0, a_solid=2.0)),
-    "where none does": (NOTHING, bm.Surface(0.5, 1.5, wander=0.4, spread=0.4, dof=4.0, coupling=1.5, a_solid=2.0)),
+    "where readings end": (TWO, bm.Surface(0.6, 2.0, mean_scale=0.3, spread=0.3, dof=5.0, coupling=1.0, a_solid=2.0)),
+    "where none does": (NOTHING, bm.Surface(0.5, 1.5, mean_scale=0.4, spread=0.4, dof=4.0, coupling=1.5, a_solid=2.0)),
 }
 
 

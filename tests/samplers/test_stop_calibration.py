@@ -30,7 +30,7 @@ SENSOR = bm.BeamMixture(bm.Gaussian(0.06, 0.01), p_random=0.08, p_no_return=0.1,
 CASES = {
     "reflectivities": (bm.Beta(0.8, 1.2), SENSOR, 20),
     "reflectivities by default": (bm.Beta(), SENSOR, 150),
-    "surfaces": (bm.Surface(1.0, 1.0, wander=0.4, spread=0.3, dof=4.0, extent=0.5), SENSOR, 60),
+    "surfaces": (bm.Surface(1.0, 1.0, mean_scale=0.4, spread=0.3, dof=4.0, size_scale=0.5), SENSOR, 60),
     "surfaces, few of them sharp": (
         bm.Surface(0.5, 1.0), replace(SENSOR, noise=bm.Gaussian(0.02), p_random=0.03), 60,
     ),

@@ -154,7 +154,7 @@ def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
         infer("surfaces", room(), resume=surfaces, prior=bm.Beta())
     for options, word in (
         ({"seed": 1}, "seed"), ({"sensor": TRUTH}, "sensor"), ({"chains": 3}, "chains"), ({"draws": 7}, "draws"),
-        ({"prior": bm.Surface(wander=0.5)}, "prior"), ({"hit_depth": 0.2}, "hit_dep"),
+        ({"prior": bm.Surface(mean_scale=0.5)}, "prior"), ({"hit_depth": 0.2}, "hit_dep"),
     ):  # fmt: skip
         with pytest.raises(bm.BadInput, match=f"resume: the saved run was made with other .*{word}"):
             infer("surfaces", room(), resume=surfaces, **options)

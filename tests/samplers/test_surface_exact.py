@@ -40,14 +40,14 @@ NOTHING = bm.Scans([-0.4, 0.2, 0.05], [-0.1, 0.1], [[np.inf, 1.9]], max_range_m=
 
 RARE = bm.BeamMixture(bm.Gaussian(0.12, 0.02), p_random=1e-9, p_no_return=0.15, p_short=0.0)
 
-WEAK = bm.Surface(1.0, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
-SMALL = bm.Surface(0.02, 1.0, wander=0.4, spread=0.4, dof=4.0, extent=0.25)  # most draws of a Wishart are too large
-NEARLY_FREE = bm.Surface(0.5, 1e9, wander=0.4, spread=0.4, dof=4.0, extent=0.8)
+WEAK = bm.Surface(1.0, 1.0, mean_scale=0.4, spread=0.4, dof=4.0, size_scale=0.8)
+SMALL = bm.Surface(0.02, 1.0, mean_scale=0.4, spread=0.4, dof=4.0, size_scale=0.25)  # rejects most Wisharts
+NEARLY_FREE = bm.Surface(0.5, 1e9, mean_scale=0.4, spread=0.4, dof=4.0, size_scale=0.8)
 CASES = {
     "one cell, blunt": ((1, 1), ONE, BLUNT, WEAK),
-    "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
-    "one cell, heavy tails": ((1, 1), ONE, TAILS, bm.Surface(0.5, 2.0, wander=0.3, spread=0.28, dof=3.0)),
-    "two cells": ((2, 1), TWO, BLUNT, bm.Surface(2.0, 1.0, wander=0.3, spread=0.3, dof=5.0)),
+    "one cell, sharp": ((1, 1), ONE, SHARP, bm.Surface(0.5, 2.0, mean_scale=0.3, spread=0.28, dof=3.0)),
+    "one cell, heavy tails": ((1, 1), ONE, TAILS, bm.Surface(0.5, 2.0, mean_scale=0.3, spread=0.28, dof=3.0)),
+    "two cells": ((2, 1), TWO, BLUNT, bm.Surface(2.0, 1.0, mean_scale=0.3, spread=0.3, dof=5.0)),
     "one cell without readings": ((1, 1), NOTHING, BLUNT, WEAK),
     "one cell as unlikely to stop a beam as a reading by chance": ((1, 1), BESIDE, RARE, NEARLY_FREE),
 }

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -85,9 +85,9 @@ class Reflective(CellPrior):
 
     a: float = 0.02
     b: float = 0.2
-    coupling: float = 0.0
-    a_solid: float = 1.0
-    b_solid: float = 1.0
+    coupling: float = field(default=0.0, kw_only=True)
+    a_solid: float = field(default=1.0, kw_only=True)
+    b_solid: float = field(default=1.0, kw_only=True)
 
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True

@@ -61,7 +61,7 @@ STOP_CHANCES = (
 """What maps show: it does not depend on which cell a surface belongs to (`bayesmap.kernels.square_counts`)."""
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True)
 class Surface(Reflective):
     """A reflectivity in each cell as in `Beta`, and a surface: mu ~ N(centre, tau^2 I) inside the cell's own square,
     Sigma ~ InverseWishart(nu, psi I) x exp(-tr Sigma / (2 kappa^2)).
@@ -73,11 +73,11 @@ class Surface(Reflective):
         coupling: what each pair of neighbours (cells that share an edge) with the same label, free or solid, adds to
             the log density; at 0 there are no labels, and cells are independent.
         a_solid, b_solid: of the reflectivity in solid cells, where cells have labels.
-        mean_scale: tau, how far a surface's mean lies from its cell's centre; once called ``wander``. It never lies
-            outside the cell: what stands there is another cell's.
+        mean_scale: tau, how far a surface's mean lies from its cell's centre; it never lies outside
+            the cell: what stands there is another cell's.
         spread: sqrt(psi), the size of surfaces.
         dof: nu, how sure that is; more than 1.
-        size_scale: kappa, the size beyond which surfaces are unlikely: about that of a cell; once called ``extent``.
+        size_scale: kappa, the size beyond which surfaces are unlikely: about that of a cell.
 
     Raises:
         BadInput: a number that is not positive, too few degrees of freedom, or surfaces much larger than their scale.
@@ -96,30 +96,6 @@ class Surface(Reflective):
     shown: ClassVar[tuple[str, str]] = ("stop_chance", "expected_stop_chance")
     has_surfaces: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        a: float = 0.02,
-        b: float = 0.2,
-        mean_scale: float = 0.4,
-        spread: float = 0.28,
-        dof: float = 3.0,
-        size_scale: float = 0.35,
-        *,
-        coupling: float = 0.0,
-        a_solid: float = 1.0,
-        b_solid: float = 1.0,
-        wander: float | None = None,
-        extent: float | None = None,
-    ) -> None:
-        values = {
-            "a": a, "b": b, "coupling": coupling, "a_solid": a_solid, "b_solid": b_solid,
-            "mean_scale": mean_scale if wander is None else wander, "spread": spread, "dof": dof,
-            "size_scale": size_scale if extent is None else extent,
-        }  # fmt: skip
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
-        self.__post_init__()
-
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in ("mean_scale", "spread", "size_scale"):
@@ -133,16 +109,6 @@ class Surface(Reflective):
                 f"Surface: spread must not exceed {MOST_SPREAD:g} times size_scale, got {self.spread!r} and "
                 f"{self.size_scale!r}"
             )
-
-    @property
-    def wander(self) -> float:
-        """The same as ``mean_scale``."""
-        return self.mean_scale
-
-    @property
-    def extent(self) -> float:
-        """The same as ``size_scale``."""
-        return self.size_scale
 
     @property
     def first_spread(self) -> float:

@@ -1,6 +1,7 @@
 """Distributions from TensorFlow Probability's JAX substrate: any of them, and by name the less common ones.
 
-They need the extra `tfp`. The common distributions, in `densities.py`, do not.
+TensorFlow Probability must be installed: it is no dependency, since its releases lag behind JAX and its nightly builds
+(`tfp-nightly`) follow it. The common distributions, in `densities.py`, do not need it.
 """
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
@@ -71,7 +72,7 @@ class _ByName:
             library = importlib.import_module("tensorflow_probability.substrates.jax.distributions")
         except ModuleNotFoundError:
             raise MissingExtra(
-                f"{self.class_name} comes from TensorFlow Probability: pip install 'bayesmap[tfp]'"
+                f"{self.class_name} comes from TensorFlow Probability, which is not installed: pip install tfp-nightly"
             ) from None
         return getattr(library, self.class_name)(*args, **kwargs)
 

@@ -5,7 +5,8 @@ Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sa
 ``warmup_sample_stats``, and ``trajectory`` (`bayesmap.io.saved_trajectory`) where one was inferred. Settings, grid,
 prior, sensor and timings are attributes of the root, as JSON. Arrays that count some cells only have these cells'
 indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as deflated bytes, half precision as 32-bit
-floats, so that any reader sees plain arrays; a checksum over all of it tells a damaged file from a whole one.
+floats, so that any reader sees plain arrays. Each array has the CRC of its elements as an attribute, and
+so has the header: what HDF5 itself does not notice of damage, they do.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable
+import zlib
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -22,26 +24,24 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
-from bayesmap.io import saved_before
 from bayesmap.io.atomic import write_whole
-from bayesmap.io.checksum import checksum_of
-from bayesmap.io.saved_arrays import write_arrays, write_draws
-from bayesmap.io.saved_content import assemble
-from bayesmap.io.saved_trajectory import arrays_of, numbers_of, read_trajectory, write_trajectory
+from bayesmap.io.saved_arrays import read_array, read_draws, write_arrays, write_draws
+from bayesmap.io.saved_trajectory import numbers_of, read_trajectory, write_trajectory
+from bayesmap.model import POSES
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
-from bayesmap.sensors.describe import describe
+from bayesmap.sensors.describe import describe, from_description
+from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
 FORMAT = "bayesmap run"
-FORMAT_VERSION = (
-    7  # 6 has no trajectory, 5 no labels, 4 no stop chances of surfaces; older ones: `bayesmap.io.saved_before`
-)
-LAYOUT_SINCE = 4
+FORMAT_VERSION = 1
 
 
 def save(
@@ -85,14 +85,15 @@ def _write(
     }
     if trajectory is not None:
         header["trajectory"] = numbers_of(trajectory)
+    text = json.dumps(header)
     file.setncatts(
         {
             "format": FORMAT,
             "format_version": FORMAT_VERSION,
             "inference_library": "bayesmap",
             "inference_library_version": __version__,
-            "bayesmap": json.dumps(header),
-            "checksum": _checksum(posterior, header, trajectory),
+            "bayesmap": text,
+            "checksum": _checksum(text),
         }
     )
     group = file.createGroup("posterior")
@@ -170,63 +171,111 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
             reason = _not_ours(attributes)
             if reason is None:
-                posterior, trajectory, found = _read(
-                    file, json.loads(attributes["bayesmap"]), int(attributes["format_version"])
-                )
-                whole = found == attributes["checksum"]
+                text = attributes["bayesmap"]
+                if attributes["checksum"] != _checksum(text):
+                    raise ValueError("the checksum of its header does not match")
+                return _read(file, json.loads(text))
     except BadInput as problem:
         raise BadInput(f"{path}: {problem}") from None
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
-        raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error})") from None
-    if reason is not None:
-        raise BadInput(f"{path}: {reason}")
-    if not whole:
-        raise BadInput(f"{path}: the saved run is damaged (its checksum does not match); use a backup or run again")
-    return posterior, trajectory
+        raise BadInput(
+            f"{path}: not a readable saved run; damaged or truncated? ({error}); use a backup or run again"
+        ) from None
+    raise BadInput(f"{path}: {reason}")
 
 
 def _not_ours(attributes: dict[str, Any]) -> str | None:
     """Why a sound netCDF file is not one that we can read, or None."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"
-    version = int(attributes["format_version"])
-    if version <= FORMAT_VERSION:
+    if int(attributes["format_version"]) == FORMAT_VERSION:
         return None
     return (
-        f"saved by bayesmap {attributes.get('inference_library_version')}, in a newer format ({version}) "
-        f"than this version reads ({FORMAT_VERSION}); update bayesmap"
+        f"saved by bayesmap {attributes.get('inference_library_version')} in format {attributes['format_version']}, "
+        f"and this version reads format {FORMAT_VERSION}; use that version of bayesmap, or run again"
     )
 
 
-def _read(file: Any, header: dict[str, Any], version: int) -> tuple[Posterior, Trajectory | None, str]:
-    """The posterior of an open file, its trajectory, and the checksum of both."""
-    if version < LAYOUT_SINCE:
-        posterior, found = saved_before.read(file, header)
-        return posterior, None, found
+def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | None]:
+    """Return the posterior of an open file, and its trajectory."""
     constant = file["constant_data"]
 
     def named(prefix: str) -> dict[str, NDArray[Any]]:
-        return {name.removeprefix(prefix): constant[name][:] for name in constant.variables if name.startswith(prefix)}
+        return {
+            name.removeprefix(prefix): read_array(constant[name])
+            for name in constant.variables
+            if name.startswith(prefix)
+        }
 
     prior = prior_from(header["prior"] | named("prior_"))
-    snapshot = Snapshot(header["sweep"], {name: v[:] for name, v in file["chain_state"].variables.items()})
-    posterior = assemble(file, header, prior, snapshot, statistics=named("statistic_"))
+    snapshot = Snapshot(header["sweep"], {name: read_array(v) for name, v in file["chain_state"].variables.items()})
     trajectory = read_trajectory(file, header["trajectory"]) if "trajectory" in header else None
-    return posterior, trajectory, _checksum(posterior, header, trajectory)
+    return _posterior(file, header, prior, snapshot, named("statistic_")), trajectory
 
 
-def _checksum(posterior: Posterior, header: dict[str, Any], trajectory: Trajectory | None) -> str:
-    scans, draws = posterior.scans, posterior.draws
-    named = {f"draws {name}": values for name, values in draws.arrays.items()}
-    named |= {f"index {name}": values for name, values in draws.index.items()}
-    named |= {f"state {name}": values for name, values in posterior.snapshot.arrays.items()}
-    named |= {f"constant {name}": values for name, values in _by_name(posterior).items()}
-    if trajectory is not None:
-        named |= {f"trajectory {name}": values for name, (_, values) in arrays_of(trajectory).items()}
-    arrays = (
-        posterior.log_likelihood, posterior.log_prior, posterior.warmup_log_joint, posterior.occupancy,
-        posterior.observed, scans.poses, scans.angles_rad, scans.ranges_m, scans.stamps_s, scans.beam_poses,
-        scans.own_angles_rad,
-    )  # fmt: skip
-    names = sorted(named)
-    return checksum_of(json.dumps([header, names], sort_keys=True), [*(named[name] for name in names), *arrays])
+def _posterior(
+    file: Any,
+    header: dict[str, Any],
+    prior: CellPrior,
+    snapshot: Snapshot,
+    statistics: Mapping[str, NDArray[np.float64]],
+) -> Posterior:
+    """Assemble the posterior of an open file."""
+    grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
+    draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
+    specs = (*prior.arrays, POSES) if POSES.name in draws.variables else prior.arrays
+    dimensions = sorted({dim for spec in specs for dim in spec.dims} - {"x", "y"})
+    index = {dim: _index(draws, dim, grid) for dim in dimensions}
+    empty = Draws(grid, specs, {}, index)
+    arrays = {spec.name: read_draws(draws[spec.name], spec, empty.shape_of(spec)) for spec in specs}
+    return Posterior(
+        scans=_scans_from(file, header),
+        sensor=from_description(header["settings"]["sensor"] if header["sensor"] is None else header["sensor"]),
+        prior=prior,
+        settings=header["settings"],
+        draws=Draws(grid, specs, arrays, index),
+        occupancy=read_array(constant["occupancy"]),
+        observed=read_array(constant["observed"]) != 0,
+        log_likelihood=read_array(stats["log_likelihood"]),
+        log_prior=read_array(stats["log_prior"]),
+        warmup_log_joint=read_array(file["warmup_sample_stats"]["lp"]),
+        snapshot=snapshot,
+        finished=header["finished"],
+        seconds=header["seconds"],
+        counts=header["counts"],
+        log_weights=_optional(constant, "log_weight"),
+        statistics=statistics,
+        log_evidence=header["log_evidence"],
+        notes=tuple(header["notes"]),
+    )
+
+
+def _index(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
+    """Return what a dimension counts: flat indices of cells, or numbers."""
+    if dimension.endswith("cell"):
+        flat = read_array(draws[f"{dimension}_x"]) * grid.shape[1] + read_array(draws[f"{dimension}_y"])
+        return np.asarray(flat, dtype=np.int32)
+    return np.asarray(read_array(draws[dimension]), dtype=np.int32)
+
+
+def _optional(constant: Any, name: str) -> NDArray[np.float64] | None:
+    return read_array(constant[name]) if name in constant.variables else None
+
+
+def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
+    """Return the scans that the posterior is conditioned on."""
+    constant = file["constant_data"]
+    return Scans(
+        poses=read_array(constant["pose_world"]),
+        angles_rad=read_array(constant["angle_rad"]),
+        ranges_m=read_array(file["observed_data"]["range_m"]),
+        min_range_m=header["limits"][0],
+        max_range_m=header["limits"][1],
+        stamps_s=_optional(constant, "stamp_s"),
+        beam_poses=_optional(constant, "beam_pose_world"),
+        own_angles_rad=_optional(constant, "own_angle_rad"),
+    )
+
+
+def _checksum(header: str) -> int:
+    return zlib.crc32(header.encode())

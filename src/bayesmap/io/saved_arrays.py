@@ -7,6 +7,7 @@ bits are zero and compress well.
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
@@ -28,7 +29,30 @@ def write_arrays(
     """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
     for name, values in arrays.items():
         _need_dimensions(group, dimensions, values.shape)
-        group.createVariable(name, values.dtype, dimensions, zlib=compressed, complevel=1)[:] = values
+        variable = group.createVariable(name, values.dtype, dimensions, zlib=compressed, complevel=1)
+        variable[:] = values
+        variable.crc32 = _crc32(values)
+
+
+def read_array(variable: Any) -> NDArray[Any]:
+    """Read an array.
+
+    Raises:
+        ValueError: the numbers are not those that were written.
+    """
+    values = np.asarray(variable[:])
+    _check(variable, _crc32(values))
+    return values
+
+
+def _crc32(values: NDArray[Any], so_far: int = 0) -> int:
+    """Return the CRC of an array's elements in C order, after those of earlier parts."""
+    return zlib.crc32(np.ascontiguousarray(values).reshape(-1).view(np.uint8), so_far)
+
+
+def _check(variable: Any, found: int) -> None:
+    if found != variable.crc32:
+        raise ValueError(f"the checksum of {variable.name} does not match")
 
 
 def write_draws(
@@ -52,17 +76,21 @@ def write_draws(
     variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
     if spec.what:
         variable.long_name = spec.what
+    crc32 = 0
     for chain, some in _blocks(chains, draws, size):
         part = spec.values(stored[chain, some], shape)
-        variable[chain, some] = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
+        part = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
+        variable[chain, some] = part
+        crc32 = _crc32(part, crc32)
         written(part.size)
+    variable.crc32 = crc32
 
 
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
     """Read them back as they were kept.
 
     Raises:
-        ValueError: sizes that are not those of the file's cells.
+        ValueError: sizes that are not those of the file's cells, or numbers that are not those that were written.
     """
     chains, draws, *sizes = variable.shape
     if tuple(sizes) != shape:
@@ -70,8 +98,12 @@ def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArra
     out = spec.empty(chains, draws, shape)
     if variable.chunking() != "contiguous":
         variable.set_var_chunk_cache(size=math.prod(variable.chunking()) * variable.dtype.itemsize)
+    crc32 = 0
     for chain, some in _blocks(chains, draws, int(np.prod(shape))):
-        out[chain, some] = spec.stored(variable[chain, some])
+        part = variable[chain, some]
+        crc32 = _crc32(part, crc32)
+        out[chain, some] = spec.stored(part)
+    _check(variable, crc32)
     return out
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.io.saved_arrays import write_arrays
+from bayesmap.io.saved_arrays import read_array, write_arrays
 from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.motion_noise import MotionNoise
@@ -92,7 +92,7 @@ def read_trajectory(file: Any, numbers: Mapping[str, Any]) -> Trajectory:
     variables = file[GROUP].variables
 
     def read(name: str) -> Any:
-        return variables[name][:] if name in variables else None
+        return read_array(variables[name]) if name in variables else None
 
     def part(name: str) -> dict[str, Any]:
         return {field: read(f"{name}_{field}") for field in PARTS[name]}
