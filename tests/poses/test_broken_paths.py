@@ -145,7 +145,8 @@ def test_coarse_stamps_make_no_motion_impossible_and_hide_none(kind):
 )
 def test_a_trajectory_from_coarse_stamps_is_as_good_as_without_stamps(kind):
     """Scans 1.5 m apart, at 2.5 m/s: with a time of nothing in between, no robot could have made such a step."""
-    sparse, truth = SCANS.select(slice(None, None, 10)), TRUTH[::10]
+    recorded, driven = uneven_recording()
+    sparse, truth = recorded.select(slice(None, None, 10)), driven[::10]
     times = 1.7e9 + 0.6 * np.arange(len(sparse))
     found = infer_trajectory(replace(sparse, stamps_s=COARSE[kind](times)), threads=1)
     assert len(found.breaks) == 0
