@@ -77,6 +77,7 @@ def test_where_nothing_pulls_nothing_bends():
     assert not replace(gaussian, force=np.zeros_like(gaussian.force)).bends.any()
 
 
+@pytest.mark.full
 def test_draws_have_the_spread_of_the_covariances():
     """8000 draws have variances within 7 % (over four standard deviations, tails of Student's t included)."""
     _, gaussian = aligned(1, in_common=True)

@@ -26,10 +26,15 @@ def seen():
     return occupancy, grid, *scans.holdout(5)
 
 
-def test_the_true_map_is_understood_and_predicts(seen):
+@pytest.fixture(scope="module")
+def fit(seen):
+    occupancy, grid, train, _ = seen
+    return fit_map("true.yaml", occupancy, grid, train)
+
+
+def test_the_true_map_is_understood_and_predicts(seen, fit):
     """It did not, while cells that beams touch were given the values of the first ones of the grid."""
     occupancy, grid, train, held = seen
-    fit = fit_map("true.yaml", occupancy, grid, train)
     assert fit.values["stop_occupied"] > 0.3
     assert fit.values["stop_free"] < 0.01
     found = score_prediction(fit.predictor, held).nats_per_beam
@@ -40,9 +45,8 @@ def test_the_true_map_is_understood_and_predicts(seen):
     assert score_prediction(wrong.predictor, held).nats_per_beam < found - 1.5
 
 
-def test_what_was_fitted_is_the_predictor_s_map(seen):
-    occupancy, grid, train, _ = seen
-    fit = fit_map("true.yaml", occupancy, grid, train)
+def test_what_was_fitted_is_the_predictor_s_map(seen, fit):
+    occupancy, grid, _, _ = seen
     (stop,) = fit.predictor.batches(np.arange(grid.n_cells))
     np.testing.assert_allclose(stop[0], stop_probabilities(occupancy.ravel(), fit.values), rtol=1e-6)
 

@@ -93,6 +93,7 @@ def test_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it_too(mo
     assert p_values(m, twin).min() < ALPHA / TESTS
 
 
+@pytest.mark.full
 def test_with_the_prior_of_logs_too_whose_draws_are_mostly_nearly_nothing():
     """Beta(0.02, 0.2): compared where half of the mass lies below what single precision holds."""
     shape, prior, law = (2, 1), bm.Beta(), sensor(0.05)
