@@ -126,8 +126,7 @@ def test_of_a_browser():
 """
 
 
-@pytest.mark.parametrize("workers", [0, 2])
-@pytest.mark.parametrize("full", [False, True])
+@pytest.mark.parametrize(("workers", "full"), [(0, True), (2, False)])
 def test_the_last_lines_say_what_was_not_run_and_how_to_run_it(tmp_path, workers, full):
     (tmp_path / "test_two_tiers.py").write_text(TWO_TIERS)
     (tmp_path / "conftest.py").write_text((TESTS / "conftest.py").read_text())
