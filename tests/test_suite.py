@@ -34,6 +34,7 @@ class Plugin:
         self.events += [[collector.nodeid, *event] for event in events[before:]]
 
     def pytest_collection_finish(self, session):
+        self.used_s = time.process_time() - compiling_s
         self.collected = len(session.items)
 
 loader = importlib.machinery.SourceFileLoader
@@ -52,16 +53,16 @@ sys.dont_write_bytecode = True
 sys.addaudithook(watch)
 plugin = Plugin()
 code = pytest.main(["--full", "--collect-only", "-qq", "-s", "-p", "no:cacheprovider", "--assert=plain"], [plugin])
-used_s = time.process_time() - compiling_s
 jax, warp = (sys.modules.get(name) for name in ("jax._src.xla_bridge", "warp._src.context"))
 started = {"JAX": bool(jax and jax.backends_are_initialized()), "Warp": bool(warp and warp.runtime is not None)}
 with open(sys.argv[1], "w") as file:
-    json.dump({"code": int(code), "tests": plugin.collected, "events": plugin.events, "started": started, "used_s": used_s}, file)
+    told = {"code": int(code), "tests": plugin.collected, "events": plugin.events}
+    json.dump({**told, "started": started, "used_s": plugin.used_s}, file)
 """
 """Collects all tests and says what that did. What compiling Python takes, which bytecode files save, is left out."""
 
 LIMIT_S = 6.0
-"""Of processor time: 3 s on a quiet core, and twice that on one that shares its units with another busy thread."""
+"""Of processor time: 3 s on a quiet core, and twice that where another thread keeps the same core busy."""
 
 
 @pytest.fixture(scope="module")
@@ -125,8 +126,7 @@ def test_of_a_browser():
 """
 
 
-@pytest.mark.parametrize("workers", [0, 2])
-@pytest.mark.parametrize("full", [False, True])
+@pytest.mark.parametrize(("workers", "full"), [(0, True), (2, False)])
 def test_the_last_lines_say_what_was_not_run_and_how_to_run_it(tmp_path, workers, full):
     (tmp_path / "test_two_tiers.py").write_text(TWO_TIERS)
     (tmp_path / "conftest.py").write_text((TESTS / "conftest.py").read_text())

@@ -122,6 +122,7 @@ def test_no_bar_without_a_terminal_and_only_data_on_stdout(office, tmp_path, sho
     assert "\r" not in errors
 
 
+@pytest.mark.full
 def test_a_terminal_gets_a_bar_and_can_refuse_it(office, tmp_path, short):
     pty = pytest.importorskip("pty")
 

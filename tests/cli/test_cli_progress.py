@@ -53,6 +53,7 @@ def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
     shown = on_a_terminal(*asked, "-o", tmp_path / "seen")
     for name in ("tracing beams", "saving", "drawing the map", "scoring held-out beams", "comparing the chains"):
         assert name in shown, name
+    assert "sweeps ETA" in shown
     quiet = call(*asked, "-o", tmp_path / "piped")
     assert quiet.exit_code == 0
     assert "saving" not in quiet.stderr

@@ -155,6 +155,7 @@ def test_constant_odometry_is_refused_before_anything_is_written(log, tmp_path):
     assert not (tmp_path / "run").exists()
 
 
+@pytest.mark.full
 def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
     def worse(poses, stamps):
         poses[20:40] = poses[20]

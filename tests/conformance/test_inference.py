@@ -196,6 +196,7 @@ def test_particles_move_to_another_target():
     unbiased(jax.jit(jax.vmap(estimate))(jr.split(jr.key(0), 2000)), st.norm.logpdf(2.0, 0.0, 2**0.5))
 
 
+@pytest.mark.full
 def test_an_algorithm_is_a_distribution_of_the_open_choices():
     """With many particles its density is the posterior N(1, 1/2)'s, of a draw and of a given value."""
     target = Target(model, (), C["y"].set(2.0))

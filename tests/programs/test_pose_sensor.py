@@ -5,6 +5,7 @@ import jax.numpy as jnp
 import jax.random as jr
 import numpy as np
 import pytest
+from tiers import full_but
 
 import bayesmap as bm
 import bayesmap.gen as gen
@@ -32,7 +33,7 @@ def at(s, pose):
     return StaticRequest({"poses": IndexRequest(s, Update(C.v(pose)))})
 
 
-@pytest.mark.parametrize("depth", [0.0, 0.5])
+@pytest.mark.parametrize("depth", full_but([0.0, 0.5], 0.5))
 def test_beams_end_where_those_of_known_poses_do(depth):
     """From inside the grid and from outside, in walls and out of them; those of known poses are traced in float64."""
     rng = np.random.default_rng(1)
@@ -46,7 +47,7 @@ def test_beams_end_where_those_of_known_poses_do(depth):
     np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-4)
 
 
-@pytest.mark.parametrize("name", SENSORS)
+@pytest.mark.parametrize("name", full_but(list(SENSORS), "mixture"))
 def test_the_joint_is_that_of_known_poses_times_their_prior(name):
     model = unknown(SENSORS[name])
     choices = model.simulate(jr.key(0), ()).get_choices()
@@ -57,7 +58,7 @@ def test_the_joint_is_that_of_known_poses_times_their_prior(name):
     np.testing.assert_allclose(model.assess(choices, ())[0], expected, rtol=1e-4)
 
 
-@pytest.mark.parametrize("name", SENSORS)
+@pytest.mark.parametrize("name", full_but(list(SENSORS), "mixture"))
 def test_long_chains_of_edits(name):
     """400 edits of poses, walls and blocks: after each, weight, ends and score are those of a run from scratch."""
     model = unknown(SENSORS[name])
@@ -140,6 +141,7 @@ def walk(odometry):
     return (step.scan()(jnp.array(GUESSES[0]), odometry) @ "steps")[1]
 
 
+@pytest.mark.full
 def test_the_prior_may_be_a_motion_model():
     odometry = jnp.array([[0.3, 0.1, 0.2]] * 4)
     model = bm.mapping_model(GRID, walk(odometry), ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
