@@ -45,6 +45,8 @@ test("an edit that is refused is taken back, and why is said with its remedy", (
   assert.deepEqual(desk.walls, [[3, 3], ...WALLS]); // the other is still on its way
   assert.equal(desk.status, "Sensor 1 stands in a wall; choose a free cell");
   assert.equal(desk.session.status.level, "error");
+  desk.says("error", { text: "too many", refused: { seq: desk.session.acted } });
+  assert.deepEqual(desk.walls, WALLS);
 });
 
 test("the walls' version counts what changes them, and nothing else", () => {
@@ -331,9 +333,9 @@ test("why there is no path is no answer about views", () => {
   assert.equal(asked(desk, "views"), 1);
   desk.says("undecided", { of: "path", text: "plan: at the start the disc touches something" });
   assert.deepEqual([decisions.trouble, decisions.viewTrouble], ["At the start the disc touches something.", ""]);
-  const views = { pose: Float32Array.of(1, 1, 0, 5, 5, 1), nats: Float32Array.of(3, 7) };
+  const views = { pose: Float32Array.of(5, 1, 3, 5, 9, 0), nats: Float32Array.of(3, 7) };
   desk.says("views", { spacing: 1 }, views);
-  assert.deepEqual([decisions.nearest({ x: 4, y: 4 }), decisions.nearest({ x: 0, y: 2 })], [1, 0]);
+  assert.deepEqual([decisions.nearest({ x: 5, y: 8 }), decisions.nearest({ x: 5, y: 2 })], [1, 0]);
   decisions.look(false);
   assert.equal(decisions.views, null);
   desk.says("views", { spacing: 1 }, views); // too late
@@ -419,11 +421,11 @@ test("the robot's place is asked for one question at a time, of the sensor in th
   assert.equal(where.trouble, "");
 });
 
-/** A desk with a scan of three beams, from (2, 2) along x, along y, and between them, the last with no return. */
+/** A desk with a scan from (2, 2): beams along x, along y, between them with no return, and one that passes by the first one's end. */
 function withScan() {
   const desk = new Desk({ ...LOG, max_range: 10 });
   const scan = (index: number) =>
-    desk.says("scan", { generation: desk.session.generation, ids: [index], index }, { pose: Float64Array.of(2, 2, 0), angles: Float32Array.of(0, Math.PI / 2, Math.PI / 4), ranges: Float32Array.of(5, 3, Infinity), exact: new Float32Array(0), hit: Uint8Array.of(1, 1, 0) });
+    desk.says("scan", { generation: desk.session.generation, ids: [index], index }, { pose: Float64Array.of(2, 2, 0), angles: Float32Array.of(0, Math.PI / 2, Math.PI / 4, 0.02), ranges: Float32Array.of(5, 3, Infinity, 9), exact: new Float32Array(0), hit: Uint8Array.of(1, 1, 0, 1) });
   scan(3);
   return { desk, scan };
 }
@@ -435,7 +437,7 @@ test("the reading nearest to the pointer is picked, a line for want of one, and 
     reading.point({ x, y }, 0.4);
     return reading.picked?.beam ?? null;
   };
-  assert.deepEqual([at(7.1, 2.1), at(2, 5.2), at(8, 8), at(6, 2.05), at(9, 2), at(0, 0)], [0, 1, 2, 0, null, null]);
+  assert.deepEqual([at(7, 2.1), at(2, 5.2), at(8, 8), at(6, 2), at(9, 1.7), at(0, 0)], [0, 1, 2, 0, null, null]);
   reading.point(null, 0.4);
   assert.equal(reading.picked, null);
 });

@@ -250,6 +250,7 @@ test("where the robot may be, in words", () => {
   assert.match(said([place(0.7, 9), place(0.3)]), /2 places: 70 %, 30 %. The likeliest: 9.00, 4.00 m.*The robot stands 10 cm and 0.0\u00b0 from the 2nd/);
   assert.match(said(Array.from({ length: 7 }, () => place(1 / 7))), /7 places: (14 %, ){5}14 % and less/);
   assert.match(said([place(1, 3, 5)]), /It may be almost anywhere/);
+  assert.match(said([...Array.from({ length: 10 }, () => place(0.1, 9)), place(0.05)]), / from the 11th\./);
   assert.match(said([place(1)], { p_lost: 0.2 }), /That it is lost, or the map outdated, has probability 0.20/);
   assert.match(said([place(1)], { p_lost: 0.9 }), /The scan fits nowhere on this map, with probability 0.90/);
   assert.match(said([], { trouble: "there are no draws yet" }), /There are no draws yet\./);

@@ -114,7 +114,7 @@ class Served:
     """
 
     def __init__(self, file=None, port=0, started=None):
-        self._servers, self._hubs, ready = [], [], threading.Event()
+        self._servers, self._hubs, self._trouble, ready = [], [], None, threading.Event()
 
         class Server(app_server._Server):
             def __init__(own, *arguments):
@@ -130,14 +130,18 @@ class Served:
             ready.set()
 
         def run():
-            with contextlib.closing(app_server.listen("127.0.0.1", port)) as found:
-                asyncio.run(app_server._serve(hub, found, "127.0.0.1", announce, Server))
+            try:
+                with contextlib.closing(app_server.listen("127.0.0.1", port)) as found:
+                    asyncio.run(app_server._serve(hub, found, "127.0.0.1", announce, Server))
+            except Exception as trouble:
+                self._trouble = trouble
 
         self._thread = threading.Thread(target=run, name="bayesmap_served")
         self._thread.start()
         deadline = time.monotonic() + WAIT_SECONDS
         while not ready.wait(0.2):
-            assert self._thread.is_alive(), "the server ended before it answered"
+            if not self._thread.is_alive():
+                raise AssertionError("the server ended before it answered") from self._trouble
             assert time.monotonic() < deadline, "the server did not answer"
 
     @property
@@ -154,6 +158,7 @@ class Served:
         for server in self._servers:
             server.force_exit = server.should_exit = True
         self._thread.join()
+        assert self._trouble is None, self._trouble
 
 
 @contextlib.contextmanager
