@@ -7,7 +7,7 @@ import pytest
 from rooms import offset, scan_from, walls_of
 
 import bayesmap as bm
-from bayesmap.localization.external_map import ASSUMED, external_map, fit_law
+from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, searched
 from bayesmap.localization.filter import shared_by_evidence
 from bayesmap.localization.known_map import UsualFit
 from bayesmap.localization.localize import localize
@@ -47,6 +47,20 @@ def room():
 def law(room):
     occupancy, grid, moved, _ = room
     return fit_law(occupancy, grid, moved)
+
+
+def test_scans_of_unlike_beams_are_searched_by_their_own(room):
+    """Angles tremble, and yaw makes up for it: the same readings fit as well; the twin's do not."""
+    occupancy, grid, _, truth = room
+    walls, few = occupancy > 0.5, truth[:6]
+    scans = scan_from(walls, grid, few, LASER, np.arange(72) * np.pi / 36)
+    known = external_map(occupancy, grid, scans)
+    tremble = np.linspace(-0.3, 0.3, 6)[:, None]
+    own = replace(scans, own_angles_rad=scans.angles_by_scan() + tremble)
+    turned = few - tremble * [0.0, 0.0, 1.0]
+    usual, _ = searched(known, scans, few, 0)
+    assert searched(known, own, turned, 0)[0].right == pytest.approx(usual.right, abs=1e-3)
+    assert searched(known, own, few, 0)[0].right < usual.right - 0.1
 
 
 def test_the_law_is_that_of_the_scans(room, law):

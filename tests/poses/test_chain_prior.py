@@ -15,7 +15,7 @@ def test_odometry_that_missed_a_turn_does_not_turn_the_scans_of_the_chains():
     """The log says firmly that the robot stood still between two scans that the walls hold half a radian apart."""
     scans = Scans(TURNED, np.array([0.0]), np.ones((3, 1)), 2.0)
     stood = Factors(np.arange(2), np.arange(1, 3), np.zeros((2, 3)), np.tile(np.eye(3) / 0.002**2, (2, 1, 1)))
-    calibration = SimpleNamespace(angles_rad=scans.angles_rad)
+    calibration = SimpleNamespace(angle_step_ratio=1.0)
     found = SimpleNamespace(
         keys=np.arange(3), order=np.arange(3), poses=TURNED, odometry=stood, calibration=calibration,
         draw=lambda count, seed: np.tile(TURNED, (count, 1, 1)),

@@ -199,15 +199,15 @@ def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[U
     rng = np.random.default_rng(seed)
     right, wrong, missed = [], [], 0
     scores: list[Floats] = []
-    for pose, readings in zip(poses, scans.ranges_m, strict=True):
-        belief = update(known, Prior(), Scan(scans.angles_rad, readings, limits), rng, look_everywhere=True)
+    for pose, angles, readings in zip(poses, scans.angles_by_scan(), scans.ranges_m, strict=True):
+        belief = update(known, Prior(), Scan(angles, readings, limits), rng, look_everywhere=True)
         places = belief.places(1e-9)
         means = np.array([place.mean for place in places])
         off = between(pose, means)
         away = np.hypot(off[:, 0], off[:, 1]) + np.abs(off[:, 2])
         beams = max(1, int((~np.isnan(readings)).sum()))
         asked = np.concatenate([pose[None], means[away > APART_PLACES_M]])
-        nats = known.log_likelihood(asked, scans.angles_rad, readings, limits, weight=1.0) / beams
+        nats = known.log_likelihood(asked, angles, readings, limits, weight=1.0) / beams
         right.append(nats[0])
         wrong.extend([nats[1:].max()] if len(nats) > 1 else [])
         own = away < NEAR_M
