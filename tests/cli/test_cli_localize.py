@@ -96,6 +96,9 @@ def test_bad_maps_are_named(office, tmp_path, lines, message):
     result = call("localize", path, office)
     assert result.exit_code == 3, result.stderr
     assert message in result.stderr
+    result = call("localize", tmp_path / "map.pgm", office)
+    assert result.exit_code == 3
+    assert "the image of a map; give the YAML file" in result.stderr
 
 
 def test_chances_are_written_as_people_write_them():

@@ -190,7 +190,7 @@ LOCALIZE = (
         float,
         None,
         "How much of an independent reading a beam is.",
-        "5.4 / beams; which of several places: 2.7",
+        "5.4 / beams; which of several places: 2.7, or as fitted to MAP.yaml",
     ),
     *READING,
     SEED,

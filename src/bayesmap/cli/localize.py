@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
+IMAGES = (".pgm", ".png", ".bmp")
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 
 
@@ -166,6 +167,8 @@ class _Map:
             return cls(values, external=read_map(file))
         from bayesmap.result import load
 
+        if Path(file).suffix.lower() in IMAGES and Path(file).exists():
+            raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
         return cls(values, run=load(file))
 
     @property

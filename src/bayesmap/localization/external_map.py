@@ -48,7 +48,14 @@ ASSUMED: Mapping[str, float] = {
 law passes them by (`bayesmap.kernels.pose_weights`)."""
 
 WARY = Trust(
-    shared_way_m=1.5, shared_error_m=0.08, carried=3e-3, search_way_m=1.0, kept=12, least_draws=1.0, forgotten_nats=30.0
+    place_readings=3.8,
+    shared_way_m=1.5,
+    shared_error_m=0.08,
+    carried=3e-3,
+    search_way_m=1.0,
+    kept=12,
+    least_draws=1.0,
+    forgotten_nats=30.0,
 )
 """How far a map is trusted of which nobody says how good it is."""
 

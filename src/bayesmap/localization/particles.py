@@ -125,7 +125,7 @@ def student_draws(count: int, rng: np.random.Generator) -> Floats:
     return np.asarray(stretch * ndtri(even[:, :3]))
 
 
-def shared_out(components: PoseMixture, most: int, least: float) -> NDArray[np.intp]:
+def shared_out(components: PoseMixture, most: int, least: float = 1 / 3) -> NDArray[np.intp]:
     """Draws for each place, (K,): as the root of its mass, by which its error counts; at least a share of the most."""
     shares = np.exp(0.5 * (components.log_mass - components.log_mass.max()))
     return np.asarray(np.maximum(np.round(most * shares), int(most * least)), dtype=np.intp)
