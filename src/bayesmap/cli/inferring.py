@@ -47,7 +47,7 @@ def names_of(section: str) -> list[str]:
 def stem(log: str) -> str:
     """The name of a log without its folder and its endings."""
     name = os.path.basename(os.path.normpath(log))
-    for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz"):
+    for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz", ".rawlog"):
         name = name.removesuffix(ending)
     return name or "log"
 

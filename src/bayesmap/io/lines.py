@@ -57,6 +57,26 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], Non
         yield number + 1, rest
 
 
+def file_chunks(path: str | os.PathLike[str]) -> Iterator[bytes]:
+    """Return the content of a file in pieces, decompressed if it is gzipped.
+
+    Raises:
+        DamagedFile: a damaged or truncated gzip stream, after all that could be read.
+        BadInput: no such file, or no permission.
+    """
+    name = os.fspath(path)
+    try:
+        with Path(path).open("rb") as file:
+            yield from _chunks(file)
+    except (EOFError, zlib.error) as error:
+        raise DamagedFile(
+            f"{name}: the gzip file is damaged or cut short ({error}); copy it again, or read what is there with "
+            "--skip-bad-lines"
+        ) from None
+    except OSError as error:
+        raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
+
+
 def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
     """Return the pieces of a text without its byte order mark, and UTF-16 that follows one as UTF-8."""
     pieces, start = iter(pieces), b""

@@ -42,7 +42,8 @@ class LogReading:
 
     Attributes:
         path: the file or folder.
-        format: ``"carmen"``, ``"g2o"``, ``"csv"``, ``"npz"``, ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``.
+        format: ``"carmen"``, ``"g2o"``, ``"csv"``, ``"npz"``, ``"rawlog"``, ``"rosbag1"``, ``"rosbag2-sqlite3"`` or
+            ``"mcap"``.
         message: the kind of message that the scans come from, such as ``"FLASER"`` or
             ``"sensor_msgs/msg/LaserScan"``.
         scans: the scans in order of time; their poses are the laser's.

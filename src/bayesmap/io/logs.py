@@ -21,6 +21,7 @@ from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, Pose
 from bayesmap.io.npz_scans import MAGIC as NPZ_MAGIC
 from bayesmap.io.npz_scans import read_npz
+from bayesmap.io.rawlog import read_rawlog, starts_as_rawlog
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import SAME_S, coarse_stamps_note
 from bayesmap.space.travel import jumps, steps_m, thinned
@@ -32,9 +33,10 @@ FORMATS = (
     "g2o and TORO (VERTEX_SE2 or VERTEX2 with laser lines)",
     "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p)",
     "NumPy .npz",
+    "MRPT's .rawlog",
 )
 LINES_LOOKED_AT = 1000
-ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz")
+ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
 """What logs that are files are usually called."""
 SAVED_RUNS = (b"\x89HDF", b"CDF")
 """How netCDF files begin."""
@@ -140,6 +142,8 @@ def describe_log(
         lines = {**how, "skip_bad_lines": skip_bad_lines}
         if kind == "npz":
             reading = read_npz(path, **how, without_poses=without_poses)
+        elif kind == "rawlog":
+            reading = read_rawlog(path, **lines, without_poses=without_poses)
         elif kind == "g2o":
             reading = read_g2o(path, **lines)
         else:
@@ -152,7 +156,7 @@ def describe_log(
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """What a log is, by what is in it: one of `TEXT_FORMATS`, ``"npz"`` or of `RECORDINGS`.
+    """What a log is, by what is in it: one of `TEXT_FORMATS`, ``"npz"``, ``"rawlog"`` or of `RECORDINGS`.
 
     Raises:
         BadInput: a file that cannot be read, is empty, or is of no known format.
@@ -182,7 +186,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
         return "npz"
     if start.startswith(SAVED_RUNS):
         raise BadInput(f"{name}: a saved run or another netCDF file, not a log; give the log")
-    return _text_format(name)
+    return "rawlog" if starts_as_rawlog(where) else _text_format(name)
 
 
 def _text_format(name: str) -> str:
