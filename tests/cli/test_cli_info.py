@@ -176,7 +176,9 @@ def test_poses_under_which_walls_stand_twice_are_not_always_raw_odometry(tmp_pat
     size = ("--size", "12x8", "--scans", "60", "--angles", "90", "--max-range", "12")
     assert call("simulate", "--world", "building", *size, "-o", log).exit_code == 0
     scans = read_log(log)
-    np.savez(turned, poses=scans.poses + np.array([0.0, 0.0, np.pi]), angles_rad=scans.angles_rad, ranges_m=scans.ranges_m)
+    np.savez(
+        turned, poses=scans.poses + np.array([0.0, 0.0, np.pi]), angles_rad=scans.angles_rad, ranges_m=scans.ranges_m
+    )
     shown = call("info", turned).stdout
     assert "the same walls stand in several places" in shown
     assert "--laser X,Y,DEGREES" in shown

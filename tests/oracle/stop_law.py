@@ -157,7 +157,7 @@ def draw_covariances(rng, prior, count):
         a2, c2, b = rng.chisquare(prior.dof, size), rng.chisquare(prior.dof - 1, size), rng.standard_normal(size)
         rows = [[(1 + b**2 / c2) / a2, -b / (np.sqrt(a2) * c2)], [-b / (np.sqrt(a2) * c2), 1 / c2]]
         more = prior.spread**2 * np.moveaxis(np.array(rows), -1, 0)  # of the inverse of A A'
-        keep = rng.random(len(more)) < np.exp(-np.trace(more, axis1=1, axis2=2) / (2 * prior.extent**2))
+        keep = rng.random(len(more)) < np.exp(-np.trace(more, axis1=1, axis2=2) / (2 * prior.size_scale**2))
         sigma = np.concatenate([sigma, more[keep]])
     return sigma[:count]
 
@@ -177,7 +177,7 @@ def log_prior(prior, states, centres):
         # d(Sigma11, Sigma21, Sigma22) = 4 l11^3 l22^2 d(log l11, l21, log l22)
         jacobian = np.log(4) + 3 * np.log(states[..., 3]) + 2 * np.log(states[..., 5])
         of_mean = scipy.stats.norm.logpdf(states[..., 1:3], centres, prior.mean_scale * edge).sum(axis=-1)
-        thinned = -np.trace(sigma, axis1=1, axis2=2).reshape(m.shape) / (2 * (prior.extent * edge) ** 2)
+        thinned = -np.trace(sigma, axis1=1, axis2=2).reshape(m.shape) / (2 * (prior.size_scale * edge) ** 2)
         outside = (abs(states[..., 1:3] - centres) > 0.5 * edge).any(axis=-1)
         total = np.where(outside, -np.inf, total + of_sigma + jacobian + of_mean + thinned)
     return total
