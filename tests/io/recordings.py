@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 from rosbags.interfaces import Nodetype
 from rosbags.rosbag1 import Writer as Writer1
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import bayesmap as bm
+from bayesmap.io.compression import zstd
 
 T0 = 1_700_000_000 * 10**9
 SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
@@ -39,6 +40,15 @@ def ros1():
 
 
 WRITERS = ("rosbag1", "sqlite3", "db3", "mcap-folder", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "mcap-ros1")
+COMPRESSED = {
+    "rosbag1-bz2": Writer1.CompressionFormat.BZ2,
+    "rosbag1-lz4": Writer1.CompressionFormat.LZ4,
+    "db3-messages": CompressionMode.MESSAGE,
+    "db3-file": CompressionMode.FILE,
+    "mcap-messages": CompressionMode.MESSAGE,
+    "mcap-file": CompressionMode.FILE,
+}
+"""Bags whose chunks are compressed, and single files of a folder whose messages, or which themselves, are."""
 
 
 def ns(seconds):
@@ -100,19 +110,35 @@ def sonar(seconds, reading, frame="sonar"):
     }  # fmt: skip
 
 
-def written(path: Path, messages, writer="mcap", finish=True):
-    """Write (topic, type, seconds received, message) and return what to read: a file or a folder."""
-    return {"rosbag1": _rosbag1, "mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
+def written(path: Path, messages, writer="mcap", definitions=None):
+    """Write (topic, type, seconds received, message) and return what to read: a file or a folder.
+
+    Of a ROS 1 bag ``definitions`` may say what stands in it for a type: text and MD5 sum.
+    """
+    if writer.startswith("rosbag1"):
+        return _rosbag1(Path(path), messages, writer, definitions or {})
+    return {"mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
 
 
-def _rosbag1(path, messages, _):
+def packed(content):
+    """By zstd in blocks of 4 kB, so that what breaks off can be unpacked as far as it goes."""
+    packer = zstd().ZstdCompressor()
+    blocks = (packer.compress(content[i : i + 4096], packer.FLUSH_BLOCK) for i in range(0, len(content), 4096))
+    return b"".join(blocks) + packer.flush()
+
+
+def _rosbag1(path, messages, writer, definitions):
     file = path / "recording.bag"
     file.parent.mkdir(parents=True, exist_ok=True)
-    with Writer1(file) as bag:
+    bag = Writer1(file)
+    if writer in COMPRESSED:
+        bag.set_compression(COMPRESSED[writer])
+    with bag:
         connections = {}
         for topic, kind, seconds, message in messages:
             if topic not in connections:
-                connections[topic] = bag.add_connection(topic, kind, typestore=ros1())
+                text, md5 = definitions.get(kind) or ros1().generate_msgdef(kind, ros_version=1)
+                connections[topic] = bag.add_connection(topic, kind, msgdef=text, md5sum=md5)
             bag.write(connections[topic], ns(seconds), ros1().serialize_ros1(_built(ros1(), kind, message), kind))
     return file
 
@@ -122,14 +148,19 @@ def _ros2(path, messages, writer):
         return _mcap_ros2(path, messages, writer.removeprefix("mcap-"))
     folder = path / "recording"
     folder.parent.mkdir(parents=True, exist_ok=True)
-    storage = StoragePlugin.SQLITE3 if writer in ("sqlite3", "db3") else StoragePlugin.MCAP
-    with Writer2(folder, version=9, storage_plugin=storage) as bag:
+    storage = StoragePlugin.SQLITE3 if writer.startswith(("sqlite3", "db3")) else StoragePlugin.MCAP
+    bag = Writer2(folder, version=9, storage_plugin=storage)
+    if writer in COMPRESSED:
+        bag.set_compression(COMPRESSED[writer], CompressionFormat.ZSTD)
+    with bag:
         connections = {}
         for topic, kind, seconds, message in messages:
             if topic not in connections:
                 connections[topic] = bag.add_connection(topic, kind, typestore=ros2())
             bag.write(connections[topic], ns(seconds), ros2().serialize_cdr(_built(ros2(), kind, message), kind))
-    return {"db3": folder / "recording.db3", "mcap": folder / "recording.mcap"}.get(writer, folder)
+    if writer in ("sqlite3", "mcap-folder"):
+        return folder
+    return next(file for file in folder.iterdir() if file.name != "metadata.yaml")
 
 
 def _mcap_ros2(path, messages, compression):
