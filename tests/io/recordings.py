@@ -249,11 +249,11 @@ def on(poses, offset=MOUNT):
     return np.stack([x + np.cos(yaw) * dx - np.sin(yaw) * dy, y + np.sin(yaw) * dx + np.cos(yaw) * dy, yaw + turn], -1)
 
 
-def simulated(seconds, sensor=None):
+def simulated(seconds, sensor=None, path=path_of, mount=MOUNT):
     """The scans of the robot's laser at some times; ranges in single precision, as messages carry them."""
     walls, _ = bm.worlds.tutorial()
     grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
-    poses = on(path_of(seconds))
+    poses = on(path(seconds), mount)
     sensor = bm.BeamMixture(bm.Gaussian(0.03), p_no_return=0.1, p_short=0.0) if sensor is None else sensor
     scans = bm.simulate(walls, grid, poses, ANGLES, sensor=sensor, max_range_m=42.0, min_range_m=0.1, seed=1)
     stamps = np.array([ns(t) for t in seconds]) * 1e-9
@@ -267,20 +267,42 @@ POSE_TIMES = 0.25 * np.arange(21)
 """Poses come four times a second, at other times than scans."""
 
 
-def robot(tf_poses=True, odom=False, static=True):
-    """The messages of a robot on its path, and the scans as they were simulated."""
-    scans = simulated(SCAN_TIMES)
+def robot(
+    tf_poses=True, odom=False, static=True, *, path=path_of, mount=MOUNT, space="", tf_space=None, prefix="", late=0.0
+):
+    """The messages of a robot on its path, and the scans as they were simulated.
+
+    Args:
+        tf_poses: whether /tf holds its poses.
+        odom: whether /odom holds them.
+        static: whether the laser's place on the robot is on /tf_static.
+        path: the robot's pose over time.
+        mount: the laser on the robot.
+        space: the namespace of its topics.
+        tf_space: that of its topics of transforms, if another.
+        prefix: of its frames.
+        late: by how much the poses come later than at `POSE_TIMES`, in seconds.
+    """
+    scans = simulated(SCAN_TIMES, path=path, mount=mount)
     messages = []
+    tf_space = space if tf_space is None else tf_space
+    frame = [prefix + name for name in ("map", "odom", "base_link", "laser")]
     if static:
-        messages.append(("/tf_static", TF, 0.0, tf(transform(0.0, "base_link", "laser", *MOUNT, z=0.4))))
-    for t, (x, y, yaw) in zip(POSE_TIMES, path_of(POSE_TIMES), strict=True):
+        messages.append((f"{tf_space}/tf_static", TF, 0.0, tf(transform(0.0, *frame[2:], *mount, z=0.4))))
+    times = POSE_TIMES + late
+    for t, (x, y, yaw) in zip(times, path(times), strict=True):
         if tf_poses:
             # The map's own frame is 1 m and a quarter turn from the odometry's.
             odom_pose = (y - 1.0, -x, yaw - math.pi / 2)
-            messages.append(("/tf", TF, t, tf(transform(t, "odom", "base_link", *odom_pose))))
-            messages.append(("/tf", TF, t, tf(transform(t, "map", "odom", 0.0, 1.0, math.pi / 2))))
+            messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[1:3], *odom_pose))))
+            messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[:2], 0.0, 1.0, math.pi / 2))))
         if odom:
-            messages.append(("/odom", ODOM, t, odometry(t, x, y, yaw)))
+            messages.append((f"{space}/odom", ODOM, t, odometry(t, x, y, yaw, frame[1], frame[2])))
     for t, row in zip(SCAN_TIMES, scans.ranges_m, strict=True):
-        messages.append(("/scan", SCAN, t + 0.02, laser(t, row, ANGLES)))
+        messages.append((f"{space}/scan", SCAN, t + 0.02, laser(t, row, ANGLES, frame[3])))
     return sorted(messages, key=lambda m: m[2]), scans
+
+
+def merged(*parts):
+    """Several robots' messages in the order of receipt."""
+    return sorted((message for part in parts for message in part), key=lambda message: message[2])
