@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 from rosbags.interfaces import Nodetype
 from rosbags.rosbag1 import Writer as Writer1
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import bayesmap as bm
+from bayesmap.io.compression import zstd
 
 T0 = 1_700_000_000 * 10**9
 SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
@@ -39,6 +40,15 @@ def ros1():
 
 
 WRITERS = ("rosbag1", "sqlite3", "db3", "mcap-folder", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "mcap-ros1")
+COMPRESSED = {
+    "rosbag1-bz2": Writer1.CompressionFormat.BZ2,
+    "rosbag1-lz4": Writer1.CompressionFormat.LZ4,
+    "db3-messages": CompressionMode.MESSAGE,
+    "db3-file": CompressionMode.FILE,
+    "mcap-messages": CompressionMode.MESSAGE,
+    "mcap-file": CompressionMode.FILE,
+}
+"""Bags whose chunks are compressed, and single files of a folder whose messages, or which themselves, are."""
 
 
 def ns(seconds):
@@ -100,19 +110,35 @@ def sonar(seconds, reading, frame="sonar"):
     }  # fmt: skip
 
 
-def written(path: Path, messages, writer="mcap", finish=True):
-    """Write (topic, type, seconds received, message) and return what to read: a file or a folder."""
-    return {"rosbag1": _rosbag1, "mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
+def written(path: Path, messages, writer="mcap", definitions=None):
+    """Write (topic, type, seconds received, message) and return what to read: a file or a folder.
+
+    Of a ROS 1 bag ``definitions`` may say what stands in it for a type: text and MD5 sum.
+    """
+    if writer.startswith("rosbag1"):
+        return _rosbag1(Path(path), messages, writer, definitions or {})
+    return {"mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
 
 
-def _rosbag1(path, messages, _):
+def packed(content):
+    """By zstd in blocks of 4 kB, so that what breaks off can be unpacked as far as it goes."""
+    packer = zstd().ZstdCompressor()
+    blocks = (packer.compress(content[i : i + 4096], packer.FLUSH_BLOCK) for i in range(0, len(content), 4096))
+    return b"".join(blocks) + packer.flush()
+
+
+def _rosbag1(path, messages, writer, definitions):
     file = path / "recording.bag"
     file.parent.mkdir(parents=True, exist_ok=True)
-    with Writer1(file) as bag:
+    bag = Writer1(file)
+    if writer in COMPRESSED:
+        bag.set_compression(COMPRESSED[writer])
+    with bag:
         connections = {}
         for topic, kind, seconds, message in messages:
             if topic not in connections:
-                connections[topic] = bag.add_connection(topic, kind, typestore=ros1())
+                text, md5 = definitions.get(kind) or ros1().generate_msgdef(kind, ros_version=1)
+                connections[topic] = bag.add_connection(topic, kind, msgdef=text, md5sum=md5)
             bag.write(connections[topic], ns(seconds), ros1().serialize_ros1(_built(ros1(), kind, message), kind))
     return file
 
@@ -122,14 +148,19 @@ def _ros2(path, messages, writer):
         return _mcap_ros2(path, messages, writer.removeprefix("mcap-"))
     folder = path / "recording"
     folder.parent.mkdir(parents=True, exist_ok=True)
-    storage = StoragePlugin.SQLITE3 if writer in ("sqlite3", "db3") else StoragePlugin.MCAP
-    with Writer2(folder, version=9, storage_plugin=storage) as bag:
+    storage = StoragePlugin.SQLITE3 if writer.startswith(("sqlite3", "db3")) else StoragePlugin.MCAP
+    bag = Writer2(folder, version=9, storage_plugin=storage)
+    if writer in COMPRESSED:
+        bag.set_compression(COMPRESSED[writer], CompressionFormat.ZSTD)
+    with bag:
         connections = {}
         for topic, kind, seconds, message in messages:
             if topic not in connections:
                 connections[topic] = bag.add_connection(topic, kind, typestore=ros2())
             bag.write(connections[topic], ns(seconds), ros2().serialize_cdr(_built(ros2(), kind, message), kind))
-    return {"db3": folder / "recording.db3", "mcap": folder / "recording.mcap"}.get(writer, folder)
+    if writer in ("sqlite3", "mcap-folder"):
+        return folder
+    return next(file for file in folder.iterdir() if file.name != "metadata.yaml")
 
 
 def _mcap_ros2(path, messages, compression):
@@ -218,11 +249,11 @@ def on(poses, offset=MOUNT):
     return np.stack([x + np.cos(yaw) * dx - np.sin(yaw) * dy, y + np.sin(yaw) * dx + np.cos(yaw) * dy, yaw + turn], -1)
 
 
-def simulated(seconds, sensor=None):
+def simulated(seconds, sensor=None, path=path_of, mount=MOUNT):
     """The scans of the robot's laser at some times; ranges in single precision, as messages carry them."""
     walls, _ = bm.worlds.tutorial()
     grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
-    poses = on(path_of(seconds))
+    poses = on(path(seconds), mount)
     sensor = bm.BeamMixture(bm.Gaussian(0.03), p_no_return=0.1, p_short=0.0) if sensor is None else sensor
     scans = bm.simulate(walls, grid, poses, ANGLES, sensor=sensor, max_range_m=42.0, min_range_m=0.1, seed=1)
     stamps = np.array([ns(t) for t in seconds]) * 1e-9
@@ -236,20 +267,42 @@ POSE_TIMES = 0.25 * np.arange(21)
 """Poses come four times a second, at other times than scans."""
 
 
-def robot(tf_poses=True, odom=False, static=True):
-    """The messages of a robot on its path, and the scans as they were simulated."""
-    scans = simulated(SCAN_TIMES)
+def robot(
+    tf_poses=True, odom=False, static=True, *, path=path_of, mount=MOUNT, space="", tf_space=None, prefix="", late=0.0
+):
+    """The messages of a robot on its path, and the scans as they were simulated.
+
+    Args:
+        tf_poses: whether /tf holds its poses.
+        odom: whether /odom holds them.
+        static: whether the laser's place on the robot is on /tf_static.
+        path: the robot's pose over time.
+        mount: the laser on the robot.
+        space: the namespace of its topics.
+        tf_space: that of its topics of transforms, if another.
+        prefix: of its frames.
+        late: by how much the poses come later than at `POSE_TIMES`, in seconds.
+    """
+    scans = simulated(SCAN_TIMES, path=path, mount=mount)
     messages = []
+    tf_space = space if tf_space is None else tf_space
+    frame = [prefix + name for name in ("map", "odom", "base_link", "laser")]
     if static:
-        messages.append(("/tf_static", TF, 0.0, tf(transform(0.0, "base_link", "laser", *MOUNT, z=0.4))))
-    for t, (x, y, yaw) in zip(POSE_TIMES, path_of(POSE_TIMES), strict=True):
+        messages.append((f"{tf_space}/tf_static", TF, 0.0, tf(transform(0.0, *frame[2:], *mount, z=0.4))))
+    times = POSE_TIMES + late
+    for t, (x, y, yaw) in zip(times, path(times), strict=True):
         if tf_poses:
             # The map's own frame is 1 m and a quarter turn from the odometry's.
             odom_pose = (y - 1.0, -x, yaw - math.pi / 2)
-            messages.append(("/tf", TF, t, tf(transform(t, "odom", "base_link", *odom_pose))))
-            messages.append(("/tf", TF, t, tf(transform(t, "map", "odom", 0.0, 1.0, math.pi / 2))))
+            messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[1:3], *odom_pose))))
+            messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[:2], 0.0, 1.0, math.pi / 2))))
         if odom:
-            messages.append(("/odom", ODOM, t, odometry(t, x, y, yaw)))
+            messages.append((f"{space}/odom", ODOM, t, odometry(t, x, y, yaw, frame[1], frame[2])))
     for t, row in zip(SCAN_TIMES, scans.ranges_m, strict=True):
-        messages.append(("/scan", SCAN, t + 0.02, laser(t, row, ANGLES)))
+        messages.append((f"{space}/scan", SCAN, t + 0.02, laser(t, row, ANGLES, frame[3])))
     return sorted(messages, key=lambda m: m[2]), scans
+
+
+def merged(*parts):
+    """Several robots' messages in the order of receipt."""
+    return sorted((message for part in parts for message in part), key=lambda message: message[2])

@@ -1,12 +1,17 @@
 """Recordings read back as the scans that were simulated, whoever wrote them."""
 
+import bz2
+import gc
+import gzip
 import math
+import struct
 
 import numpy as np
 import pytest
 import recordings as r
 
 import bayesmap as bm
+from bayesmap.io.compression import zstd
 from bayesmap.io.logs import describe_log, read_log
 
 
@@ -20,7 +25,7 @@ def same(read, wanted, atol=1e-9):
     assert (read.min_range_m, read.max_range_m) == (wanted.min_range_m, wanted.max_range_m)
 
 
-@pytest.mark.parametrize("writer", r.WRITERS)
+@pytest.mark.parametrize("writer", [*r.WRITERS, *r.COMPRESSED])
 def test_scans_and_poses_by_tf_are_those_that_were_simulated(tmp_path, writer):
     messages, scans = r.robot()
     reading = describe_log(r.written(tmp_path, messages, writer))
@@ -383,3 +388,104 @@ def test_poses_are_not_looked_at_where_none_are_needed(tmp_path):
     turned = describe_log(r.written(tmp_path / "turned", messages), without_poses=True)
     np.testing.assert_allclose(turned.scans.angles_rad, -reading.scans.angles_rad)
     assert "upside down" in turned.notes[0]
+
+
+@pytest.mark.parametrize("writer", ["rosbag1", "db3", "mcap"])
+@pytest.mark.parametrize("pack", [gzip.compress, bz2.compress, zstd().compress])
+def test_a_recording_packed_as_a_whole_is_read(tmp_path, writer, pack):
+    messages, scans = r.robot()
+    path = tmp_path / "packed"
+    path.write_bytes(pack(r.written(tmp_path, messages, writer).read_bytes()))
+    same(read_log(path), scans)
+
+
+@pytest.mark.parametrize("ending", ["zstd", "zst"])
+@pytest.mark.parametrize("writer", ["db3", "mcap"])
+def test_packed_files_without_their_metadata_are_one_recording(tmp_path, writer, ending):
+    messages, scans = r.robot()
+    folder = tmp_path / "split"
+    folder.mkdir()
+    for i, part in enumerate((messages[:30], messages[30:])):
+        packed = r.written(tmp_path / f"part{i}", part, f"{writer}-file")
+        packed.rename(folder / f"split_{i}.{writer}.{ending}")
+    reading = describe_log(folder)
+    same(reading.scans, scans)
+    assert "its 2 files were read" in reading.notes[0]
+
+
+def test_copies_of_what_was_packed_are_removed(tmp_path, monkeypatch):
+    room = tmp_path / "room"
+    room.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(room))
+    content = r.packed(r.written(tmp_path, r.robot()[0], "db3").read_bytes())
+    path = tmp_path / "packed.db3.zst"
+    path.write_bytes(content)
+    assert len(read_log(path)) == 10
+    gc.collect()
+    path.write_bytes(content[: len(content) // 2])
+    with pytest.raises(bm.BadInput, match="compressed by zstd and cannot be unpacked to its end"):
+        read_log(path)
+    assert not list(room.iterdir())
+
+
+LASER_FIELDS = """Header header
+float32 angle_min
+float32 angle_max
+float32 angle_increment
+float32 time_increment
+float32 scan_time
+float32 range_min
+float32 range_max
+float32[] ranges
+float32[] intensities
+"""
+LASER_SUM = "90c7ef2dc6895d81024acba2ac42f369"
+OLD_HEADER = "=" * 80 + "\nMSG: roslib/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
+TF_FIELDS, TF_SUM = "geometry_msgs/TransformStamped[] transforms\n", "94810edda583a504dfda3829e70d7eec"
+
+
+@pytest.mark.parametrize(
+    "definitions",
+    [
+        {r.SCAN: (LASER_FIELDS + OLD_HEADER, LASER_SUM)},
+        {r.SCAN: (LASER_FIELDS.replace("Header", "roslib/Header", 1) + OLD_HEADER, LASER_SUM)},
+        {r.SCAN: (LASER_FIELDS, LASER_SUM)},
+        {r.SCAN: (LASER_FIELDS, "*")},
+        {r.SCAN: ("", LASER_SUM)},
+        {r.SCAN: ("<definition>lost</definition>", LASER_SUM)},
+        {r.TF: (TF_FIELDS, TF_SUM)},
+        {r.TF: ("", TF_SUM)},
+    ],
+)
+def test_definitions_that_lack_parts_are_completed_by_those_of_ros(tmp_path, definitions):
+    messages, scans = r.robot()
+    reading = describe_log(r.written(tmp_path, messages, "rosbag1", definitions))
+    same(reading.scans, scans)
+    assert reading.notes == ()
+
+
+def test_a_definition_of_another_sum_is_not_taken_for_that_of_ros(tmp_path):
+    messages, _ = r.robot()
+    longer = LASER_FIELDS.replace("float32[] ranges", "float64[] ranges")
+    path = r.written(tmp_path, messages, "rosbag1", {r.SCAN: (longer, "0" * 31 + "1")})
+    with pytest.raises(bm.BadInput, match=r"the definition of sensor_msgs/msg/LaserScan on /scan cannot be used"):
+        read_log(path)
+
+
+@pytest.mark.parametrize("skip", [False, True])
+def test_index_records_are_as_long_as_they_count(tmp_path, skip):
+    messages, scans = r.robot()
+    content = bytearray(r.written(tmp_path, messages, "rosbag1").read_bytes())
+    at, records = 0, 0
+    while (at := content.find(b"op=\x04", at)) >= 0:
+        at = content.index(b"count=", at) + len(b"count=")  # the last field of the record's header
+        count, length = struct.unpack_from("<II", content, at)
+        assert length == 12 * count
+        struct.pack_into("<I", content, at + 4, 20 * count)
+        records += 1
+    assert records == 3
+    path = tmp_path / "2010.bag"
+    path.write_bytes(content)
+    reading = describe_log(path, skip_bad_lines=skip)
+    same(reading.scans, scans)
+    assert reading.notes == ()

@@ -9,6 +9,7 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
+from bayesmap.io.compression import zstd
 from bayesmap.io.logs import describe_log, read_log
 
 CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-ros1")
@@ -94,6 +95,49 @@ def test_empty_recordings_are_refused(tmp_path, content, skip):
     path = tmp_path / "empty.bag"
     path.write_bytes(content)
     refused(path, skip_bad_lines=skip)
+
+
+@pytest.mark.parametrize("version", ["1.0", "1.1", "1.2"])
+@pytest.mark.parametrize("skip", [False, True])
+def test_bags_of_earlier_formats_are_refused_with_the_remedy(whole, tmp_path, version, skip):
+    path = tmp_path / "old.bag"
+    path.write_bytes(whole["rosbag1"].read_bytes().replace(b"V2.0", f"V{version}".encode(), 1))
+    message = refused(path, skip_bad_lines=skip)
+    assert f"format {version}" in message
+    assert "rosbag fix" in message
+
+
+def test_a_packed_file_that_is_no_recording_is_refused_with_the_remedy(tmp_path):
+    path = tmp_path / "robot.log.zst"
+    path.write_bytes(zstd().compress(b"FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n" * 20))
+    assert "compressed by zstd, and it holds no recording; unpack it: zstd -d" in refused(path)
+    path.write_bytes(path.read_bytes()[:9] + bytes(9))
+    assert "compressed by zstd, but damaged or cut short" in refused(path)
+
+
+@pytest.mark.parametrize("writer", ["db3", "mcap"])
+def test_a_packed_recording_that_breaks_off_is_read_as_far_as_it_goes_on_request(tmp_path, writer):
+    content = r.packed(r.written(tmp_path, r.robot(odom=True)[0], writer).read_bytes())
+    path = tmp_path / "cut.zst"
+    path.write_bytes(content[: int(len(content) * 0.8)])
+    assert "compressed by zstd and cannot be unpacked to its end" in refused(path)
+    try:
+        told = describe_log(path, skip_bad_lines=True, pose_topic="/odom").notes[0]
+    except bm.BadInput as problem:
+        told = str(problem)  # what is left may hold no scan
+    assert "damaged" in told or "no topic" in told
+
+
+def test_a_packed_message_that_is_damaged_is_named(tmp_path):
+    path = r.written(tmp_path, r.robot()[0], "db3-messages")
+    with sqlite3.connect(path) as database:
+        database.execute(
+            "UPDATE messages SET data = substr(data, 1, 40) WHERE id = (SELECT messages.id FROM messages JOIN topics "
+            "ON topic_id = topics.id WHERE name = '/scan' LIMIT 1)"
+        )
+    database.close()
+    assert "message 1 on /scan sensor_msgs/msg/LaserScan is compressed by zstd and cannot be unpacked" in refused(path)
+    assert len(describe_log(path, skip_bad_lines=True).skipped) == 1
 
 
 def test_a_folder_that_is_no_recording_is_refused(tmp_path):

@@ -16,6 +16,7 @@ from bayesmap.io.recording import Topic, spelled_as_in_ros2
 
 MAGIC = b"#ROSBAG V2.0\n"
 MESSAGE, BAG_HEADER, INDEX, CHUNK, CHUNK_INFO, CONNECTION = 2, 3, 4, 5, 6, 7
+INDEX_ENTRY_BYTES = 12
 MAX_HEADER_BYTES = 1 << 24
 MAX_DATA_BYTES = 1 << 30
 """More than this in one piece is taken for a damaged length."""
@@ -42,6 +43,9 @@ def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Iterator[C
                 on_damage(f"at byte {at:,}: {problem}")
                 return
             data_at += at
+            if header[b"op"] == bytes([INDEX]) and len(header.get(b"count", b"")) == 4:
+                # ROS reads as many entries as the record counts; bags of 2010 state other lengths.
+                length = INDEX_ENTRY_BYTES * int.from_bytes(header[b"count"], "little")
             cut = data_at + length > size
             if cut:
                 on_damage(f"the record at byte {at:,} is longer than the file")
@@ -123,7 +127,15 @@ def _record(header: dict[bytes, bytes], data: bytes) -> Iterator[Connection | Re
             name, type_name = header[b"topic"].decode(), spelled_as_in_ros2(fields[b"type"].decode())
             yield Connection(
                 connection,
-                Topic(name, type_name, 0, fields[b"message_definition"].decode(errors="replace"), "msg", "ros1"),
+                Topic(
+                    name,
+                    type_name,
+                    0,
+                    fields.get(b"message_definition", b"").decode(errors="replace"),
+                    "msg",
+                    "ros1",
+                    fields.get(b"md5sum", b"").decode(errors="replace"),
+                ),
             )
     except (KeyError, struct.error, UnicodeDecodeError) as error:
         raise _Unreadable(f"its header lacks {error}" if isinstance(error, KeyError) else str(error)) from None

@@ -1,21 +1,27 @@
 """Opening a recording: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
 
 What rosbags refuses although it is sound (MCAP of ROS 1 messages, MCAP without an index and out of order) is read
-record by record. So is, if the user asks for it, what is left of a recording that breaks off.
+record by record. So is, if the user asks for it, what is left of a recording that breaks off. Compressed files are
+unpacked to temporary ones, which live as long as the recording is open.
 """
 
 from __future__ import annotations
 
 import os
+import shutil
+import struct
+import weakref
 from collections.abc import Callable, Collection, Iterable, Iterator
-from contextlib import closing
-from functools import partial
+from contextlib import ExitStack, closing
+from dataclasses import replace
+from functools import cache, partial
 from heapq import merge
 from pathlib import Path
 from typing import Any
 
 from bayesmap.errors import BadInput
 from bayesmap.io import bag_records, mcap_records, sqlite_records
+from bayesmap.io.compression import compression_of, first_bytes, unpack_file
 from bayesmap.io.record import Connection, OnDamage, Record, messages_of, refuse, topics_of
 from bayesmap.io.recording import Damaged, Message, Recording, Topic
 
@@ -28,7 +34,7 @@ FORMATS: dict[str, tuple[bytes, Records]] = {
 }
 """Format, how its files begin, and what reads their records one by one."""
 
-ENDINGS = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
+ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
 METADATA = "metadata.yaml"
 REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read what is there with --skip-bad-lines"
 
@@ -39,8 +45,7 @@ def container_of(path: str | os.PathLike[str]) -> str | None:
     if where.is_dir():
         inside = sorted(entry.name for entry in where.iterdir())
         return "folder" if METADATA in inside or any(name.endswith(ENDINGS) for name in inside) else None
-    with where.open("rb") as file:
-        start = file.read(16)
+    start = first_bytes(where, 16)
     if start.startswith(b"#ROSBAG V"):  # of whatever version: rosbags says which it cannot read
         return "rosbag1"
     return next((name for name, (magic, _) in FORMATS.items() if start.startswith(magic)), None)
@@ -55,9 +60,11 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
         types: message types that will be read; with ``salvage`` their messages decide whether there is damage.
 
     Raises:
-        BadInput: a recording that is damaged (without ``salvage``), or of which nothing can be read.
+        BadInput: a recording that is damaged (without ``salvage``), or of which nothing can be read; a bag of another
+            version.
     """
     name = os.fspath(path)
+    _check_version(path)
     try:
         recording = _whole(path)
         if salvage:  # damage within may show only in reading
@@ -72,6 +79,37 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     return recording
 
 
+def _check_version(path: str | os.PathLike[str]) -> None:
+    """Refuse bags of ROS 1 that are not of format 2.0, and name the remedy."""
+    if Path(path).is_dir():
+        return
+    start = first_bytes(path, 16)
+    if not start.startswith(b"#ROSBAG V") or start.startswith(bag_records.MAGIC):
+        return
+    version = start[len(b"#ROSBAG V") :].split(b"\n")[0].decode("ascii", "replace").strip()
+    raise BadInput(
+        f"{os.fspath(path)}: a ROS 1 bag of format {version}; only 2.0 is read. If ROS wrote it before 2010, convert "
+        "it with ROS 1: rosbag fix OLD.bag NEW.bag"
+    )
+
+
+def _at_hand(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
+    """A file that can be read as it is: the file, or a copy of what is compressed in it, which the stack removes."""
+    with path.open("rb") as file:
+        packed = compression_of(file.read(4)) is not None
+    if not packed:
+        return path
+    try:
+        copy = unpack_file(path, on_damage)
+    except OSError as error:
+        raise BadInput(
+            f"{path}: it is compressed, and there is no room to unpack it ({error.strerror or error}); make room, name "
+            "another folder in TMPDIR, or unpack it yourself"
+        ) from None
+    stack.callback(shutil.rmtree, copy.parent, ignore_errors=True)
+    return copy
+
+
 def _whole(path: str | os.PathLike[str]) -> Recording:
     container = container_of(path)
     files = [Path(path)]
@@ -84,8 +122,18 @@ def _whole(path: str | os.PathLike[str]) -> Recording:
         files, container = _files_of(path)
         notes = (f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read",)
     assert container is not None
-    parts = [_by_rosbags(file, container, _rosbags_reader(file, container), FORMATS[container][1]) for file in files]
-    return _joined(os.fspath(path), container, parts, notes)
+    with ExitStack() as stack:
+        parts = [
+            _by_rosbags(at, container, _rosbags_reader(at, container), FORMATS[container][1])
+            for at in (_at_hand(file, stack, refuse) for file in files)
+        ]
+        return _owning(_joined(os.fspath(path), container, parts, notes), stack)
+
+
+def _owning(recording: Recording, stack: ExitStack) -> Recording:
+    """The recording, which removes its temporary files when it is no longer used."""
+    weakref.finalize(recording, stack.pop_all().close)
+    return recording
 
 
 def _folder_format(path: str | os.PathLike[str]) -> str:
@@ -94,7 +142,10 @@ def _folder_format(path: str | os.PathLike[str]) -> str:
 
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
     """The storage files of a folder without metadata, in the order of their names."""
-    files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith((".db3", ".mcap"))]
+    files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith(ENDINGS)]
+    # Somebody may have unpacked a file beside the packed one.
+    names = {file.name for file in files}
+    files = [file for file in files if not (file.suffix in (".zstd", ".zst") and file.stem in names)]
     files = [file for file in files if container_of(file) is not None]
     formats = {container_of(file) for file in files}
     if len(formats) != 1:
@@ -106,12 +157,33 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
 
 def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
     if container == "rosbag1":
-        from rosbags.rosbag1 import Reader as Reader1
-
-        return partial(Reader1, path)
+        return partial(_bag_reader(), path)
     from rosbags.rosbag2.reader import Reader as Reader2
 
     return partial(Reader2.STORAGE_PLUGINS[".mcap" if container == "mcap" else ".db3"], path)
+
+
+@cache
+def _bag_reader() -> type:
+    """rosbags' reader of ROS 1 bags, which takes index records for as long as they count, as ROS does."""
+    from rosbags.rosbag1 import Reader
+    from rosbags.rosbag1.reader import Header, IndexData, RecordType, read_bytes, read_uint32
+
+    class BagReader(Reader):
+        def read_index_data(self, pos: int, indexes: dict[int, list[IndexData]]) -> None:
+            assert self.bio is not None
+            start = self.bio.tell()
+            try:
+                super().read_index_data(pos, indexes)
+            except AssertionError:  # a header in another order, or a length that is not that of its entries
+                self.bio.seek(start)
+                header = Header.read(self.bio, RecordType.IDXDATA)
+                read_uint32(self.bio)
+                connection, count = header.get_uint32("conn"), header.get_uint32("count")
+                entries = struct.iter_unpack("<III", read_bytes(self.bio, count * bag_records.INDEX_ENTRY_BYTES))
+                indexes[connection] += [IndexData(s * 10**9 + ns, pos, offset) for s, ns, offset in entries]
+
+    return BagReader
 
 
 def _by_rosbags(
@@ -166,6 +238,7 @@ def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, 
                     connection.msgdef.data,
                     "idl" if connection.msgdef.format.name == "IDL" else "msg",
                     "ros1" if container == "rosbag1" else connection.ext.serialization_format,
+                    connection.digest if container == "rosbag1" else "",
                 )
             about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
             start_ns, end_ns = about.start_time, about.end_time - 1
@@ -205,7 +278,7 @@ def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str,
         for name, topic in part.topics.items():
             before = topics.get(name)
             count = topic.count + (before.count if before else 0)
-            topics[name] = Topic(name, topic.type, count, topic.definition, topic.language, topic.encoding)
+            topics[name] = replace(topic, count=count)
     starts = [part.start_ns for part in parts if part.start_ns is not None]
     ends = [part.end_ns for part in parts if part.end_ns is not None]
 
@@ -237,13 +310,18 @@ def _salvaged(path: str | os.PathLike[str], problem: str) -> Recording:
         raise BadInput(f"{name}: the recording cannot be read ({problem}); {damage}") from None
     assert container is not None
     records = FORMATS[container][1]
-    parts = [_part(file, container, records) for file in files]
-    reasons = list(dict.fromkeys(note for part in parts for note in part.notes)) or [problem]
-    more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
-    joined = _joined(name, container, parts, ())
-    held = sum(topic.count for topic in joined.topics.values())
-    note = f"the recording is damaged or cut short ({reasons[0]}{more}); {held:,} messages of it could be read"
-    return Recording(name, container, joined.topics, joined.read, joined.start_ns, joined.end_ns, (note,))
+    reasons: list[str] = []
+    with ExitStack() as stack:
+        parts = [_part(_at_hand(file, stack, reasons.append), container, records) for file in files]
+        reasons += [note for part in parts for note in part.notes]
+        reasons = list(dict.fromkeys(reasons)) or [problem]
+        more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
+        joined = _joined(name, container, parts, ())
+        held = sum(topic.count for topic in joined.topics.values())
+        note = f"the recording is damaged or cut short ({reasons[0]}{more}); {held:,} messages of it could be read"
+        return _owning(
+            Recording(name, container, joined.topics, joined.read, joined.start_ns, joined.end_ns, (note,)), stack
+        )
 
 
 def _part(file: Path, container: str, records: Records) -> Recording:

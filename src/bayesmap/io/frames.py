@@ -6,7 +6,7 @@ from its first to its last message, and is interpolated between.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +18,9 @@ from bayesmap.space.planar import around
 from bayesmap.space.rigid import Track, planar
 
 FURTHEST_M = 1e7
+ROUNDING = 1e-6
+"""A transform that changes by less, in metres and radians, does not change."""
+
 FIXED_FRAMES = ("map", "odom", "world")
 """Frames that stand still, the best first."""
 
@@ -25,11 +28,23 @@ Numbers = tuple[float, float, float, float, float, float, float]
 """Translation x, y, z and rotation x, y, z, w."""
 
 
+def close(one: Numbers, other: Numbers, tolerance: float) -> bool:
+    """Whether two poses agree, in metres and radians; a quaternion and its negative are one rotation."""
+    if one == other:
+        return True
+    sign = 1.0 if sum(a * b for a, b in zip(one[3:], other[3:], strict=True)) >= 0 else -1.0
+    moved = max(abs(a - b) for a, b in zip(one[:3], other[:3], strict=True))
+    # A difference of quaternions is half the angle.
+    turned = 2 * max(abs(a - sign * b) for a, b in zip(one[3:], other[3:], strict=True))
+    return moved <= tolerance and turned <= tolerance
+
+
 @dataclass
 class Samples:
-    """The poses of a frame in another, as they come."""
+    """The poses of a frame in another on one topic, as they come."""
 
     static: bool = False
+    topic: str = ""
     stamps_ns: list[int] = field(default_factory=list)
     received_ns: list[int] = field(default_factory=list)
     values: list[Numbers] = field(default_factory=list)
@@ -40,14 +55,40 @@ class Samples:
         self.received_ns.append(received_ns)
         self.values.append(values)
 
+    def part(self, which: slice) -> Samples:
+        """Some of them, in the order of receipt."""
+        lists = (self.stamps_ns[which], self.received_ns[which], self.values[which])
+        return Samples(self.static, self.topic, *lists)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Samples]) -> Samples:
+        """Those of several topics as one."""
+        if len(parts) == 1:
+            return parts[0]
+        result = cls(all(part.static for part in parts), ", ".join(part.topic for part in parts))
+        for part in parts:
+            result.stamps_ns += [int(stamp) for stamp in part.times_ns()]
+            result.received_ns += part.received_ns
+            result.values += part.values
+        return result
+
     @property
     def unstamped(self) -> bool:
         """Whether no message says its time."""
         return not any(self.stamps_ns)
 
+    def times_ns(self) -> NDArray[np.int64]:
+        """Stamps, or times of receipt if no message says its own, (T,)."""
+        return np.array(self.received_ns if self.unstamped else self.stamps_ns, dtype=np.int64)
+
+    def last(self) -> Numbers:
+        """The value with the latest time."""
+        times = self.times_ns()
+        return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
+
     def track(self) -> Track:
         """Sorted by time (of receipt, if no message says its own); of several at one time, the last."""
-        stamps = np.array(self.received_ns if self.unstamped else self.stamps_ns, dtype=np.int64)
+        stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         last = np.append(np.diff(stamps[order]) > 0, True)
         order = order[last]
@@ -56,7 +97,7 @@ class Samples:
 
     def constant(self) -> bool:
         """Whether the pose is the same at all times."""
-        return self.static or all(value == self.values[0] for value in self.values)
+        return self.static or all(close(value, self.values[0], ROUNDING) for value in self.values)
 
 
 def numbers_of(position: object, rotation: object) -> Numbers:
@@ -130,69 +171,111 @@ class Chain:
 
 
 class FrameTree:
-    """Frames and the transforms between them."""
+    """Frames and the transforms between them.
 
-    def __init__(self, samples: dict[tuple[str, str], Samples]) -> None:
-        self.notes: list[str] = []
-        self._edges: dict[str, tuple[str, Samples]] = {}
-        for (parent, child), some in samples.items():
-            before = self._edges.get(child)
-            if before is not None:
-                keep, drop = sorted((before, (parent, some)), key=lambda edge: -len(edge[1].values))
-                self.notes.append(
-                    f"frame {child!r} has two parents, {keep[0]!r} and {drop[0]!r}; the one with more messages was used"
+    Args:
+        transforms: by topic, parent and child.
+        ranks: of the topics that count: of a frame that several topics place, the topics of the lowest rank are
+            believed. None: all topics, with one rank.
+    """
+
+    def __init__(
+        self, transforms: Mapping[tuple[str, str, str], Samples], ranks: Mapping[str, int] | None = None
+    ) -> None:
+        self.topics = {topic for topic, _, _ in transforms if ranks is None or topic in ranks}
+        self.notes: dict[str, str] = {}
+        """What to know of frames that have several parents, by frame."""
+        self._edges: dict[str, tuple[str, tuple[Samples, ...]]] = {}
+        self.rivals: dict[str, tuple[str, ...]] = {}
+        """Topics that place a frame in different parents, by frame."""
+        places: dict[str, dict[str, list[Samples]]] = {}
+        best: dict[str, int] = {}
+        for (topic, parent, child), samples in transforms.items():
+            rank = 0 if ranks is None else ranks.get(topic)
+            if rank is None or rank > best.get(child, rank):
+                continue
+            if rank < best.get(child, rank + 1):
+                best[child], places[child] = rank, {}
+            places[child].setdefault(parent, []).append(samples)
+        for child, parents in places.items():
+            often = sorted(parents, key=lambda parent: -sum(len(part.values) for part in parents[parent]))
+            self._edges[child] = (often[0], tuple(parents[often[0]]))
+            if len(often) > 1:
+                self.rivals[child] = tuple(dict.fromkeys(part.topic for name in often for part in parents[name]))
+                self.notes[child] = (
+                    f"frame {child!r} has {'two' if len(often) == 2 else len(often)} parents, "
+                    f"{' and '.join(repr(name) for name in often)} (on {', '.join(self.rivals[child])}); the one with "
+                    "more messages was used"
                 )
-                self._edges[child] = keep
-            else:
-                self._edges[child] = (parent, some)
 
     def frames(self) -> list[str]:
         """All frames, by name."""
         return sorted({*self._edges, *(parent for parent, _ in self._edges.values())})
 
-    def _upwards(self, frame: str) -> list[str]:
+    def upwards(self, frame: str) -> list[str]:
         """The frame, its parent, and so on to the root."""
         path = [frame]
         while path[-1] in self._edges and self._edges[path[-1]][0] not in path:
             path.append(self._edges[path[-1]][0])
         return path
 
+    def _ways(self, fixed: str, sensor: str) -> tuple[list[str], list[str]] | None:
+        """Frames between two and their common ancestor, which is left out: up from one, down to the other."""
+        up, down = self.upwards(fixed), self.upwards(sensor)
+        common = next((frame for frame in down if frame in up), None)
+        if common is None:
+            return None
+        return up[: up.index(common)], down[: down.index(common)][::-1]
+
     def chain(self, fixed: str, sensor: str) -> Chain | None:
         """From one frame to another; None if nothing connects them."""
         if fixed == sensor:
             return Chain(())
-        up, down = self._upwards(fixed), self._upwards(sensor)
-        common = next((frame for frame in down if frame in up), None)
-        if common is None:
+        ways = self._ways(fixed, sensor)
+        if ways is None:
             return None
-        against = [self._link(frame, True) for frame in up[: up.index(common)]]
-        along = [self._link(frame, False) for frame in reversed(down[: down.index(common)])]
-        return Chain((*against, *along))
+        return Chain((*(self._link(f, True) for f in ways[0]), *(self._link(f, False) for f in ways[1])))
+
+    def links(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
+        """Parent, child and what each topic says, for the transforms of a chain."""
+        up, down = self._ways(fixed, sensor) or ([], [])
+        return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
 
     def _link(self, child: str, against: bool) -> tuple[Track, bool, bool]:
-        samples = self._edges[child][1]
+        samples = Samples.joined(self._edges[child][1])
         return samples.track(), samples.constant(), against
 
     def root(self, sensor: str) -> str:
         """The topmost frame over a sensor's."""
-        return self._upwards(sensor)[-1]
+        return self.upwards(sensor)[-1]
 
-    def connected(self, sensor: str, names: Iterable[str]) -> str | None:
-        """The first of some frames (or ``robot/name`` for each) that is connected with the sensor's."""
+    def above(self, sensor: str, names: Iterable[str]) -> str | None:
+        """The first of some names (or ``robot/name``) that a frame over the sensor's has, the nearest such frame."""
+        over = self.upwards(sensor)[1:]
+        return next((frame for name in names for frame in over if frame.rpartition("/")[2] == name), None)
+
+    def body(self, sensor: str, names: Iterable[str]) -> str | None:
+        """The frame of a robot's body: over the sensor's, or else at rest beside it, by its name."""
+        names = tuple(names)
+        found = self.above(sensor, names)
+        if found is not None:
+            return found
+        beside = [f for f in self.frames() if f != sensor and self.root(f) == self.root(sensor)]
         for name in names:
-            for frame in sorted(self.frames(), key=len):
-                if frame.rpartition("/")[2] == name and self.root(frame) == self.root(sensor) and frame != sensor:
+            for frame in sorted(beside, key=len):
+                chain = self.chain(frame, sensor) if frame.rpartition("/")[2] == name else None
+                if chain is not None and chain.span_ns() is None:
                     return frame
         return None
 
     def moves(self, frame: str) -> bool:
         """Whether some transform between a frame and its root changes."""
-        return any(not self._edges[f][1].constant() for f in self._upwards(frame)[:-1])
+        return any(not Samples.joined(self._edges[f][1]).constant() for f in self.upwards(frame)[:-1])
 
-    def constant_edges(self) -> list[str]:
-        """Transforms of which there is a single message that is not static: ``parent -> child``."""
+    def single_messages(self, fixed: str, sensor: str) -> list[str]:
+        """Transforms of a chain of which there is a single message that is not static: ``parent -> child``."""
         return [
             f"{parent} -> {child}"
-            for child, (parent, samples) in self._edges.items()
-            if not samples.static and len(samples.values) == 1
+            for parent, child, parts in self.links(fixed, sensor)
+            if sum(len(part.values) for part in parts) == 1 and not parts[0].static
         ]

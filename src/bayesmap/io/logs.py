@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import os
+import shlex
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.io.carmen import KNOWN, read_carmen
+from bayesmap.io.compression import compression_of, first_bytes
 from bayesmap.io.csv_scans import is_header, read_csv
 from bayesmap.io.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.g2o import read_g2o
@@ -165,7 +167,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
     try:
         if where.is_dir():
             inside = sorted(entry.name for entry in where.iterdir())
-            if not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd")) for n in inside):
+            if not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd", ".zst")) for n in inside):
                 logs = [n for n in inside if n.endswith(ENDINGS) or (where / n / "metadata.yaml").exists()]
                 raise BadInput(
                     f"{name}: a folder, but not a ROS 2 bag's: metadata.yaml, .db3 and .mcap are missing; "
@@ -173,7 +175,8 @@ def format_of(path: str | os.PathLike[str]) -> str:
                 )
             return "folder"
         with where.open("rb") as file:
-            start = file.read(16)
+            packed = compression_of(file.read(4))
+        start = first_bytes(where, 16)
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
     if start.startswith(b"#ROSBAG V"):
@@ -186,6 +189,13 @@ def format_of(path: str | os.PathLike[str]) -> str:
         return "npz"
     if start.startswith(SAVED_RUNS):
         raise BadInput(f"{name}: a saved run or another netCDF file, not a log; give the log")
+    if packed in ("zstd", "bzip2"):
+        unpack = {"zstd": "zstd -d", "bzip2": "bzip2 -dk"}[packed]
+        if not start:
+            raise BadInput(f"{name}: compressed by {packed}, but damaged or cut short; copy it again")
+        raise BadInput(
+            f"{name}: compressed by {packed}, and it holds no recording; unpack it: {unpack} {shlex.quote(name)}"
+        )
     return "rawlog" if starts_as_rawlog(where) else _text_format(name)
 
 

@@ -5,14 +5,13 @@ For files that break off, carry ROS 1 messages, or are unindexed and out of orde
 
 from __future__ import annotations
 
-import importlib
 import os
 import struct
-import sys
 from binascii import crc32
 from collections.abc import Iterator
 from pathlib import Path
 
+from bayesmap.io.compression import zstd
 from bayesmap.io.record import Connection, OnDamage, Record
 from bayesmap.io.recording import Topic, spelled_as_in_ros2
 
@@ -149,10 +148,7 @@ def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
 
             return bytes(lz4.frame.LZ4FrameDecompressor().decompress(packed, size))
         if compression == "zstd":
-            # Python's own from 3.14 on, before that the one that comes with rosbags.
-            library = "compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd"
-            zstd = importlib.import_module(library)
-            return bytes(zstd.ZstdDecompressor().decompress(packed, size))
+            return bytes(zstd().ZstdDecompressor().decompress(packed, size))
     except (ArithmeticError, EOFError, RuntimeError, ValueError, MemoryError) as error:
         raise _Unreadable(str(error) or type(error).__name__) from None
     except Exception as error:  # zstd's own error is a plain Exception

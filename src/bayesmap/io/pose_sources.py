@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from bayesmap.errors import BadInput
-from bayesmap.io.frames import FIXED_FRAMES, Chain, FrameTree, Numbers, Samples, numbers_of
+from bayesmap.io.frames import FIXED_FRAMES, Chain, FrameTree, Samples, numbers_of
 from bayesmap.io.laser_messages import LATEST_NS, Malformed, frame_of, stamp_ns_of
 from bayesmap.io.log_reading import WITHOUT_POSES, Pose
+from bayesmap.io.publishers import contradiction
 from bayesmap.io.recording import Recording, Topic
 from bayesmap.space.rigid import Track
 
@@ -48,8 +49,10 @@ class PoseMessages:
     """Transforms and poses, as they come."""
 
     def __init__(self) -> None:
-        self.transforms: dict[tuple[str, str], Samples] = {}
+        self.transforms: dict[tuple[str, str, str], Samples] = {}
+        """By topic, parent and child."""
         self.poses: dict[tuple[str, str], Samples] = {}
+        """By the frame in which poses are and the body whose they are."""
 
     def add(self, topic: Topic, message: Any, received_ns: int) -> None:
         """A message of one of `TF_TYPES` or `POSE_TYPES`.
@@ -58,18 +61,20 @@ class PoseMessages:
             Malformed: a number that is not one, or a time.
         """
         if topic.type in TF_TYPES:
-            static = is_static(topic)
             for entry in message.transforms:
                 ends = frame_of(entry.header.frame_id), frame_of(entry.child_frame_id)
                 values = numbers_of(entry.transform.translation, entry.transform.rotation)
                 if ends[0] == ends[1]:
                     raise Malformed(f"puts the frame {ends[0]!r} into itself")
-                _put(self.transforms, ends, _time(entry.header), received_ns, values, static)
+                stamp_ns = _time(entry.header)
+                empty = Samples(is_static(topic), topic.name)
+                self.transforms.setdefault((topic.name, *ends), empty).add(stamp_ns, received_ns, values)
             return
         pose = message.pose if topic.type == POSE else message.pose.pose
         body = frame_of(message.child_frame_id) if topic.type == ODOMETRY else ""
-        ends = frame_of(message.header.frame_id), body
-        _put(self.poses, ends, _time(message.header), received_ns, numbers_of(pose.position, pose.orientation), False)
+        values, stamp_ns = numbers_of(pose.position, pose.orientation), _time(message.header)
+        samples = self.poses.setdefault((frame_of(message.header.frame_id), body), Samples(topic=topic.name))
+        samples.add(stamp_ns, received_ns, values)
 
 
 def is_static(topic: Topic) -> bool:
@@ -82,20 +87,6 @@ def _time(header: Any) -> int:
     if not 0 <= stamp_ns <= LATEST_NS:
         raise Malformed(f"has the time {stamp_ns} ns")
     return stamp_ns
-
-
-def _put(
-    where: dict[tuple[str, str], Samples],
-    ends: tuple[str, str],
-    stamp: int,
-    received: int,
-    values: Numbers,
-    static: bool,
-) -> None:
-    samples = where.get(ends)
-    if samples is None:
-        samples = where[ends] = Samples(static)
-    samples.add(stamp, received, values)
 
 
 def topics_of_type(recording: Recording, types: Iterable[str]) -> list[Topic]:
@@ -126,54 +117,159 @@ def listed(topics: Iterable[Topic]) -> str:
     return ", ".join(f"{topic.name} ({topic.type}, {topic.count:,} messages)" for topic in topics)
 
 
-def by_transforms(path: str, tree: FrameTree, sensor: str, fixed_frame: str | None) -> PoseSource | None:
-    """The sensor's poses by /tf; None if no fixed frame is named and none is found.
+def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
+    """The topic of poses to use where /tf does not help: the only one of the scans' namespace, or the only one."""
+    there = topics_of_type(recording, POSE_TYPES)
+    for space in _spaces(scan_topic):
+        inside = [topic for topic in there if _space(topic.name) == space]
+        if inside:
+            return inside[0] if len(inside) == 1 else None
+    return there[0] if len(there) == 1 else None
+
+
+def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None) -> list[FrameTree]:
+    """Frames by the topics of transforms that come first, and by all topics, where there are others.
+
+    First come the topic that the user chose, those of its namespace and of the scans' namespace, and those of the
+    namespaces around these: in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has frames of its own.
+    """
+    topics = list(dict.fromkeys(topic for topic, _, _ in messages.transforms))
+    spaces = [*(_spaces(pose_topic) if pose_topic else ()), *_spaces(scan_topic)]
+    ranks = {topic: spaces.index(_space(topic)) for topic in topics if _space(topic) in spaces}
+    if pose_topic in topics:
+        ranks[pose_topic] = -1
+    # The others: those first whose namespace has most in common with the scans'.
+    shared = {topic: len({*_spaces(topic)} & {*_spaces(scan_topic)}) for topic in topics}
+    every = {topic: ranks.get(topic, len(spaces) + 100 - shared[topic]) for topic in topics}
+    near = FrameTree(messages.transforms, ranks)
+    return [near] if len(ranks) == len(topics) else [near, FrameTree(messages.transforms, every)]
+
+
+def fixed_frame_of(tree: FrameTree, sensor: str) -> str | None:
+    """The frame over a sensor's in which to map: one that is named so, or the topmost if the sensor moves in it."""
+    named = tree.above(sensor, FIXED_FRAMES)
+    return tree.root(sensor) if named is None and tree.moves(sensor) else named
+
+
+def _space(topic: str) -> str:
+    return topic.rpartition("/")[0]
+
+
+def _spaces(topic: str) -> list[str]:
+    """The namespace of a topic and those around it, the nearest first: ``/a/b``, ``/a``, and the empty one."""
+    found = [_space(topic)]
+    while found[-1]:
+        found.append(_space(found[-1]))
+    return found
+
+
+def by_transforms(
+    recording: Recording, trees: list[FrameTree], sensor: str, fixed_frame: str | None, *, chosen: bool = False
+) -> PoseSource | None:
+    """The sensor's poses by transforms; None if no fixed frame is named and none is found.
+
+    Args:
+        recording: for its path and topics.
+        trees: by the topics that come first, and by all.
+        sensor: the frame of the scans.
+        fixed_frame: where to map; None for the best of `FIXED_FRAMES` over the sensor.
+        chosen: whether the user chose the topics.
 
     Raises:
-        BadInput: a frame that is not known, or that nothing connects with the sensor's.
+        BadInput: a frame that is not known, or that nothing connects with the sensor's; a transform with two values.
     """
-    notes = tuple(tree.notes) + tuple(
-        f"there is a single message of the transform {edge}; it was taken to hold at all times"
-        for edge in tree.constant_edges()
-    )
-    if fixed_frame is not None:
-        wanted = frame_of(fixed_frame)
-        chain = tree.chain(wanted, sensor)
-        if chain is not None:
-            return PoseSource("/tf", wanted, chain, notes)
+    wanted = None if fixed_frame is None else frame_of(fixed_frame)
+    for tree in trees:
+        notes: list[str] = []
+        found = wanted or fixed_frame_of(tree, sensor)
+        if wanted is None and found is not None and found.rpartition("/")[2] not in FIXED_FRAMES:
+            notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {found!r}")
+        chain = None if found is None else tree.chain(found, sensor)
+        if found is None or chain is None:
+            continue
+        if found not in tree.upwards(sensor):
+            notes.append(
+                f"the frame {found!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
+            )
+        notes += [
+            f"there is a single message of the transform {edge}; it was taken to hold at all times"
+            for edge in tree.single_messages(found, sensor)
+        ]
+        notes += checked(recording, tree, found, sensor)
+        links = tree.links(found, sensor)
+        if len(trees) > 1 and tree is trees[-1]:
+            used = dict.fromkeys(part.topic for _, _, parts in links for part in parts)
+            notes.append(f"transforms were taken from {', '.join(used)}, beside the namespace of the scans")
+        elif len(trees) > 1 and not chosen:
+            others = [t.name for t in topics_of_type(recording, TF_TYPES) if t.name not in tree.topics]
+            notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
+        moving = [parts for _, _, parts in links if not Samples.joined(parts).constant()]
+        topics = dict.fromkeys(part.topic for parts in moving or [p for _, _, p in links] for part in parts)
+        return PoseSource(", ".join(topics) or "/tf", found, chain, tuple(notes))
+    if wanted is not None:
+        tree = trees[-1]
         what = "is not known" if wanted not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
-        raise BadInput(f"{path}: the frame {wanted!r} {what}; {_frames(tree)}; choose another with --fixed-frame")
-    found = tree.connected(sensor, FIXED_FRAMES)
-    if found is None and tree.moves(sensor):
-        found = tree.root(sensor)
-        notes += (f"no frame is called {', '.join(FIXED_FRAMES)}; the map is made in {found!r}",)
-    if found is None:
-        return None
-    chain = tree.chain(found, sensor)
-    assert chain is not None
-    return PoseSource("/tf", found, chain, notes)
+        raise BadInput(
+            f"{recording.path}: the frame {wanted!r} {what}; {_frames(tree)}; choose another with --fixed-frame"
+        )
+    return None
 
 
-def body_of(path: str, tree: FrameTree, sensor: str) -> str | None:
+def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+    """Notes on transforms between two frames of which a topic states several values.
+
+    Raises:
+        BadInput: values that contradict each other, and nothing says which of them to use.
+    """
+    notes = []
+    for parent, child, parts in tree.links(fixed, sensor):
+        rivals = tree.rivals.get(child, ())
+        if len({_space(topic) for topic in rivals}) > 1:
+            raise BadInput(f"{recording.path}: {tree.notes[child].partition(';')[0]}; {_choose(recording, rivals)}")
+        if child in tree.notes:
+            notes.append(tree.notes[child])
+        found = contradiction(parent, child, parts)
+        if found is not None and not found.fatal:
+            notes.append(found.text)
+        elif found is not None:
+            remedies = [_choose(recording, found.topics)] if found.topics else []
+            others = topics_of_type(recording, POSE_TYPES)
+            if others and not remedies:
+                remedies.append(f"take the poses from another topic with --pose-topic: {listed(others)}")
+            below = tree.chain(child, sensor)
+            if below is not None and below.span_ns() is not None:
+                remedies.append(f"map in a frame below it with --fixed-frame {child}")
+            raise BadInput(
+                f"{recording.path}: {found.text}; {', or '.join(remedies) or 'record again with one publisher'}"
+            )
+    return notes
+
+
+def _choose(recording: Recording, topics: Iterable[str]) -> str:
+    return f"choose one with --pose-topic: {listed(recording.topics[name] for name in topics)}"
+
+
+def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
     """Return the frame of the robot's body that a mount typed by the user refers to; None if /tf has none.
 
     Raises:
         BadInput: several robots, and the sensor's frame does not say on which it is.
     """
-    connected = tree.connected(sensor, MOUNTS) if sensor in tree.frames() else None
-    if connected is not None:
-        return connected
-    for name in MOUNTS:
-        frames = [frame for frame in tree.frames() if frame.rpartition("/")[2] == name]
-        own = [frame for frame in frames if sensor.startswith(frame.rpartition("/")[0] + "/")]
-        frames = own if len(frames) > 1 and own else frames
-        if len(frames) > 1:
-            raise BadInput(
-                f"{path}: --laser: it is not clear on which robot {sensor!r} is: /tf has {', '.join(frames)}; choose "
-                "its poses with --pose-topic"
-            )
-        if frames:
-            return frames[0]
+    for tree in trees:
+        connected = tree.body(sensor, MOUNTS) if sensor in tree.frames() else None
+        if connected is not None:
+            return connected
+        for name in MOUNTS:
+            frames = [frame for frame in tree.frames() if frame.rpartition("/")[2] == name]
+            own = [frame for frame in frames if sensor.startswith(frame.rpartition("/")[0] + "/")]
+            frames = own if len(frames) > 1 and own else frames
+            if len(frames) > 1:
+                raise BadInput(
+                    f"{path}: --laser: it is not clear on which robot {sensor!r} is: /tf has {', '.join(frames)}; "
+                    "choose its poses with --pose-topic"
+                )
+            if frames:
+                return frames[0]
     return None
 
 
@@ -181,12 +277,13 @@ def link_of(laser: Pose) -> tuple[Track, bool, bool]:
     """Return the link of a chain from the robot's body to a laser that is mounted level at a pose."""
     x, y, yaw = laser
     numbers = (x, y, 0.0, 0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
-    return Samples(True, [0], [0], [numbers]).track(), True, False
+    return Samples(True, "", [0], [0], [numbers]).track(), True, False
 
 
-def standing_still(tree: FrameTree, sensor: str) -> PoseSource:
+def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
     """Return a source without poses; a transform from the body, if there is one, says which way up the sensor is."""
-    body = tree.connected(sensor, BODIES) if sensor in tree.frames() else None
+    tree = next((tree for tree in trees if sensor in tree.frames()), trees[-1])
+    body = tree.body(sensor, BODIES) if sensor in tree.frames() else None
     chain = tree.chain(body, sensor) if body is not None else None
     if chain is None or not all(constant for _, constant, _ in chain.links):
         chain = Chain(())
@@ -194,35 +291,43 @@ def standing_still(tree: FrameTree, sensor: str) -> PoseSource:
 
 
 def by_topic(
-    path: str, topic: Topic, messages: PoseMessages, tree: FrameTree, sensor: str, laser: Pose | None = None
+    recording: Recording,
+    topic: Topic,
+    messages: PoseMessages,
+    trees: list[FrameTree],
+    sensor: str,
+    laser: Pose | None = None,
 ) -> PoseSource:
     """The sensor's poses by a topic of poses, and where the sensor is on the body, by /tf or as the user says.
 
     Raises:
-        BadInput: no pose at all.
+        BadInput: no pose at all, or a pose or transform with two values.
     """
     if not messages.poses:
-        raise BadInput(f"{path}: {topic.name} holds no pose that can be used")
+        raise BadInput(f"{recording.path}: {topic.name} holds no pose that can be used")
     ends = max(messages.poses, key=lambda key: len(messages.poses[key].values))
     samples, (fixed, body) = messages.poses[ends], ends
-    notes = list(tree.notes)
+    notes = []
     if len(messages.poses) > 1:
         others = ", ".join(
             f"{child or '?'} in {parent or '?'}" for parent, child in messages.poses if (parent, child) != ends
         )
         notes.append(f"{topic.name} tells where {body or '?'} is in {fixed or '?'}; not used: {others}")
+    found = contradiction(fixed or "?", body or "?", [samples])
+    if found is not None:
+        raise BadInput(f"{recording.path}: {found.text}; choose other poses with --pose-topic")
     if samples.unstamped:
         notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
     if laser is not None:
         return PoseSource(
             topic.name, fixed or "?", Chain(((samples.track(), False, False), link_of(laser))), tuple(notes)
         )
-    if not body or body not in tree.frames():
+    tree = next((tree for tree in trees if _body(tree, body, sensor)), trees[-1])
+    guess = _body(tree, body, sensor)
+    if guess is not None and guess != body:
         # Without a name for it, or with one that /tf does not know: what robots' bodies are called.
-        guess = sensor if body == sensor else tree.connected(sensor, BODIES) if sensor in tree.frames() else None
-        if guess is not None and guess != body:
-            notes.append(f"{topic.name} does not say whose pose it tells; taken as that of {guess!r}")
-        body = guess or body
+        notes.append(f"{topic.name} does not say whose pose it tells; taken as that of {guess!r}")
+    body = guess or body
     offset = tree.chain(body, sensor) if body else None
     if offset is None:
         who = repr(body) if body else "the body"
@@ -231,8 +336,22 @@ def by_topic(
             "--laser X,Y,DEGREES says where it is on the robot"
         )
         offset = Chain(())
+    elif body != sensor:
+        notes += checked(recording, tree, body, sensor)
+        if len(trees) > 1 and tree is trees[-1]:
+            used = dict.fromkeys(part.topic for _, _, parts in tree.links(body, sensor) for part in parts)
+            notes.append(f"transforms were taken from {', '.join(used)}, beside the namespace of the scans")
     track = (samples.track(), False, False)
     return PoseSource(topic.name, fixed or "?", Chain((track, *offset.links)), tuple(notes))
+
+
+def _body(tree: FrameTree, body: str, sensor: str) -> str | None:
+    """The frame whose poses a topic tells: the one that it names, or what robots' bodies are called."""
+    if body == sensor:
+        return sensor
+    if body and body in tree.frames():
+        return body if tree.chain(body, sensor) is not None else None
+    return tree.body(sensor, BODIES) if sensor in tree.frames() else None
 
 
 def no_poses(path: str, tree: FrameTree, sensor: str, pose_topics: list[Topic]) -> BadInput:

@@ -36,6 +36,7 @@ class Topic:
         definition: the message definition that the recording carries; empty if none.
         language: of the definition: ``"msg"`` or ``"idl"``.
         encoding: of the messages: ``"cdr"``, ``"ros1"``, or another that we cannot read.
+        md5: ROS 1's sum over the definition, 32 hexadecimal digits; empty if the recording states none.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Topic:
     definition: str = ""
     language: str = "msg"
     encoding: str = "cdr"
+    md5: str = ""
 
 
 @dataclass(frozen=True, eq=False)

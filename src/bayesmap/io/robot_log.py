@@ -11,13 +11,15 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.io.clock_runs import ClockRun, clock_runs, joined_stamps
 from bayesmap.io.containers import open_recording
-from bayesmap.io.frames import Chain, FrameTree
+from bayesmap.io.frames import Chain
 from bayesmap.io.laser_messages import LaserMessage, LaserMessages, beams_of
 from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
 from bayesmap.io.pose_sources import (
@@ -27,8 +29,11 @@ from bayesmap.io.pose_sources import (
     body_of,
     by_topic,
     by_transforms,
+    fixed_frame_of,
+    frame_trees,
     link_of,
     no_poses,
+    only_pose_topic,
     pose_topic_of,
     standing_still,
     topics_of_type,
@@ -81,23 +86,33 @@ def read_recording(
     scans = lasers.of_one_frame(lambda number, reason: bad(topic.name, number, reason))
     if not scans:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
-    layout = scans[0].layout
-    tree = FrameTree(poses.transforms)
-    if without_poses:
-        source = standing_still(tree, layout.frame)
-    else:
-        source = _source(recording, chosen_poses, tree, layout.frame, fixed_frame, poses, bad, laser)
-    notes = [*recording.notes, *source.notes, *_odd(scans), *_empty(lasers)]
-
-    stamps, scans, reordered = in_order_of_time(scans, bad, topic.name, notes)
-    rays = ray_times(stamps, scans, deskew, notes)
-    inside = np.asarray(source.chain.covers(rays).all(axis=1))
-    notes += left_out(name, stamps, inside, source) if source.posed else []
-    scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
-    at_first, sign = poses_at_first_rays(name, source.chain, stamps, layout, notes)
-    beam_poses = poses_of_rays(source.chain, rays) if deskew and rays.shape[1] > 1 and source.posed else None
-    if not source.posed:
-        at_first = np.zeros_like(at_first)
+    sensor = scans[0].layout.frame
+    only = None
+    if chosen_poses is None and fixed_frame is None and not without_poses:
+        only = _only_topic(recording, topic, sensor, laser, poses, bad)
+    wanted = _Wanted(topic, chosen_poses or only, fixed_frame, laser, deskew, without_poses)
+    notes = list(recording.notes)
+    parts: list[_Placed] = []
+    for run in clock_runs(scans, poses):
+        try:
+            part = _placed(recording, run, sensor, wanted, bad)
+        except BadInput as problem:
+            if not parts and run.last:
+                raise
+            notes.append(f"one run of the clock was left out: {str(problem).removeprefix(f'{name}: ')}")
+            continue
+        if parts:
+            notes.append(_step_note(run))
+        parts.append(part)
+    source, sign = parts[0].source, parts[0].sign
+    if any(part.sign != sign for part in parts):
+        raise BadInput(f"{name}: the frame {sensor!r} is upright in some scans and upside down in others")
+    stamps = joined_stamps([(part.stamps, part.scans) for part in parts])
+    scans = [scan for part in parts for scan in part.scans]
+    at_first, beam_poses = np.concatenate([part.at_first for part in parts]), _beam_poses(parts)
+    if only is not None:
+        notes.append(_only_note(recording, only, topic, sensor))
+    notes += [*dict.fromkeys(note for part in parts for note in part.notes), *_odd(scans), *_empty(lasers)]
 
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
     angles, readings = beams_of(scans)
@@ -117,49 +132,128 @@ def read_recording(
         no_return=judged.no_return,
         max_range_origin=judged.max_range_origin,
         laser_offset=laser or source.chain.sensor_on_body(),
-        reordered=reordered,
+        reordered=sum(part.reordered for part in parts),
         notes=(*notes, *judged.notes),
         scan_topic=topic.name,
         pose_source=source.label if source.posed else None,
         fixed_frame=source.fixed_frame if source.posed else None,
-        sensor_frame=layout.frame,
+        sensor_frame=sensor,
         deskewed=beam_poses is not None,
         posed=source.posed,
     )
 
 
-def _source(
-    recording: Recording,
-    pose_topic: Topic | None,
-    tree: FrameTree,
-    sensor: str,
-    fixed_frame: str | None,
-    poses: PoseMessages,
-    bad: Bad,
-    laser: Pose | None,
-) -> PoseSource:
-    """Where the sensor is: by the topic that the user chose, else by /tf, else by the only topic of poses.
+@dataclass(frozen=True, eq=False)
+class _Wanted:
+    """What to read, and by which poses: the topic of scans, that of poses, and options of `read_recording`."""
+
+    topic: Topic
+    pose_topic: Topic | None
+    fixed_frame: str | None
+    laser: Pose | None
+    deskew: bool
+    without_poses: bool
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """The scans of one run of the clock that have a pose.
+
+    Attributes:
+        source: of the poses.
+        scans: in the order of time.
+        stamps: of the first rays, (S,).
+        rays: when each ray was sent, (S, A), or (S, 1) if that is not asked for.
+        at_first: the sensor's poses at the first rays, (S, 3).
+        sign: 1 for an upright sensor, -1 for one upside down.
+        reordered: scans that came before an earlier one.
+        notes: what a user should know.
+    """
+
+    source: PoseSource
+    scans: list[LaserMessage]
+    stamps: NDArray[np.int64]
+    rays: NDArray[np.int64]
+    at_first: NDArray[np.float64]
+    sign: float
+    reordered: int
+    notes: tuple[str, ...]
+
+
+def _placed(recording: Recording, run: ClockRun, sensor: str, wanted: _Wanted, bad: Bad) -> _Placed:
+    """Sort the scans of a run by time and find where they were taken; leave out those that have no pose."""
+    if not run.scans:
+        raise BadInput(f"{recording.path}: no scan was received in it")
+    source = _source(recording, sensor, run.poses, wanted)
+    notes = list(source.notes)
+    stamps, scans, reordered = in_order_of_time(run.scans, bad, wanted.topic.name, notes)
+    rays = ray_times(stamps, scans, wanted.deskew, notes)
+    inside = np.asarray(source.chain.covers(rays).all(axis=1))
+    notes += left_out(recording.path, stamps, inside, source) if source.posed else []
+    scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
+    at_first, sign = poses_at_first_rays(recording.path, source.chain, stamps, scans[0].layout, notes)
+    if not source.posed:
+        at_first = np.zeros_like(at_first)
+    return _Placed(source, scans, stamps, rays, at_first, sign, reordered, tuple(notes))
+
+
+def _beam_poses(parts: list[_Placed]) -> NDArray[np.float64] | None:
+    """Poses of all rays, (S, A, 3); None if no time of a ray is known but the first one's."""
+    if not parts[0].source.posed or all(part.rays.shape[1] == 1 for part in parts):
+        return None
+    beams = max(scan.layout.beams for part in parts for scan in part.scans)
+    wide = [np.pad(part.rays, ((0, 0), (0, beams - part.rays.shape[1])), mode="edge") for part in parts]
+    return np.concatenate([poses_of_rays(part.source.chain, rays) for part, rays in zip(parts, wide, strict=True)])
+
+
+def _step_note(run: ClockRun) -> str:
+    return (
+        f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {run.at_ns * 1e-9:.3f} s, as when a simulation starts "
+        "again: what was received later was kept apart from what came before, and stamps from there on are later than "
+        "the recording says"
+    )
+
+
+def _only_topic(
+    recording: Recording, scan_topic: Topic, sensor: str, laser: Pose | None, poses: PoseMessages, bad: Bad
+) -> Topic | None:
+    """The only topic of poses, with its messages read, if /tf does not help."""
+    only = only_pose_topic(recording, scan_topic.name)
+    if only is None:
+        return None
+    trees = frame_trees(poses, scan_topic.name, None)
+    body = sensor if laser is None else body_of(recording.path, trees, sensor)
+    if body is not None and any(fixed_frame_of(tree, body) is not None for tree in trees):
+        return None
+    read_messages(recording, [only], None, poses, bad)
+    return only
+
+
+def _only_note(recording: Recording, only: Topic, scan_topic: Topic, sensor: str) -> str:
+    alone = "the only topic of poses"
+    if len(topics_of_type(recording, POSE_TYPES)) > 1:
+        alone += f" in the namespace of {scan_topic.name}"
+    return f"/tf connects {sensor!r} with no fixed frame; poses were taken from {only.name}, {alone}"
+
+
+def _source(recording: Recording, sensor: str, poses: PoseMessages, wanted: _Wanted) -> PoseSource:
+    """Where the sensor is: by the topic that was chosen, else by /tf.
 
     With ``laser`` the sensor is there on the robot's body, whatever /tf says.
     """
+    pose_topic, laser = wanted.pose_topic, wanted.laser
+    trees = frame_trees(poses, wanted.topic.name, None if pose_topic is None else pose_topic.name)
+    if wanted.without_poses:
+        return standing_still(trees, sensor)
     if pose_topic is not None and pose_topic.type in POSE_TYPES:
-        return by_topic(recording.path, pose_topic, poses, tree, sensor, laser)
-    body = sensor if laser is None else body_of(recording.path, tree, sensor)
-    found = None if body is None else by_transforms(recording.path, tree, body, fixed_frame)
-    if found is not None and laser is not None:
-        found = replace(found, chain=Chain((*found.chain.links, link_of(laser))))
-    others = topics_of_type(recording, POSE_TYPES)
-    if found is None and pose_topic is None and len(others) == 1:
-        read_messages(recording, others, None, poses, bad)
-        only = by_topic(recording.path, others[0], poses, tree, sensor, laser)
-        note = (
-            f"/tf connects {sensor!r} with no fixed frame; poses were taken from {others[0].name}, "
-            "the only topic of poses"
-        )
-        return replace(only, notes=(note, *only.notes))
+        return by_topic(recording, pose_topic, poses, trees, sensor, laser)
+    body = sensor if laser is None else body_of(recording.path, trees, sensor)
+    found = None
+    if body is not None:
+        found = by_transforms(recording, trees, body, wanted.fixed_frame, chosen=pose_topic is not None)
     if found is None:
-        raise no_poses(recording.path, tree, sensor, others)
-    return found
+        raise no_poses(recording.path, trees[-1], sensor, topics_of_type(recording, POSE_TYPES))
+    return found if laser is None else replace(found, chain=Chain((*found.chain.links, link_of(laser))))
 
 
 def _odd(scans: list[LaserMessage]) -> list[str]:

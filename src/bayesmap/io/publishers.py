@@ -1,0 +1,245 @@
+"""Whether the publishers of one transform agree: on one topic, and between topics.
+
+A static transform that is stated twice, two sources of odometry, a robot's frames on two topics: whoever came last
+would win, or poses would go to and fro between both.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from bayesmap.io.frames import Numbers, Samples, close
+from bayesmap.space.planar import around
+
+SAME = 1e-4
+"""Values that differ by less, in metres and radians, are the same: 1 mm at 10 m."""
+
+APART = 0.01
+"""Two sources of motion that lie no further apart, in metres and radians, are not told from noise."""
+
+MUCH_SMOOTHER = 0.15
+"""Samples are of two publishers if each one's own motion is smoother than the joint one by this factor."""
+
+FEWEST, FEWEST_BETWEEN = 5, 3
+"""So many samples must lie beside the motion of the others; fewer where they are those of different topics."""
+
+STEADY = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
+"""Share of such samples among all, and by which share of them their offsets may usually change. In logs of one noisy
+odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is such, and their offsets change by half and more."""
+
+STEPS = 2.0
+"""Along the motion, samples that lie off by no more steps have stamps that are late."""
+
+OFTEN_AT_ONCE = 0.1
+"""Where so many samples repeat a stamp, they are also looked at in the order of receipt."""
+
+
+@dataclass(frozen=True)
+class Contradiction:
+    """Two values of one transform.
+
+    Attributes:
+        text: which transform, on which topics, and both values.
+        topics: those that contradict one another, where there are several.
+        fatal: whether no value can be used without knowing more.
+    """
+
+    text: str
+    topics: tuple[str, ...] = ()
+    fatal: bool = True
+
+
+def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradiction | None:
+    """Compare what topics, one part each, say of a transform; None if they agree."""
+    what = f"the transform {parent} -> {child}"
+    if len(parts) > 1:
+        pair = _apart(parts)
+        if pair is not None:
+            (one, first), (other, second) = pair
+            text = f"{what} differs between topics: {one} says {told(first)}, {other} says {told(second)}"
+            return Contradiction(text, tuple(part.topic for part in parts))
+    for part in parts:
+        if part.static:
+            values = _distinct(part.values)
+            if len(values) > 1:
+                last = next(told(v) for v, _ in values if not differ(v, part.last()))
+                stated = " and ".join(f"{told(value)} ({count:,} x)" for value, count in values[:3])
+                number = {2: "two", 3: "three"}.get(len(values), "many")
+                text = f"{what} has {number} values on {part.topic} that differ: {stated}; the last was used, {last} "
+                text += "(--laser X,Y,DEGREES says otherwise)"
+                return Contradiction(text, fatal=False)
+        elif (found := _to_and_fro(part)) is not None:
+            at_s, there, back = found
+            text = (
+                f"{what} on {part.topic} goes to and fro between values that differ: at {at_s:.3f} s it is "
+                f"{told(there)}, and just before and after {told(back)}; it has two publishers, or the clock of the "
+                "recording started again"
+            )
+            return Contradiction(text)
+    return None
+
+
+def differ(one: Numbers, other: Numbers) -> bool:
+    """Whether two poses are not the same for a map."""
+    return not close(one, other, SAME)
+
+
+def told(values: Numbers) -> str:
+    """A pose for messages: x, y and yaw, and what else is not zero."""
+    x, y, z, *quaternion = values
+    # By hand: SciPy warns of rotations by which a sensor looks straight up.
+    qx, qy, qz, qw = quaternion
+    yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+    roll = math.atan2(2 * (qw * qx + qy * qz), 1 - 2 * (qx * qx + qy * qy))
+    pitch = math.asin(max(-1.0, min(1.0, 2 * (qw * qy - qz * qx))))
+    more = "".join(
+        f", {name} {math.degrees(angle):.4g} degrees"
+        for name, angle in (("roll", roll), ("pitch", pitch))
+        if abs(angle) > SAME
+    )
+    height = f", z {z:.4g} m" if abs(z) > SAME else ""
+    return f"x {x + 0.0:.4g} m, y {y + 0.0:.4g} m{height}, yaw {math.degrees(yaw):.4g} degrees{more}"
+
+
+def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
+    """The values that differ, in the order of their first appearance, with their counts; at most ten."""
+    found: list[tuple[Numbers, int]] = []
+    for value in values:
+        at = next((i for i, (known, _) in enumerate(found) if not differ(known, value)), None)
+        if at is not None:
+            found[at] = (found[at][0], found[at][1] + 1)
+        elif len(found) < 10:
+            found.append((value, 1))
+    return found
+
+
+def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
+    """Two topics with values that contradict each other; None if there are none."""
+    holds = [part for part in parts if part.constant()]
+    moving = [part for part in parts if not part.constant()]
+    for part in holds[1:]:
+        if differ(part.last(), holds[0].last()):
+            return (holds[0].topic, holds[0].last()), (part.topic, part.last())
+    for part in moving if holds else ():
+        away = next(value for value in part.values if differ(value, holds[0].last()))
+        return (holds[0].topic, holds[0].last()), (part.topic, away)
+    if len(moving) < 2:
+        return None
+    for other in moving[1:]:
+        pair = _off_the_way(moving[0], other)
+        if pair is not None:
+            return (moving[0].topic, pair[0]), (other.topic, pair[1])
+    stamps, values, whose = _in_order(moving)
+    at_once = np.nonzero((np.diff(stamps) == 0) & (np.diff(whose) != 0))[0]
+    for i in at_once:
+        if differ(values[i], values[i + 1]):
+            return (moving[whose[i]].topic, values[i]), (moving[whose[i + 1]].topic, values[i + 1])
+    found = two_motions(stamps, np.array(values), whose)
+    if found is None:
+        return None
+    return (moving[whose[found]].topic, values[found]), (moving[whose[found - 1]].topic, values[found - 1])
+
+
+def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
+    """Two values where half of the samples are further from another topic's motion than that goes in one step."""
+    track, stamps = one.track(), other.times_ns()
+    inside = np.nonzero(track.covers(stamps))[0]
+    if not len(inside):
+        return None
+    before, _ = around(track.stamps_ns, stamps[inside])
+    places = track.motions.translation
+    step = np.linalg.norm(np.diff(places, axis=0), axis=1)[before]
+    away = np.linalg.norm(np.array(other.values)[inside, :3] - track.at(stamps[inside]).translation, axis=1)
+    far = np.nonzero(away > step + APART)[0]
+    if len(far) < len(inside) / 2:
+        return None
+    i = far[len(far) // 2]
+    there = track.at(stamps[inside[[i]]])
+    return (*there.translation[0], *there.rotation.as_quat()[0]), other.values[inside[i]]
+
+
+def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers], NDArray[np.intp]]:
+    """All samples by time, without repetitions: stamps, values, and the number of the part of each."""
+    stamps = np.concatenate([part.times_ns() for part in parts])
+    values = [value for part in parts for value in part.values]
+    whose = np.repeat(np.arange(len(parts)), [len(part.values) for part in parts])
+    kept: list[int] = []
+    for i in np.argsort(stamps, kind="stable"):
+        if not any(stamps[j] == stamps[i] and not differ(values[j], values[i]) for j in kept[-3:]):
+            kept.append(int(i))
+    return stamps[kept], [values[i] for i in kept], whose[kept]
+
+
+def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
+    """The time, a value and the one beside it where a topic has two publishers that differ; None if it has not."""
+    if part.constant():
+        return None
+    stamps, values, whose = _in_order([part])
+    i = two_motions(stamps, np.array(values), whose)
+    if i is None and len(values) - len(np.unique(stamps)) > OFTEN_AT_ONCE * len(values):
+        order = np.argsort(part.received_ns, kind="stable")
+        values = [part.values[k] for k in order]
+        received = np.array(part.received_ns, dtype=np.int64)[order]
+        i = two_motions(received, np.array(values), np.zeros(len(order), dtype=np.intp))
+        stamps = part.times_ns()[order]
+    return None if i is None else (float(stamps[i] * 1e-9), values[i], values[i - 1])
+
+
+def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose: NDArray[np.intp]) -> int | None:
+    """A sample that lies beside the motion of its neighbours, where samples come from two motions; None if from one.
+
+    Of two publishers that take turns, each one's samples are smooth without the other's, and the way from one motion to
+    the other changes slowly. A jump, a corner or noise has one of the two, but not both.
+
+    Args:
+        stamps_ns: in ascending order, (T,).
+        values: positions and quaternions, (T, 7).
+        whose: if several topics have samples, only those between samples of another topic are judged, (T,).
+    """
+    if len(stamps_ns) < 7:
+        return None
+    seconds = (stamps_ns - stamps_ns[0]).astype(np.float64) * 1e-9
+    # Where the frame's x and y axes point: no rotation has two descriptions, and a small one counts by its angle.
+    axes = Rotation.from_quat(values[:, 3:]).as_matrix()[:, :, :2].reshape(-1, 6) / math.sqrt(2)
+    poses = np.concatenate([values[:, :3], axes], axis=1)
+    middle = np.arange(3, len(seconds) - 3)
+    ahead = poses[middle + 1] - poses[middle - 1]
+    length = np.linalg.norm(ahead, axis=1, keepdims=True)
+    ahead = np.where(length > 0, ahead / np.where(length > 0, length, 1.0), 0.0)
+
+    def beside(at: int, before: int, after: int) -> NDArray[np.float64]:
+        """From the line between two neighbours to a third, without some steps along the motion: stamps may be late."""
+        i, j, k = middle + at, middle + before, middle + after
+        span = seconds[k] - seconds[j]
+        share = np.where(span > 0, (seconds[i] - seconds[j]) / np.where(span > 0, span, 1.0), 0.5)[:, None]
+        away = poses[i] - poses[j] * (1 - share) - poses[k] * share
+        along = np.sum(away * ahead, axis=1, keepdims=True)
+        return np.asarray(away - np.clip(along, -STEPS * length, STEPS * length) * ahead)
+
+    def off(at: int, before: int, after: int) -> NDArray[np.float64]:
+        return np.asarray(np.linalg.norm(beside(at, before, after), axis=1))
+
+    away, joint = beside(0, -1, 1), off(0, -1, 1)
+    # The neighbours are of the other publisher, and go on smoothly to the next or next but one on their other side.
+    before = np.minimum(off(-1, -2, 1), off(-1, -3, 1))
+    after = np.minimum(off(1, -1, 2), off(1, -1, 3))
+    beyond = (joint > APART) & (np.maximum(before, after) < MUCH_SMOOTHER * joint)
+    several = len(np.unique(whose)) > 1
+    if several:
+        beyond &= (whose[middle - 1] != whose[middle]) & (whose[middle + 1] != whose[middle])
+    count = int(beyond.sum())
+    if count < (FEWEST_BETWEEN if several else FEWEST):
+        return None
+    one, next_one = away[beyond][:-1], away[beyond][1:]
+    largest = np.maximum(np.linalg.norm(one, axis=1), np.linalg.norm(next_one, axis=1))
+    change = np.minimum(np.linalg.norm(one - next_one, axis=1), np.linalg.norm(one + next_one, axis=1)) / largest
+    allowed = STEADY[0][1] if several else next(steady for share, steady in STEADY if count >= share * len(seconds))
+    if float(np.median(change)) > allowed:
+        return None
+    return int(middle[beyond][count // 2])

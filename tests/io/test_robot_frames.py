@@ -1,0 +1,333 @@
+"""Recordings with several robots, several publishers, or a clock that starts again."""
+
+import math
+
+import numpy as np
+import pytest
+import recordings as r
+
+import bayesmap as bm
+from bayesmap.io.frames import Samples
+from bayesmap.io.logs import describe_log
+from bayesmap.io.publishers import contradiction
+
+
+def way(number):
+    """The path of robot 1, 2 or 3: far from the others."""
+    return lambda seconds: r.path_of(seconds) + np.array([0.4, -0.7, 0.5]) * number
+
+
+def mount(number):
+    return (0.1 * number, 0.05, 0.4 * number)
+
+
+def fleet(**options):
+    """Three robots with the same times, and their scans as they were simulated."""
+    return [r.robot(path=way(n), mount=mount(n), **{k: v.format(n) for k, v in options.items()}) for n in (1, 2, 3)]
+
+
+def same(read, wanted, frame=(0.0, 0.0, 0.0)):
+    """Scans are those that were simulated, seen from a frame of the world."""
+    x, y, turn = frame
+    dx, dy = (wanted.poses[:, :2] - [x, y]).T
+    cos, sin = math.cos(turn), math.sin(turn)
+    places = np.stack([cos * dx + sin * dy, cos * dy - sin * dx], -1)
+    np.testing.assert_allclose(read.poses[:, :2], places, atol=1e-9)
+    np.testing.assert_allclose(np.exp(1j * read.poses[:, 2]), np.exp(1j * (wanted.poses[:, 2] - turn)), atol=1e-9)
+    np.testing.assert_array_equal(read.ranges_m, wanted.ranges_m)
+
+
+def refused(path, **options):
+    with pytest.raises(bm.BadInput) as error:
+        describe_log(path, **options)
+    assert str(error.value).startswith(str(path))
+    return str(error.value)
+
+
+@pytest.mark.parametrize("writer", ["mcap", "rosbag1"])
+def test_robots_with_transforms_of_their_own_are_read_by_these(tmp_path, writer):
+    robots = fleet(space="/robot{}")
+    file = r.written(tmp_path, r.merged(*(messages for messages, _ in robots)), writer)
+    for n, (_, scans) in enumerate(robots, 1):
+        reading = describe_log(file, scan_topic=f"/robot{n}/scan")
+        same(reading.scans, scans)
+        assert reading.pose_source == f"/robot{n}/tf"
+        assert len(reading.notes) == 1
+        assert "transforms of other namespaces were not used" in reading.notes[0]
+        chosen = describe_log(file, scan_topic=f"/robot{n}/scan", pose_topic=f"/robot{n}/tf")
+        same(chosen.scans, scans)
+        assert chosen.notes == ()
+
+
+def test_a_namespace_within_a_namespace_is_the_robot_s(tmp_path):
+    robots = [
+        r.robot(path=way(n), mount=mount(n), space=f"/site/robot{n}/front", tf_space=f"/site/robot{n}") for n in (1, 2)
+    ]
+    file = r.written(tmp_path, r.merged(*(messages for messages, _ in robots)))
+    for n, (_, scans) in enumerate(robots, 1):
+        same(describe_log(file, scan_topic=f"/site/robot{n}/front/scan").scans, scans)
+
+
+def test_transforms_of_all_robots_on_one_topic_with_names_of_their_own(tmp_path):
+    robots = fleet(space="/robot{}", tf_space="", prefix="robot{}/")
+    messages = [m for part, _ in robots for m in part]
+    for n in (1, 2, 3):  # the world sees robot 1's map move, as its localization corrects it
+        for t in r.POSE_TIMES:
+            moved = (0.3 * t, 0.1 * t, 0.2 * t) if n == 1 else (0.0, 0.0, 0.0)
+            messages.append(("/tf", r.TF, t, r.tf(r.transform(t, "world", f"robot{n}/map", *moved))))
+    file = r.written(tmp_path, r.merged(messages))
+    for n, (_, scans) in enumerate(robots, 1):
+        reading = describe_log(file, scan_topic=f"/robot{n}/scan")
+        assert reading.fixed_frame == f"robot{n}/map"
+        same(reading.scans, scans)
+        assert reading.notes == ()
+    third = describe_log(file, scan_topic="/robot3/scan", fixed_frame="world")
+    same(third.scans, robots[2][1])
+    other = describe_log(file, scan_topic="/robot3/scan", fixed_frame="robot1/map")
+    assert any("the frame 'robot1/map' is not over that of the scans" in note for note in other.notes)
+
+
+def test_the_nearest_of_two_maps_over_the_sensor_is_taken(tmp_path):
+    messages, scans = r.robot()
+    messages += [("/tf", r.TF, t, r.tf(r.transform(t, "site/map", "map", 0.5 * t, 0.0, 0.0))) for t in r.POSE_TIMES]
+    reading = describe_log(r.written(tmp_path, r.merged(messages)))
+    assert reading.fixed_frame == "map"
+    same(reading.scans, scans)
+
+
+def test_namespaces_of_transforms_that_scans_have_not_are_to_be_chosen_from(tmp_path):
+    robots = [r.robot(path=way(n), mount=mount(n), space=f"/laser{n}", tf_space=f"/robot{n}") for n in (1, 2)]
+    file = r.written(tmp_path / "two", r.merged(*(messages for messages, _ in robots)))
+    message = refused(file, scan_topic="/laser2/scan")
+    assert "differs between topics: /robot1/tf" in message
+    assert "choose one with --pose-topic: /robot1/tf" in message
+    assert "/robot2/tf (tf2_msgs" in message
+    same(describe_log(file, scan_topic="/laser2/scan", pose_topic="/robot2/tf").scans, robots[1][1])
+    alone = describe_log(r.written(tmp_path / "one", robots[0][0]))
+    same(alone.scans, robots[0][1])
+    assert "transforms were taken from /robot1/tf" in alone.notes[0]
+
+
+def test_a_map_of_the_whole_fleet_is_found_beside_each_robot_s_transforms(tmp_path):
+    robots = fleet(space="/robot{}", prefix="robot{}_")
+    messages = [m for part, _ in robots for m in part]
+    messages += [
+        ("/tf_static", r.TF, 0.0, r.tf(r.transform(0.0, "map", f"robot{n}_map", 1, 2, 0.3))) for n in (1, 2, 3)
+    ]
+    file = r.written(tmp_path, r.merged(messages))
+    for n, (_, scans) in enumerate(robots, 1):
+        reading = describe_log(file, scan_topic=f"/robot{n}/scan")
+        assert reading.fixed_frame == "map"
+        cos, sin = math.cos(-0.3), math.sin(-0.3)
+        same(reading.scans, scans, (-(cos * 1 - sin * 2), -(sin * 1 + cos * 2), -0.3))
+
+
+def test_odometry_of_the_scans_namespace_is_taken_where_there_are_no_transforms(tmp_path):
+    robots = [r.robot(False, True, path=way(n), mount=mount(n), space=f"/robot{n}") for n in (1, 2)]
+    file = r.written(tmp_path, r.merged(*(messages for messages, _ in robots)))
+    for n, (_, scans) in enumerate(robots, 1):
+        reading = describe_log(file, scan_topic=f"/robot{n}/scan")
+        same(reading.scans, scans)
+        assert f"/robot{n}/odom, the only topic of poses in the namespace" in reading.notes[0]
+
+
+@pytest.mark.parametrize("every", [1, 2])
+def test_a_topic_that_repeats_transforms_changes_nothing(tmp_path, every):
+    messages, scans = r.robot()
+    again = [("/tf_relay", *m[1:]) for m in messages if m[0] == "/tf"][:: 2 * every]
+    reading = describe_log(r.written(tmp_path, r.merged(messages, again)))
+    same(reading.scans, scans)
+    assert reading.notes == ()
+
+
+def test_a_topic_that_tells_other_transforms_is_to_be_chosen_from(tmp_path):
+    messages, scans = r.robot()
+    others = [m for m in r.robot(path=way(1), late=0.01)[0] if m[0] == "/tf"]
+    others = [("/tf_other", *m[1:]) for m in others]
+    file = r.written(tmp_path, r.merged(messages, others))
+    message = refused(file)
+    assert "the transform odom -> base_link differs between topics: /tf says x " in message
+    assert "choose one with --pose-topic: /tf (tf2_msgs/msg/TFMessage, 42 messages), /tf_other (" in message
+    same(describe_log(file, pose_topic="/tf").scans, scans)
+
+
+def mounts(topic, *values, **angles):
+    return [
+        (topic, r.TF, 0.1 * i, r.tf(r.transform(0.1 * i, "base_link", "laser", *v, **angles)))
+        for i, v in enumerate(values)
+    ]
+
+
+def test_a_static_transform_may_be_repeated(tmp_path):
+    messages, scans = r.robot(static=False)
+    again = mounts("/tf_static", *[r.MOUNT] * 4)
+    rotation = again[2][3]["transforms"][0]["transform"]["rotation"]
+    rotation.update({axis: -value for axis, value in rotation.items()})  # the same rotation
+    reading = describe_log(r.written(tmp_path, r.merged(messages, again, mounts("/tf", *[r.MOUNT] * 3))))
+    same(reading.scans, scans)
+    assert reading.notes == ()
+
+
+@pytest.mark.parametrize("other", [(0.2, -0.1, 0.3 + math.pi), (0.2, -0.05, 0.3), (0.2, -0.1, 0.302)])
+def test_a_static_transform_with_two_values_is_noted_with_both(tmp_path, other):
+    messages, _ = r.robot(static=False)
+    reading = describe_log(r.written(tmp_path, r.merged(messages, mounts("/tf_static", other, r.MOUNT))))
+    (note,) = reading.notes
+    assert note.startswith("the transform base_link -> laser has two values on /tf_static that differ: x 0.2 m, y ")
+    assert "yaw 17.19 degrees (1 x); the last was used, x 0.2 m, y -0.1 m, yaw 17.19 degrees" in note
+    np.testing.assert_allclose(reading.laser_offset, r.MOUNT, atol=1e-9)
+
+
+def test_a_sensor_that_is_upside_down_by_one_publisher_only_is_noted(tmp_path):
+    messages, _ = r.robot()
+    reading = describe_log(r.written(tmp_path, r.merged(messages, mounts("/tf_static", r.MOUNT, roll=math.pi))))
+    assert any("has two values on /tf_static" in note and "roll" in note for note in reading.notes)
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_a_transform_that_is_static_and_not_is_to_be_chosen(tmp_path, moving):
+    messages, scans = r.robot()
+    still = r.transform(0.0, "odom", "base_link", 1.0, 2.0, 0.5) if moving else r.transform(0.0, "map", "odom", 1, 2, 0)
+    file = r.written(tmp_path, r.merged([("/tf_static", r.TF, 0.0, r.tf(still))], messages))
+    message = refused(file)
+    assert f"the transform {'odom -> base_link' if moving else 'map -> odom'} differs between topics" in message
+    assert "/tf_static says x 1 m, y 2 m" in message
+    assert "--pose-topic: " in message
+    same(describe_log(file, pose_topic="/tf").scans, scans)
+
+
+@pytest.mark.parametrize("late", [0.0, 0.1])
+@pytest.mark.parametrize("away", [(0.05, 0.0, 0.0), (1.0, -2.0, 0.7), (0.0, 0.0, math.pi)])
+def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late, away):
+    messages, scans = r.robot(odom=True)
+    others = [m for m in r.robot(path=lambda t: r.path_of(t) + away, late=late)[0] if m[0] == "/tf"]
+    others = [m for m in others if m[3]["transforms"][0]["child_frame_id"] == "base_link"]
+    file = r.written(tmp_path, r.merged(messages, others))
+    message = refused(file)
+    assert "the transform odom -> base_link on /tf goes to and fro between values that differ: at " in message
+    assert "two publishers" in message
+    assert "--pose-topic: /odom" in message
+    same(describe_log(file, pose_topic="/odom").scans, scans)
+
+
+def test_two_publishers_of_the_map_leave_the_odometry(tmp_path):
+    messages, _ = r.robot()
+    others = [("/tf", r.TF, t + 0.1, r.tf(r.transform(t + 0.1, "map", "odom", 1.0, 1.0, 0.0))) for t in r.POSE_TIMES]
+    file = r.written(tmp_path, r.merged(messages, others))
+    assert "map in a frame below it with --fixed-frame odom" in refused(file)
+    assert describe_log(file, fixed_frame="odom").fixed_frame == "odom"
+
+
+def test_two_publishers_on_a_topic_of_poses_are_refused(tmp_path):
+    messages, _ = r.robot(tf_poses=False, odom=True)
+    others = [m for m in r.robot(tf_poses=False, odom=True, path=way(1), late=0.1)[0] if m[0] == "/odom"]
+    assert "odom -> base_link on /odom goes to and fro" in refused(r.written(tmp_path, r.merged(messages, others)))
+
+
+def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
+    """Odometry at about 10 Hz: turns, stops, jumps; noise in metres and radians."""
+    t = 0.1 * np.arange(samples) + rng.uniform(0, 0.02, samples)
+    speed = np.repeat(rng.choice([0.0, 0.3, 1.0], samples // 10 + 1), 10)[:samples]
+    yaw = np.cumsum(0.1 * np.repeat(rng.choice([0.0, -0.5, 0.8], samples // 10 + 1), 10)[:samples])
+    x, y = np.cumsum(0.1 * speed * np.cos(yaw)), np.cumsum(0.1 * speed * np.sin(yaw))
+    x[samples // 2 :] += 0.7  # found its place again
+    x, y, yaw = (np.interp(t, 0.1 * np.arange(samples), v) for v in (x, y, yaw))
+    x, y, yaw = (v + rng.normal(0, noise, samples) + d for v, d in zip((x, y, yaw), away, strict=True))
+    part = Samples(topic="/tf")
+    for i in range(samples):
+        stamp = round((t[i] + late_s + 1) * 1e9)
+        part.add(stamp, stamp, (x[i], y[i], 0.0, 0.0, 0.0, math.sin(yaw[i] / 2), math.cos(yaw[i] / 2)))
+    return part
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.001, 0.03])
+def test_one_noisy_publisher_is_not_taken_for_two_and_two_are(noise):
+    rng = np.random.default_rng(5)
+    for _ in range(60):
+        samples = int(rng.integers(10, 300))
+        assert contradiction("odom", "base_link", [a_track(rng, samples, noise)]) is None
+    found = 0
+    for seed in range(40):
+        one, other = (
+            a_track(np.random.default_rng(seed), 150, 0.1 * noise, late_s, away)
+            for late_s, away in ((0.0, (0.0, 0.0, 0.0)), (0.05, (0.3, 0.4, 0.1)))
+        )
+        both = Samples.joined(
+            [one, Samples(False, "/tf", *(list(v) for v in (other.stamps_ns, other.received_ns, other.values)))]
+        )
+        found += contradiction("odom", "base_link", [both]) is not None
+    assert found == 40
+
+
+def received_later(messages, seconds):
+    """What is received later than its stamps say, by the recorder's own clock."""
+    return [(topic, kind, t + seconds, message) for topic, kind, t, message in messages]
+
+
+def run_of(number, seconds, **options):
+    """A run of the simulated robot on a path of its own, received from a time on, and its scans."""
+    messages, scans = r.robot(path=way(number), **options)
+    return received_later(messages, seconds), scans
+
+
+@pytest.mark.parametrize("writer", ["mcap", "db3", "rosbag1"])
+@pytest.mark.parametrize("runs", [2, 3])
+def test_a_clock_that_starts_again_keeps_the_runs_apart(tmp_path, writer, runs):
+    parts = [run_of(n, 100.0 + 7.0 * n) for n in range(runs)]
+    reading = describe_log(r.written(tmp_path, r.merged(*(messages for messages, _ in parts)), writer))
+    assert len(reading.scans) == 10 * runs
+    for n, (_, scans) in enumerate(parts):
+        same(reading.scans.select(np.arange(10 * n, 10 * n + 10)), scans)
+    assert (np.diff(reading.scans.stamps_s) > 0).all()
+    np.testing.assert_allclose(reading.scans.stamps_s[10:20] - reading.scans.stamps_s[:10], 7.0, atol=1e-6)
+    assert sum("the clock goes back by" in note for note in reading.notes) == runs - 1
+    assert reading.reordered == 0
+
+
+@pytest.mark.parametrize("sources", [(True, False), (False, True)])
+def test_a_clock_that_starts_again_on_the_way_with_transforms_between_the_scans(tmp_path, sources):
+    first, scans = run_of(1, 100.0, tf_poses=sources[0], odom=sources[1])
+    second, others = run_of(2, 103.0, tf_poses=sources[0], odom=sources[1])
+    first = [m for m in first if m[2] <= 103.0]  # the first run is cut off by the second
+    reading = describe_log(r.written(tmp_path, r.merged(first, second)))
+    kept = len(reading.scans) - 10
+    assert 4 <= kept <= 7
+    same(reading.scans.select(np.arange(kept)), scans.select(np.arange(kept)))
+    same(reading.scans.select(np.arange(kept, kept + 10)), others)
+
+
+def test_a_clock_that_starts_again_while_messages_are_on_their_way(tmp_path):
+    """A few messages of the first run are received after the second run's first."""
+    first, scans = run_of(1, 100.0)
+    second, others = run_of(2, 105.2)
+    last = max(m[2] for m in first if m[0] == "/scan")
+    first = [(*m[:2], 105.25, m[3]) if m[2] == last else m for m in first]
+    reading = describe_log(r.written(tmp_path, r.merged(first, second)))
+    same(reading.scans.select(np.arange(10)), scans)
+    same(reading.scans.select(np.arange(10, 20)), others)
+
+
+def test_a_run_without_poses_is_left_out_with_the_reason(tmp_path):
+    first, scans = run_of(1, 100.0)
+    second = [m for m in run_of(2, 107.0)[0] if m[0] == "/scan"]
+    reading = describe_log(r.written(tmp_path, r.merged(first, second)))
+    same(reading.scans, scans)
+    assert any("one run of the clock was left out: " in note for note in reading.notes)
+
+
+def test_a_clock_that_starts_again_for_the_recorder_too_is_refused_as_such(tmp_path):
+    """Recorded by the simulated clock itself, both runs are received at the same times."""
+    parts = [r.robot(path=way(n), late=0.01 * n)[0] for n in (1, 2)]
+    assert "or the clock of the recording started again" in refused(r.written(tmp_path, r.merged(*parts)))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_scans_that_come_late_are_sorted_and_make_no_run(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    messages, scans = r.robot()
+    laser = [m for m in messages if m[0] == "/scan"]
+    late = rng.permutation(len(laser)) if seed else np.roll(np.arange(len(laser)), 3)
+    shuffled = [(*a[:2], b[2], a[3]) for a, b in zip([laser[i] for i in late], laser, strict=True)]
+    reading = describe_log(r.written(tmp_path, r.merged([m for m in messages if m[0] != "/scan"], shuffled)))
+    same(reading.scans, scans)
+    assert any("all were sorted by time" in note for note in reading.notes)
