@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
+from tiers import latin
 
 import bayesmap as bm
 from bayesmap.cells.labels import SOLID
@@ -25,11 +26,11 @@ def _short_steps(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
 
 
-KINDS = pytest.mark.parametrize("kind", PRIORS | LABELLED)
+ALL = list(PRIORS | LABELLED)
+KINDS = pytest.mark.parametrize("kind", ALL)
 
 
-@KINDS
-@pytest.mark.parametrize("chains", [1, 3])
+@pytest.mark.parametrize(("kind", "chains"), latin(2, ALL, [1, 3]))
 def test_the_number_of_threads_changes_nothing(kind, chains):
     runs = [infer(kind, chains=chains, threads=threads) for threads in (1, 2, 4)]
     assert_same(runs[0], runs[1])
@@ -42,8 +43,7 @@ def test_a_seed_gives_one_run_and_another_seed_another(kind):
     assert (infer(kind, seed=3).draws != infer(kind, seed=4).draws).any()
 
 
-@KINDS
-@pytest.mark.parametrize("sensor", ["fit", TRUTH], ids=["fitted", "given"])
+@pytest.mark.parametrize(("kind", "sensor"), latin(2, ALL, ["fit", TRUTH]))
 def test_a_chain_does_not_know_of_the_others_the_fit_included(kind, sensor):
     many, one = (infer(kind, chains=chains, sensor=sensor) for chains in (3, 1))
     np.testing.assert_array_equal(many.draws[0], one.draws[0])
@@ -75,16 +75,14 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     np.testing.assert_array_equal(chains.observed(), whole.observed)
 
 
-@KINDS
-@pytest.mark.parametrize("step_seconds", [1e-3, 10.0])
+@pytest.mark.parametrize(("kind", "step_seconds"), latin(2, ALL, [1e-3, 10.0]))
 def test_any_cutting_into_steps_gives_the_same_run(kind, step_seconds, monkeypatch):
     whole = infer(kind, thin=2)
     monkeypatch.setattr(runner, "STEP_SECONDS", step_seconds)
     assert_same(infer(kind, thin=2), whole)
 
 
-@KINDS
-@pytest.mark.parametrize("thin", [1, 3])
+@pytest.mark.parametrize(("kind", "thin"), latin(2, ALL, [1, 3]))
 def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
     options = {"warmup": 12, "draws": 4, "thin": thin}
     stops = []

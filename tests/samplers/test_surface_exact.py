@@ -6,7 +6,7 @@ over this module.
 """
 
 from dataclasses import replace
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -53,7 +53,15 @@ CASES = {
 }
 
 
-@cache
+@pytest.fixture(autouse=True, scope="module")
+def _forget():
+    """A million draws are 0.2 GB: one law is kept at a time, and none for the tests of other modules."""
+    yield
+    for kept in (prior_states, by_importance):
+        kept.cache_clear()
+
+
+@lru_cache(maxsize=1)
 def prior_states(shape, prior, anywhere=False):
     """A million states from the prior, in metres, and centres and edge of their cells."""
     cell = np.arange(shape[0] * shape[1])
@@ -61,7 +69,7 @@ def prior_states(shape, prior, anywhere=False):
     return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,), anywhere=anywhere), centres
 
 
-@cache
+@lru_cache(maxsize=1)
 def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
     """Draws from the prior, weighted by their likelihood."""
     states, centres = prior_states(shape, prior, anywhere)
@@ -79,7 +87,7 @@ def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0, search_until=0):
     return surface_coordinates(states, np.stack([cell // ny + 0.5, cell % ny + 0.5], axis=-1), 1.0)
 
 
-@pytest.mark.parametrize("name", full_but(CASES, "one cell, blunt", "one cell, sharp", "two cells"))
+@pytest.mark.parametrize("name", full_but(CASES, "one cell, blunt", "one cell, sharp"))
 def test_draws_follow_the_posterior(name):
     case = CASES[name]
     law = by_importance(*case)
