@@ -98,16 +98,16 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
 
 @pytest.mark.full
 def test_effective_draws_are_those_of_the_whole_trace(open_page):
-    page = open_page(document(sweeps=15_000))
+    page = open_page(document(sweeps=4000))
     page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "!s.running && s.draws.count === 15000 && s.painted.sweeps === 15000")
+    until(page, "!s.running && s.draws.count === 4000 && s.painted.sweeps === 4000")
     page.get_by_role("button", name="Export").click()
     with page.expect_download() as waiting:
         page.get_by_role("button", name="Saved run").click()
     path = waiting.value.path().with_suffix(".nc")
     waiting.value.save_as(path)
     log_joint = bm.load(path).log_joint
-    assert log_joint.shape == (2, 15_000)
+    assert log_joint.shape == (2, 4000)
     assert snapshot(page)["painted"]["ess"] == pytest.approx(bulk_ess(log_joint), rel=0.01)
 
 
