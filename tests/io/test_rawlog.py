@@ -312,10 +312,10 @@ def test_whatever_a_damaged_rawlog_holds_it_is_read_or_refused(tmp_path, seed):
     for at in rng.integers(0, len(data), 20):
         data[at] = rng.integers(256)
     path = written(tmp_path / "log", bytes(data), zipped=False)
-    told = []
     for lenient in (False, True):
+        told = str(path)
         try:
             read_log(path, skip_bad_lines=lenient)
         except bm.BadInput as problem:
-            told.append(str(problem))
-    assert [text for text in told if not text.startswith(str(path))] == []
+            told = str(problem)
+        assert told.startswith(str(path))

@@ -234,7 +234,8 @@ class _Objects:
         if not self.odometry or stamps_s is None:
             return None, everywhere
         self.source = ODOMETRY
-        told = sorted(max(self.odometry.values(), key=len), key=lambda reading: reading[0])
+        label = max(self.odometry, key=lambda label: len(self.odometry[label]))
+        told = sorted(self.odometry[label], key=lambda reading: reading[0])
         times, poses = np.array([t for t, _ in told]), np.array([pose for _, pose in told])
         inside = (stamps_s >= times[0]) & (stamps_s <= times[-1])
         if not inside.all():
