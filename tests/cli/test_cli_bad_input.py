@@ -35,7 +35,6 @@ def log(folder, text):
     [
         (GOOD.format(t=1) + "FLASER 3 1.0 2.0 1.5 0.1\n", "line 2", "--skip-bad-lines"),
         (GOOD.format(t=1) + NAN_POSE, "line 2", "--skip-bad-lines"),
-        (GOOD.format(t=1) * 2 + "FLASER 2 1.0 2.0 0 0 0 0 0 0 1 host 1\n", "line 3: .* 2 beams", "most scans"),
         (GOOD.format(t=1) + GOOD.format(t=2).replace("FLASER 3", "FLASER -3"), "line 2", "--skip-bad-lines"),
         ("{}", "not a log of a known format", "CARMEN"),
         ("", "empty", "my.log"),

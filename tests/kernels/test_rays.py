@@ -28,7 +28,7 @@ def random_scans(seed, *, lattice=False, poses=3, rays=30, grid=GRID):
     xy = np.array(grid.origin) + rng.uniform(-0.2, 1.2, (poses, 2)) * size
     yaw, angles = rng.uniform(-4, 4, poses), rng.uniform(0, 2 * np.pi, rays)
     if lattice:
-        xy, yaw, angles = np.round(xy * 8) / 8, np.zeros(poses), np.arange(rays) * np.pi / 12
+        xy, yaw, angles = np.round(xy * 8) / 8, np.zeros(poses), np.arange(rays) % 24 * np.pi / 12
     readings = rng.uniform(0.1, 4.0, (poses, rays))
     kinds = rng.random(readings.shape)
     readings[kinds < 0.15] = np.inf
