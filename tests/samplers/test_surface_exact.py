@@ -140,7 +140,7 @@ def test_a_cell_that_stops_nothing_takes_its_surfaces_from_the_prior():
     prior, of_prior = prior_states((1, 1), SMALL)
     values = surface_coordinates(prior, *of_prior)[:, 1:]
     assert p_values(mine, weighted(values, np.zeros(len(values)))).min() > ALPHA / TESTS
-    size = (prior[:, 0, 3:] ** 2).sum(axis=-1) / (SMALL.extent * EDGE) ** 2
+    size = (prior[:, 0, 3:] ** 2).sum(axis=-1) / (SMALL.size_scale * EDGE) ** 2
     assert p_values(mine, weighted(values, 0.5 * size)).min() < ALPHA / TESTS  # the twin: large ones as often as not
 
 
