@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.kernels.pose_weights import PackedMap, pack_map, scan_log_likelihood
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.others_maps import stop_probabilities
@@ -254,10 +255,8 @@ class _Placed:
     poses: Floats
     thin: int
 
-    def log_densities(self, stops: Callable[[float, float], object], values: Mapping[str, float]) -> Floats:
+    def log_densities(self, stops: Callable[[float, float], PackedMap], values: Mapping[str, float]) -> Floats:
         """Log densities of the readings under the law, (S, A); NaN where invalid."""
-        from bayesmap.kernels.pose_weights import scan_log_likelihood
-
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         packed = stops(values["stop_occupied"], values["stop_unknown"])
         readings = self.scans.ranges_m[:, :: self.thin]
@@ -273,12 +272,10 @@ class _Placed:
         return np.where(np.isnan(readings), np.nan, logs)
 
 
-def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], object]:
+def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], PackedMap]:
     """The map packed for kernels, by the stop chances of occupied and unknown cells; the last ones are kept."""
-    from bayesmap.kernels.pose_weights import pack_map
-
     @lru_cache(maxsize=4)
-    def packed(occupied: float, unknown: float) -> object:
+    def packed(occupied: float, unknown: float) -> PackedMap:
         values = {**ASSUMED, "stop_occupied": occupied, "stop_unknown": unknown}
         return pack_map(stop_probabilities(occupancy, values).ravel()[None].astype(np.float32), grid, 0.5)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+import dataclasses
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -131,7 +132,7 @@ class KnownMap:
     max_range_m: float
     typical_m: float
     beam_weight: float | None = None
-    trust: Trust = field(default_factory=Trust)
+    trust: Trust = dataclasses.field(default_factory=Trust)
     usual_fit: UsualFit | None = None
 
     @classmethod
