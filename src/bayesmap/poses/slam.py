@@ -14,6 +14,7 @@ from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odomet
 from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
 from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
+from bayesmap.poses.frozen_odometry import caught_up
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
 from bayesmap.poses.log_checks import check_scans
@@ -92,7 +93,7 @@ def infer_trajectory(
         checkpoint,
         fingerprint(
             scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s,
-            settings=f"2 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
+            settings=f"3 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
         ),
     )  # fmt: skip
     run = _Run(scans, no_odometry, threads, device, stages, on_progress or (lambda stage, done, of: None), on_poses)
@@ -129,6 +130,9 @@ class _Run:
         scans, threads = self.scans, self.threads
         angles, ratio = scans.angles_rad, 1.0
         geometry = self.geometry(angles)
+        if not self.no_odometry:
+            self.stated = caught_up(scans, geometry, threads)
+            self.motions, self.impossible = stated_motions(self.stated, scans.stamps_s)
         self.track = track = self.front_end(geometry)
         self.go_backwards(track.against)
         keys = track.keys
