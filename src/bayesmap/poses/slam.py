@@ -26,8 +26,8 @@ from bayesmap.poses.point_errors import point_error, with_point_error
 from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
-from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
-from bayesmap.space.planar import between, compose, nearest
+from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory
+from bayesmap.space.planar import between, compose, nearest, wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
@@ -98,6 +98,17 @@ def infer_trajectory(
     )  # fmt: skip
     run = _Run(scans, no_odometry, threads, device, stages, on_progress or (lambda stage, done, of: None), on_poses)
     return run.trajectory(order, calibrate_angles)
+
+
+def alternatives_of(closed: Arrays, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
+    """Return the alternatives to the poses of the keys, (K, 3), and the steps to them for `PoseGaussian.elsewhere`."""
+    if not len(closed["probabilities"]):
+        return NO_ALTERNATIVES, None
+    steps = between(closed["poses"][None], closed["elsewhere"])
+    steps[..., 2] = wrapped(steps[..., 2])
+    first, last, probabilities = keys[closed["hangs_from"]], keys[closed["hangs_to"]], closed["probabilities"]
+    elsewhere = steps * np.sqrt(probabilities)[:, None, None]
+    return Alternatives(first, last, probabilities, compose(poses[None], steps)), elsewhere
 
 
 class _Run:
@@ -183,11 +194,14 @@ class _Run:
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
         leaps = keys[1:][contradicted_links(track, final.poses)]
         gaussian = replace(with_point_error(final, error), poses=compose(self.origin, final.poses))
+        alternatives, elsewhere = alternatives_of(closed, keys, gaussian.poses)
+        gaussian = replace(gaussian, elsewhere=elsewhere)
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
             compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest_key,
             placed.own_covariance(keys), explained, flag_unexplained(explained, keys), breaks, closures,
             Calibration(ratio, angles, fit, noise, final.sigma_m), order, None if fit is None else factors, leaps,
+            alternatives,
         )  # fmt: skip
 
     def front_end(self, geometry: ScanGeometry) -> Track:
@@ -233,6 +247,8 @@ class _Run:
         return {
             "poses": closed.poses, "first": closed.closures.first, "second": closed.closures.second,
             "relative": closed.closures.relative, "weights": closed.weights, "joined": closed.joined,
+            "elsewhere": closed.weighed.alternatives, "probabilities": closed.weighed.probabilities,
+            "hangs_from": closed.weighed.first, "hangs_to": closed.weighed.last,
         }  # fmt: skip
 
     def first_factors(self, track: Track, poses: Floats) -> Factors:
