@@ -27,6 +27,9 @@ PASSED_ON = ("chains", "warmup", "thin", "seed", "threads", "device", "hit_depth
 SHOWN = 3
 """Stretches of odometry in doubt that are named."""
 
+ALTERNATIVES_SHOWN = 5
+"""Alternatives to the trajectory that are described."""
+
 
 @takes("slam")
 @click.argument("log")
@@ -169,7 +172,14 @@ def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Pat
             if reading.posed
             else {}
         ),
-        "loops.png": loops_figure(found.poses, closures.first, closures.second, closures.residuals, closures.weights),
+        "loops.png": loops_figure(
+            found.poses,
+            closures.first,
+            closures.second,
+            closures.residuals,
+            closures.weights,
+            [(found.alternative_poses(n), float(p)) for n, p in enumerate(found.alternatives.probabilities)],
+        ),
     }
     for name, figure in pictures.items():
         write_figure(figure, folder.path / name)
@@ -195,6 +205,7 @@ def summary(run: Run) -> dict[str, Any]:
         "flagged": np.nonzero(found.flagged)[0].tolist(),
         "breaks": found.breaks.tolist(),
         "leaps": found.leaps.tolist(),
+        "alternatives": [_alternative(found, n) for n in range(len(found.alternatives))],
         "sigma_m": {"median": float(np.median(sigma_m)), "max": float(sigma_m.max())},
         "angle_step_ratio": found.calibration.angle_step_ratio,
         "odometry": None if fit is None else {"lag_s": fit.lag_s, "slope": fit.slope.tolist()},
@@ -211,6 +222,24 @@ def summary(run: Run) -> dict[str, Any]:
             "unmoved": int((~np.isfinite(poses.rhat)).any(axis=-1).sum()),
         }
     return out
+
+
+def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
+    """Return what is said of an alternative: its scans, its probability, and how far it moves one from the other."""
+    import numpy as np
+
+    from bayesmap.space.planar import between
+
+    other, first, last = found.alternatives, found.alternatives.first[number], found.alternatives.last[number]
+    there = found.alternative_poses(number)
+    off = between(between(found.poses[first], found.poses[last]), between(there[first], there[last]))
+    return {
+        "first": int(first),
+        "last": int(last),
+        "probability": float(other.probabilities[number]),
+        "off_m": float(np.hypot(off[0], off[1])),
+        "off_degrees": float(np.degrees(np.abs(off[2]))),
+    }
 
 
 def _report(call: Call, trajectory: dict[str, Any]) -> None:
@@ -240,6 +269,15 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
             "before these scans the trajectory leaps as neither odometry nor matching did, and what lies before and "
             f"after may be shifted against each other: {_first_of(trajectory['leaps'])}"
         )
+
+    for other in trajectory["alternatives"][:ALTERNATIVES_SHOWN]:
+        call.console.warn(
+            f"from scan {other['first']} to {other['last']} the trajectory hangs on one visit of places that look "
+            f"alike: with probability {other['probability']:.2f} scan {other['last']} lies {other['off_m']:.1f} m and "
+            f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances hold both"
+        )
+    if len(trajectory["alternatives"]) > ALTERNATIVES_SHOWN:
+        call.console.warn(f"so it does in {len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more stretches")
 
 
 def _first_of(scans: list[int]) -> str:

@@ -47,7 +47,7 @@ def read_array(variable: Any) -> NDArray[Any]:
 
 def _crc32(values: NDArray[Any], so_far: int = 0) -> int:
     """Return the CRC of an array's elements in C order, after those of earlier parts."""
-    return zlib.crc32(memoryview(np.ascontiguousarray(values).reshape(-1).view(np.uint8)), so_far)
+    return zlib.crc32(np.ascontiguousarray(values).reshape(-1).view(np.uint8).data, so_far)
 
 
 def _check(variable: Any, found: int) -> None:

@@ -19,7 +19,7 @@ from bayesmap.poses.graph import Factors
 from bayesmap.poses.motion_noise import MotionNoise
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
-from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
+from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory
 
 GROUP = "trajectory"
 
@@ -35,7 +35,11 @@ FIELDS: dict[str, tuple[str, ...]] = {
 PARTS: dict[str, dict[str, tuple[str, ...]]] = {
     "gaussian": {
         "poses": ("key", *VECTOR), "first": ("pair",), "second": ("pair",), "relative": ("pair", *VECTOR),
-        "curvature": ("pair", *MATRIX), "force": ("pair", *VECTOR),
+        "curvature": ("pair", *MATRIX), "force": ("pair", *VECTOR), "elsewhere": ("alternative", "key", *VECTOR),
+    },
+    "alternatives": {
+        "first": ("alternative",), "last": ("alternative",), "probabilities": ("alternative",),
+        "poses": ("alternative", "key", *VECTOR),
     },
     "closures": {
         "first": ("closure",), "second": ("closure",), "relative": ("closure", *VECTOR),
@@ -54,7 +58,7 @@ def arrays_of(found: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any
     every = [(name, dims, getattr(found, name)) for name, dims in FIELDS.items()]
     for part, fields in PARTS.items():
         of = getattr(found, part)
-        if of is not None:
+        if of is not None and (part != "alternatives" or len(of)):
             every += [(f"{part}_{name}", dims, getattr(of, name)) for name, dims in fields.items()]
     return {name: (dims, _stored(values)) for name, dims, values in every if values is not None}
 
@@ -112,6 +116,7 @@ def read_trajectory(file: Any, numbers: Mapping[str, Any]) -> Trajectory:
         **own,
         gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
         closures=LoopClosures(**part("closures")),
+        alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in variables else NO_ALTERNATIVES,
         odometry=Factors(**part("odometry")) if "odometry_first" in variables else None,
         calibration=calibration,
     )

@@ -274,6 +274,7 @@ class _Placed:
 
 def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], PackedMap]:
     """The map packed for kernels, by the stop chances of occupied and unknown cells; the last ones are kept."""
+
     @lru_cache(maxsize=4)
     def packed(occupied: float, unknown: float) -> PackedMap:
         values = {**ASSUMED, "stop_occupied": occupied, "stop_unknown": unknown}

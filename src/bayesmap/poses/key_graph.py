@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from bayesmap.poses.front_end import Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
 from bayesmap.poses.key_path import KeyPath, key_path
+from bayesmap.poses.look_alikes import Weighed, weigh
 from bayesmap.poses.loops import Search, find_closures
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
@@ -51,12 +52,14 @@ class ClosedGraph:
         closures: those found in the last round.
         weights: Geman and McClure's weight of each closure, from 0 to 1: near 0 where it was not believed.
         joined: of the parts of the path, which are joined to an earlier one by places that both saw, (P,).
+        weighed: the same graph with the alternatives to it.
     """
 
     poses: Floats
     closures: Closures
     weights: Floats
     joined: NDArray[np.bool_]
+    weighed: Weighed
 
 
 def chain_of(track: Track, poses: Floats) -> Factors:
@@ -156,7 +159,7 @@ def close_loops(
             two = (path.parts[known] == k).astype(np.intp)
             both = KeyPath(geometry, keys[known], poses[known], path.along[known], two)
             joined[k] = consistent(both, Joint(0, 1, np.zeros(3), 0.0), threads)
-    return ClosedGraph(poses, closures, weights, joined)
+    return ClosedGraph(poses, closures, weights, joined, closed.weighed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +169,7 @@ class _Closed:
     poses: Floats
     closures: Closures
     weights: Floats
+    weighed: Weighed
 
 
 def _rounds(
@@ -187,8 +191,10 @@ def _rounds(
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)
+        weighed = weigh(poses, weights, chain, loops, path.along)
+        poses, weights = weighed.poses, weighed.weights
         if on_progress is not None:
             on_progress(number, poses)
         if number > 1 and np.hypot(*(poses - before)[:, :2].T).max() < SETTLED_M:
             break
-    return _Closed(poses, closures, weights)
+    return _Closed(poses, closures, weights, weighed)

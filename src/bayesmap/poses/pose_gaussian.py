@@ -30,6 +30,8 @@ class PoseGaussian:
         relative: the second's pose in the frame of the first, (M, 3).
         curvature: second derivatives of the cost by it, (M, 3, 3).
         force: first derivatives of the cost by it, (M, 3); all together they cancel. Zero where parts err one by one.
+        elsewhere: steps of the poses to alternatives, times the square root of their probabilities, (A, K, 3); they
+            count as bends do. None where there are no alternatives.
         dof: degrees of freedom of Student's t. Its scale matrix is the inverse of the curvature, and (dof - 2) / dof of
             the covariance of what parts have wrong in common (`shared_errors`).
     """
@@ -41,6 +43,7 @@ class PoseGaussian:
     curvature: Floats
     force: Floats
     dof: float = DEGREES_OF_FREEDOM
+    elsewhere: Floats | None = None
 
     @cached_property
     def precision(self) -> Precision:
@@ -49,8 +52,13 @@ class PoseGaussian:
 
     @cached_property
     def bends(self) -> Floats:
-        """Steps of the poses by what parts of the cost have wrong in common, (N, K, 3)."""
-        return bends(self.poses, self._part, self.precision)
+        """Steps of the poses by what parts of the cost have wrong in common, and to alternatives, (N, K, 3)."""
+        shared = bends(self.poses, self._part, self.precision)
+        if self.elsewhere is None:
+            return shared
+        # Covariances are means over all of them.
+        count = len(shared) + len(self.elsewhere)
+        return np.concatenate([shared * np.sqrt(count / len(shared)), self.elsewhere * np.sqrt(count)])
 
     @property
     def scale_of_covariance(self) -> float:

@@ -14,6 +14,7 @@ from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odomet
 from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
 from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
+from bayesmap.poses.frozen_odometry import caught_up
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
 from bayesmap.poses.log_checks import check_scans
@@ -25,8 +26,8 @@ from bayesmap.poses.point_errors import point_error, with_point_error
 from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.rematch import rematch
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
-from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory, calibrated
-from bayesmap.space.planar import between, compose, nearest
+from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
+from bayesmap.space.planar import between, compose, nearest, wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
@@ -93,11 +94,22 @@ def infer_trajectory(
         fingerprint(
             scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s,
             *(() if scans.own_angles_rad is None else (scans.own_angles_rad,)),
-            settings=f"2 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
+            settings=f"3 {no_odometry} {calibrate_angles} {seed} {scans.max_range_m} {scans.min_range_m}",
         ),
     )  # fmt: skip
     run = _Run(scans, no_odometry, threads, device, stages, on_progress or (lambda stage, done, of: None), on_poses)
     return run.trajectory(order, calibrate_angles)
+
+
+def alternatives_of(closed: Arrays, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
+    """Return the alternatives to the poses of the keys, (K, 3), and the steps to them for `PoseGaussian.elsewhere`."""
+    if not len(closed["probabilities"]):
+        return NO_ALTERNATIVES, None
+    steps = between(closed["poses"][None], closed["elsewhere"])
+    steps[..., 2] = wrapped(steps[..., 2])
+    first, last, probabilities = keys[closed["hangs_from"]], keys[closed["hangs_to"]], closed["probabilities"]
+    elsewhere = steps * np.sqrt(probabilities)[:, None, None]
+    return Alternatives(first, last, probabilities, compose(poses[None], steps)), elsewhere
 
 
 class _Run:
@@ -128,6 +140,9 @@ class _Run:
         scans, threads = self.scans, self.threads
         ratio = 1.0
         geometry = self.geometry(scans)
+        if not self.no_odometry:
+            self.stated = caught_up(scans, geometry, threads)
+            self.motions, self.impossible = stated_motions(self.stated, scans.stamps_s)
         self.track = track = self.front_end(geometry)
         self.go_backwards(track.against)
         keys = track.keys
@@ -177,12 +192,14 @@ class _Run:
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
         leaps = keys[1:][contradicted_links(track, final.poses)]
         gaussian = replace(with_point_error(final, error), poses=compose(self.origin, final.poses))
+        alternatives, elsewhere = alternatives_of(closed, keys, gaussian.poses)
+        gaussian = replace(gaussian, elsewhere=elsewhere)
         noise = None if fit is None else fit.noise.of_scans(self.motions)
         return Trajectory(
             compose(self.origin, placed.poses), scans.stamps_s, keys, gaussian, nearest_key,
             placed.own_covariance(keys), explained, flag_unexplained(explained, keys), breaks, closures,
             Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m), order,
-            None if fit is None else factors, leaps,
+            None if fit is None else factors, leaps, alternatives,
         )  # fmt: skip
 
     def front_end(self, geometry: ScanGeometry) -> Track:
@@ -228,6 +245,8 @@ class _Run:
         return {
             "poses": closed.poses, "first": closed.closures.first, "second": closed.closures.second,
             "relative": closed.closures.relative, "weights": closed.weights, "joined": closed.joined,
+            "elsewhere": closed.weighed.alternatives, "probabilities": closed.weighed.probabilities,
+            "hangs_from": closed.weighed.first, "hangs_to": closed.weighed.last,
         }  # fmt: skip
 
     def first_factors(self, track: Track, poses: Floats) -> Factors:

@@ -40,6 +40,28 @@ class LoopClosures:
 
 
 @dataclass(frozen=True, eq=False)
+class Alternatives:
+    """Other trajectories that are not excluded: of each a stretch of the way hangs on one visit of a place.
+
+    Attributes:
+        first, last: scans between which the way hangs on a visit that may be of another place that looks alike, (A,).
+        probabilities: that the alternative is right and not the trajectory, (A,).
+        poses: of the key scans in each alternative, (A, K, 3).
+    """
+
+    first: NDArray[np.intp]
+    last: NDArray[np.intp]
+    probabilities: Floats
+    poses: Floats
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+
+NO_ALTERNATIVES = Alternatives(np.empty(0, np.intp), np.empty(0, np.intp), np.empty(0), np.empty((0, 0, 3)))
+
+
+@dataclass(frozen=True, eq=False)
 class Calibration:
     """What was found out about laser and odometry.
 
@@ -85,6 +107,8 @@ class Trajectory:
             carried, or data are missing; indices.
         leaps: scans before which the poses move as neither odometry nor the matches of one scan after the other did:
             loops hold the ways before and after where they cannot both be; indices.
+        alternatives: where the scans are if a visit was of another place that looks alike, or is one after all.
+            Covariances and draws hold their spread, too.
         closures: loop closures.
         calibration: of laser and odometry.
         order: for each scan its index in the log, where that was not in order of time.
@@ -105,9 +129,15 @@ class Trajectory:
     order: NDArray[np.intp]
     odometry: Factors | None = None
     leaps: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, np.intp))
+    alternatives: Alternatives = NO_ALTERNATIVES
 
     def __len__(self) -> int:
         return len(self.poses)
+
+    def alternative_poses(self, number: int) -> Floats:
+        """Return the poses of all scans in an alternative, (S, 3)."""
+        keys = self.alternatives.poses[number]
+        return compose(keys[self.nearest_key], between(self.gaussian.poses[self.nearest_key], self.poses))
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
         """Scale matrices of the relative poses of pairs of scans, in the first's frame, (N, 3, 3).

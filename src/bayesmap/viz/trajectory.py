@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -112,7 +114,14 @@ def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
     return _finished(figure, ax)
 
 
-def loops_figure(poses: Floats, first: ArrayLike, second: ArrayLike, residuals: Floats, weights: Floats) -> Figure:
+def loops_figure(
+    poses: Floats,
+    first: ArrayLike,
+    second: ArrayLike,
+    residuals: Floats,
+    weights: Floats,
+    alternatives: Sequence[tuple[Floats, float]] = (),
+) -> Figure:
     """Where the robot came back to a place: pairs of scans, coloured by how far the final poses are from the match.
 
     Args:
@@ -121,11 +130,15 @@ def loops_figure(poses: Floats, first: ArrayLike, second: ArrayLike, residuals: 
         second: of the other.
         residuals: x, y and yaw of each, metres and radians, (M, 3).
         weights: how far each was believed, from 0 to 1, (M,).
+        alternatives: poses of other trajectories that are not excluded, (S, 3) each, and their probabilities.
     """
     first, second = np.asarray(first), np.asarray(second)
     spans = np.ptp(poses[:, :2], axis=0)
     figure, ax = _axes(float(spans[1] / max(spans[0], 1e-3)))
     ax.plot(poses[:, 0], poses[:, 1], color="#9a9a9a", linewidth=0.8, label="trajectory")
+    for other, probability in alternatives:
+        label = f"alternative, probability {probability:.2f}"
+        ax.plot(other[:, 0], other[:, 1], color=FLAGGED, linewidth=0.8, linestyle="--", label=label)
     believed = weights > 0.5
     for chosen, colour, name in ((~believed, FLAGGED, "rejected loop closure"), (believed, LOOP, "loop closure")):
         if chosen.any():

@@ -1,0 +1,126 @@
+"""A visit of a place that only looks alike is left out, a doubtful one is told, and covariances cover it."""
+
+import numpy as np
+import pytest
+
+from bayesmap.poses.graph import Factors
+from bayesmap.poses.look_alikes import _doubtful, visits, weigh
+from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.space.planar import between, compose
+
+KEYS = 60
+STEP_SIGMA = np.array([0.02, 0.02, np.radians(0.4)])
+CLOSURE_SIGMA = np.array([0.02, 0.02, np.radians(0.3)])
+
+
+def square(side=15, step_m=0.5):
+    """True poses around a square, on from where they began for some more."""
+    poses = [np.zeros(3)]
+    for k in range(1, 4 * side + 12):
+        turn = np.pi / 2 if k % side == 0 else 0.0
+        poses.append(compose(poses[-1], np.array([step_m, 0.0, turn])))
+    return np.array(poses)
+
+
+TRUTH = square()
+ALONG = 0.5 * np.arange(len(TRUTH))
+
+
+def chain_of(rng, noise=1.0):
+    """Motions with noise, whose stated covariance is that of ``noise`` = 1, and the poses that they lead to."""
+    motions = between(TRUTH[:-1], TRUTH[1:]) + noise * STEP_SIGMA * rng.normal(size=(len(TRUTH) - 1, 3))
+    poses = [TRUTH[0]]
+    for motion in motions:
+        poses.append(compose(poses[-1], motion))
+    order = np.arange(len(motions))
+    return Factors(order, order + 1, motions, np.tile(np.diag(STEP_SIGMA**-2.0), (len(order), 1, 1))), np.array(poses)
+
+
+def closed(chain, poses, shift, rng):
+    """Five closures of one visit, each off by the same shift, and the poses where all is settled."""
+    from bayesmap.poses.graph import optimise
+
+    first = np.arange(0, 10, 2)
+    second = first + 60
+    true = between(TRUTH[first], compose(TRUTH[second], np.asarray(shift, float)[None]))
+    relative = true + CLOSURE_SIGMA * rng.normal(size=true.shape)
+    loops = Factors(first, second, relative, np.tile(np.diag(CLOSURE_SIGMA**-2.0), (5, 1, 1)))
+    there, weights = optimise(poses, chain, loops)
+    return loops, there, weights
+
+
+def test_a_right_visit_stays_and_a_wrong_one_is_left_out():
+    rng = np.random.default_rng(1)
+    chain, poses = chain_of(rng, noise=0.5)
+    loops, there, weights = closed(chain, poses, [0.0, 0.0, 0.0], rng)
+    right = weigh(there, weights, chain, loops, ALONG)
+    np.testing.assert_array_equal(right.poses, there)
+    assert len(right.probabilities) == 0
+    assert (right.weights > 0.5).all()
+    loops, there, weights = closed(chain, poses, [3.5, 0.0, 0.0], rng)
+    assert (weights > 0.5).all(), "each closure by itself is believed: all five agree"
+    wrong = weigh(there, weights, chain, loops, ALONG)
+    np.testing.assert_allclose(wrong.poses, poses, atol=1e-3)
+    assert not wrong.weights.any()
+
+
+def test_a_doubtful_visit_is_told_with_the_poses_without_it():
+    rng = np.random.default_rng(2)
+    chain, poses = chain_of(rng, noise=0.3)
+    told = []
+    for shift in (0.5, 0.6, 0.7):
+        loops, there, weights = closed(chain, poses, [shift, 0.0, 0.0], rng)
+        found = weigh(there, weights, chain, loops, ALONG)
+        assert len(found.probabilities) <= 1
+        told.append(float(found.probabilities[0]) if len(found.probabilities) else 0.0)
+        if len(found.probabilities):
+            assert (found.first[0], found.last[0]) == (loops.first.min(), loops.second.max())
+            left, kept = (there, poses) if not found.weights.any() else (poses, there)
+            np.testing.assert_allclose(found.poses, kept, atol=1e-3)
+            np.testing.assert_allclose(found.alternatives[0], left, atol=1e-3)
+    assert 0.05 < max(told) < 0.95
+
+
+@pytest.mark.parametrize(("noise", "calibrated"), [(1.0, True), (2.0, False)])
+def test_the_distance_of_right_visits_is_half_a_chi_squared(noise, calibrated, monkeypatch):
+    """60 paths: the mean of D is 1.5, its standard error 0.16; within four. Noise stated at half its size shows."""
+    monkeypatch.setattr("bayesmap.poses.look_alikes.SAME_M", 0.0)
+    monkeypatch.setattr("bayesmap.poses.look_alikes.TOLD", 1e-9)
+    distances = []
+    for seed in range(60):
+        rng = np.random.default_rng(100 + seed)
+        chain, poses = chain_of(rng, noise)
+        loops, there, _ = closed(chain, poses, [0.0, 0.0, 0.0], rng)
+        out, label = np.zeros(5, bool), np.zeros(5, np.intp)
+        found = list(_doubtful(there, chain, loops, label, out, np.zeros(1)))
+        distances.append(-found[0][0] if found else 0.0)
+    assert (abs(np.mean(distances) - 1.5) < 0.65) == calibrated
+
+
+def test_closures_of_one_visit_that_contradict_each_other_are_two():
+    rng = np.random.default_rng(3)
+    chain, poses = chain_of(rng)
+    loops = closed(chain, poses, [0.0, 0.0, 0.0], rng)[0]
+    relative = loops.relative.copy()
+    relative[3:] += [1.0, 0.0, 0.0]
+    both = Factors(loops.first, loops.second, relative, loops.information)
+    label = visits(both, TRUTH, ALONG)
+    assert label[0] == label[1] == label[2] != label[3] == label[4]
+
+
+def test_covariances_and_draws_hold_the_alternative():
+    order = np.arange(4)
+    poses = np.column_stack([np.arange(5.0), np.zeros(5), np.zeros(5)])
+    curvature, force = np.tile(np.eye(3) * 1e4, (4, 1, 1)), np.zeros((4, 3))
+    parts = (poses, order, order + 1, between(poses[:-1], poses[1:]), curvature, force)
+    step = np.zeros((1, 5, 3))
+    step[0, 3:, 1] = np.sqrt(0.2) * 2.0  # probability 0.2, 2 m to the side
+    plain, other = PoseGaussian(*parts), PoseGaussian(*parts, elsewhere=step)
+    before, after = (g.relative_covariances([0, 1], [4, 2]) for g in (plain, other))
+    np.testing.assert_allclose(
+        (after - before)[0], np.diag([0.0, 0.2 * 4.0, 0.0]) * other.scale_of_covariance, atol=1e-9
+    )
+    np.testing.assert_allclose(after[1], before[1], atol=1e-12)
+    draws = other.draw(1500, seed=1)
+    # The scale matrix's share is stretched by Student's t: a variance of 0.8, known to 8 % or so.
+    assert abs(draws[:, 4, 1].var() / 0.8 - 1.0) < 0.3
