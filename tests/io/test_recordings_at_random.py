@@ -173,9 +173,9 @@ def angles_of(draw):
     return angles[::-1] if draw(st.booleans()) else angles
 
 
-def robots_of(draw):
+def robots_of(draw, styles=("spaces", "prefixes", "both", "within")):
     """One to three robots: with topics and frames of their own, or frames alone, or topics alone."""
-    count, style = draw(st.integers(1, 3)), draw(st.sampled_from(["spaces", "prefixes", "both", "within"]))
+    count, style = draw(st.integers(1, 3)), draw(st.sampled_from(styles))
     small = st.floats(-0.3, 0.3)
     chain = draw(st.sampled_from([(), ("map",), ("world", "map"), ("earth", "map"), ("world",)]))
     robots = []
@@ -227,7 +227,7 @@ FAULTS = {
 @st.composite
 def recordings(draw, fault):
     """A recording with one fault, and the words by which it must be named if it does harm."""
-    robots = robots_of(draw)
+    robots = robots_of(draw, *([("prefixes",)] if fault == "moving world" else []))
     if fault == "others' transforms alone":
         robots = robots[:1]
     by_topic = draw(st.booleans())
@@ -260,7 +260,7 @@ def recordings(draw, fault):
         )
     elif fault == "others' transforms alone":
         messages = [[("/other" + m[0] if "/tf" in m[0] else m[0], *m[1:]) for m in messages[0]]]
-    elif fault == "moving world" and bot.prefix:
+    elif fault == "moving world":
         for n, robot in enumerate(robots):
             top = robot.prefix + [*robot.chain, "odom"][0]
             places = [(0.2 * t * (n != number), 0.1 * t, 0.1 * t) for t in first.pose_times]
