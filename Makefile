@@ -9,7 +9,7 @@ BIN := .venv/bin
 INSTALL := PIP_CONSTRAINT=constraints.txt $(BIN)/python -m pip install --quiet
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: demo test test-all lint page docs bench clean
+.PHONY: demo test test-all page-tools lint page docs bench clean
 .DEFAULT_GOAL := demo
 
 .venv/core: pyproject.toml constraints.txt
@@ -31,10 +31,14 @@ demo: .venv/core          ## infer the tutorial's map; pictures, the saved run a
 
 TESTS := $(BIN)/python -m pytest -n auto --dist loadgroup --no-loadscope-reorder
 
-test: .venv/dev           ## the landing run: a test of every family, on all cores
+# The page's own tests need its tools, and skip without them.
+page-tools:
+	@! command -v npm >/dev/null || $(MAKE) --no-print-directory page/node_modules || echo "npm cannot install the page's tools"
+
+test: .venv/dev page-tools  ## the landing run: a test of every family, on all cores
 	$(TESTS)
 
-test-all: .venv/dev       ## all tests: before a release, and after a big change
+test-all: .venv/dev page-tools  ## all tests: before a release, and after a big change
 	$(TESTS) --full
 
 lint: .venv/dev           ## style and types; the page's too where there is npm
