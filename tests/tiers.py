@@ -11,6 +11,13 @@ def full_but(cases, *kept):
     return [case if case in kept else pytest.param(case, marks=pytest.mark.full) for case in cases]
 
 
+def pairs_but(cases, *kept):
+    """Return pytest parameters for cases of several values each; the landing run keeps those that are named."""
+    cases = list(cases)
+    assert not set(kept) - set(cases), "an unknown case"
+    return [pytest.param(*case, marks=[] if case in kept else [pytest.mark.full]) for case in cases]
+
+
 def latin(of, *axes):
     """Return pytest parameters for all combinations of some axes, of which the landing run keeps one in ``of``.
 

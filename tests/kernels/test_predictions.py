@@ -211,7 +211,7 @@ class Own(SensorModel):
 OWN = ["mixture", "student-t", "mixture of student-t"]
 
 
-@pytest.mark.parametrize(("name", "binary"), latin(2, OWN, [False, True]))
+@pytest.mark.parametrize(("name", "binary"), latin(3, OWN, [False, True]))
 def test_a_sensor_of_the_user_s_own_predicts_by_a_table_what_its_formula_says(name, binary):
     formula = SENSORS[name]
     own = Own(formula)

@@ -55,9 +55,10 @@ def squares(truth, gaussian):
     return np.einsum("mi,mij,mj->m", off, np.linalg.inv(scale), off) / 3.0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("in_common", "low", "high"),
-    [(True, 0.5, 2.0), pytest.param(False, 0.5, 1.2, marks=pytest.mark.full)],
+    [(True, 0.5, 2.0), (False, 0.5, 1.2)],
     ids=["in common", "one by one"],
 )
 def test_covariances_have_the_size_of_errors(in_common, low, high):

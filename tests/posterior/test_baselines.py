@@ -115,6 +115,7 @@ def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor
     np.testing.assert_allclose(stop[0], hit_ratio(hits, passes, fitted.values), rtol=1e-6)
 
 
+@pytest.mark.full
 def test_clamping_costs(room, fitted):
     grid, train, held, _ = room
     clamped = fit_baseline(BY_NAME["log-odds, clamped"], train, grid)

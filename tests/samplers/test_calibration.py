@@ -71,7 +71,7 @@ def p_values(true_sensor, sensor, options, worlds=WORLDS):
     ("method", "sensor"),
     [
         pytest.param("gibbs", bm.Gaussian(0.4), marks=pytest.mark.full),
-        ("block", bm.BeamMixture(bm.Gaussian(0.2))),
+        pytest.param("block", bm.BeamMixture(bm.Gaussian(0.2)), marks=pytest.mark.full),
         ("gibbs started by belief propagation", bm.Gaussian(0.4)),
     ],
 )

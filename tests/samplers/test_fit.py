@@ -54,7 +54,8 @@ def fitted_to_known_stops(seed, least_m, count=12_000):
     return numbers(sensor)
 
 
-@pytest.mark.parametrize("least_m", full_but([0.05, 0.3], 0.3))
+@pytest.mark.full
+@pytest.mark.parametrize("least_m", [0.05, 0.3])
 def test_with_known_stops_the_fit_is_right_within_its_standard_error(least_m):
     found = np.array([fitted_to_known_stops(seed, least_m) for seed in range(8)])
     error = found.std(axis=0, ddof=1) / np.sqrt(len(found))

@@ -99,7 +99,7 @@ def lattice_draws(p, rng, count, centre):
     return poses
 
 
-@pytest.mark.parametrize(("name", "seed", "beta"), latin(2, list(PRIORS), [0, 1, 2], [1.0, 0.4]))
+@pytest.mark.parametrize(("name", "seed", "beta"), latin(4, list(PRIORS), [0, 1, 2], [1.0, 0.4]))
 def test_poses_drawn_by_enumeration_still_follow_it_after_many_steps(name, seed, beta):
     walls, scans, law = scene(seed, PRIORS[name])
     law, chains = FirstStays(law), 3000

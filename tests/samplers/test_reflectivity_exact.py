@@ -82,6 +82,7 @@ def test_draws_follow_the_exact_posterior(case):
     assert abs(exact.mean() - prior.mean).max() > 0.05  # and the data say something
 
 
+@pytest.mark.full
 def test_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it_too(monkeypatch):
     """As those do that many beams pass."""
     monkeypatch.setattr(initial_estimate, "FEW_PASSES", 0)

@@ -1,9 +1,11 @@
 """Runs over reflectivities and surfaces are determined by their arguments: not by threads, stops or other chains."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
-from tiers import latin
+from tiers import full_but, pairs_but
 
 import bayesmap as bm
 from bayesmap.cells.labels import SOLID
@@ -30,20 +32,24 @@ ALL = list(PRIORS | LABELLED)
 KINDS = pytest.mark.parametrize("kind", ALL)
 
 
-@pytest.mark.parametrize(("kind", "chains"), latin(2, ALL, [1, 3]))
+@pytest.mark.parametrize(
+    ("kind", "chains"), pairs_but(product(ALL, [1, 3]), ("surfaces", 3), ("labelled reflectivities", 1))
+)
 def test_the_number_of_threads_changes_nothing(kind, chains):
     runs = [infer(kind, chains=chains, threads=threads) for threads in (1, 2, 4)]
     assert_same(runs[0], runs[1])
     assert_same(runs[0], runs[2])
 
 
-@KINDS
+@pytest.mark.parametrize("kind", full_but(ALL, "labelled surfaces"))
 def test_a_seed_gives_one_run_and_another_seed_another(kind):
     assert_same(infer(kind, seed=3), infer(kind, seed=3))
     assert (infer(kind, seed=3).draws != infer(kind, seed=4).draws).any()
 
 
-@pytest.mark.parametrize(("kind", "sensor"), latin(2, ALL, ["fit", TRUTH]))
+@pytest.mark.parametrize(
+    ("kind", "sensor"), pairs_but(product(ALL, ["fit", TRUTH]), ("labelled surfaces", "fit"), ("reflectivities", TRUTH))
+)
 def test_a_chain_does_not_know_of_the_others_the_fit_included(kind, sensor):
     many, one = (infer(kind, chains=chains, sensor=sensor) for chains in (3, 1))
     np.testing.assert_array_equal(many.draws[0], one.draws[0])
@@ -55,7 +61,7 @@ def test_a_chain_does_not_know_of_the_others_the_fit_included(kind, sensor):
     assert (many.draws[1] != many.draws[0]).any()
 
 
-@KINDS
+@pytest.mark.parametrize("kind", full_but(ALL, "surfaces"))
 def test_chain_two_is_the_same_wherever_it_runs(kind):
     """Three jobs of one chain each, joined, are the run of three chains: other processes would do no otherwise."""
     whole = infer(kind, chains=3, warmup=6, draws=4)
@@ -75,14 +81,19 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     np.testing.assert_array_equal(chains.observed(), whole.observed)
 
 
-@pytest.mark.parametrize(("kind", "step_seconds"), latin(2, ALL, [1e-3, 10.0]))
+@pytest.mark.parametrize(
+    ("kind", "step_seconds"),
+    pairs_but(product(ALL, [1e-3, 10.0]), ("surfaces", 1e-3), ("labelled reflectivities", 10.0)),
+)
 def test_any_cutting_into_steps_gives_the_same_run(kind, step_seconds, monkeypatch):
     whole = infer(kind, thin=2)
     monkeypatch.setattr(runner, "STEP_SECONDS", step_seconds)
     assert_same(infer(kind, thin=2), whole)
 
 
-@pytest.mark.parametrize(("kind", "thin"), latin(2, ALL, [1, 3]))
+@pytest.mark.parametrize(
+    ("kind", "thin"), pairs_but(product(ALL, [1, 3]), ("surfaces", 1), ("labelled reflectivities", 3))
+)
 def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
     options = {"warmup": 12, "draws": 4, "thin": thin}
     stops = []
@@ -162,7 +173,7 @@ def test_the_fewer_the_beams_the_more_draws_by_default():
     assert bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0, thin=1).posterior.sweep == 200
 
 
-@KINDS
+@pytest.mark.parametrize("kind", full_but(ALL, "surfaces", "reflectivities"))
 def test_no_draws_is_a_fit_and_nothing_else(kind):
     run = infer(kind, draws=0)
     assert run.finished

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 from stop_rooms import GRID, PRIORS, TRUTH, infer, scans
+from tiers import latin
 
 import bayesmap as bm
 
@@ -65,8 +66,7 @@ def assert_sound(run):
     assert run.summary().finished
 
 
-@KINDS
-@pytest.mark.parametrize("name", ODD)
+@pytest.mark.parametrize(("name", "kind"), latin(2, list(ODD), list(PRIORS)))
 def test_a_run_is_made_of_scans_that_say_little(kind, name, tmp_path):
     run = infer(kind, ODD[name](), warmup=8, draws=5)
     assert_sound(run)

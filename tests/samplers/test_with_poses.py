@@ -48,6 +48,7 @@ def chains_of(model, ids, schedule, seed, walls="prior", **options):
     return run_chains(Job(model, sampler, schedule, seed, tuple(ids), threads=1))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", PRIORS)
 def test_ranks_of_the_truth_among_draws_are_uniform(name):
     """Ranks among seven nearly independent draws: of the last pose, the log likelihood, and the number of walls."""
