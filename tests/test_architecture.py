@@ -15,6 +15,7 @@ FILES = sorted(SOURCE.rglob("*.py"))
 
 LEVELS = (
     {"errors", "version"},
+    {"files"},
     {"gen", "space"},
     {"sensors"},
     {"beams", "cells"},

@@ -142,7 +142,7 @@ def _in_short(run: Run) -> dict[str, Any]:
 
 
 def _write_json(path: Path, document: dict[str, Any]) -> None:
-    from bayesmap.io.atomic import write_whole
+    from bayesmap.files import write_whole
 
     with write_whole(path) as partial:
         partial.write_text(as_json(document), encoding="utf-8")

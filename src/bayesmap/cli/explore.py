@@ -33,9 +33,9 @@ def command(call: Call, run_file: str, output: str | None) -> None:
     """
     values = call.values()
     target = Path(output) if output else Path(run_file).with_name("explore.png")
+    from bayesmap.files import need_ending
     from bayesmap.posterior.decisions import next_views
     from bayesmap.result import load
-    from bayesmap.viz.writing import need_ending
 
     need_ending(target, ("png", "pdf", "svg"), "figure")
     run = load(run_file)

@@ -37,7 +37,7 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
         BadInput: two logs of one name, or a cluster that cannot be had.
     """
     from bayesmap.cli.group import explain
-    from bayesmap.io.atomic import write_whole
+    from bayesmap.files import write_whole
 
     names = Counter(inferring.stem(log) for log in logs)
     twice = next((name for name, times in names.items() if times > 1), None)

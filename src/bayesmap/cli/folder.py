@@ -117,7 +117,7 @@ class Folder:
 
     @staticmethod
     def _write(path: Path, text: str) -> None:
-        from bayesmap.io.atomic import write_whole
+        from bayesmap.files import write_whole
 
         with write_whole(path) as partial:
             partial.write_text(text, encoding="utf-8")

@@ -239,7 +239,7 @@ def _per_cent(probability: float) -> str:
 
 
 def _write(target: Path, found: Localization) -> list[Path]:
-    from bayesmap.io.atomic import write_whole
+    from bayesmap.files import write_whole
     from bayesmap.io.exports import export_trajectory
 
     if target.suffix != ".jsonl":

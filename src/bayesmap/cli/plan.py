@@ -37,9 +37,9 @@ def command(call: Call, run_file: str, start: str, goal: str, output: str | None
     values = call.values()
     ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
     target = Path(output) if output else Path(run_file).with_name("plan.png")
+    from bayesmap.files import need_ending
     from bayesmap.posterior.decisions import shortest_safe_path
     from bayesmap.result import load
-    from bayesmap.viz.writing import need_ending
 
     need_ending(target, ("png", "pdf", "svg"), "figure")
     run = load(run_file)

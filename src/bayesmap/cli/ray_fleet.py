@@ -150,7 +150,7 @@ class RayFleet:
 
     def _keep(self, entry: Entry, sent: Sent) -> None:
         """Note how far a worker is, and write the files that it has sent into the log's folder."""
-        from bayesmap.io.atomic import write_whole
+        from bayesmap.files import write_whole
 
         if sent.event is not None:
             self.latest[entry.log] = sent.event

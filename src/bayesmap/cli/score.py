@@ -88,7 +88,7 @@ def command(
     values = {**call.values(), "laser": laser}
     frames = check_frames(frame, laser, relations)
     if picture is not None:
-        from bayesmap.viz.writing import need_ending
+        from bayesmap.files import need_ending
 
         need_ending(picture, ("png", "pdf", "svg"), "figure")  # before the minutes of work
     own_log = log if _is_run(run_file) or is_map(run_file) else run_file

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 from bayesmap.space.planar import between
 from bayesmap.space.trajectory import Trajectory
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 from bayesmap.io.layers import as_layers
 from bayesmap.space.grid import Grid
 

@@ -30,7 +30,7 @@ import yaml
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 from bayesmap.io.layers import as_observed, as_occupancy
 from bayesmap.io.percent import in_percent, thresholds_of
 from bayesmap.sim.image import brightness, check_thresholds

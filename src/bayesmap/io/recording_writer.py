@@ -21,8 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
-from bayesmap.io.atomic_folder import write_whole_folder
+from bayesmap.files import write_whole, write_whole_folder
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Qos

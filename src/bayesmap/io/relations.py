@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 
 
 def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:

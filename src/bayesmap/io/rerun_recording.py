@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 from bayesmap.io.layers import as_layers
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

@@ -28,7 +28,7 @@ from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 from bayesmap.io.saved_arrays import read_array, read_draws, write_arrays, write_draws
 from bayesmap.io.saved_trajectory import numbers_of, read_trajectory, write_trajectory
 from bayesmap.model import POSES

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
+from bayesmap.files import write_whole
 from bayesmap.io.lines import read_lines
 from bayesmap.space.scans import as_poses
 from bayesmap.space.trajectory import Trajectory

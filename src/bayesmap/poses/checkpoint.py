@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.files import write_whole
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -48,8 +49,6 @@ class Stages:
             except (OSError, ValueError, EOFError, KeyError):
                 pass  # damaged: computed again
         arrays = compute()
-        part = path.with_suffix(".part")
-        with part.open("wb") as file:
-            np.savez(file, **arrays)  # type: ignore[arg-type]
-        os.replace(part, path)
+        with write_whole(path) as partial:
+            np.savez(partial, **arrays)  # type: ignore[arg-type]
         return arrays

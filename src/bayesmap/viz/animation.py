@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from bayesmap.errors import BadInput
+from bayesmap.files import need_ending, write_whole
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
 from bayesmap.viz.cells import ROUNDING, as_mask, as_observed
-from bayesmap.viz.writing import need_ending, write_whole
 
 LEVELS = 128
 """Steps of probability in a frame: finer ones cannot be told apart, and fewer colours pack better."""
@@ -90,7 +90,8 @@ def write_animation(
         # Lossless keeps the edges of cells sharp; the least effort is three times faster and hardly larger.
         effort = {"lossless": True, "method": 0, "quality": 0}
         first.convert("RGB").save(buffer, "WEBP", append_images=colors, **effort, **film)
-    write_whole(target, buffer.getvalue())
+    with write_whole(target) as partial:
+        partial.write_bytes(buffer.getvalue())
 
 
 def render_frames(

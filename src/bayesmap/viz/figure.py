@@ -17,13 +17,13 @@ from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 from numpy.typing import ArrayLike
 
+from bayesmap.files import need_ending, write_whole
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
 from bayesmap.viz.cells import as_observed
 from bayesmap.viz.layout import Layout, lay_out, tick_locator
 from bayesmap.viz.surfaces import draw_surfaces
-from bayesmap.viz.writing import need_ending, write_whole
 
 FONT_PT = 9.0
 COARSE_CELLS = 100
@@ -141,7 +141,8 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     # The settings that matplotlib takes from nowhere else are global, hence the lock.
     with _rc_lock, rc_context({"svg.hashsalt": "bayesmap", "pdf.fonttype": 42}):
         figure.savefig(buffer, format=ending, dpi="figure", metadata=undated)
-    write_whole(target, buffer.getvalue())
+    with write_whole(target) as partial:
+        partial.write_bytes(buffer.getvalue())
 
 
 def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None) -> list[Artist]:

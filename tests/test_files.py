@@ -9,8 +9,7 @@ import pytest
 
 import bayesmap
 from bayesmap.errors import BadInput
-from bayesmap.io.atomic import write_whole
-from bayesmap.io.atomic_folder import write_whole_folder
+from bayesmap.files import write_whole, write_whole_folder
 
 
 def test_what_the_block_wrote_becomes_the_file(tmp_path):
@@ -119,7 +118,7 @@ def test_killed_at_any_moment_the_file_is_old_or_new(tmp_path):
     path.write_text("0" * 100_000)
     endless = (
         "import sys, itertools\n"
-        "from bayesmap.io.atomic import write_whole\n"
+        "from bayesmap.files import write_whole\n"
         "print('ready', flush=True)\n"
         "for k in itertools.count():\n"
         "    with write_whole(sys.argv[1]) as temporary:\n"
