@@ -15,7 +15,7 @@ import urllib.request
 
 import pytest
 
-CELL_SECONDS = 150.0
+CELL_SECONDS = 300.0
 """For a kernel to start, to import bayesmap, and to show the widget."""
 
 TOKEN = "of-the-test"

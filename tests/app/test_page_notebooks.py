@@ -39,6 +39,7 @@ def show(browser, tmp_path, monkeypatch):
 
     with contextlib.ExitStack() as stack:
         context = stack.enter_context(contextlib.closing(browser.new_context(**DESKTOP)))
+        context.set_default_timeout(1000 * notebook_driver.CELL_SECONDS)
 
         def shown(home, source):
             page = context.new_page()
