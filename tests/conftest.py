@@ -28,9 +28,12 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _programs_of_a_module():
-    """Let go of the JAX programs of a file's tests: a worker that keeps all has some gigabytes of them in the end."""
+def _memory_of_a_module(request):
+    """Let go of what a file's tests keep, caches and JAX programs: a worker that keeps all has gigabytes in the end."""
     yield
+    for kept in vars(request.module).values():
+        if getattr(kept, "__module__", None) == request.module.__name__ and hasattr(kept, "cache_clear"):
+            kept.cache_clear()
     if jax := sys.modules.get("jax"):
         jax.clear_caches()
 
