@@ -3,10 +3,13 @@
 import os
 import signal
 import threading
+import time
 
 import pytest
 
 from bayesmap.app.supervisor import Supervisor
+from bayesmap.app.tasks import Report
+from bayesmap.app.worker import Reporter
 
 PATIENCE_S = 180.0
 SILENCE_S = 6.0
@@ -30,3 +33,30 @@ def test_a_worker_that_is_stopped_or_killed_is_replaced(what):
         assert supervisor.pid != before
     finally:
         supervisor.stop()
+
+
+def test_reports_of_several_threads_do_not_mix():
+    """A pipe takes a report in pieces: another thread's in between would make both unreadable."""
+
+    class Pipe:
+        sending, mixed, closed = 0, False, False
+
+        def send(self, report):
+            if self.closed:
+                raise BrokenPipeError
+            self.sending += 1
+            time.sleep(0.002)  # another thread goes on here
+            self.mixed = self.mixed or self.sending > 1
+            self.sending -= 1
+
+    pipe = Pipe()
+    report = Reporter(pipe)
+    threads = [
+        threading.Thread(target=lambda: [report(Report({"type": "alive"})) for _ in range(20)]) for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    pipe.closed = True  # which ends the reporter's own thread
+    assert not pipe.mixed
