@@ -29,13 +29,26 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 @pytest.fixture(scope="module", autouse=True)
 def _memory_of_a_module(request):
-    """Let go of what a file's tests keep, caches and JAX programs: a worker that keeps all has gigabytes in the end."""
+    """Let go of what a file's tests keep, and of JAX's programs where they take much: a worker had gigabytes of them."""
     yield
     for kept in vars(request.module).values():
         if getattr(kept, "__module__", None) == request.module.__name__ and hasattr(kept, "cache_clear"):
             kept.cache_clear()
-    if jax := sys.modules.get("jax"):
+    if (jax := sys.modules.get("jax")) and resident_bytes() > ENOUGH_BYTES:
         jax.clear_caches()
+
+
+ENOUGH_BYTES = 1_000_000_000
+"""Below it JAX's programs are kept: files share half of theirs, and to compile them anew takes time."""
+
+
+def resident_bytes():
+    """Return how much memory this process has; where the system does not say, as if it were too much."""
+    try:
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    except OSError:
+        return ENOUGH_BYTES + 1
 
 
 def pytest_addoption(parser):

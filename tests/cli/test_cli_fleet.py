@@ -166,6 +166,7 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
     assert "(raylet) Raylet is terminated." in result.stderr
 
 
+@pytest.mark.full
 def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
     (logs / "broken.log").unlink()
     result = call("infer", logs / "*.log", "-o", tmp_path / "runs", *short)
@@ -221,6 +222,7 @@ def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
             np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
 
 
+@pytest.mark.full
 def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_path, short, monkeypatch):
     output, pair = tmp_path / "runs", (logs / "east.log", logs / "west.log")
     assert call("infer", *pair, "-o", output, *short, "--seed", 1).exit_code == 0

@@ -114,6 +114,7 @@ def test_a_run_of_infer_is_not_resumed_as_one_of_slam(office, finished):
     assert call("infer", office, "-o", finished, "--resume").exit_code == 0
 
 
+@pytest.mark.full
 def test_settings_of_a_fleet_are_not_those_of_a_log_that_was_not_in_it(office, tmp_path, short):
     output, other = tmp_path / "runs", tmp_path / "other.log"
     other.write_text(office.read_text())

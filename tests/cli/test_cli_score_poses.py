@@ -84,6 +84,7 @@ def test_relations_in_gaps_of_the_trajectory_are_left_out_and_all_pictures_named
     assert "regions      unknown: the poses come without covariances; --trajectory FILE.tum with" in text.stdout
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("roughly")
 def test_the_true_map_and_trajectory_predict_better_than_raw_odometry(raw):
     truth = (raw / "office-truth.yaml", raw / "office.log", "--holdout", "4")

@@ -6,7 +6,6 @@ import jax.random as jr
 import jax.scipy.stats as st
 import numpy as np
 import pytest
-from tiers import full_but
 
 import bayesmap.gen as genjax
 from bayesmap.gen import HMC, Diff, EmptyRequest, ImportanceK, Regenerate, Selection, Target
@@ -87,6 +86,7 @@ def test_a_target_tells_its_open_choices():
     assert "y" not in left
 
 
+@pytest.mark.full
 def test_resampled_particles_are_draws_from_the_posterior():
     """Posterior N(1, 1/2), within five standard errors of 5000 draws: the effective sample size is more."""
     collection = jax.jit(ImportanceK(Target(model, (), C["y"].set(2.0)), k_particles=20_000).run_smc)(jr.key(0))
@@ -167,6 +167,7 @@ def test_the_filter_can_keep_whole_trajectories():
     assert misses(filtered)[:3].all()
 
 
+@pytest.mark.full
 def test_kept_trajectories_are_traces_of_the_whole_model():
     """Their scores are those of their choices, and they can be edited."""
     steps, args = walk.scan(), (0.0, jnp.ones(4))
@@ -216,7 +217,8 @@ def guess(target):
 PROPOSALS = {"none": lambda: None, "guess": lambda: guess, "marginal": guess.marginal}
 
 
-@pytest.mark.parametrize("name", full_but(list(PROPOSALS), "marginal"))
+@pytest.mark.full
+@pytest.mark.parametrize("name", PROPOSALS)
 def test_a_marginal_by_an_algorithm_is_unbiased(name):
     """Y ~ N(0, 2) where mu is summed out: exp(generate's weight) is unbiased, and exp(-score) of a draw is, too."""
     inner = ImportanceK(Target(model, (), C["y"].set(0.0)), PROPOSALS[name](), k_particles=3)
@@ -250,6 +252,7 @@ def test_the_chain_driver_gives_draws_acceptance_and_the_last_trace():
     np.testing.assert_array_equal(genjax.run_chain(jr.key(0), trace, kernel, 20).draws["mu"], mu[:20])
 
 
+@pytest.mark.full
 def test_rhat_and_ess_of_well_mixed_chains():
     """MALA on the posterior N(1, 1/2): R-hat near 1, the mean within 5 standard errors by the ESS."""
     starts = jr.normal(jr.key(0), (4,)) * 3

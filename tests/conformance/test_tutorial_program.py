@@ -141,6 +141,7 @@ def test_incremental_gibbs_keeps_the_joint_density_as_its_score(request_of, read
     np.testing.assert_allclose(trace.get_score(), assess(trace.get_choices(), ARGS)[0], rtol=1e-6)
 
 
+@pytest.mark.full
 def test_the_three_ways_to_flip_a_pixel_draw_the_same_chain(readings):
     """The index forms that the tutorial left commented out say the same as the update of the whole map."""
     sweeps = [
@@ -173,6 +174,7 @@ def test_importance_weights_of_100_000_maps_collapse(readings):
     assert len(set(np.asarray(resampled).tolist())) == 1
 
 
+@pytest.mark.full
 def test_importance_in_chunks_gives_what_single_runs_give(readings):
     constraints = C["readings"].set(readings)
     keys = jrand.split(jrand.key(3), 5)

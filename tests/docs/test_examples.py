@@ -67,8 +67,8 @@ def execute(page, examples, folder):
     )
 
 
-# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below. In the landing run
-# the page of the mapping model runs once, in tests/programs/test_mapping_page.py.
+# The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below. The landing run
+# leaves out the page that takes 15 s; what it asks of the library is looked up in any case, see below.
 @pytest.mark.parametrize(
     "page",
     [

@@ -55,7 +55,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", full_but(list(CASES), "cells, long beams", "blocks, mixture"))
+@pytest.mark.parametrize("name", full_but(list(CASES), "blocks, mixture"))
 def test_long_chains_of_edits(name):
     """400 random edits, walls as often as not, cells off every beam and repeats included.
 
@@ -155,6 +155,7 @@ def test_negative_indices_count_from_the_end(small):
     assert one[1] == two[1]
 
 
+@pytest.mark.full
 def test_other_edits_are_right_too(small):
     """All walls at once, readings (all, one, one and a wall), regenerated parts."""
     model, trace = small

@@ -120,6 +120,7 @@ def test_an_edit_is_undone_by_its_backward_request():
     np.testing.assert_allclose(undone, -weight, rtol=1e-4, atol=1e-3)
 
 
+@pytest.mark.full
 def test_poses_and_walls_can_change_in_one_edit():
     model = unknown(bm.Gaussian(0.3))
     trace = model.simulate(jr.key(0), ())
@@ -157,6 +158,7 @@ def test_the_prior_may_be_a_motion_model():
     assert (before[1] != after[1]).any()
 
 
+@pytest.mark.full
 def test_a_single_pose_has_a_single_scan():
     prior = gen.mv_normal_diag(jnp.array(GUESSES[0]), SIGMA)
     model = bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
