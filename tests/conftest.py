@@ -29,7 +29,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 @pytest.fixture(scope="module", autouse=True)
 def _memory_of_a_module(request):
-    """Let go of what a file's tests keep, and of JAX's programs where they take much: a worker had gigabytes of them."""
+    """Let go of what a file's tests keep, and of JAX's programs where they are many: a worker had gigabytes of them."""
     yield
     for kept in vars(request.module).values():
         if getattr(kept, "__module__", None) == request.module.__name__ and hasattr(kept, "cache_clear"):
