@@ -160,3 +160,17 @@ def test_without_its_module_it_is_refused_by_name(run, tmp_path):
     script = f"import bayesmap as bm; bm.load({str(tmp_path / 'run.nc')!r})"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert "cells of kind 'glass' are not known here" in done.stderr
+
+
+@pytest.mark.parametrize(("log_ratio", "accepted"), [(-0.1, False), (0.0, True), (-0.01, True)])
+def test_a_proposal_is_accepted_with_the_probability_of_its_ratio(log_ratio, accepted):
+    """The uniform number is e^-0.05: what enumeration of few chains cannot see of the ratio is seen here."""
+    from types import SimpleNamespace
+
+    from bayesmap.samplers.metropolis import _sweep
+
+    cells = {"material": np.zeros((1, 1), dtype=np.int8)}
+    kind = SimpleNamespace(propose=lambda cells, site, rng, grid: ({"material": np.int8(2)}, log_ratio))
+    problem = SimpleNamespace(grid=bm.Grid((1, 1), 0.5), beams_of=[()], model=SimpleNamespace(cells=kind))
+    _sweep(problem, cells, np.zeros(0), 1.0, SimpleNamespace(random=lambda: np.exp(-0.05)))
+    assert (cells["material"][0, 0] == 2) == accepted
