@@ -1,6 +1,7 @@
 """Simulated robots unlike those of the public logs: what inference of a trajectory makes of each.
 
-`python -m benchmarks.pose_cases [NAME ...]` prints a row a case, as in docs/poses.md.
+`python -m benchmarks.pose_cases [NAME ...]` prints a row a case, as in docs/poses.md; `--battery [FIRST-LAST]` those of
+`benchmarks/pose_battery.py`.
 """
 
 import sys
@@ -23,6 +24,7 @@ from bayesmap.sim.patrol import patrol
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
+from benchmarks.pose_battery import main as battery
 
 Floats = NDArray[np.float64]
 
@@ -287,7 +289,10 @@ def row(name: str) -> tuple[str, Trajectory]:
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table, or that of the battery."""
+    if sys.argv[1:2] == ["--battery"]:
+        battery(*sys.argv[2:3])
+        return
     print("| | scans | raw error | error | more than 10 cm off | flagged | breaks | processor time |")
     print("|---|---|---|---|---|---|---|---|")
     for name in sys.argv[1:] or CASES:
