@@ -1,5 +1,6 @@
 """Settings for all tests; its presence also puts tests/ on the import path (`from data import intel_log`)."""
 
+import ctypes
 import gc
 import os
 import signal
@@ -36,6 +37,8 @@ def _memory_of_a_module(request):
             kept.cache_clear()
     if (jax := sys.modules.get("jax")) and resident_bytes() > ENOUGH_BYTES:
         jax.clear_caches()
+    if trim := getattr(ctypes.CDLL(None), "malloc_trim", None):  # glibc keeps what is freed: 300 MB of a worker
+        trim(0)
 
 
 ENOUGH_BYTES = 1_000_000_000
@@ -73,7 +76,10 @@ def pytest_xdist_auto_num_workers(config):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """Leave out the tier that is not asked for, and give a file's tests to one worker, which makes fixtures once."""
+    """Leave out the tier that is not asked for, and give a file's tests to one worker, which makes fixtures once.
+
+    All that compile many JAX programs are one worker's: programs take memory, and files share half of theirs.
+    """
     if not config.getoption("full"):
         left_out = [item for item in items if item.get_closest_marker("full")]
         if left_out:
@@ -82,8 +88,11 @@ def pytest_collection_modifyitems(config, items):
             config.stash[NOT_SELECTED] = len(left_out)
     for item in items:
         if item.get_closest_marker("xdist_group") is None:
-            item.add_marker(pytest.mark.xdist_group(item.location[0]))
+            group = "jax" if item.path.parent.name in OF_JAX else item.location[0]
+            item.add_marker(pytest.mark.xdist_group(group))
 
+
+OF_JAX = ("conformance", "gen", "programs")
 
 NOT_SELECTED = pytest.StashKey[int]()
 """How many tests of the tier `full` were left out."""
@@ -114,7 +123,10 @@ def not_run(skip_reasons, not_selected):
     for reason in skip_reasons:
         kind = next(((what, remedy) for words, what, remedy in REMEDIES if words in reason), ("tests", reason))
         counts[kind] += 1
-    lines = [f"{count} {what} skipped: {remedy}" for (what, remedy), count in sorted(counts.items())]
+    lines = [
+        f"{n} {what if n > 1 else what.replace('tests', 'test')} skipped: {remedy}"
+        for (what, remedy), n in sorted(counts.items())
+    ]
     if not_selected:
         lines.append(f"tier `full` not selected: {not_selected} tests (make test-all)")
     return lines

@@ -100,7 +100,7 @@ def test_what_was_not_run_is_counted_by_its_remedy(not_run):
     log = "/somewhere/a.log is not there (set BAYESMAP_DATA)"
     assert not_run([browser, log, "no GPU", browser, log.replace("a.log", "b.log")], 7) == [
         "2 browser tests skipped: no Chromium (apt install chromium-headless-shell)",
-        "1 tests skipped: no GPU",
+        "1 test skipped: no GPU",
         "2 tests of recordings skipped: recordings absent (set BAYESMAP_DATA to their folder)",
         "tier `full` not selected: 7 tests (make test-all)",
     ]
@@ -140,5 +140,5 @@ def test_the_last_lines_say_what_was_not_run_and_how_to_run_it(tmp_path, workers
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert ("4 passed, 1 skipped" if full else "1 passed, 1 skipped") in done.stdout
-    assert "1 browser tests skipped: no Chromium (apt install chromium-headless-shell)" in done.stdout
+    assert "1 browser test skipped: no Chromium (apt install chromium-headless-shell)" in done.stdout
     assert ("tier `full` not selected: 3 tests (make test-all)" in done.stdout) != full

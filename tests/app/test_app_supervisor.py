@@ -12,7 +12,7 @@ from bayesmap.app.tasks import Report
 from bayesmap.app.worker import Reporter
 
 PATIENCE_S = 180.0
-SILENCE_S = 6.0
+SILENCE_S = 4.0
 
 
 @pytest.mark.parametrize("what", [signal.SIGSTOP, signal.SIGKILL])

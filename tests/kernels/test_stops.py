@@ -63,12 +63,13 @@ def chosen(worlds, field):
 
 @pytest.mark.parametrize("kind", PRIORS)
 def test_stops_follow_their_exact_conditional_far_ones_too(kind):
-    worlds, states, field, _ = swept(kind)
-    paths = paths_of(worlds.problem.rays)
-    assert paths.far[: len(READINGS)].sum() > 4  # and some are
+    worlds, _, field, _ = swept(kind)
+    one = copies(scans_of(READINGS), GRID, PRIORS[kind], SENSOR, 1)
+    paths = paths_of(one.problem.rays)
+    assert paths.far.sum() > 4  # and some are
     stop = chosen(worlds, field)
-    weights = joint(paths, states, SENSOR, kind == "plain")[: len(READINGS)]
-    for b, weight in enumerate(weights):
+    states = state_of(one, kind).astype(np.float32).astype(float)
+    for b, weight in enumerate(joint(paths, states, SENSOR, kind == "plain")):
         entries = paths.there[b].sum()
         law = np.append(weight[:entries], weight[-1])
         counts = np.bincount(stop[:, b], minlength=entries + 1)
@@ -180,8 +181,9 @@ def test_invalid_readings_and_empty_beams_say_nothing():
 
 def test_wrong_stop_probabilities_would_be_noticed():
     """The twin: a beam that forgets to lose weight on the way is told from the exact one by the same chi-square."""
-    worlds, states, field, _ = swept("plain")
-    paths = paths_of(worlds.problem.rays)
+    worlds, _, field, _ = swept("plain")
+    one = copies(scans_of(READINGS), GRID, PRIORS["plain"], SENSOR, 1)
+    paths, states = paths_of(one.problem.rays), state_of(one, "plain").astype(np.float32).astype(float)
     stopped, distance, variance = stops(paths, states, True)
     law = reading_law(paths.range_m[:, None], distance, variance, SENSOR, paths.limits)
     b = 1

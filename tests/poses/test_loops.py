@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from tiers import full_but
 
-from bayesmap.poses import loops
+from bayesmap.poses import look_alikes, loops
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between
 from benchmarks.pose_cases import office, record
@@ -22,7 +21,8 @@ def farthest_m(found, truth):
     return np.hypot(off[:, 0], off[:, 1]).max()
 
 
-@pytest.mark.parametrize("seed", full_but([3, 15, 19], 15))
+@pytest.mark.full
+@pytest.mark.parametrize("seed", [3, 15, 19])
 def test_rooms_in_a_row_that_look_alike_are_told_apart(seed):
     """Odometry's heading is off by much: closures between neighbouring rooms lay within a window as wide as the way is
     uncertain along it, and put the end of the way 2.8 m off.
@@ -35,7 +35,8 @@ def test_rooms_in_a_row_that_look_alike_are_told_apart(seed):
 
 @pytest.mark.full
 def test_where_they_are_not_told_apart_it_is_said(monkeypatch):
-    """Closures that the way rules out are taken all the same."""
+    """Closures that the way rules out are taken all the same, and visits that look alike are believed."""
+    monkeypatch.setattr(look_alikes, "ODDS", 1e9)
     monkeypatch.setattr(loops, "_possible", lambda closures, path, precision, most_off: np.ones(len(closures), bool))
     scans, truth = recorded(15)
     found = infer_trajectory(scans)

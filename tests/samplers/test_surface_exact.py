@@ -1,4 +1,4 @@
-"""Surfaces in one and two cells against importance sampling from the prior with a million draws.
+"""Surfaces in one and two cells against importance sampling from the prior with 300 000 draws.
 
 A few thousand copies of a world side by side are independent chains; compared are the marginals of logit m, mean,
 log l11, l21 and log l22 of all cells, and the mean products of all pairs of their ranks. False alarms: `ALPHA` = 1e-4
@@ -18,7 +18,7 @@ from oracle.weighted import p_values, surface_coordinates, weighted
 import bayesmap as bm
 from bayesmap.samplers import initial_estimate
 
-DRAWS, AT_ONCE, COPIES = 1_000_000, 50_000, 2500
+DRAWS, AT_ONCE, COPIES = 300_000, 50_000, 2500
 TESTS = 1000  # p-values in this module, at most
 EDGE = 0.5
 
@@ -54,7 +54,7 @@ CASES = {
 
 @pytest.fixture(autouse=True, scope="module")
 def _forget():
-    """A million draws are 0.2 GB: one law is kept at a time, and none for the tests of other modules."""
+    """The draws are 0.1 GB: one law is kept at a time, and none for the tests of other modules."""
     yield
     for kept in (prior_states, by_importance):
         kept.cache_clear()
@@ -62,7 +62,7 @@ def _forget():
 
 @lru_cache(maxsize=1)
 def prior_states(shape, prior, anywhere=False):
-    """A million states from the prior, in metres, and centres and edge of their cells."""
+    """Many states from the prior, in metres, and centres and edge of their cells."""
     cell = np.arange(shape[0] * shape[1])
     centres = (np.stack([cell // shape[1] + 0.5, cell % shape[1] + 0.5], axis=-1) * EDGE, EDGE)
     return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,), anywhere=anywhere), centres
