@@ -48,6 +48,7 @@ def test_draws_are_exact(p, coupling, shape):
     assert least_p_value(single.reshape(-1, grid.n_cells), law) > ALPHA / 12
 
 
+@pytest.mark.full
 def test_starts_are_like_draws():
     """On a small map 50 sweeps are enough for any test."""
     prior, shape = bm.Ising(0.3, 0.6), (3, 3)

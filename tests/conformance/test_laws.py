@@ -220,6 +220,7 @@ def test_a_switch_whose_index_stays_is_edited_in_place():
         assert new.get_choices()[name].unmask() == trace.get_choices()[name].unmask()
 
 
+@pytest.mark.full
 def test_regenerate_works_on_vmap_scan_and_products():
     data = jnp.array([1.0, 2.0, 3.0])
     rows = model.repeat(n=3)

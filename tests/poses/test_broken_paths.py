@@ -182,6 +182,7 @@ def test_parts_that_too_few_places_join_stay_where_they_are():
     np.testing.assert_allclose(found, poses, atol=1e-12)
 
 
+@pytest.mark.full
 def test_a_building_that_looks_the_same_from_both_ends_leaves_the_break_named():
     """Two relative poses explain what was seen nearly as well: to choose one would be to guess."""
     scans, truth = recording(laps=1.6, noise=1.0)

@@ -113,6 +113,7 @@ def test_simulated_readings_follow_the_sensor(name):
             assert abs(p - q) <= 5 * np.sqrt(2 * max(q * (1 - q), 1e-4) / n), (name, beam, cut)
 
 
+@pytest.mark.full
 def test_it_nests_in_a_bigger_model():
     case = make_case(5, shape=(3, 3))
     inner = of_case(case)
