@@ -5,7 +5,7 @@ import warp as wp
 
 from bayesmap.kernels import device
 from bayesmap.kernels.random import mix, random_bits
-from bayesmap.kernels.shuffle import cipher_bits, shuffled
+from bayesmap.kernels.walls.shuffle import cipher_bits, shuffled
 from bayesmap.samplers.sampler import STREAM_SWEEPS
 
 

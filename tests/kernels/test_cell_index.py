@@ -7,10 +7,10 @@ from oracle.worlds import make_case
 from test_beam_table import GRID, SENSORS, random_scans
 
 import bayesmap as bm
-from bayesmap.kernels import index as indexing
 from bayesmap.kernels import parallel
-from bayesmap.kernels.index import index_by_cell
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls import index as indexing
+from bayesmap.kernels.walls.index import index_by_cell
+from bayesmap.kernels.walls.trace import trace
 
 FIELDS = ("offsets", "entry", "beam", "loglik", "gain_bound", "advantage")
 

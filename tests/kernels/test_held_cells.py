@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels import held_cells
+from bayesmap.kernels.surfaces import held_cells
 from bayesmap.model import Model
 from bayesmap.samplers import initial_estimate
 from bayesmap.samplers.stop_gibbs import StopGibbs

@@ -26,7 +26,7 @@ from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
 Floats = NDArray[np.float64]
 
@@ -92,7 +92,7 @@ class PoseProblem:
     @cached_property
     def likelihood(self) -> ScanLikelihood:
         """The likelihood of scans at poses."""
-        from bayesmap.kernels.scan_likelihood import ScanLikelihood
+        from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
         model = self.model
         return ScanLikelihood(model.scans, model.grid, model.sensor, model.hit_depth, self.device)

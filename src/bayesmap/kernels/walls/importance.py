@@ -1,0 +1,77 @@
+"""Importance sampling from the prior: maps that are never stored, because a counter can draw them again."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels.parallel import launch
+from bayesmap.kernels.random import random_bits
+from bayesmap.kernels.walls.state import Table
+from bayesmap.kernels.walls.wall_prior import Prior, draw_from_prior
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.func
+def particle_wall(prior: Prior, key: wp.uint64, particle: wp.uint64, cells: wp.uint64, c: int) -> bool:
+    """Whether cell c is a wall in the map of a particle."""
+    return draw_from_prior(prior, c, random_bits(key, particle * cells + wp.uint64(c)))
+
+
+@wp.kernel
+def weigh_particles(
+    first: int,
+    t: Table,
+    prior: Prior,
+    key: wp.uint64,
+    particle_0: wp.uint64,
+    log_weights: wp.array(dtype=wp.float64),
+):
+    """One thread a particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
+    i = first + wp.tid()
+    particle = particle_0 + wp.uint64(i)
+    cells = wp.uint64(prior.level.shape[0])
+    total = wp.float64(0.0)
+    for b in range(t.no_hit.shape[0]):
+        term = t.no_hit[b]
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            if particle_wall(prior, key, particle, cells, t.cells[k]):
+                term = t.loglik[k]
+                break
+        total += wp.float64(term)
+    log_weights[i] = total
+
+
+@wp.kernel
+def draw_particles(
+    first: int,
+    prior: Prior,
+    key: wp.uint64,
+    particles: wp.array(dtype=wp.uint64),
+    walls: wp.array2d(dtype=wp.uint8),
+):
+    """One thread a particle: write its whole map."""
+    i = first + wp.tid()
+    cells = walls.shape[1]
+    for c in range(cells):
+        wall = particle_wall(prior, key, particles[i], wp.uint64(cells), c)
+        walls[i, c] = wp.uint8(wp.where(wall, 1, 0))
+
+
+def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> NDArray[np.float64]:
+    """Log weights of particles first .. first + count - 1."""
+    log_weights = wp.empty(count, dtype=wp.float64, device=device)
+    inputs = [table, prior, wp.uint64(key), wp.uint64(first), log_weights]
+    launch(weigh_particles, count, inputs, device)
+    return np.array(log_weights.numpy())
+
+
+def draw(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
+    """The maps of some particles, (n, N)."""
+    cells = prior.level.shape[0]
+    walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
+    chosen = wp.array(particles.astype(np.uint64), dtype=wp.uint64, device=device)
+    launch(draw_particles, len(particles), [prior, wp.uint64(key), chosen, walls], device)
+    return np.array(walls.numpy())
