@@ -152,7 +152,7 @@ def test_every_family_is_known():
 def test_an_import_across_families_is_noticed():
     walls, shared = ("kernels", "walls", "gibbs"), ("kernels", "walk")
     assert forbidden_in_room(walls, "bayesmap.kernels.match.line_pairs")
-    assert forbidden_in_room(shared, "bayesmap.kernels.walls.state")
+    assert forbidden_in_room(shared, "bayesmap.kernels.walls.chains")
     assert forbidden_in_room(walls, "bayesmap.kernels.walk") is None
     assert forbidden_in_room(("kernels", "predict", "view"), "bayesmap.kernels.surfaces.crossing") is None
 

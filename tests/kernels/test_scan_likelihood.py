@@ -7,7 +7,7 @@ import pytest
 from test_predictions import DEPTH, GRID, SENSORS, world
 
 import bayesmap as bm
-from bayesmap.kernels.predict.predict import log_densities
+from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.kernels.rays import trace_rays
 

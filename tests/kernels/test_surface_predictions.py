@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.predict.predict import forecast
+from bayesmap.kernels.predict.density import forecast
 from bayesmap.kernels.predict.stop_mixture import mix_stops
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.sensors.model import RangeLimits

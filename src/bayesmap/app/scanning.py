@@ -127,7 +127,7 @@ def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
 
 def simulated_scene(document: Document) -> Scene:
     """What the sensors of a simulation see."""
-    from bayesmap.kernels.walls.trace import trace
+    from bayesmap.kernels.walls.table import trace
 
     scans, exact = simulate_document(document)
     sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))

@@ -24,7 +24,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.predict.cell_stop import HeldMaps
+    from bayesmap.kernels.predict.density import HeldMaps
 
 CENTRAL_80 = (0.1, 0.5, 0.9)
 """Levels of the median and of the ends of the central 80 % interval."""
@@ -56,7 +56,7 @@ class ScanPredictor:
         Raises:
             BadInput: no draws.
         """
-        from bayesmap.kernels.predict.cell_stop import hold_maps
+        from bayesmap.kernels.predict.density import hold_maps
 
         held = hold_maps(predictor.batches(), predictor.hit_depth, device=device)
         return cls(predictor.grid, held, predictor.sensor, limits)

@@ -140,7 +140,7 @@ def score_prediction(
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
     """
-    from bayesmap.kernels.predict.predict import forecast
+    from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops
     from bayesmap.kernels.predict.stop_quantiles import range_quantiles
     from bayesmap.kernels.rays import trace_rays

@@ -120,8 +120,7 @@ def sample_importance(
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np.float64]:
     """Log p(readings | map) of particles first .. first + count - 1."""
-    from bayesmap.kernels.walls.importance import weigh
-    from bayesmap.kernels.walls.score import log_likelihoods
+    from bayesmap.kernels.walls.importance import log_likelihoods, weigh
 
     if problem.coupling == 0.0:
         return weigh(problem.device_table, problem.device_prior, key, first, count, problem.device)

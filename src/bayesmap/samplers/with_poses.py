@@ -267,7 +267,7 @@ class WithPoses:
 
     def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
         """Something for every chain: on the CPU as many at once as there are threads."""
-        from bayesmap.kernels.parallel import available_cores
+        from bayesmap.kernels.device import available_cores
 
         threads = min(problem.threads or available_cores(), count) if problem.device == "cpu" else 1
         if threads == 1:

@@ -13,7 +13,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
@@ -297,12 +296,12 @@ def search(
     inputs = [jobs, job_of_row_dev, devices.to_device(angles_rad, wp.float64, device)]
     inputs += [devices.to_device(centres, wp.vec2d, device), devices.to_device(origins, wp.vec2d, device)]
     inputs += [wp.float64(resolution), devices.to_device(points, wp.vec2d, device), cells]
-    launch(turn_points, rows, inputs, device, threads)
+    devices.launch(turn_points, rows, inputs, device, threads)
     bound = wp.empty(int(node_begin[-1]), dtype=wp.float64, device=device)
     node = wp.empty(int(node_begin[-1]), dtype=wp.vec3i, device=device)
     begin = devices.to_device(node_begin[:-1], wp.int32, device)
     inputs = [jobs, job_of_row_dev, row_cost, begin, top, cells, pyramid, bound, node]
-    launch(bound_blocks, rows, inputs, device, threads)
+    devices.launch(bound_blocks, rows, inputs, device, threads)
     bounds = bound.numpy()
     if count == 1:
         order = np.argsort(-bounds, kind="stable")
@@ -326,7 +325,7 @@ def search(
         inputs = [strands, jobs, row_cost, nodes_dev, order_dev, bound, node, top, cells, pyramid]
         inputs += [devices.to_device(taken, wp.vec3i, device), wp.vec3i(*apart), mode, stack_bound, stack_node]
         inputs += [incumbent, best, best_node]
-        launch(search_blocks, threads_of_all, inputs, device, threads)
+        devices.launch(search_blocks, threads_of_all, inputs, device, threads)
         _first_of_best(
             best.numpy().reshape(count, strands), best_node.numpy().reshape(count, strands, 3), scores, found, mode
         )

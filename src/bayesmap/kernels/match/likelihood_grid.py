@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.match.scan_geometry import neighbour, put_fans, widest_gap
-from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
@@ -137,14 +136,14 @@ def draw_grids(
     if device == "cpu":
         host = pyramid.numpy()
         host[:, 0] = 0
-        launch(draw_points, grids * bands, inputs, device, threads)
+        devices.launch(draw_points, grids * bands, inputs, device, threads)
         for level in range(1, levels):
             widen(host[:, level - 1], host[:, level], 1 << (level - 1))
         return pyramid
     wp.copy(pyramid, wp.zeros(shape=pyramid.shape, dtype=wp.uint8, device=device))
-    launch(draw_points, grids * bands, inputs, device, threads)
+    devices.launch(draw_points, grids * bands, inputs, device, threads)
     for level in range(1, levels):
-        launch(next_level, grids * shape[0], [level, pyramid], device, threads)
+        devices.launch(next_level, grids * shape[0], [level, pyramid], device, threads)
     return pyramid
 
 

@@ -1,15 +1,17 @@
-"""Points of one scan on the walls of another: projective point-to-line pairs, summed to a quadratic.
+"""Pair the points of one scan with the walls of another: projective point-to-line pairs, summed to a quadratic.
 
-A point of scan i, moved into the frame of scan j, is paired with the nearest point of j, which is looked for among the
-beams that point that way (Blais and Levine 1995; Censi 2008 for planar scans). Its residual e is its distance from the
-wall there, along the mean of the two normals, with Geman and McClure's weight (1 + e^2 / c^2)^-2. Where neither has a
-normal the residual is the offset itself, in x and y, and weighs less: returns of one surface lie apart by the distance
-between beams there, and those of two scans are not the same points.
+A point of scan i, moved into the frame of scan j, is paired with the nearest point of j. That point is searched among
+the beams that point in its direction (Blais and Levine 1995; Censi 2008 for planar scans). The residual e is the
+distance of the point from the wall there, along the mean of the two normals, with the weight of Geman and McClure,
+(1 + e^2 / c^2)^-2. Where neither point has a normal, the residual is the offset itself, in x and y, with less weight:
+returns of one surface lie apart by the distance between beams, and two scans do not return the same points.
 
 With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives
 of half the cost by z (Gauss-Newton). ``slack`` is what errors of the normals add to H without information: sum w spread
 T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's angle for points of unit
 variance. Along a corridor H is slack alone.
+
+`match_counts` counts the scans with which each beam is paired.
 """
 
 from typing import Any
@@ -20,7 +22,6 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.match.scan_geometry import put_fans
-from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
@@ -334,5 +335,71 @@ def pair_sums(
     inputs = [scene_of(geometry, stride), devices.to_device(weights, wp.float32, device)]
     inputs += [devices.to_device(source, wp.int32, device), devices.to_device(target, wp.int32, device)]
     inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, second, slack, gradient, totals]
-    launch(sum_pairs, count, inputs, device, threads)
+    devices.launch(sum_pairs, count, inputs, device, threads)
     return second.numpy(), slack.numpy(), gradient.numpy(), totals.numpy()
+
+
+@wp.kernel
+def count_matches(
+    first: int,
+    scene: Scene,
+    offsets: wp.array(dtype=wp.int32),
+    target: wp.array(dtype=wp.int32),
+    relative: wp.array(dtype=wp.vec3d),
+    reach: float,
+    scale: float,
+    alike: float,
+    counts: wp.array2d(dtype=wp.float32),
+):
+    """One thread a scan: with how many others is each beam matched, weighted by how well."""
+    i = first + wp.tid()
+    for b in range(scene.kind.shape[1]):
+        counts[i, b] = 0.0
+    for p in range(offsets[i], offsets[i + 1]):
+        z = relative[p]
+        j = target[p]
+        cosine = float(wp.cos(z[2]))
+        sine = float(wp.sin(z[2]))
+        for b in range(scene.kind.shape[1]):
+            if scene.kind[i, b] == wp.uint8(0):
+                continue
+            q = scene.points[i, b]
+            x = cosine * q[0] - sine * q[1] + float(z[0])
+            y = sine * q[0] + cosine * q[1] + float(z[1])
+            other = nearest_point(scene, j, x, y, reach)
+            if other < 0:
+                continue
+            if scene.kind[i, b] != scene.kind[j, other]:
+                continue
+            d = wp.vec2f(x, y) - scene.points[j, other]
+            e2 = d[0] * d[0] + d[1] * d[1]
+            if scene.kind[i, b] == wp.uint8(2):
+                n = scene.normals[i, b]
+                m = scene.normals[j, other]
+                nx = cosine * n[0] - sine * n[1]
+                ny = sine * n[0] + cosine * n[1]
+                if nx * m[0] + ny * m[1] < alike:
+                    continue
+                e = m[0] * d[0] + m[1] * d[1]
+                e2 = e * e
+            w = 1.0 / (1.0 + e2 / (scale * scale))
+            counts[i, b] = counts[i, b] + w * w
+
+
+def match_counts(
+    geometry: Any,
+    offsets: NDArray[np.int32],
+    target: NDArray[np.int32],
+    relative: NDArray[np.float64],
+    reach_m: float,
+    scale_m: float,
+    alike: float,
+    threads: int | None = None,
+) -> NDArray[np.float32]:
+    """With how many of its partners each beam is matched, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
+    device = geometry.device
+    counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
+    inputs = [scene_of(geometry), devices.to_device(offsets, wp.int32, device)]
+    inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
+    devices.launch(count_matches, len(geometry), [*inputs, reach_m, scale_m, alike, counts], device, threads)
+    return np.asarray(counts.numpy())

@@ -7,7 +7,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
@@ -188,9 +187,9 @@ def points_and_normals(
     kind = wp.empty((scans, beams), dtype=wp.uint8, device=device)
     spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
     span = [wp.float64(nearest_m), wp.float64(farthest_m)]
-    launch(scan_points, scans, [readings, angles, *span, points, kind], device, threads)
+    devices.launch(scan_points, scans, [readings, angles, *span, points, kind], device, threads)
     geometry = [*put_fans(fans, device), wp.float32(reach_m), wp.float32(noise_m)]
-    launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
+    devices.launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
     return points, normals, kind, spread
 
 

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.match.line_pairs import Scene, pair_scans, scene_of
-from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
@@ -159,7 +158,7 @@ def refine_scans(
     inputs = [scene_of(geometry, stride), weights, *ints, *vectors]
     inputs += [devices.to_device(prior_information, wp.mat33d, device), wp.float64(sigma_m), steps]
     inputs += [wp.vec2f(*reach_m), wp.vec2f(*scale_m), alike, pose, information, totals]
-    launch(refine, jobs, inputs, device, threads)
+    devices.launch(refine, jobs, inputs, device, threads)
     return pose.numpy(), information.numpy(), totals.numpy()
 
 

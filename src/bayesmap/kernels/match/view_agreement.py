@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.match.line_pairs import Scene, beam_towards, nearest_point, scene_of
 from bayesmap.kernels.match.scan_geometry import neighbour, widest_gap
-from bayesmap.kernels.parallel import launch
 from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
@@ -133,7 +132,7 @@ def view_counts(
     stride = max(1, geometry.beams // agreement.beams)
     inputs = [scene_of(geometry, stride), devices.to_device(source, wp.int32, device)]
     inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
-    launch(compare_views, count, [*inputs, agreement.near_m, agreement.clear_m, counts], device, threads)
+    devices.launch(compare_views, count, [*inputs, agreement.near_m, agreement.clear_m, counts], device, threads)
     return np.asarray(counts.numpy())
 
 

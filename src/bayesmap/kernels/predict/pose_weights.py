@@ -15,7 +15,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.predict.scan_likelihood import Cells, Frame, put_cells
 from bayesmap.kernels.sensor_law import (
     SensorLaw32,
@@ -290,5 +289,5 @@ def scan_log_likelihood(
         out,
     ]
     size = -(-count // cycle) * cycle if in_turn else count * draws
-    launch(scan_log_likelihoods, size, inputs, device, threads)
+    devices.launch(scan_log_likelihoods, size, inputs, device, threads)
     return np.asarray(out.numpy())

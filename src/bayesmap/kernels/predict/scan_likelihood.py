@@ -2,7 +2,7 @@
 
 Beams walk the grid from the pose itself, so nothing has to be traced beforehand. A beam stops in the i-th cell that it
 meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, and its reading has the density ``sum_i w_i p(z | stop
-i)``, the law of `bayesmap.kernels.predict.predict` under one map. Where each beam stopped is summed out.
+i)``, the law of `bayesmap.kernels.predict.density` under one map. Where each beam stopped is summed out.
 """
 
 from dataclasses import dataclass
@@ -14,8 +14,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch, threads_for
-from bayesmap.kernels.predict.predict import add_stop, no_sum, weight_of_nothing
+from bayesmap.kernels.predict.density import add_stop, no_sum, weight_of_nothing
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
 from bayesmap.kernels.surfaces.crossing import Cell, cross_surface, ray_from
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
@@ -148,7 +147,7 @@ class ScanLikelihood:
 
         Args:
             cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
-                as `bayesmap.kernels.predict.cell_stop` has them; N cells of the whole grid. Or these, already put where
+                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. Or these, already put where
                 kernels read them, if they are weighed by often.
             poses: P poses in the world frame, (P, 3).
             scan: which scan is weighed there, (P,).
@@ -170,7 +169,7 @@ class ScanLikelihood:
             readings,
             out,
         ]
-        launch(beam_log_likelihoods, len(out), inputs, device, threads_for(len(out)))
+        devices.launch(beam_log_likelihoods, len(out), inputs, device, devices.threads_for(len(out)))
         return np.asarray(out.numpy().reshape(len(poses), beams))
 
     def __call__(

@@ -16,9 +16,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch, threads_for
-from bayesmap.kernels.predict.cell_stop import HeldMaps, Maps, StopStates, put_maps, stop_in
-from bayesmap.kernels.predict.predict import law_with_cumulative
+from bayesmap.kernels.predict.density import HeldMaps, Maps, StopStates, law_with_cumulative, put_maps, stop_in
 from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
 from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
 from bayesmap.sensors.model import SensorModel
@@ -87,7 +85,7 @@ class StopMixture:
 
 
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
-    """Average over draws; arguments as of `bayesmap.kernels.predict.predict.forecast`.
+    """Average over draws; arguments as of `bayesmap.kernels.predict.density.forecast`.
 
     Raises:
         BadInput: no draws.
@@ -125,7 +123,7 @@ def _mixed(
     for maps, count in batches:
         draws += count
         inputs = [*fixed, maps, count, wp.float64(gone), *sums, no_stop]
-        launch(add_stops, rays.n_beams, inputs, device, threads_for(rays.n_beams))
+        devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     weight, shift, square = (a.numpy() for a in sums)
@@ -233,5 +231,5 @@ def first_hit_events(
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
     inputs = [law_with_cumulative(sensor, rays.limits, device), put_stops(stops, device), *put_rays(rays, device)]
     inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
-    launch(find_events, rays.n_beams, inputs, device, threads_for(rays.n_beams))
+    devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()

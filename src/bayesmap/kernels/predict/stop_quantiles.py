@@ -9,8 +9,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.predict.predict import are_typed, law_with_cumulative
+from bayesmap.kernels.predict.density import are_typed, law_with_cumulative
 from bayesmap.kernels.predict.stop_mixture import LEAST_WEIGHT, StopMixture, Stops, mixture_below, put_stops
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, is_before, is_behind, met_or_returned, random_below
 from bayesmap.sensors.model import SensorModel
@@ -156,5 +155,5 @@ def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, dev
     beams = stops.rays.n_beams
     out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
     inputs = [law, put_stops(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
-    launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
+    devices.launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
     return np.asarray(out.numpy())

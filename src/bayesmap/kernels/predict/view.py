@@ -10,7 +10,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
 from bayesmap.kernels.predict.scan_likelihood import Cells, Frame, grid_frame, put_cells, stop_in
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
@@ -111,7 +110,7 @@ def drawn_stops(
         wp.uint64(key),
         *out,
     ]
-    launch(draw_stops, beams, inputs, device)
+    devices.launch(draw_stops, beams, inputs, device)
     distance_m, spread_m = (np.asarray(a.numpy().reshape(len(poses), -1)) for a in out)
     return distance_m, spread_m
 
@@ -253,5 +252,5 @@ def independent_information(
         *(wp.float64(value) for value in (longest_m, sigma_m)),
         out,
     ]
-    launch(add_beam_information, len(poses) * len(angles_rad), inputs, device)
+    devices.launch(add_beam_information, len(poses) * len(angles_rad), inputs, device)
     return np.asarray(out.numpy().reshape(len(poses), -1))

@@ -9,7 +9,7 @@ where the gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops
 
 import warp as wp
 
-from bayesmap.kernels.random import CELLS, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.random import CELLS, beta_or_nothing, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces.cell_prior import (
     CellPrior,
     centre_of,
@@ -22,7 +22,6 @@ from bayesmap.kernels.surfaces.cell_prior import (
 )
 from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
-from bayesmap.kernels.surfaces.variates import beta_or_nothing
 
 wp.set_module_options({"enable_backward": False})
 

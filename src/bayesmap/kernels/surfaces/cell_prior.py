@@ -16,10 +16,8 @@ import warp as wp
 from scipy import special
 
 from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
 from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, Cell
-from bayesmap.kernels.surfaces.variates import PER_GAMMA, log_gamma_variate, normal
-
-wp.set_module_options({"enable_backward": False})
 
 MEAN_TRIES = wp.constant(8)
 

@@ -23,8 +23,6 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-wp.set_module_options({"enable_backward": False})
-
 CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
 DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
 """Square of omega, radians: 4 to 8 thousandths predict held-out scans best (docs/surfaces-measured.md)."""

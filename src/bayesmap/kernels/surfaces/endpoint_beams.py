@@ -26,8 +26,6 @@ from bayesmap.kernels.surfaces.crossing import (
 )
 from bayesmap.kernels.surfaces.stops import LEAST, TracedRays, hit_law
 
-wp.set_module_options({"enable_backward": False})
-
 FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
 
 
@@ -37,7 +35,7 @@ class EndpointCells:
 
     For each its entry in the rays, its beam, how the beam passes the cell's centre (offset and direction), how far
     ahead of its start that lies, and its reading; and for each cell the frame and sizes of its steps
-    (`bayesmap.kernels.surfaces.surface_steps`).
+    (`bayesmap.kernels.surfaces.endpoint_cells`).
     """
 
     cell: wp.array(dtype=wp.int32)

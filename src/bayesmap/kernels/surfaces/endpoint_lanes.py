@@ -29,8 +29,6 @@ from bayesmap.kernels.surfaces.crossing import (
 from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells
 from bayesmap.kernels.surfaces.stops import LEAST, TracedRays
 
-wp.set_module_options({"enable_backward": False})
-
 WIDTH = 8
 Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)
 """A number of eight beams."""

@@ -7,8 +7,8 @@ has
         = exp(coupling * (solid - free among its neighbours)) * r(a_solid, b_solid) / r(a, b),
     r(a, b) = B(a + h, b + n) / B(a, b)
 
-(a Beta-binomial). Its reflectivity is then drawn given the label and the counts (`kernels.cell_draws`,
-`kernels.endpoint_cells`): both together are a Gibbs step of the pair. Cells that learn nothing in a sweep keep their
+(a Beta-binomial). Its reflectivity is then drawn given the label and the counts (`cell_draws`,
+`endpoint_cells`): both together are a Gibbs step of the pair. Cells that learn nothing in a sweep keep their
 label and reflectivity. Those that no beam touches have no counts and no reflectivity, until beams may come to them:
 then it is drawn given the label (`draw_untouched`).
 
@@ -24,13 +24,11 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.random import CELLS, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.random import CELLS, beta_variate, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
 from bayesmap.kernels.surfaces.cell_prior import CellPrior
 from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING
 from bayesmap.kernels.surfaces.stops import LEARNS, ChainArrays
-from bayesmap.kernels.surfaces.sums import WIDTH
-from bayesmap.kernels.surfaces.variates import beta_variate
 from bayesmap.kernels.walls.wall_prior import draw_wall
 
 wp.set_module_options({"enable_backward": False})
@@ -164,28 +162,3 @@ def draw_untouched(
     cell = state.cells[here]
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at))
     state.cells[here] = cell
-
-
-@wp.kernel
-def sum_label_prior(
-    first: int,
-    nx: int,
-    ny: int,
-    prior: CellPrior,
-    state: ChainArrays,
-    slices: wp.array2d(dtype=wp.float64),
-):
-    """One thread a slice of a chain's cells: what their pairs with the next cell in x and in y add to the log prior."""
-    i = first + wp.tid()
-    chain = i // slices.shape[1]
-    part = i - chain * slices.shape[1]
-    cell_0 = chain * state.n_cells
-    alike = int(0)
-    for c in range(part * WIDTH, wp.min((part + 1) * WIDTH, state.n_cells)):
-        x = c // ny
-        here = cell_0 + c
-        if x < nx - 1 and state.solid[here] == state.solid[here + ny]:
-            alike += 1
-        if c - x * ny < ny - 1 and state.solid[here] == state.solid[here + 1]:
-            alike += 1
-    slices[chain, part] = prior.coupling * wp.float64(alike)

@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import available_cores, thread_pool
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
 from bayesmap.kernels.surfaces.cell_prior import put_prior
@@ -28,11 +27,18 @@ from bayesmap.kernels.surfaces.crossing import Cell, put_cells
 from bayesmap.kernels.surfaces.endpoint_beams import put_endpoint_cells
 from bayesmap.kernels.surfaces.endpoint_cells import STEPS, count_endpoint_cells, update_endpoint_cells
 from bayesmap.kernels.surfaces.endpoint_lanes import room_for_blocks
-from bayesmap.kernels.surfaces.held_cells import HeldCells, pass_held_cells
-from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, put_known, sum_label_prior
+from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, put_known
 from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
-from bayesmap.kernels.surfaces.stops import LEARNS, ChainArrays, decay_of_readings, draw_stops, put_traced_rays
-from bayesmap.kernels.surfaces.sums import SLICE, sum_of_slices, sum_slices
+from bayesmap.kernels.surfaces.stops import (
+    LEARNS,
+    ChainArrays,
+    HeldCells,
+    decay_of_readings,
+    draw_stops,
+    pass_held_cells,
+    put_traced_rays,
+)
+from bayesmap.kernels.surfaces.sums import SLICE, sum_label_prior, sum_of_slices, sum_slices
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the others are no part of a state
@@ -97,7 +103,7 @@ class StopChains:
         self.plan, device = plan, plan.device
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
         chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
-        self.threads = (threads or available_cores()) if device == "cpu" else 1
+        self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
         self._rays = put_traced_rays(plan.rays, plan.distance_m, device)
         self._held = HeldCells(plan.rays, plan.every)
         self._holds = self._held.put_watched(self._rays, device)
@@ -270,7 +276,7 @@ class StopChains:
             return
         for kernel in (*KERNELS, count_observed, sum_label_prior, sum_slices, sum_of_slices):
             devices.load_kernels(kernel, self.device)
-        list(thread_pool(self.threads).map(work, tasks))
+        list(devices.thread_pool(self.threads).map(work, tasks))
 
     def _of(self, array: Any, chain: int) -> NDArray[Any]:
         """A chain's cells or beams of an array: on the CPU not a copy, and good until the next sweep."""

@@ -1,19 +1,25 @@
-"""Half a sweep: where does every beam stop, given the cells?
+"""The first half of a sweep: draw where every beam stops, given the cells.
 
-A beam walks its cells in order. In each it meets the surface with chance g, and is then stopped with probability m; so
-with a = m g it stops there with probability T a, T being the product of 1 - a over the cells before, and its stop has
-the posterior probability proportional to T a p(z | stop). Far before the reading p(z | stop) is the constant density of
-a random reading, and the sum over those cells is that density times (1 - T): they cost a multiplication each.
+A beam walks its cells in order. In each cell it meets the surface with chance g, and is then stopped with probability
+m. With a = m g it stops there with probability T a, T being the product of 1 - a over the cells before. The posterior
+probability of this stop is proportional to T a p(z | stop). Far before the reading, p(z | stop) is the constant density
+of a random reading, and the sum over those cells is that density times (1 - T): each costs one multiplication.
 
-A cell that a beam passes learns one of two things. In most sweeps: whether the beam *met* the surface (and was not
-stopped), which given that it passed has probability g (1 - m) / (1 - a); met and stopped beams make its reflectivity's
-Beta. In sweeps in which a candidate for its surface is tried: log (1 - m g') / (1 - m g), the beam's part of the
-Metropolis ratio. Both are added up in whole numbers, so that the result does not depend on the order of beams.
+A cell that a beam passes learns one of two things. In most sweeps it learns whether the beam *met* the surface without
+being stopped, which given that it passed has probability g (1 - m) / (1 - a). The beams that met the surface and those
+that were stopped make the Beta of the reflectivity. In sweeps that try a candidate for its surface it learns
+log (1 - m g') / (1 - m g), the beam's part of the Metropolis ratio. Both are added up in whole numbers, so that the
+result does not depend on the order of beams.
 
-Most cells are free, and hundreds of beams say so in every sweep: in most sweeps they learn nothing, and hold what they
-are. All have their turns in the same sweeps. In the others a beam needs of the held cells far before its reading just
-the product of their 1 - a, which stays what it was (`kernels.held_cells`), and walks its other far cells alone. A held
-cell whose reflectivity is under single precision does nothing to T, and is passed without a look at its surface.
+Most cells are free, and hundreds of beams say so in every sweep. Such a cell is updated *lazily*: only in some sweeps,
+and all lazy cells in the same ones. In the other sweeps it keeps its reflectivity, and its surface changes nothing that
+matters. So the product over a beam's lazy cells far before its reading,
+
+    prod over lazy far cells (1 - m g),
+
+is computed once after each update (`pass_held_cells`). The other far cells, those in which readings end or that few
+beams pass, are *watched*: each sweep walks them. A lazy cell whose reflectivity is below single precision does not
+change T, and is skipped without a look at its surface.
 
 At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not
 tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
@@ -37,6 +43,7 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
 )
 from bayesmap.kernels.surfaces.crossing import (
+    REFLECTIVITY,
     TRYING,
     Cell,
     Crossing,
@@ -338,3 +345,50 @@ def hit_law(
     if k < near:
         return tempered(law.uniform, beta)
     return tempered(stop_density(law, reading, decay, met.distance_m, met.variance), beta)
+
+
+OFTEN = 2
+"""Cells whose turn it is in every so many sweeps or more often are watched."""
+
+
+@wp.kernel
+def pass_held_cells(first: int, holds: wp.array(dtype=wp.uint8), rays: TracedRays, state: ChainArrays):
+    """One thread a chain's beam: the product above, over the cells that ``holds`` marks."""
+    i = first + wp.tid()
+    chain = i // state.n_beams
+    b = i - chain * state.n_beams
+    cell_0 = chain * state.n_cells
+    ray = ray_from(rays.start_m[b], rays.direction[b])
+    free = wp.float32(1.0)
+    for k in range(rays.offsets[b], rays.near[b]):
+        c = rays.cells[k]
+        if holds[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > CLEAR:
+            cell = state.cells[cell_0 + c]
+            free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * chance_at(rays, cell, ray))
+    state.held_free[i] = free
+
+
+class HeldCells:
+    """Which cells hold in most sweeps, and in which sweeps it is their turn."""
+
+    def __init__(self, rays: Rays, every: NDArray[np.uint8]) -> None:
+        """``every`` is that of `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
+        self._turns = [int(length) for length in np.unique(every[every > OFTEN])]
+        self._holds = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+        self._holds[rays.touched[every > OFTEN]] = True
+        self._rays = rays
+
+    def have_turn(self, sweep: int) -> bool:
+        """Whether it is the turn of some of them in a sweep."""
+        return any(sweep % length == 0 for length in self._turns)
+
+    def put_watched(self, there: TracedRays, device: str) -> Any:
+        """Tell the rays on a device which of their far entries are watched; the marks of the held cells, there."""
+        rays = self._rays
+        watched = np.flatnonzero(~self._holds[rays.cells])
+        beam = np.searchsorted(rays.offsets, watched, side="right") - 1
+        far = watched < rays.near[beam]
+        counts = np.bincount(beam[far], minlength=rays.n_beams)
+        there.watched = devices.to_device(watched[far], wp.int32, device)
+        there.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
+        return devices.to_device(self._holds, wp.uint8, device)

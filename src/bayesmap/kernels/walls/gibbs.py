@@ -12,9 +12,8 @@ out to be smaller than that. Sums and bounds are of likelihoods alone, and so ho
 
 import warp as wp
 
-from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.walls.shuffle import shuffled
-from bayesmap.kernels.walls.state import (
+from bayesmap.kernels.random import random_bits, shuffled, to_uniform
+from bayesmap.kernels.walls.chains import (
     BOUND,
     EXACT,
     UNKNOWN,

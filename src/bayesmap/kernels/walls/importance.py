@@ -1,4 +1,7 @@
-"""Importance sampling from the prior: maps that are never stored, because a counter can draw them again."""
+"""Importance sampling from the prior, and the log-likelihood of stored maps.
+
+The particles are maps that are never stored: a counter can draw each of them again.
+"""
 
 from typing import Any
 
@@ -6,9 +9,10 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from bayesmap.kernels.parallel import launch
+from bayesmap.beams.table import BeamTable
+from bayesmap.kernels import device as devices
 from bayesmap.kernels.random import random_bits
-from bayesmap.kernels.walls.state import Table
+from bayesmap.kernels.walls.chains import Table
 from bayesmap.kernels.walls.wall_prior import Prior, draw_from_prior
 
 wp.set_module_options({"enable_backward": False})
@@ -64,7 +68,7 @@ def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str)
     """Log weights of particles first .. first + count - 1."""
     log_weights = wp.empty(count, dtype=wp.float64, device=device)
     inputs = [table, prior, wp.uint64(key), wp.uint64(first), log_weights]
-    launch(weigh_particles, count, inputs, device)
+    devices.launch(weigh_particles, count, inputs, device)
     return np.array(log_weights.numpy())
 
 
@@ -73,5 +77,58 @@ def draw(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDAr
     cells = prior.level.shape[0]
     walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
     chosen = wp.array(particles.astype(np.uint64), dtype=wp.uint64, device=device)
-    launch(draw_particles, len(particles), [prior, wp.uint64(key), chosen, walls], device)
+    devices.launch(draw_particles, len(particles), [prior, wp.uint64(key), chosen, walls], device)
     return np.array(walls.numpy())
+
+
+@wp.func
+def beam_term(
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+    packed: wp.array2d(dtype=wp.uint8),
+    d: int,
+    b: int,
+) -> wp.float32:
+    """What beam b's reading is worth under packed map d: the log-likelihood of its first wall."""
+    for k in range(offsets[b], offsets[b + 1]):
+        c = cells[k]
+        if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
+            return loglik[k]
+    return no_hit[b]
+
+
+def _on_device(table: BeamTable, device: str) -> list[Any]:
+    """The table's arrays, as both kernels take them."""
+    indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
+    return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
+
+
+@wp.kernel
+def sum_log_likelihoods(
+    first: int,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+    packed: wp.array2d(dtype=wp.uint8),
+    total: wp.array(dtype=wp.float64),
+):
+    """One thread a packed map: log p(readings | map)."""
+    d = first + wp.tid()
+    value = wp.float64(0.0)
+    for b in range(no_hit.shape[0]):
+        value += wp.float64(beam_term(offsets, cells, loglik, no_hit, packed, d, b))
+    total[d] = value
+
+
+def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.float64]:
+    """Log p(all readings | map) of each packed map (draws, bytes), shape (draws,)."""
+    device = devices.resolve(device)
+    total = wp.empty(len(packed), dtype=wp.float64, device=device)
+    inputs = _on_device(table, device)
+    devices.launch(
+        sum_log_likelihoods, len(packed), [*inputs, devices.to_device(packed, wp.uint8, device), total], device
+    )
+    return np.array(total.numpy())

@@ -6,7 +6,6 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
 
 wp.set_module_options({"enable_backward": False})
 
@@ -35,5 +34,5 @@ def reach_frequency(table: BeamTable, maps: NDArray[np.bool_], device: str = "cp
     flat = np.ascontiguousarray(maps).reshape(len(maps), -1).astype(np.uint8)
     reached = wp.zeros(flat.shape, dtype=wp.uint8, device=device)
     inputs = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
-    launch(mark_reached, len(flat), [*inputs, devices.to_device(flat, wp.uint8, device), reached], device)
+    devices.launch(mark_reached, len(flat), [*inputs, devices.to_device(flat, wp.uint8, device), reached], device)
     return np.asarray(reached.numpy().mean(axis=0).reshape(table.grid.shape))

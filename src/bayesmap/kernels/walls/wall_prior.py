@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.random import to_uniform
 
-wp.set_module_options({"enable_backward": False})
-
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
 NONE = wp.constant(wp.float64(0.0))
 

@@ -1,4 +1,4 @@
-"""What the model says of readings before they are seen: densities and cumulative probabilities, averaged over draws.
+"""Predict readings from draws of a map: densities and cumulative probabilities, averaged over the draws.
 
 To a prediction a map is a stop probability m in [0, 1] for every cell. A beam stops in the i-th cell that it meets with
 probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere in the map, and
@@ -6,6 +6,8 @@ probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to 
     p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
 
 under one draw of the map; the predictive law is its mean over draws. Binary walls are maps of 0 and 1.
+
+`stop_in` is all that a prediction needs to know of a kind of cells; `put_maps` fills in what it reads.
 """
 
 from collections.abc import Iterable
@@ -19,9 +21,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.predict.cell_stop import Maps, StopStates, put_maps, stop_in
-from bayesmap.kernels.rays import Lines, first_past, line_of, put_rays
+from bayesmap.kernels.rays import Line, Lines, distance_at, first_past, line_of, put_rays
 from bayesmap.kernels.sensor_law import (
     MIXTURE,
     NOISE,
@@ -32,10 +32,99 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
     stop_log_density,
 )
+from bayesmap.kernels.surfaces.crossing import Cell, cross_surface, put_cells, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 
 wp.set_module_options({"enable_backward": False})
+
+StopStates = NDArray[np.float32]
+"""Some maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
+mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
+
+
+@wp.struct
+class Maps:
+    """Some maps on a device, one a row; and where beams stop in cells without a surface, as a part of their stretch."""
+
+    stop: wp.array2d(dtype=wp.float32)
+    surface: wp.array2d(dtype=Cell)
+    surfaces: int
+    depth: wp.float64
+
+
+@wp.func
+def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
+    """Chance that a beam stops in a cell once it gets there, and distance and its variance, metres, if it does.
+
+    Args:
+        maps: some maps.
+        row: which of them.
+        column: where it has the cell.
+        line: the beam's.
+        cell: flat index in the grid.
+    """
+    if maps.surfaces != 0:
+        state = maps.surface[row, column]
+        met = cross_surface(state, ray_from(line.start_m, line.direction))
+        chance = wp.float64(state[0]) * wp.float64(met.chance)
+        return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
+    chance = wp.float64(maps.stop[row, column])
+    if chance == wp.float64(0.0):
+        return wp.vec3d(chance, chance, chance)
+    return wp.vec3d(chance, distance_at(line, cell, maps.depth), wp.float64(0.0))
+
+
+def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
+    """Some maps on a device; their number of dimensions says which kind of cells they have."""
+    maps = Maps()
+    maps.surfaces = int(states.ndim == 3)
+    maps.depth = hit_depth
+    if states.ndim == 3:
+        maps.surface = put_cells(states, device)
+    else:
+        maps.stop = devices.to_device(states, wp.float32, device)
+    return maps
+
+
+@dataclass(frozen=True, eq=False)
+class HeldMaps:
+    """Draws of whole maps that stay on a device, for many predictions.
+
+    Attributes:
+        maps: `Maps` with a column for each of the grid's cells.
+        draws: rows of it.
+        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
+        device: where they are.
+    """
+
+    maps: Any
+    draws: int
+    hit_depth: float
+    device: str
+
+    def thinned(self, most: int) -> "HeldMaps":
+        """At most so many of them, evenly spread."""
+        if most >= self.draws:
+            return self
+        rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
+        states = (self.maps.surface if self.maps.surfaces else self.maps.stop).numpy()[rows]
+        return HeldMaps(put_maps(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
+
+
+def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> HeldMaps:
+    """Put draws of all cells of a grid on a device.
+
+    Raises:
+        BadInput: no draws.
+    """
+    device = devices.resolve(device)
+    found = list(batches)
+    if not sum(map(len, found)):
+        raise BadInput("score: there is no draw to predict from")
+    states = np.concatenate(found)
+    return HeldMaps(put_maps(states, hit_depth, device), len(states), hit_depth, device)
+
 
 Floats = NDArray[np.float64]
 # A beam less likely than this to get so far is at its end: under noise alone the unlikely may be all that explains a
@@ -217,7 +306,9 @@ def _sums(
     for batch in batches:
         draws += len(batch)
         inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
-        launch(add_forecasts, beams, [*inputs, most, total, *cumulatives], device, 1 if beams < FEW_BEAMS else None)
+        devices.launch(
+            add_forecasts, beams, [*inputs, most, total, *cumulatives], device, 1 if beams < FEW_BEAMS else None
+        )
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     with np.errstate(divide="ignore"):
