@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.kernels.parallel import available_cores
+from bayesmap.kernels.device import available_cores
 from bayesmap.run import ray_executor, ray_worker
 
 CHAINS, REPEATS = 4, 3

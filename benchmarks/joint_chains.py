@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.stats import norm, qmc
 
 import bayesmap as bm
-from bayesmap.kernels.scan_likelihood import ScanLikelihood
+from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.poses.prior import Uncertain
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.sim.building import building

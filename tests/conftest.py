@@ -11,7 +11,7 @@ import pytest
 from hypothesis import settings
 from ray_cluster import cluster, two_nodes  # noqa: F401 -- fixtures, once for the session: there is one cluster
 
-from bayesmap.kernels.parallel import available_cores
+from bayesmap.kernels.device import available_cores
 
 # A slow machine is no failure. The examples are the same each time, so that a change fails for its own sake.
 settings.register_profile("bayesmap", deadline=None, derandomize=True)

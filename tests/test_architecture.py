@@ -35,6 +35,11 @@ LEVELS = (
 )
 LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
 
+# What the families of a room may import of it beside themselves; "" is what lies in the room itself, which all share.
+FAMILIES = {
+    "kernels": {"": set(), "match": {""}, "walls": {""}, "surfaces": {"", "walls"}, "predict": {"", "surfaces"}},
+}
+
 
 @cache
 def text(path):
@@ -110,6 +115,46 @@ def test_an_import_that_points_up_is_noticed():
     assert forbidden("kernels", "bayesmap.infer") == "kernels may not import bayesmap.infer"
     assert forbidden("kernels", "bayesmap.attic") == "bayesmap.attic is in no room that this test knows"
     assert forbidden("samplers", "bayesmap.kernels.walk") is None
+
+
+def family_of(parts):
+    """The family of a file or a module of a room with families; "" in the room itself."""
+    families = FAMILIES[parts[0]]
+    return parts[1] if len(parts) > 1 and parts[1] in families else ""
+
+
+def forbidden_in_room(here, module):
+    """Return why a file, ("kernels", "walls", "gibbs"), may not import a module of its own room, or None."""
+    parts = module.split(".")[1:]
+    if here[0] not in FAMILIES or parts[:1] != [here[0]]:
+        return None
+    family, other = family_of(here), family_of(parts)
+    allowed = other == family or other in FAMILIES[here[0]][family]
+    return None if allowed else f"{here[0]}/{family} may not import {module}"
+
+
+def test_families_of_a_room_import_one_way():
+    offenders = [
+        f"{path}:{line}: {reason}"
+        for path in FILES
+        if home(path) in FAMILIES
+        for line, module in imports(path)
+        if (reason := forbidden_in_room(path.relative_to(SOURCE).with_suffix("").parts, module))
+    ]
+    assert not offenders
+
+
+def test_every_family_is_known():
+    for room, families in FAMILIES.items():
+        assert {path.parent.name for path in (SOURCE / room).glob("*/__init__.py")} == set(families) - {""}
+
+
+def test_an_import_across_families_is_noticed():
+    walls, shared = ("kernels", "walls", "gibbs"), ("kernels", "walk")
+    assert forbidden_in_room(walls, "bayesmap.kernels.match.line_pairs")
+    assert forbidden_in_room(shared, "bayesmap.kernels.walls.chains")
+    assert forbidden_in_room(walls, "bayesmap.kernels.walk") is None
+    assert forbidden_in_room(("kernels", "predict", "view"), "bayesmap.kernels.surfaces.crossing") is None
 
 
 def test_heavy_libraries_have_a_room_each():

@@ -102,7 +102,7 @@ def test_a_gpu_scores_as_the_cpu_does(name, gpu):
 
 
 def test_a_gpu_traces_the_beams_that_the_cpu_traces(gpu):
-    from bayesmap.kernels.trace import trace
+    from bayesmap.kernels.walls.table import trace
 
     scans, grid, sensor = room()
     here, there = (trace(scans, grid, sensor, device=device) for device in ("cpu", gpu))

@@ -7,7 +7,7 @@ from oracle.stop_law import log_likelihoods, paths_of
 from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model, State
 from bayesmap.poses.prior import Uncertain
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import bayesmap as bm
 from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
-from bayesmap.kernels.beliefs import Beliefs
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.propagate import Beliefs
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import WallProblem
 from benchmarks.figure import Figure, best, timed

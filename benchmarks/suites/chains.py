@@ -12,7 +12,7 @@ import warp as wp
 
 import bayesmap as bm
 from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.samplers.gibbs import Gibbs

@@ -6,7 +6,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.ranges import first_hit_ranges
+from bayesmap.kernels.walk import first_hit_ranges
 from benchmarks.figure import Figure, rate
 
 BEAMS, SIZE = 200_000, 1000

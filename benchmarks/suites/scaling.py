@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.problem import WallProblem

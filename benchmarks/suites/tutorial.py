@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.kernels.parallel import available_cores
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.device import available_cores
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.importance import sample_importance

@@ -294,7 +294,7 @@ class Inference:
         }  # fmt: skip
 
     def _threads_used(self) -> int:
-        from bayesmap.kernels.parallel import available_cores
+        from bayesmap.kernels.device import available_cores
 
         # A GPU may be on another machine alone: whether there is one, those say who use it.
         return (self.threads or available_cores()) if self.device == "cpu" else 1

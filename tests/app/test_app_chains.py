@@ -14,7 +14,7 @@ from bayesmap.app.scanning import simulate_document, simulated_scene
 from bayesmap.app.starting import starts
 from bayesmap.app.stream import POSE_CHAINS
 from bayesmap.app.worlds import tutorial_document
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.space.grid import Grid

@@ -10,7 +10,7 @@ import bayesmap as bm
 from bayesmap.app.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
 from bayesmap.app.tasks import Inspect
 from bayesmap.app.worlds import tutorial_document
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 
 
 def test_it_is_the_mean_over_all_maps_of_the_other_cells():

@@ -4,8 +4,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device
-from bayesmap.kernels.random import mix, random_bits
-from bayesmap.kernels.shuffle import cipher_bits, shuffled
+from bayesmap.kernels.random import cipher_bits, mix, random_bits, shuffled
 from bayesmap.samplers.sampler import STREAM_SWEEPS
 
 

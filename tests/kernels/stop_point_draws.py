@@ -9,7 +9,7 @@ import warp as wp
 from bayesmap.kernels import device
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
-from bayesmap.kernels.stop_points import stop_point_m
+from bayesmap.kernels.surfaces.square_counts import stop_point_m
 
 
 @wp.kernel

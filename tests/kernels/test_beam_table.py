@@ -6,8 +6,8 @@ from oracle.formula import beams, distances, touches
 from oracle.worlds import make_case, scorer
 
 import bayesmap as bm
-from bayesmap.kernels import trace as tracing
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls import table as tracing
+from bayesmap.kernels.walls.table import trace
 from bayesmap.sensors.mixture import FLAT_NATS
 from bayesmap.sensors.model import RangeLimits
 

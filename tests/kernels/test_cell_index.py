@@ -7,10 +7,8 @@ from oracle.worlds import make_case
 from test_beam_table import GRID, SENSORS, random_scans
 
 import bayesmap as bm
-from bayesmap.kernels import index as indexing
-from bayesmap.kernels import parallel
-from bayesmap.kernels.index import index_by_cell
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.walls.table import index_by_cell, trace
 
 FIELDS = ("offsets", "entry", "beam", "loglik", "gain_bound", "advantage")
 
@@ -71,8 +69,7 @@ def test_table_and_index_do_not_depend_on_the_number_of_threads(threads, monkeyp
     scans = random_scans(3, GRID)
     table = trace(scans, GRID, SENSORS["mixture"])
     index = index_by_cell(table)
-    monkeypatch.setattr(parallel, "available_cores", lambda: threads)
-    monkeypatch.setattr(indexing, "available_cores", lambda: threads)
+    monkeypatch.setattr(devices, "available_cores", lambda: threads)
     again = trace(scans, GRID, SENSORS["mixture"])
     for name in ("offsets", "cells", "loglik", "no_hit"):
         np.testing.assert_array_equal(getattr(again, name), getattr(table, name))

@@ -8,13 +8,13 @@ import warp as wp
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.cell_draws import ActiveCells
-from bayesmap.kernels.cell_prior import centre_of
-from bayesmap.kernels.endpoint_beams import EndpointCells, log_stops
-from bayesmap.kernels.endpoint_cells import NO_LEAST, log_beams
-from bayesmap.kernels.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
-from bayesmap.kernels.stops import ChainArrays, TracedRays
+from bayesmap.kernels.surfaces.cell_draws import ActiveCells
+from bayesmap.kernels.surfaces.cell_prior import centre_of
+from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, log_stops
+from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, log_beams
+from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
+from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.model import Model
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.sensors.model import RangeLimits

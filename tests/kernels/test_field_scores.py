@@ -3,7 +3,7 @@
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.kernels.field_scores import field_sums
+from bayesmap.kernels.match.fields import field_sums
 
 GRID = bm.Grid((30, 20), 0.1, (-1.0, 0.5))
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels import held_cells
+from bayesmap.kernels.surfaces import stops
 from bayesmap.model import Model
 from bayesmap.samplers import initial_estimate
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -37,7 +37,7 @@ def swept(kind, sweeps=SWEEPS, resume=None):
 def test_chains_are_those_of_beams_that_walk_all_their_cells(kind, monkeypatch):
     fast, _ = swept(kind)
     assert len({round(value, 3) for value in fast[0]}) > 4
-    monkeypatch.setattr(held_cells.HeldCells, "have_turn", lambda self, sweep: True)
+    monkeypatch.setattr(stops.HeldCells, "have_turn", lambda self, sweep: True)
     plain, _ = swept(kind)
     np.testing.assert_allclose(fast, plain, rtol=1e-5)
 
@@ -46,7 +46,7 @@ def test_chains_are_those_of_beams_that_walk_all_their_cells(kind, monkeypatch):
 def test_cells_that_were_let_pass_unseen_would_be_noticed(kind, monkeypatch):
     """The twin: beams come past held cells as if these stopped none."""
     fast, _ = swept(kind)
-    monkeypatch.setattr(held_cells.HeldCells, "put_watched", _forgetful(held_cells.HeldCells.put_watched))
+    monkeypatch.setattr(stops.HeldCells, "put_watched", _forgetful(stops.HeldCells.put_watched))
     wrong, _ = swept(kind)
     assert abs(fast - wrong).max() > 1.0
 
@@ -74,5 +74,5 @@ def test_held_cells_have_their_turn_together_and_seldom():
     problem = StopGibbs().prepare(Model(scans(), GRID, PRIORS["surfaces"], SENSOR), "cpu", 1)
     every = initial_estimate.turn_every(problem.estimate)
     assert {2, 8, 16} <= set(every.tolist())
-    held = held_cells.HeldCells(problem.rays, every)
+    held = stops.HeldCells(problem.rays, every)
     assert [sweep for sweep in range(32) if held.have_turn(sweep)] == [0, 8, 16, 24]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.pose_weights import LEAST_CHANCE, pack_map, scan_log_likelihood
-from bayesmap.kernels.scan_likelihood import ScanLikelihood
+from bayesmap.kernels.predict.pose_weights import LEAST_CHANCE, pack_map, scan_log_likelihood
+from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((60, 50), 0.1, (-1.0, 2.0))

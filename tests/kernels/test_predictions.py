@@ -7,10 +7,10 @@ import pytest
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.predict import forecast, log_densities
+from bayesmap.kernels.predict.density import forecast, log_densities
+from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops
+from bayesmap.kernels.predict.stop_quantiles import range_quantiles
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops
-from bayesmap.kernels.stop_quantiles import range_quantiles
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))

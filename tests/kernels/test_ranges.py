@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from oracle.formula import distances
 
 from bayesmap.beams.range_reference import ranges_by_edges
-from bayesmap.kernels.ranges import cast
+from bayesmap.kernels.walk import cast
 
 LONGEST = 60.0
 CELLS = 1e-9  # rounding over a few dozen cells is a thousand times smaller

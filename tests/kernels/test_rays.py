@@ -13,7 +13,7 @@ import bayesmap as bm
 from bayesmap.beams.rays import Rays, around_readings
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.rays import stop_distances, trace_rays
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 
 GRID = bm.Grid((13, 9), 0.25, (3.0, -1.0))
 MARGIN_M = 0.3

@@ -7,9 +7,9 @@ import pytest
 from test_predictions import DEPTH, GRID, SENSORS, world
 
 import bayesmap as bm
-from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.predict.density import log_densities
+from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.kernels.scan_likelihood import ScanLikelihood
 
 EDGE = GRID.resolution
 

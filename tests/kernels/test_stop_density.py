@@ -8,7 +8,7 @@ from oracle.stop_law import Paths, draw_readings, draw_states, log_likelihoods, 
 from oracle.stop_worlds import Worlds, beam_rays, centres_of, draw_worlds, scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.predict.density import log_densities
 from bayesmap.samplers.stop_problem import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)

@@ -13,7 +13,7 @@ from oracle.stop_worlds import centres_of, copies, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, two_sided
 
 import bayesmap as bm
-from bayesmap.kernels.cell_draws import TRIES_EVERY
+from bayesmap.kernels.surfaces.cell_draws import TRIES_EVERY
 from bayesmap.samplers.initial_estimate import turn_every
 
 GRID = bm.Grid((8, 2), 0.25)

@@ -1,12 +1,12 @@
-"""Predictions from surfaces: plain sums over cells and draws, by the formulas of `kernels.surface_crossing`."""
+"""Predictions from surfaces: plain sums over cells and draws, by the formulas of `kernels.surfaces.crossing`."""
 
 import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.predict import forecast
+from bayesmap.kernels.predict.density import forecast
+from bayesmap.kernels.predict.stop_mixture import mix_stops
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.kernels.stop_mixture import mix_stops
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))

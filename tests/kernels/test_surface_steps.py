@@ -21,10 +21,10 @@ from oracle.verdict import ALPHA
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.kernels import stop_chains as chains
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.stops import GAIN_UNITS, ChainArrays, TracedRays
-from bayesmap.kernels.surface_crossing import Cell
+from bayesmap.kernels.surfaces import stop_chains as chains
+from bayesmap.kernels.surfaces.crossing import Cell
+from bayesmap.kernels.surfaces.stops import GAIN_UNITS, ChainArrays, TracedRays
 
 EDGE, CELLS = 0.5, 10_000
 UNBOUNDED = bm.Surface(1.0, 1.0, mean_scale=0.4, spread=0.3, dof=3.5, size_scale=1e6)

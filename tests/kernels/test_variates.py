@@ -11,17 +11,17 @@ from oracle.stop_law import draw_covariances
 from oracle.verdict import ALPHA
 
 import bayesmap as bm
-from bayesmap.kernels.cell_prior import CellPrior, fresh_surface
-from bayesmap.kernels.random import random_bits
-from bayesmap.kernels.surface_crossing import Cell
-from bayesmap.kernels.variates import (
+from bayesmap.kernels.random import (
     PER_GAMMA,
     beta_or_nothing,
     beta_variate,
     log_gamma_variate,
     nearly_normal,
     normal,
+    random_bits,
 )
+from bayesmap.kernels.surfaces.cell_prior import CellPrior, fresh_surface
+from bayesmap.kernels.surfaces.crossing import Cell
 
 COUNT = 100_000
 SPACING = 1024

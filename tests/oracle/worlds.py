@@ -8,7 +8,7 @@ from oracle.enumeration import Exact, all_maps, enumerate_posterior, log_prior_o
 from oracle.formula import beams, distances
 
 import bayesmap as bm
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.problem import WallProblem
 
 

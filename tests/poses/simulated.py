@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bayesmap.kernels.ranges import cast
+from bayesmap.kernels.walk import cast
 from bayesmap.poses.se2 import retract
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans

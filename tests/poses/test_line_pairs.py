@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 from simulated import path_around, ring, scans_of
 
-from bayesmap.kernels.line_pairs import pair_sums
+from bayesmap.kernels.match.line_pairs import pair_sums
 from bayesmap.poses.alignment import without_slack
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.se2 import transform

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.kernels.view_agreement import Agreement, view_counts
+from bayesmap.kernels.match.view_agreement import Agreement, view_counts
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.matcher import Pull, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -148,7 +148,7 @@ def test_bad_input_is_refused():
 def test_maxima_by_numpy_are_those_of_the_kernel():
     import warp as wp
 
-    from bayesmap.kernels.likelihood_grid import next_level, widen
+    from bayesmap.kernels.match.likelihood_grid import next_level, widen
 
     pyramid = np.random.default_rng(3).integers(0, 255, (2, 2, 37, 21), dtype=np.uint8)
     for level in (1, 2, 4):

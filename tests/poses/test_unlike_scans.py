@@ -7,9 +7,9 @@ import pytest
 from simulated import RESOLUTION, odometry_of, off, path_around, ring, scans_of
 
 from bayesmap.from_odometry import key_scans
-from bayesmap.kernels.line_pairs import pair_sums
-from bayesmap.kernels.ranges import cast
-from bayesmap.kernels.view_agreement import Agreement, view_counts
+from bayesmap.kernels.match.line_pairs import pair_sums
+from bayesmap.kernels.match.view_agreement import Agreement, view_counts
+from bayesmap.kernels.walk import cast
 from bayesmap.poses.frozen_odometry import frozen_stretches
 from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.scan_geometry import scan_geometry

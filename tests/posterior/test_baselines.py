@@ -7,7 +7,7 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
-from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline, hit_ratio, inner_score, log_odds
 from bayesmap.posterior.folds import make_folds, together

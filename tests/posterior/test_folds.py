@@ -7,7 +7,7 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
-from bayesmap.kernels.predict import log_densities
+from bayesmap.kernels.predict.density import log_densities
 from bayesmap.posterior.baselines import hit_ratio
 from bayesmap.posterior.folds import FOLDS, make_folds, one_fold, together
 

@@ -7,7 +7,7 @@ from oracle.formula import beams, distances
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
-from bayesmap.kernels.view import drawn_stops, independent_information
+from bayesmap.kernels.predict.view import drawn_stops, independent_information
 from bayesmap.posterior.information import beam_information, best_views, expected_information
 
 GRID = bm.Grid((5, 4), 0.5, (-1.0, 2.0))

@@ -15,7 +15,7 @@ from tiers import full_but
 import bayesmap as bm
 import bayesmap.gen as gen
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.programs.mapping import sensor_model
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import RangeLimits

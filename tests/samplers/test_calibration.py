@@ -14,7 +14,7 @@ from oracle.formula import beams, distances
 from oracle.verdict import ALPHA
 
 import bayesmap as bm
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.sensors.model import RangeLimits

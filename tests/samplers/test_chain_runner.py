@@ -10,10 +10,9 @@ from sampler_cases import chains_of as run_of
 
 import bayesmap as bm
 from bayesmap.cells.packing import unpack
-from bayesmap.kernels.chains import WallChains
-from bayesmap.kernels.parallel import launch
-from bayesmap.kernels.state import EXACT as EXACTLY
-from bayesmap.kernels.state import derive_state
+from bayesmap.kernels.device import launch
+from bayesmap.kernels.walls.chains import EXACT as EXACTLY
+from bayesmap.kernels.walls.chains import WallChains, derive_state
 from bayesmap.run import runner
 from bayesmap.run.chains import join
 from bayesmap.run.schedule import Schedule
@@ -33,7 +32,7 @@ def problem_8x8():
     poses, angles = [[1.1, 1.3, 0.2], [2.9, 2.2, 1.0]], np.linspace(0, 2 * np.pi, 40, endpoint=False)
     ranges = bm.ranges(walls, grid, poses, angles, 6.0) + rng.normal(0, 0.2, (2, 40))
     scans = bm.Scans(poses, angles, ranges, max_range_m=6.0)
-    from bayesmap.kernels.trace import trace
+    from bayesmap.kernels.walls.table import trace
     from bayesmap.samplers.problem import WallProblem
 
     return WallProblem(table=trace(scans, grid, bm.Gaussian(0.2)), prior=bm.Independent(0.2), poses=scans.poses)

@@ -10,7 +10,7 @@ from sampler_cases import NAMES, WORLDS, world
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.problem import WallProblem

@@ -6,7 +6,7 @@ from oracle.enumeration import all_maps, enumerate_posterior, log_prior_of_all, 
 from oracle.worlds import make_case, scorer
 
 import bayesmap as bm
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate, propagate_to_start
 from bayesmap.samplers.start import start_maps

@@ -13,7 +13,7 @@ from oracle.verdict import ALPHA, goodness_of_fit
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.scan_likelihood import ScanLikelihood
+from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.poses.prior import Odometry, Uncertain
 from bayesmap.samplers.pose_steps import PoseMetropolis, PoseState, proposal_factors
 

@@ -10,8 +10,8 @@ from oracle.worlds import make_case
 from plain_propagation import plain_rounds
 
 import bayesmap as bm
-from bayesmap.kernels.beliefs import Beliefs
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.propagate import Beliefs
+from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import propagate

@@ -105,7 +105,7 @@ def test_chains_and_sweeps_are_independent_of_one_another():
     case = world(next(i for i, w in enumerate(WORLDS) if w[0] == 0.5 and w[3] == (4, 4)))
     silent = bm.Scans([100.0, 100.0, 0.0], [0.0], [[1.0]], max_range_m=1.0)
     problem = problem_of(case)
-    from bayesmap.kernels.trace import trace
+    from bayesmap.kernels.walls.table import trace
 
     problem = problem_of(case, table=trace(silent, case.grid, bm.Gaussian(1.0)))
     one = run_sweeps(problem, "gibbs", "random", np.zeros((CHAINS, 16), bool), 1, 9)

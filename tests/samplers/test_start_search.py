@@ -5,7 +5,7 @@ import pytest
 from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, scans
 
 import bayesmap as bm
-from bayesmap.kernels.stop_chains import StopChains
+from bayesmap.kernels.surfaces.stop_chains import StopChains
 from bayesmap.model import Model
 from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.initial_estimate import end_cells

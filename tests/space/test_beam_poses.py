@@ -5,7 +5,7 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.io.saved import load_saved, save
-from bayesmap.kernels.trace import trace
+from bayesmap.kernels.walls.table import trace
 
 GRID = bm.Grid(shape=(20, 20), resolution=0.5)
 ANGLES = np.array([0.0, 0.5, 1.0])

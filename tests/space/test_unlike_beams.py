@@ -131,7 +131,7 @@ def test_maps_scores_and_saved_runs_are_the_same(log, name, tmp_path):
 @pytest.mark.parametrize("name", ["own", "turned"])
 def test_poses_are_inferred_as_from_equal_scans(log, name):
     """One pose at a time, both logs under the same map: the likelihood along its neighbourhood is the same."""
-    from bayesmap.kernels.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
     grid, _, logs = log
     rng = np.random.default_rng(3)

@@ -61,7 +61,7 @@ class OpenedRun:
 
     @cached_property
     def _scene(self) -> Scene:
-        from bayesmap.kernels.trace import trace
+        from bayesmap.kernels.walls.table import trace
 
         posterior = self.run.posterior
         sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.app.scanning import Touched, touched
-from bayesmap.kernels.beliefs import Beliefs
-from bayesmap.kernels.reach import reach_frequency
+from bayesmap.kernels.walls.propagate import Beliefs
+from bayesmap.kernels.walls.reach import reach_frequency
 from bayesmap.samplers.problem import WallProblem, log_odds
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
 

@@ -28,10 +28,10 @@ def beam_message(result: Result, task: CompareBeam) -> dict[str, Any]:
     Raises:
         BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
     """
-    from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.predict.density import forecast
+    from bayesmap.kernels.predict.stop_mixture import mix_stops
+    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
     from bayesmap.kernels.rays import trace_rays
-    from bayesmap.kernels.stop_mixture import mix_stops
-    from bayesmap.kernels.stop_quantiles import range_quantiles
 
     predictor, draws = predictor_of_result(result)
     scans = result.scene.scans

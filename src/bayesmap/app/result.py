@@ -104,7 +104,7 @@ class Result:
         if self.counted is not None:
             return self.counted.observed
         if self.particles is not None:
-            from bayesmap.kernels.reach import reach_frequency
+            from bayesmap.kernels.walls.reach import reach_frequency
 
             return reach_frequency(self.scene.problem.table, self.mean()[None] > 0.5) > 0
         return np.zeros(self.document.grid.shape, dtype=np.bool_)

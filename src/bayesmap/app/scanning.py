@@ -27,7 +27,7 @@ STREAM_NOISE = 11
 BLUR_SIGMAS = 5.0
 NEAR_SIGMAS = 13.0
 """Past its reading a beam is followed so far for a preview: a stop there is less than 1e-30 as likely as one at the
-reading, which is 0 to `bayesmap.kernels.propagate`, even where the reading is off by three sigmas itself."""
+reading, which is 0 to `bayesmap.kernels.walls.propagate`, even where the reading is off by three sigmas itself."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +127,7 @@ def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
 
 def simulated_scene(document: Document) -> Scene:
     """What the sensors of a simulation see."""
-    from bayesmap.kernels.trace import trace
+    from bayesmap.kernels.walls.table import trace
 
     scans, exact = simulate_document(document)
     sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))

@@ -56,7 +56,7 @@ def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
 
 def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:
     """The log ratio above of each beam, nats, (B,); 0 for beams that do not reach the cell."""
-    from bayesmap.kernels.predict import log_densities
+    from bayesmap.kernels.predict.density import log_densities
     from bayesmap.kernels.rays import trace_rays
 
     if not scans.ranges_m.size:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.kernels.importance import weigh
 from bayesmap.kernels.random import mix
+from bayesmap.kernels.walls.importance import weigh
 from bayesmap.samplers.importance import Particles
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.sampler import STREAM_PARTICLES

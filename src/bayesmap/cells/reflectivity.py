@@ -46,8 +46,8 @@ LARGEST_COUPLING = 50.0
 
 
 class KernelNumbers(NamedTuple):
-    """A prior as the kernels of `bayesmap.kernels.cell_prior` take it, lengths in metres: of reflectivities, labels,
-    and a surface's prior as `bayesmap.cells.surface` has it.
+    """A prior as `bayesmap.kernels.surfaces.cell_prior` takes it, lengths in metres: of reflectivities, labels, and a
+    surface's prior as `bayesmap.cells.surface` has it.
     """
 
     a: float

@@ -1,7 +1,7 @@
 """Surfaces: reflectivities, and the place where each cell stops beams.
 
 The place is a normal distribution of the points where beams stop, as normal-distributions-transform maps keep it (Biber
-and Strasser, 2003), but inferred. What it means for a beam is in `bayesmap.kernels.surface_crossing`.
+and Strasser, 2003), but inferred. What it means for a beam is in `bayesmap.kernels.surfaces.crossing`.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ STOP_CHANCES = (
         "mean of the stop chance given where the draw's beams stop",
     ),
 )
-"""What maps show: it does not depend on which cell a surface belongs to (`bayesmap.kernels.square_counts`)."""
+"""What maps show: it does not depend on which cell a surface belongs to (`bayesmap.kernels.surfaces.square_counts`)."""
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,12 @@
-"""Hits and passes of every cell: what classic mappers keep of the scans."""
+"""Count the beams that end in each cell and the beams that pass it, as classic mappers do."""
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import available_cores, launch
-from bayesmap.kernels.rays import Lines, beam_lines, put_lines
+from bayesmap.kernels.rays import Lines, beam_lines, put_lines, stop_distances
 from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -57,11 +57,51 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[n
     ranges = scans.ranges_m.ravel()
     hit = np.isfinite(ranges)
     reach_m = np.where(hit, ranges, np.where(np.isposinf(ranges), scans.max_range_m, -1.0))
-    threads = available_cores()
+    threads = devices.available_cores()
     bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
     counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
     inputs = [put_lines(*beam_lines(scans, grid), grid, device), devices.to_device(reach_m, wp.float64, device)]
     inputs.append(devices.to_device(hit, wp.uint8, device))
-    launch(count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device)
+    devices.launch(
+        count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device
+    )
     hits, passes = (a.numpy().sum(axis=0, dtype=np.int32) for a in counts)
     return hits, passes
+
+
+@wp.kernel
+def add_passes(
+    first: int,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    distance_m: wp.array(dtype=wp.float32),
+    range_m: wp.array(dtype=wp.float32),
+    end_cell: wp.array(dtype=wp.int32),
+    passes: wp.array(dtype=wp.int32),
+):
+    """One thread a beam: add one to every cell before the one in which its reading ends."""
+    b = first + wp.tid()
+    reading = range_m[b]
+    if wp.isnan(reading) or reading < wp.float32(0.0):
+        return
+    for k in range(offsets[b], offsets[b + 1]):
+        c = cells[k]
+        if c == end_cell[b] or distance_m[k] > reading:
+            return
+        wp.atomic_add(passes, c, 1)
+
+
+def count_passes(rays: Rays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
+    """Count the beams that pass each cell of the grid before their readings end, (N,).
+
+    Args:
+        rays: the beams, traced.
+        end_cell: the cell in which the reading of each beam ends, flat, (B,).
+        device: where to compute.
+    """
+    passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
+    inputs = [devices.to_device(a, wp.int32, device) for a in (rays.offsets, rays.cells)]
+    inputs += [devices.to_device(a, wp.float32, device) for a in (stop_distances(rays, 0.0, device), rays.range_m)]
+    inputs += [devices.to_device(end_cell, wp.int32, device), passes]
+    devices.launch(add_passes, rays.n_beams, inputs, device, 1)
+    return np.array(passes.numpy())

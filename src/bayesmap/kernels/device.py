@@ -1,10 +1,16 @@
-"""Which device kernels run on, and how arrays get there."""
+"""Start Warp, put arrays on a device, and launch a kernel on all cores.
+
+Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` splits a launch into slices, one a
+thread. Kernels launched here take the index of their first element as their first argument and write only to their own
+elements, so the result does not depend on the number of threads.
+"""
 
 import contextlib
 import os
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from typing import Any
 
@@ -75,3 +81,49 @@ def load_kernels(kernel: Any, device: str) -> None:
     """Compile the kernel's module for a device, or fetch it from Warp's cache, now rather than at its first launch."""
     # Launches on the CPU use blocks of one; any other size would be another variant, compiled for nothing.
     kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)
+
+
+FEW_BEAMS = 1_000
+"""Fewer beams than this are traced before a second thread has begun: to start one takes 0.2 ms."""
+
+
+def available_cores() -> int:
+    """Cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # macOS
+        return os.cpu_count() or 1
+
+
+def threads_for(beams: int) -> int | None:
+    """Threads for a kernel that follows each of so many beams through the grid: one, or as many as there are cores."""
+    return 1 if beams < FEW_BEAMS else None
+
+
+@cache
+def thread_pool(threads: int) -> ThreadPoolExecutor:
+    """One pool for each width, kept for the life of the process."""
+    return ThreadPoolExecutor(threads, thread_name_prefix="bayesmap")
+
+
+if hasattr(os, "register_at_fork"):  # a forked child has the pools, but none of their threads
+    os.register_at_fork(after_in_child=thread_pool.cache_clear)
+
+
+def launch(
+    kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
+) -> None:
+    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on: on the CPU in one slice a thread."""
+    if size == 0:
+        return
+    threads = min(threads or available_cores(), size) if device == "cpu" else 1
+    if threads == 1:
+        wp.launch(kernel, dim=size, inputs=[begin, *inputs], device=device)
+        return
+    load_kernels(kernel, device)  # once, before the threads would all try
+    edges = [begin + size * i // threads for i in range(threads + 1)]
+
+    def run(i: int) -> None:
+        wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *inputs], device=device)
+
+    list(thread_pool(threads).map(run, range(threads)))

@@ -9,8 +9,6 @@ import warp as wp
 from bayesmap.kernels import device as devices
 from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
 
-wp.set_module_options({"enable_backward": False})
-
 WIDEST_SPREAD = wp.constant(wp.float32(WIDEST))
 
 

@@ -4,8 +4,6 @@ from typing import Any
 
 import warp as wp
 
-wp.set_module_options({"enable_backward": False})
-
 SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))

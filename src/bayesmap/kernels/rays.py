@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.beams.rays import MAX_INCIDENCES, PARALLEL, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.parallel import launch, threads_for
 from bayesmap.kernels.walk import cell_before, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import Floats, RangeLimits
 from bayesmap.space.grid import Grid
@@ -201,7 +200,7 @@ def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> NDArray
     """As `Rays.distance_m`, compiled: metres, shape (K,)."""
     distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
     inputs = [*put_rays(rays, device), wp.float64(hit_depth), distance_m]
-    launch(fill_distances, rays.n_beams, inputs, device, threads_for(rays.n_beams))
+    devices.launch(fill_distances, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return np.asarray(distance_m.numpy())
 
 
@@ -266,7 +265,7 @@ def trace_rays(
 
     counts = wp.empty(beams, dtype=wp.int32, device=device)
     for begin, size in _pieces(beams):
-        launch(count_cells, size, [lines, reach_there, counts], device, threads_for(size), begin)
+        devices.launch(count_cells, size, [lines, reach_there, counts], device, devices.threads_for(size), begin)
         on_progress((begin + size) // 2, beams)
     offsets = offsets_of(counts.numpy(), "beams")
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
@@ -274,7 +273,7 @@ def trace_rays(
     offsets_there = devices.to_device(offsets, wp.int32, device)
     for begin, size in _pieces(beams):
         inputs = [lines, reach_there, near_there, offsets_there, cells, near]
-        launch(fill_cells, size, inputs, device, threads_for(size), begin)
+        devices.launch(fill_cells, size, inputs, device, devices.threads_for(size), begin)
         on_progress((beams + begin + size) // 2, beams)
     return Rays(
         grid=grid,

@@ -18,8 +18,6 @@ from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 
-wp.set_module_options({"enable_backward": False})
-
 NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))
 """Kinds of laws: noise alone, the robust mixture, any other model."""
 

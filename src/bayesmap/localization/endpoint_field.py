@@ -50,7 +50,7 @@ class EndpointField:
             points: in the sensor's frame, (N, 2).
             poses: in the world frame, (P, 3).
         """
-        from bayesmap.kernels.field_scores import field_sums
+        from bayesmap.kernels.match.fields import field_sums
 
         return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(FLOOR) / TOP))
 
@@ -67,7 +67,7 @@ def endpoint_field(
         unknown: cells of which nothing is known, (nx, ny).
         chance: that such a cell stops a beam.
     """
-    from bayesmap.kernels.endpoint_field import spread
+    from bayesmap.kernels.match.fields import spread
 
     parts = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))

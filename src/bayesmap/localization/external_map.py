@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.kernels.pose_weights import PackedMap, pack_map, scan_log_likelihood
+from bayesmap.kernels.predict.pose_weights import PackedMap, pack_map, scan_log_likelihood
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.others_maps import stop_probabilities
@@ -46,7 +46,7 @@ ASSUMED: Mapping[str, float] = {
     "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,
 }  # fmt: skip
 """The law before it is fitted, and where too few scans are located to fit one. Free cells stop so few beams that the
-law passes them by (`bayesmap.kernels.pose_weights`)."""
+law passes them by (`bayesmap.kernels.predict.pose_weights`)."""
 
 WARY = Trust(
     place_readings=3.8,

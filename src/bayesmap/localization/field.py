@@ -57,7 +57,7 @@ class Field:
             points: in the sensor's frame, (N, 2).
             poses: in the world frame, (P, 3).
         """
-        from bayesmap.kernels.field_scores import field_sums
+        from bayesmap.kernels.match.fields import field_sums
 
         return np.asarray(field_sums(self.fine, self.grid, points, poses) / (TOP * max(1, len(points))))
 

@@ -20,7 +20,7 @@ from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.noise import Gaussian, StudentT
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.pose_weights import PackedMap
+    from bayesmap.kernels.predict.pose_weights import PackedMap
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
@@ -193,7 +193,7 @@ class KnownMap:
         Raises:
             BadInput: no free cell, or a sensor model of the user's own.
         """
-        from bayesmap.kernels.pose_weights import pack_map
+        from bayesmap.kernels.predict.pose_weights import pack_map
 
         readings = scans.ranges_m[np.isfinite(scans.ranges_m)]
         known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
@@ -221,7 +221,7 @@ class KnownMap:
     @cached_property
     def endpoints(self) -> EndpointField:
         """Where end points of beams fall on surfaces, for proposals."""
-        from bayesmap.kernels.pose_weights import unpacked
+        from bayesmap.kernels.predict.pose_weights import unpacked
 
         assert isinstance(self.sensor, BeamMixture)
         scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_m)))
@@ -294,7 +294,7 @@ class KnownMap:
             in_turn: look at one draw for each pose, one after the other, rather than at all. Of poses that are drawn
                 and weighed it serves as well: a weight is right on average over the draws of the map.
         """
-        from bayesmap.kernels.pose_weights import scan_log_likelihood
+        from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 
         found = scan_log_likelihood(
             self.packed,

@@ -6,7 +6,7 @@ reach of the pairs shrinks from decimetres to the noise (bundle adjustment of Lu
 
 Two things keep the laser from claiming too much. A beam that is matched with m others counts 1 / (2 (m + 1)) in each
 pair: it is one measurement, not m. What errors of normals add to the information along a corridor is taken off again
-(`bayesmap.kernels.line_pairs`, ``slack``), so that there odometry decides.
+(`bayesmap.kernels.match.line_pairs`, ``slack``), so that there odometry decides.
 """
 
 from __future__ import annotations
@@ -17,8 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.line_pairs import pair_sums
-from bayesmap.kernels.match_counts import match_counts
+from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry

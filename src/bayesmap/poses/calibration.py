@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.scan_refinement import refine_scans
+from bayesmap.kernels.match.scan_refinement import refine_scans
 from bayesmap.poses.motion_noise import MotionNoise, fit_noise
 from bayesmap.poses.odometry_motion import inverse_slope
 from bayesmap.poses.scan_geometry import scan_geometry

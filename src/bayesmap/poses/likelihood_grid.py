@@ -76,7 +76,7 @@ def likelihood_grids(
         threads: to compute with; by default all cores.
         reuse: grids of the same number, size and levels that are no longer needed: their memory is written over.
     """
-    from bayesmap.kernels.likelihood_grid import draw_grids
+    from bayesmap.kernels.match.likelihood_grid import draw_grids
 
     cells = int(np.ceil(2.0 * half_width_m / resolution))
     offsets = np.concatenate([[0], np.cumsum([len(s) for s in scans])]).astype(np.int32)

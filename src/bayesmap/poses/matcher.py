@@ -2,7 +2,7 @@
 
 The score of a pose is the mean over the points of the grid's value where they fall, from 0 to 1, less what the prior
 asks for being off the centre. It is maximised over a window of whole cells and steps of angle, exactly, by branch and
-bound (`bayesmap.kernels.branch_and_bound`).
+bound (`bayesmap.kernels.match.branch_and_bound`).
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def match(
     Raises:
         BadInput: arrays that do not fit, or a window or step that is not positive.
     """
-    from bayesmap.kernels.branch_and_bound import search
+    from bayesmap.kernels.match.branch_and_bound import search
 
     jobs = len(points)
     centres = np.asarray(centres, np.float64).reshape(-1, 3)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.scan_refinement import refine_scans
-from bayesmap.kernels.view_agreement import Agreement, mutual_view_counts
+from bayesmap.kernels.match.scan_refinement import refine_scans
+from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.likelihood_grid import LikelihoodGrids
 from bayesmap.poses.matcher import Pull, match
 from bayesmap.poses.odometry_motion import RunningOdometry

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.line_pairs import pair_sums
-from bayesmap.kernels.match_counts import match_counts
-from bayesmap.kernels.scan_refinement import refine_scans
+from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
+from bayesmap.kernels.match.scan_refinement import refine_scans
 from bayesmap.poses.alignment import ALIKE, Pairs, without_slack
 from bayesmap.poses.point_errors import PointError
 from bayesmap.poses.scan_geometry import ScanGeometry

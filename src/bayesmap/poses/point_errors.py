@@ -15,8 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.line_pairs import pair_sums
-from bayesmap.kernels.match_counts import match_counts
+from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.poses.alignment import ALIKE, REACH_M, SCALE_M, Alignment, beam_weights
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry

@@ -85,7 +85,7 @@ class Precision:
     @cached_property
     def _selected(self) -> tuple[NDArray[np.int64], Floats]:
         """Column times size plus row of each entry of the pattern, ascending, and the inverse there."""
-        from bayesmap.kernels.selected_inverse import selected_inverse
+        from bayesmap.kernels.match.selected_inverse import selected_inverse
 
         factor, size = self._factor, self._matrix.shape[0]
         if not np.array_equal(factor.perm_r, factor.perm_c):  # rows were exchanged: not L D L^T any more

@@ -137,7 +137,7 @@ class ScanGeometry:
 
     def select(self, scans: NDArray[np.intp]) -> ScanGeometry:
         """Some of the scans, copied."""
-        from bayesmap.kernels.scan_geometry import selected
+        from bayesmap.kernels.match.scan_geometry import selected
 
         return replace(
             self, points=selected(self.points, scans), normals=selected(self.normals, scans),
@@ -165,7 +165,7 @@ def scan_geometry(
         device: "cpu" or a CUDA device.
         threads: to compute with; by default all cores.
     """
-    from bayesmap.kernels.scan_geometry import points_and_normals
+    from bayesmap.kernels.match.scan_geometry import points_and_normals
 
     own = scans.angles_rad[None] if scans.own_angles_rad is None else scans.own_angles_rad
     order = np.argsort(own, axis=1, kind="stable")  # NaN, where a scan has no such beam, comes last

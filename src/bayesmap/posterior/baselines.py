@@ -1,7 +1,7 @@
 """The maps that others keep, as predictions: hit-count ratios and log-odds, each with the best sensor for it.
 
 All come from two counts: how often beams stopped in a cell, and how often they passed it. Each becomes a map of stop
-probabilities, and predicts readings by the same formula as a posterior (`bayesmap.kernels.predict`).
+probabilities, and predicts readings by the same formula as a posterior (`bayesmap.kernels.predict.density`).
 
 A plug-in map has no sensor model of its own, so one is fitted to it, with where in a cell beams stop and the row's own
 parameters. Fitting on the scans that were counted would reward over-confidence, hence an inner hold-out: of the
@@ -132,7 +132,7 @@ class Fitted:
 
 def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values: Values) -> float:
     """Mean log predictive density of the folds' beams, each under the counts of the other scans."""
-    from bayesmap.kernels.predict import log_densities
+    from bayesmap.kernels.predict.density import log_densities
 
     stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in held_out.folds]
     maps, sensor = np.concatenate(stops)[None].astype(np.float32), sensor_of(values, dof)

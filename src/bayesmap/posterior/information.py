@@ -97,9 +97,9 @@ def expected_information(
     Raises:
         BadInput: poses or angles that are none, or fewer than two draws.
     """
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood, put_cells
+    from bayesmap.kernels.predict.view import drawn_stops
     from bayesmap.kernels.random import mix
-    from bayesmap.kernels.scan_likelihood import ScanLikelihood, put_cells
-    from bayesmap.kernels.view import drawn_stops
     from bayesmap.sensors.model import RangeLimits
 
     where, angles, draws = as_poses(poses), as_angles(angles_rad), len(cells)
@@ -175,7 +175,7 @@ def beam_information(
             p / (1 - p), and those of the cells before it by (1 - p) / p.
         device: where to compute.
     """
-    from bayesmap.kernels.view import independent_information
+    from bayesmap.kernels.predict.view import independent_information
 
     probability = np.clip(np.nan_to_num(occupied.ravel(), nan=0.5), SURE, 1.0 - SURE)
     factor = p_right / (1.0 - p_right)

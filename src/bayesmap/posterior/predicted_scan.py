@@ -24,7 +24,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.cell_stop import HeldMaps
+    from bayesmap.kernels.predict.density import HeldMaps
 
 CENTRAL_80 = (0.1, 0.5, 0.9)
 """Levels of the median and of the ends of the central 80 % interval."""
@@ -56,7 +56,7 @@ class ScanPredictor:
         Raises:
             BadInput: no draws.
         """
-        from bayesmap.kernels.cell_stop import hold_maps
+        from bayesmap.kernels.predict.density import hold_maps
 
         held = hold_maps(predictor.batches(), predictor.hit_depth, device=device)
         return cls(predictor.grid, held, predictor.sensor, limits)
@@ -83,9 +83,9 @@ class ScanPredictor:
             BadInput: levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not add up to
                 one.
         """
+        from bayesmap.kernels.predict.stop_mixture import mix_held_stops
+        from bayesmap.kernels.predict.stop_quantiles import range_quantiles
         from bayesmap.kernels.rays import trace_rays
-        from bayesmap.kernels.stop_mixture import mix_held_stops
-        from bayesmap.kernels.stop_quantiles import range_quantiles
 
         wanted = np.asarray(levels, dtype=np.float64)
         if wanted.size == 0 or (np.diff(wanted) <= 0).any() or not ((wanted > 0) & (wanted < 1)).all():

@@ -23,7 +23,7 @@ class Batches(Protocol):
     def __call__(self, cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
         """The states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
 
-        Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.cell_stop`.
+        Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`.
         """
 
 

@@ -44,10 +44,10 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
     Raises:
         BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
     """
-    from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.predict.density import forecast
+    from bayesmap.kernels.predict.stop_mixture import mix_stops
+    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
     from bayesmap.kernels.rays import trace_rays
-    from bayesmap.kernels.stop_mixture import mix_stops
-    from bayesmap.kernels.stop_quantiles import range_quantiles
 
     if not placed(scans).size:
         raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")

@@ -35,7 +35,7 @@ def beam_log_scores(
     Raises:
         BadInput: no valid reading, or no draw.
     """
-    from bayesmap.kernels.predict import explained_within_m, log_densities
+    from bayesmap.kernels.predict.density import explained_within_m, log_densities
     from bayesmap.kernels.rays import trace_rays
 
     if not (scans.readings != Reading.INVALID).any():

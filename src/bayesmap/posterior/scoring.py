@@ -140,10 +140,10 @@ def score_prediction(
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
     """
-    from bayesmap.kernels.predict import forecast
+    from bayesmap.kernels.predict.density import forecast
+    from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops
+    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
     from bayesmap.kernels.rays import trace_rays
-    from bayesmap.kernels.stop_mixture import first_hit_events, mix_stops
-    from bayesmap.kernels.stop_quantiles import range_quantiles
 
     valid = (scans.readings != Reading.INVALID).ravel()
     if not valid.any():

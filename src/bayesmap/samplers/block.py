@@ -32,9 +32,8 @@ class BlockGibbs(WallSampler):
 
     def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
         """The block kernel reads the table, and its own list of beams by block."""
-        from bayesmap.kernels.block import block_sweeps
-        from bayesmap.kernels.block_index import list_blocks
         from bayesmap.kernels.device import load_kernels
+        from bayesmap.kernels.walls.block import block_sweeps, list_blocks
 
         load_kernels(block_sweeps, problem.device)
         return block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)]

@@ -29,7 +29,7 @@ class Gibbs(WallSampler):
     def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
         """The single-site kernel reads the table alone."""
         from bayesmap.kernels.device import load_kernels
-        from bayesmap.kernels.gibbs import gibbs_sweeps
+        from bayesmap.kernels.walls.gibbs import gibbs_sweeps
 
         load_kernels(gibbs_sweeps, problem.device)
         return gibbs_sweeps, [problem.device_table]

@@ -52,7 +52,7 @@ class Particles:
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
         """The maps of the given particles, (n, nx, ny)."""
-        from bayesmap.kernels.importance import draw
+        from bayesmap.kernels.walls.importance import draw
 
         if self.problem.coupling != 0.0:
             return _coupled_maps(self.problem, self.key, particles)
@@ -120,8 +120,7 @@ def sample_importance(
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np.float64]:
     """Log p(readings | map) of particles first .. first + count - 1."""
-    from bayesmap.kernels.importance import weigh
-    from bayesmap.kernels.score import log_likelihoods
+    from bayesmap.kernels.walls.importance import log_likelihoods, weigh
 
     if problem.coupling == 0.0:
         return weigh(problem.device_table, problem.device_prior, key, first, count, problem.device)

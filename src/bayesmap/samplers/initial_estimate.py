@@ -72,7 +72,7 @@ class InitialEstimate:
 
 def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> InitialEstimate:
     """Count hits and passes, and fit a normal distribution to each cell's end points."""
-    from bayesmap.kernels.pass_counts import passes_of
+    from bayesmap.kernels.counts import count_passes
 
     grid, edge = rays.grid, rays.grid.resolution
     end_cell = end_cells(rays)
@@ -102,7 +102,7 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     return InitialEstimate(
         touched=touched,
         hits=hits[touched],
-        passes=passes_of(rays, end_cell, device)[touched],
+        passes=count_passes(rays, end_cell, device)[touched],
         far=~around[touched],
         mean_m=mean,
         factor_m=np.stack([l11, l21, l22], axis=-1),
@@ -209,7 +209,7 @@ def turn_every(estimate: InitialEstimate) -> NDArray[np.uint8]:
 
 
 def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
-    """Frame and size of the endpoint cells' steps, (U, 8), as `bayesmap.kernels.surface_steps` reads them.
+    """Frame and size of the endpoint cells' steps, (U, 8), as `bayesmap.kernels.surfaces.endpoint_cells` reads them.
 
     Along the wall steps are a part of the cell; across it they shrink with the readings.
     """

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from bayesmap.poses.prior import PoseLaw
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
 Floats = NDArray[np.float64]
 
@@ -93,7 +93,7 @@ class PoseMetropolis:
 
         Args:
             state: the chains.
-            cells: one map a chain, as `bayesmap.kernels.scan_likelihood.ScanLikelihood.beams` takes them.
+            cells: one map a chain, as `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams` takes them.
             n: rounds over all scans.
             beta: inverse temperature of the likelihood.
             gain: how far each scan's steps grow when one is accepted and shrink when not (Robbins and Monro, 1951); 0

@@ -72,14 +72,14 @@ class WallProblem:
     @cached_property
     def index(self) -> CellIndex:
         """The table by cells; built on first use."""
-        from bayesmap.kernels.index import index_by_cell
+        from bayesmap.kernels.walls.table import index_by_cell
 
         return index_by_cell(self.table)
 
     @cached_property
     def device_table(self) -> Any:
         """Table and index where the kernels read them."""
-        from bayesmap.kernels.state import put_table
+        from bayesmap.kernels.walls.chains import put_table
 
         return put_table(self.table, self.index, self.device)
 
@@ -101,7 +101,7 @@ class WallProblem:
     @cached_property
     def device_prior(self) -> Any:
         """The prior where the kernels read it."""
-        from bayesmap.kernels.wall_prior import put_prior
+        from bayesmap.kernels.walls.wall_prior import put_prior
 
         return put_prior(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
@@ -140,7 +140,7 @@ def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -
         BadInput: a prior of another kind or shape, a device that is not there, or too many incidences.
     """
     from bayesmap.kernels.device import resolve
-    from bayesmap.kernels.trace import trace
+    from bayesmap.kernels.walls.table import trace
 
     walls = BinaryWalls.of(model.cells, "this method")
     device = resolve(device)

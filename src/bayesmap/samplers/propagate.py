@@ -67,7 +67,7 @@ def propagate(
     Raises:
         BadInput: rounds or damping out of range.
     """
-    from bayesmap.kernels.beliefs import Beliefs
+    from bayesmap.kernels.walls.propagate import Beliefs
 
     rounds = check_count("propagate", "rounds", rounds, 1)
     if not 0 <= damping < 1:

@@ -21,7 +21,7 @@ from bayesmap.samplers.trials import Floats, Maps, look_with
 from bayesmap.samplers.two_starts import take_better
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.stop_chains import StopChains
+    from bayesmap.kernels.surfaces.stop_chains import StopChains
 
 SEARCH_SHARE = 0.8
 """Of the warm-up: the part that is made from two starts."""

@@ -15,8 +15,8 @@ from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_problem import StopProblem
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.square_counts import InSquares
-    from bayesmap.kernels.stop_chains import StopChains
+    from bayesmap.kernels.surfaces.square_counts import InSquares
+    from bayesmap.kernels.surfaces.stop_chains import StopChains
 
 HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
 """The largest number below 1 in half precision, 0.9995. A mean that was rounded to 1 would say that no beam ever comes
@@ -107,11 +107,11 @@ def expected_reflectivity(
     density of one more beam is linear in each: under these means it is what it is on average under draws of them
     (Rao and Blackwell). The counts are to be those of the sweep that began at the draw, with its surfaces.
 
-    A cell that learnt nothing in that sweep (`bayesmap.kernels.cell_draws`; no reading ends in it) has the counts of
-    its last draw. Its own mean stays right on average; how its reflectivity goes together with what has changed since,
-    in a few sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of such a cell is
-    that it is free, whichever value near zero it happens to have. In a map of four cells and six beams it was under one
-    per cent of a density.
+    A cell that learnt nothing in that sweep (`bayesmap.kernels.surfaces.cell_draws`; no reading ends in it) has the
+    counts of its last draw. Its own mean stays right on average; how its reflectivity goes together with what has
+    changed since, in a few sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of
+    such a cell is that it is free, whichever value near zero it happens to have. In a map of four cells and six beams
+    it was under one per cent of a density.
 
     Args:
         hits: (T,).

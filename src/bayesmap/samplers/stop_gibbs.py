@@ -37,7 +37,7 @@ from bayesmap.samplers.trials import evidence
 from bayesmap.samplers.two_starts import AVERAGED
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.stop_chains import Plan, StopChains
+    from bayesmap.kernels.surfaces.stop_chains import Plan, StopChains
 
 Note = Callable[[int, int], None]
 DENSITIES = "log_likelihood", "log_prior"
@@ -77,7 +77,7 @@ class StopGibbs:
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
         """Compile, trace, and estimate where to start."""
-        from bayesmap.kernels.stop_chains import KERNELS, load_stop_kernels
+        from bayesmap.kernels.surfaces.stop_chains import KERNELS, load_stop_kernels
 
         cells = Reflective.of(model.cells, "stop-gibbs")
         problem = trace_stops(
@@ -129,7 +129,7 @@ class StopGibbs:
         stream: int = STREAM_START,
     ) -> StopChains:
         """Chains scattered about the initial estimate, or where they stood."""
-        from bayesmap.kernels.stop_chains import StopChains
+        from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         estimate, kept = problem.estimate, problem.coordinates["cell"]
         solid = self._labels(problem, chain_ids, seed, stored, stream)
@@ -187,7 +187,7 @@ class StopGibbs:
     def moved(self, state: StopState, problem: StopProblem) -> StopState:
         """The chains as they are, under another problem. Chains that search for where to start have no other."""
         assert state.second is None, "beams move while chains have a second start"
-        from bayesmap.kernels.stop_chains import StopChains
+        from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         old, chains = state.chains, range(state.chains.n_chains)
         new = StopChains(
@@ -229,7 +229,7 @@ class StopGibbs:
         self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
     ) -> tuple[StopState, Info]:
         """The same of chains that have one start; ``note`` is told of each chain and sweep."""
-        from bayesmap.kernels.endpoint_cells import STEPS
+        from bayesmap.kernels.surfaces.endpoint_cells import STEPS
 
         problem, chains = state.problem, state.chains
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
@@ -249,7 +249,7 @@ class StopGibbs:
 
     def _search(self, state: StopState, sweeps: int, beta: float, keep: Keep) -> tuple[StopState, Info]:
         """The same from both starts; after the last sweep of the search the chains go on from the better of the two."""
-        from bayesmap.kernels.endpoint_cells import MOST_STEPS
+        from bayesmap.kernels.surfaces.endpoint_cells import MOST_STEPS
 
         problem, chains, second = state.problem, state.chains, state.second
         assert second is not None
@@ -321,7 +321,7 @@ class StopGibbs:
 
 def _plan(problem: StopProblem) -> Plan:
     """What the sweeps of all chains share."""
-    from bayesmap.kernels.stop_chains import Plan
+    from bayesmap.kernels.surfaces.stop_chains import Plan
 
     estimate = problem.estimate
     return Plan(

@@ -26,7 +26,7 @@ from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.stop_problem import StopProblem
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.stop_chains import StopChains
+    from bayesmap.kernels.surfaces.stop_chains import StopChains
 
 Floats = NDArray[np.float64]
 Look = Callable[["Maps"], Floats]

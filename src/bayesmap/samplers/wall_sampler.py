@@ -20,7 +20,7 @@ from bayesmap.samplers.sampler import NOTHING, STREAM_SWEEPS, Info, Keep, Snapsh
 from bayesmap.samplers.start import Start, default_start, start_maps
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.chains import WallChains
+    from bayesmap.kernels.walls.chains import WallChains
 
 Order = Literal["raster", "radial", "random"]
 
@@ -81,8 +81,8 @@ class WallSampler(ABC):
         watch: Watch = SILENT,
     ) -> WallState:
         """Chains at their start, or at the maps of a snapshot."""
-        from bayesmap.kernels.chains import WallChains
         from bayesmap.kernels.random import mix
+        from bayesmap.kernels.walls.chains import WallChains
 
         kernel = self.kernel(problem)  # whatever is built on first use is built now, not in the first sweep
         statistics: dict[str, NDArray[np.float64]] = {}
@@ -102,7 +102,7 @@ class WallSampler(ABC):
 
     def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[WallState, Info]:
         """Some sweeps of all chains; a kept draw is the map after its sweep."""
-        from bayesmap.kernels.chains import run_sweeps
+        from bayesmap.kernels.walls.chains import run_sweeps
 
         problem = state.problem
         log_likelihood, log_prior, draws = run_sweeps(
@@ -126,7 +126,7 @@ class WallSampler(ABC):
 
     def moved(self, state: WallState, problem: WallProblem) -> WallState:
         """The chains as they are, under another problem."""
-        from bayesmap.kernels.chains import WallChains
+        from bayesmap.kernels.walls.chains import WallChains
 
         chains = WallChains(problem.device_table, state.walls(), state.keys, problem.device)
         return replace(state, problem=problem, chains=chains, kernel=self.kernel(problem), sites=self.sites(problem))
@@ -141,7 +141,7 @@ class WallSampler(ABC):
 
     def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """In how many of some draws a beam reaches each cell, else of where the chains stand, (2, nx, ny)."""
-        from bayesmap.kernels.reach import reach_frequency
+        from bayesmap.kernels.walls.reach import reach_frequency
 
         packed, shape = draws.get("walls"), state.problem.grid.shape
         if packed is None or packed.shape[1] == 0:

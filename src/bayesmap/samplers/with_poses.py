@@ -26,7 +26,7 @@ from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
 Floats = NDArray[np.float64]
 
@@ -92,7 +92,7 @@ class PoseProblem:
     @cached_property
     def likelihood(self) -> ScanLikelihood:
         """The likelihood of scans at poses."""
-        from bayesmap.kernels.scan_likelihood import ScanLikelihood
+        from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
         model = self.model
         return ScanLikelihood(model.scans, model.grid, model.sensor, model.hit_depth, self.device)
@@ -267,7 +267,7 @@ class WithPoses:
 
     def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
         """Something for every chain: on the CPU as many at once as there are threads."""
-        from bayesmap.kernels.parallel import available_cores
+        from bayesmap.kernels.device import available_cores
 
         threads = min(problem.threads or available_cores(), count) if problem.device == "cpu" else 1
         if threads == 1:

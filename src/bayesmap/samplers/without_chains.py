@@ -113,8 +113,8 @@ def _found(
     seconds: float = 0.0,
     finished: bool = True,
 ) -> Found:
-    from bayesmap.kernels.reach import reach_frequency
-    from bayesmap.kernels.score import log_likelihoods
+    from bayesmap.kernels.walls.importance import log_likelihoods
+    from bayesmap.kernels.walls.reach import reach_frequency
 
     rngs = [np.random.default_rng([asked.seed, chain, STREAM_START]) for chain in range(asked.chains)]
     walls = np.stack([draw(rng, asked.draws) for rng in rngs])

@@ -124,7 +124,7 @@ def _distances(
     max_range_m: float,
     device: str,
 ) -> NDArray[np.float64]:
-    from bayesmap.kernels.ranges import cast  # loads Warp
+    from bayesmap.kernels.walk import cast  # loads Warp
 
     _check_walls(walls, grid)
     if not max_range_m > 0:

@@ -1,0 +1,405 @@
+"""Pair the points of one scan with the walls of another: projective point-to-line pairs, summed to a quadratic.
+
+A point of scan i, moved into the frame of scan j, is paired with the nearest point of j. That point is searched among
+the beams that point in its direction (Blais and Levine 1995; Censi 2008 for planar scans). The residual e is the
+distance of the point from the wall there, along the mean of the two normals, with the weight of Geman and McClure,
+(1 + e^2 / c^2)^-2. Where neither point has a normal, the residual is the offset itself, in x and y, with less weight:
+returns of one surface lie apart by the distance between beams, and two scans do not return the same points.
+
+With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives
+of half the cost by z (Gauss-Newton). ``slack`` is what errors of the normals add to H without information: sum w spread
+T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's angle for points of unit
+variance. Along a corridor H is slack alone.
+
+`match_counts` counts the scans with which each beam is paired.
+"""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.match.scan_geometry import put_fans
+
+wp.set_module_options({"enable_backward": False})
+
+MOST_BEAMS = wp.constant(25)  # looked at to either side
+DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, fix no pose
+
+
+@wp.struct
+class Scene:
+    """Points and normals of all scans, see `bayesmap.poses.scan_geometry.ScanGeometry`."""
+
+    points: wp.array2d(dtype=wp.vec2f)
+    normals: wp.array2d(dtype=wp.vec2f)
+    kind: wp.array2d(dtype=wp.uint8)
+    spread: wp.array2d(dtype=wp.float32)
+    beam_of_angle: wp.array2d(dtype=wp.int32)
+    layout: wp.array(dtype=wp.int32)  # of each scan, its row of beam_of_angle
+    beams: wp.array(dtype=wp.int32)
+    step: wp.array(dtype=wp.float32)
+    full_circle: wp.array(dtype=wp.int32)
+    stride: int  # every so many-th point is paired
+
+
+@wp.struct
+class Sums:
+    """Sums over the pairs of two scans."""
+
+    second: wp.mat33d
+    slack: wp.mat33d
+    first: wp.vec3d
+    cost: wp.float64
+    weight: wp.float64
+    force_sq: wp.float64  # of the points' weighted residuals, each weighted once
+    matched: int
+    seen: int  # points that fall between the beams of the other scan, within its range
+
+
+@wp.func
+def turns_of(x: float, y: float) -> float:
+    """The angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, several times as fast as atan2."""
+    ax = wp.abs(x)
+    ay = wp.abs(y)
+    t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
+    t2 = t * t
+    angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309
+    if ay > ax:
+        angle = 0.25 - angle
+    if x < 0.0:
+        angle = 0.5 - angle
+    return wp.where(y < 0.0, -angle, angle)
+
+
+@wp.func
+def beam_towards(scene: Scene, j: int, x: float, y: float) -> int:
+    """The beam of scan j that points towards (x, y); -1 where there is none."""
+    bins = scene.beam_of_angle.shape[1]
+    bin = int((turns_of(x, y) + 0.5) * float(bins))
+    return scene.beam_of_angle[scene.layout[j], wp.clamp(bin, 0, bins - 1)]
+
+
+@wp.func
+def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int:
+    """The nearest point of scan j within reach, among beams that point towards (x, y); -1 none, -2 out of view."""
+    middle = beam_towards(scene, j, x, y)
+    if middle < 0:
+        return -2
+    u = wp.min(1.0, reach / wp.max(wp.sqrt(x * x + y * y), 1.0e-6))
+    # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
+    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / scene.step[j]) + 1)
+    beams = scene.beams[j]
+    low = middle - wide
+    high = middle + wide
+    if scene.full_circle[j] == 0:
+        low = wp.max(low, 0)
+        high = wp.min(high, beams - 1)
+    closest = reach * reach
+    found = int(-1)
+    for k in range(low, high + 1):
+        c = k
+        if c < 0:
+            c += beams
+        if c >= beams:
+            c -= beams
+        p = scene.points[j, c]
+        dx = p[0] - x
+        dy = p[1] - y
+        d = dx * dx + dy * dy
+        if d < closest:
+            closest = d
+            found = c
+    return found
+
+
+@wp.func
+def neighbour_distance(scene: Scene, j: int, beam: int) -> float:
+    """How far the nearer of the points of the next beams is, from 0.1 to 2 m: returns of a surface lie so far apart."""
+    beams = scene.beams[j]
+    nearest = float(2.0)
+    here = scene.points[j, beam]
+    for side in range(2):
+        c = beam - 1 + 2 * side
+        if scene.full_circle[j] != 0:
+            c = (c + beams) % beams
+        if c >= 0 and c < beams:
+            if scene.kind[j, c] != wp.uint8(0):
+                nearest = wp.min(nearest, wp.length(scene.points[j, c] - here))
+    return wp.max(nearest, 0.1)
+
+
+@wp.func
+def pair_scans(
+    scene: Scene,
+    weights: wp.array2d(dtype=wp.float32),
+    i: int,
+    j: int,
+    z: wp.vec3d,
+    reach: float,
+    scale: float,
+    alike: float,
+    stride: int,
+) -> Sums:
+    """Sums over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame.
+
+    ``reach``: furthest that paired points may lie apart; ``scale``: Geman and McClure's c; ``alike``: least cosine
+    between the normals of a pair.
+    """
+    sums = Sums()
+    cosine = float(wp.cos(z[2]))
+    sine = float(wp.sin(z[2]))
+    zx = float(z[0])
+    zy = float(z[1])
+    h00 = float(0.0)
+    h01 = float(0.0)
+    h02 = float(0.0)
+    h11 = float(0.0)
+    h12 = float(0.0)
+    h22 = float(0.0)
+    s00 = float(0.0)
+    s01 = float(0.0)
+    s02 = float(0.0)
+    s11 = float(0.0)
+    s12 = float(0.0)
+    s22 = float(0.0)
+    g0 = float(0.0)
+    g1 = float(0.0)
+    g2 = float(0.0)
+    cost = float(0.0)
+    total = float(0.0)
+    force_sq = float(0.0)
+    matched = int(0)
+    seen = int(0)
+    k = int(0)
+    while k < scene.kind.shape[1]:
+        b = k
+        k += stride
+        if scene.kind[i, b] == wp.uint8(0):
+            continue
+        p = scene.points[i, b]
+        rx = cosine * p[0] - sine * p[1]
+        ry = sine * p[0] + cosine * p[1]
+        x = rx + zx
+        y = ry + zy
+        other = nearest_point(scene, j, x, y, reach)
+        if other == -2:
+            continue
+        seen += 1
+        if other < 0:
+            continue
+        q = scene.points[j, other]
+        dx = x - q[0]
+        dy = y - q[1]
+        own = scene.kind[i, b] == wp.uint8(2)
+        theirs = scene.kind[j, other] == wp.uint8(2)
+        if own and theirs:
+            n = scene.normals[i, b]
+            m = scene.normals[j, other]
+            nx = cosine * n[0] - sine * n[1]
+            ny = sine * n[0] + cosine * n[1]
+            if nx * m[0] + ny * m[1] < alike:
+                continue
+            ux = nx + m[0]
+            uy = ny + m[1]
+            size = wp.sqrt(ux * ux + uy * uy)
+            ux = ux / size
+            uy = uy / size
+            e = ux * dx + uy * dy
+            w = 1.0 / (1.0 + e * e / (scale * scale))
+            w = w * w
+            force_sq += weights[i, b] * w * w * e * e
+            w = w * weights[i, b]
+            j2 = uy * rx - ux * ry
+            h00 += w * ux * ux
+            h01 += w * ux * uy
+            h02 += w * ux * j2
+            h11 += w * uy * uy
+            h12 += w * uy * j2
+            h22 += w * j2 * j2
+            g0 += w * ux * e
+            g1 += w * uy * e
+            g2 += w * j2 * e
+            v = w * 0.25 * (scene.spread[i, b] + scene.spread[j, other])
+            t2 = ux * rx + uy * ry  # the tangent is (-uy, ux)
+            s00 += v * uy * uy
+            s01 -= v * uy * ux
+            s02 -= v * uy * t2
+            s11 += v * ux * ux
+            s12 += v * ux * t2
+            s22 += v * t2 * t2
+            cost += w * e * e
+            total += w
+            matched += 1
+        elif not own and not theirs:
+            apart = 0.5 * neighbour_distance(scene, j, other)
+            if apart > DENSE:
+                continue
+            e2 = dx * dx + dy * dy
+            w = 1.0 / (1.0 + e2 / (scale * scale + apart * apart))
+            w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)
+            h00 += w
+            h02 -= w * ry
+            h11 += w
+            h12 += w * rx
+            h22 += w * (rx * rx + ry * ry)
+            g0 += w * dx
+            g1 += w * dy
+            g2 += w * (rx * dy - ry * dx)
+            matched += 1
+    d0 = wp.float64(h00)
+    d1 = wp.float64(h01)
+    d2 = wp.float64(h02)
+    d4 = wp.float64(h12)
+    sums.second = wp.mat33d(d0, d1, d2, d1, wp.float64(h11), d4, d2, d4, wp.float64(h22))
+    d0 = wp.float64(s00)
+    d1 = wp.float64(s01)
+    d2 = wp.float64(s02)
+    d4 = wp.float64(s12)
+    sums.slack = wp.mat33d(d0, d1, d2, d1, wp.float64(s11), d4, d2, d4, wp.float64(s22))
+    sums.first = wp.vec3d(wp.float64(g0), wp.float64(g1), wp.float64(g2))
+    sums.cost = wp.float64(cost)
+    sums.weight = wp.float64(total)
+    sums.force_sq = wp.float64(force_sq)
+    sums.matched = matched
+    sums.seen = seen
+    return sums
+
+
+@wp.kernel
+def sum_pairs(
+    first: int,
+    scene: Scene,
+    weights: wp.array2d(dtype=wp.float32),
+    source: wp.array(dtype=wp.int32),
+    target: wp.array(dtype=wp.int32),
+    relative: wp.array(dtype=wp.vec3d),
+    reach: float,
+    scale: float,
+    alike: float,
+    second: wp.array(dtype=wp.mat33d),
+    slack: wp.array(dtype=wp.mat33d),
+    gradient: wp.array(dtype=wp.vec3d),
+    totals: wp.array2d(dtype=wp.float64),
+):
+    """One thread a pair of scans."""
+    p = first + wp.tid()
+    sums = pair_scans(scene, weights, source[p], target[p], relative[p], reach, scale, alike, scene.stride)
+    second[p] = sums.second
+    slack[p] = sums.slack
+    gradient[p] = sums.first
+    totals[p, 0] = sums.cost
+    totals[p, 1] = sums.weight
+    totals[p, 2] = wp.float64(sums.matched)
+    totals[p, 3] = wp.float64(sums.seen)
+    totals[p, 4] = sums.force_sq
+
+
+def scene_of(geometry: Any, stride: int = 1) -> Any:
+    """The kernels' view of a `bayesmap.poses.scan_geometry.ScanGeometry`."""
+    scene = Scene()
+    scene.points, scene.normals = geometry.points, geometry.normals
+    scene.kind, scene.spread = geometry.kind, geometry.spread
+    fans = geometry.fans
+    scene.beam_of_angle = devices.to_device(fans.beam_of_angle, wp.int32, geometry.device)
+    scene.layout = devices.to_device(fans.layout, wp.int32, geometry.device)
+    scene.beams, scene.step, scene.full_circle = put_fans(fans, geometry.device)
+    scene.stride = stride
+    return scene
+
+
+def pair_sums(
+    geometry: Any,
+    weights: NDArray[np.float32] | None,
+    source: NDArray[np.int32],
+    target: NDArray[np.int32],
+    relative: NDArray[np.float64],
+    reach_m: float,
+    scale_m: float,
+    alike: float,
+    stride: int = 1,
+    threads: int | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
+
+    Totals are cost, weight, points matched, points within the other scan's view, and the squares of the points' forces.
+    """
+    device, count = geometry.device, len(source)
+    if weights is None:
+        weights = np.ones((len(geometry), geometry.beams), np.float32)
+    second, slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
+    gradient = wp.empty(count, dtype=wp.vec3d, device=device)
+    totals = wp.empty((count, 5), dtype=wp.float64, device=device)
+    inputs = [scene_of(geometry, stride), devices.to_device(weights, wp.float32, device)]
+    inputs += [devices.to_device(source, wp.int32, device), devices.to_device(target, wp.int32, device)]
+    inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, second, slack, gradient, totals]
+    devices.launch(sum_pairs, count, inputs, device, threads)
+    return second.numpy(), slack.numpy(), gradient.numpy(), totals.numpy()
+
+
+@wp.kernel
+def count_matches(
+    first: int,
+    scene: Scene,
+    offsets: wp.array(dtype=wp.int32),
+    target: wp.array(dtype=wp.int32),
+    relative: wp.array(dtype=wp.vec3d),
+    reach: float,
+    scale: float,
+    alike: float,
+    counts: wp.array2d(dtype=wp.float32),
+):
+    """One thread a scan: with how many others is each beam matched, weighted by how well."""
+    i = first + wp.tid()
+    for b in range(scene.kind.shape[1]):
+        counts[i, b] = 0.0
+    for p in range(offsets[i], offsets[i + 1]):
+        z = relative[p]
+        j = target[p]
+        cosine = float(wp.cos(z[2]))
+        sine = float(wp.sin(z[2]))
+        for b in range(scene.kind.shape[1]):
+            if scene.kind[i, b] == wp.uint8(0):
+                continue
+            q = scene.points[i, b]
+            x = cosine * q[0] - sine * q[1] + float(z[0])
+            y = sine * q[0] + cosine * q[1] + float(z[1])
+            other = nearest_point(scene, j, x, y, reach)
+            if other < 0:
+                continue
+            if scene.kind[i, b] != scene.kind[j, other]:
+                continue
+            d = wp.vec2f(x, y) - scene.points[j, other]
+            e2 = d[0] * d[0] + d[1] * d[1]
+            if scene.kind[i, b] == wp.uint8(2):
+                n = scene.normals[i, b]
+                m = scene.normals[j, other]
+                nx = cosine * n[0] - sine * n[1]
+                ny = sine * n[0] + cosine * n[1]
+                if nx * m[0] + ny * m[1] < alike:
+                    continue
+                e = m[0] * d[0] + m[1] * d[1]
+                e2 = e * e
+            w = 1.0 / (1.0 + e2 / (scale * scale))
+            counts[i, b] = counts[i, b] + w * w
+
+
+def match_counts(
+    geometry: Any,
+    offsets: NDArray[np.int32],
+    target: NDArray[np.int32],
+    relative: NDArray[np.float64],
+    reach_m: float,
+    scale_m: float,
+    alike: float,
+    threads: int | None = None,
+) -> NDArray[np.float32]:
+    """With how many of its partners each beam is matched, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
+    device = geometry.device
+    counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
+    inputs = [scene_of(geometry), devices.to_device(offsets, wp.int32, device)]
+    inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
+    devices.launch(count_matches, len(geometry), [*inputs, reach_m, scale_m, alike, counts], device, threads)
+    return np.asarray(counts.numpy())

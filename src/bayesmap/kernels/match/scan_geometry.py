@@ -1,0 +1,207 @@
+"""Points and wall normals of scans."""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+
+wp.set_module_options({"enable_backward": False})
+
+POINT = wp.constant(wp.uint8(1))
+WITH_NORMAL = wp.constant(wp.uint8(2))
+NOWHERE_M = wp.constant(
+    wp.float32(1.0e6)
+)  # where beams without a point end: whoever seeks the nearest passes them over
+REACHES = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
+
+
+@wp.func
+def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
+    """The beam so many steps on; -1 past the end of a scan that is not a full circle."""
+    other = beam + steps
+    if full_circle != 0:
+        return (other + beams) % beams
+    if other < 0 or other >= beams:
+        return -1
+    return other
+
+
+@wp.func
+def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
+    """Points of neighbouring beams, one so far from the laser, lie on one surface if they are no further apart."""
+    return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)
+
+
+@wp.kernel
+def scan_points(
+    first: int,
+    ranges: wp.array2d(dtype=wp.float64),
+    angles: wp.array2d(dtype=wp.float64),
+    nearest: wp.float64,
+    farthest: wp.float64,
+    points: wp.array2d(dtype=wp.vec2f),
+    kind: wp.array2d(dtype=wp.uint8),
+):
+    """One thread a scan: where its beams ended, in the laser's frame.
+
+    ``angles`` has one row for all scans, or one each.
+    """
+    s = first + wp.tid()
+    row = wp.min(s, angles.shape[0] - 1)
+    for b in range(ranges.shape[1]):
+        r = ranges[s, b]
+        kind[s, b] = wp.uint8(0)
+        points[s, b] = wp.vec2f(NOWHERE_M, NOWHERE_M)
+        if r > nearest and r < farthest:  # false for NaN and for either infinity
+            points[s, b] = wp.vec2f(wp.float32(r * wp.cos(angles[row, b])), wp.float32(r * wp.sin(angles[row, b])))
+            kind[s, b] = POINT
+
+
+@wp.kernel
+def scan_normals(
+    first: int,
+    points: wp.array2d(dtype=wp.vec2f),
+    beams_of: wp.array(dtype=wp.int32),
+    step_of: wp.array(dtype=wp.float32),
+    circle_of: wp.array(dtype=wp.int32),
+    reach_m: wp.float32,
+    noise_m: wp.float32,
+    kind: wp.array2d(dtype=wp.uint8),
+    normals: wp.array2d(dtype=wp.vec2f),
+    spread: wp.array2d(dtype=wp.float32),
+):
+    """One thread a scan: the line through each point's neighbours along the wall, by least squares.
+
+    Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side and is widened,
+    twice as far each time, as long as the wall stays straight within ``noise_m``: the direction of a long wall is
+    known better by the power 3/2 of the length. A piece whose direction the noise hides has no normal, until a longer
+    one shows it. ``spread`` is the variance of the normal's angle per variance of a
+    point, in 1 / m^2: one over the sum of squared distances along the line.
+    """
+    s = first + wp.tid()
+    beams = beams_of[s]
+    step_rad = step_of[s]
+    full_circle = circle_of[s]
+    for b in range(points.shape[1]):
+        normals[s, b] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
+        spread[s, b] = wp.float32(0.0)
+        if kind[s, b] == wp.uint8(0):
+            continue
+        here = points[s, b]
+        away = wp.length(here)
+        apart = step_rad * away  # between neighbouring beams on a wall seen head-on
+        gap = wp.max(widest_gap(step_rad, away), wp.float32(5.0) * noise_m)
+        farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
+        reach = reach_m
+        for fit in range(REACHES):
+            n = float(1.0)
+            sx = float(0.0)
+            sy = float(0.0)
+            sxx = float(0.0)
+            sxy = float(0.0)
+            syy = float(0.0)
+            for side in range(2):
+                last = here
+                for k in range(1, 40):
+                    c = neighbour(b, wp.where(side == 0, -k, k), beams, full_circle)
+                    if c < 0:
+                        break
+                    if kind[s, c] == wp.uint8(0):
+                        break
+                    there = points[s, c]
+                    if wp.length(there - last) > gap:
+                        break
+                    d = there - here
+                    distance = wp.length(d)
+                    if distance > farthest:
+                        break
+                    if k > 2 and distance > reach:
+                        break
+                    n += 1.0
+                    sx += d[0]
+                    sy += d[1]
+                    sxx += d[0] * d[0]
+                    sxy += d[0] * d[1]
+                    syy += d[1] * d[1]
+                    last = there
+            if n < 3.0:
+                break
+            a = sxx - sx * sx / n
+            h = sxy - sx * sy / n
+            c2 = syy - sy * sy / n
+            root = wp.sqrt(wp.max(wp.float32(0.0), (a - c2) * (a - c2) * wp.float32(0.25) + h * h))
+            along = (a + c2) * wp.float32(0.5) + root
+            across = wp.max((a + c2) * wp.float32(0.5) - root, wp.float32(0.0))
+            long = across < wp.float32(0.04) * along
+            straight = across < n * wp.float32(4.0) * noise_m * noise_m
+            if fit > 0:
+                straight = straight and across < n * wp.float32(1.5) * noise_m * noise_m
+            if not straight:
+                break
+            reach = reach * wp.float32(2.0)
+            if not long:
+                continue  # noise hides the direction of so short a piece: a longer one may show it
+            turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * h, a - c2)
+            normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
+            if normal[0] * here[0] + normal[1] * here[1] > wp.float32(0.0):
+                normal = -normal  # towards the laser
+            normals[s, b] = normal
+            spread[s, b] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
+    for b in range(beams):
+        if spread[s, b] > wp.float32(0.0):
+            kind[s, b] = WITH_NORMAL
+
+
+def points_and_normals(
+    ranges_m: NDArray[np.float64],
+    angles_rad: NDArray[np.float64],
+    nearest_m: float,
+    farthest_m: float,
+    fans: Any,
+    reach_m: float,
+    noise_m: float,
+    device: str = "cpu",
+    threads: int | None = None,
+) -> tuple[Any, Any, Any, Any]:
+    """Points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
+
+    Args:
+        ranges_m: readings, shape (S, B); beams in the order of their angles, NaN past a scan's last.
+        angles_rad: ascending, shape (1, B) for all scans, or (S, B).
+        nearest_m: readings below are no points.
+        farthest_m: neither are those above.
+        fans: where the beams point, a `bayesmap.poses.scan_geometry.Fans`.
+        reach_m: how far to either side a wall's direction is fitted at first.
+        noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
+        device: "cpu" or a CUDA device.
+        threads: to compute with; by default all cores.
+    """
+    device = devices.resolve(device)
+    scans, beams = ranges_m.shape
+    readings = devices.to_device(ranges_m, wp.float64, device)
+    angles = devices.to_device(angles_rad, wp.float64, device)
+    points, normals = (wp.empty((scans, beams), dtype=wp.vec2f, device=device) for _ in range(2))
+    kind = wp.empty((scans, beams), dtype=wp.uint8, device=device)
+    spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
+    span = [wp.float64(nearest_m), wp.float64(farthest_m)]
+    devices.launch(scan_points, scans, [readings, angles, *span, points, kind], device, threads)
+    geometry = [*put_fans(fans, device), wp.float32(reach_m), wp.float32(noise_m)]
+    devices.launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
+    return points, normals, kind, spread
+
+
+def put_fans(fans: Any, device: str) -> tuple[Any, Any, Any]:
+    """Beams, steps and whether the circle is full of each scan, (S,), where kernels read them."""
+    return (
+        devices.to_device(fans.beams, wp.int32, device),
+        devices.to_device(fans.step_rad, wp.float32, device),
+        devices.to_device(fans.full_circle, wp.int32, device),
+    )
+
+
+def selected(array: Any, scans: NDArray[np.intp]) -> Any:
+    """Rows of an array on a device, copied."""
+    return wp.array(np.ascontiguousarray(array.numpy()[scans]), dtype=array.dtype, device=array.device)

@@ -1,0 +1,359 @@
+"""Predict readings from draws of a map: densities and cumulative probabilities, averaged over the draws.
+
+To a prediction a map is a stop probability m in [0, 1] for every cell. A beam stops in the i-th cell that it meets with
+probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere in the map, and
+
+    p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
+
+under one draw of the map; the predictive law is its mean over draws. Binary walls are maps of 0 and 1.
+
+`stop_in` is all that a prediction needs to know of a kind of cells; `put_maps` fills in what it reads.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.errors import BadInput
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.rays import Line, Lines, distance_at, first_past, line_of, put_rays
+from bayesmap.kernels.sensor_law import (
+    MIXTURE,
+    NOISE,
+    SensorLaw64,
+    cumulative,
+    object_decay,
+    sensor_law,
+    stop_density,
+    stop_log_density,
+)
+from bayesmap.kernels.surfaces.crossing import Cell, cross_surface, put_cells, ray_from
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.tabulated import tabulated
+
+wp.set_module_options({"enable_backward": False})
+
+StopStates = NDArray[np.float32]
+"""Some maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
+mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
+
+
+@wp.struct
+class Maps:
+    """Some maps on a device, one a row; and where beams stop in cells without a surface, as a part of their stretch."""
+
+    stop: wp.array2d(dtype=wp.float32)
+    surface: wp.array2d(dtype=Cell)
+    surfaces: int
+    depth: wp.float64
+
+
+@wp.func
+def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
+    """Chance that a beam stops in a cell once it gets there, and distance and its variance, metres, if it does.
+
+    Args:
+        maps: some maps.
+        row: which of them.
+        column: where it has the cell.
+        line: the beam's.
+        cell: flat index in the grid.
+    """
+    if maps.surfaces != 0:
+        state = maps.surface[row, column]
+        met = cross_surface(state, ray_from(line.start_m, line.direction))
+        chance = wp.float64(state[0]) * wp.float64(met.chance)
+        return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
+    chance = wp.float64(maps.stop[row, column])
+    if chance == wp.float64(0.0):
+        return wp.vec3d(chance, chance, chance)
+    return wp.vec3d(chance, distance_at(line, cell, maps.depth), wp.float64(0.0))
+
+
+def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
+    """Some maps on a device; their number of dimensions says which kind of cells they have."""
+    maps = Maps()
+    maps.surfaces = int(states.ndim == 3)
+    maps.depth = hit_depth
+    if states.ndim == 3:
+        maps.surface = put_cells(states, device)
+    else:
+        maps.stop = devices.to_device(states, wp.float32, device)
+    return maps
+
+
+@dataclass(frozen=True, eq=False)
+class HeldMaps:
+    """Draws of whole maps that stay on a device, for many predictions.
+
+    Attributes:
+        maps: `Maps` with a column for each of the grid's cells.
+        draws: rows of it.
+        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
+        device: where they are.
+    """
+
+    maps: Any
+    draws: int
+    hit_depth: float
+    device: str
+
+    def thinned(self, most: int) -> "HeldMaps":
+        """At most so many of them, evenly spread."""
+        if most >= self.draws:
+            return self
+        rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
+        states = (self.maps.surface if self.maps.surfaces else self.maps.stop).numpy()[rows]
+        return HeldMaps(put_maps(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
+
+
+def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> HeldMaps:
+    """Put draws of all cells of a grid on a device.
+
+    Raises:
+        BadInput: no draws.
+    """
+    device = devices.resolve(device)
+    found = list(batches)
+    if not sum(map(len, found)):
+        raise BadInput("score: there is no draw to predict from")
+    states = np.concatenate(found)
+    return HeldMaps(put_maps(states, hit_depth, device), len(states), hit_depth, device)
+
+
+Floats = NDArray[np.float64]
+# A beam less likely than this to get so far is at its end: under noise alone the unlikely may be all that explains a
+# reading; the mixture has a floor.
+GONE = wp.constant(wp.float64(1.0e-30))
+GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
+CELLS_PAST_REACH = 4.0
+"""Cells past a reading's reach whose surfaces may still explain it, by their extent along the beam."""
+
+FEW_BEAMS = 5_000
+"""Up to so many are done before a second thread has begun."""
+
+
+@wp.func
+def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
+    """A running log-sum-exp: (greatest so far, sum of exp(value - greatest))."""
+    if value > sums[0]:
+        return wp.vec2d(value, sums[1] * wp.exp(sums[0] - value) + wp.float64(1.0))
+    return wp.vec2d(sums[0], sums[1] + wp.exp(value - sums[0]))
+
+
+@wp.func
+def no_sum(law: SensorLaw64) -> wp.vec2d:
+    """A running sum of nothing: of densities for a mixture, whose floor keeps them from underflowing, else of logs."""
+    return wp.vec2d(wp.where(law.kind == MIXTURE, wp.float64(0.0), wp.float64(-1.0e300)), wp.float64(0.0))
+
+
+@wp.func
+def add_stop(
+    law: SensorLaw64, sums: wp.vec2d, weight: wp.float64, z: wp.float64, decay: wp.float64, stop: wp.vec3d
+) -> wp.vec2d:
+    """The sum with a stop's share of the density: its weight times p(reading | stop)."""
+    if law.kind == MIXTURE:
+        return wp.vec2d(sums[0], sums[1] + weight * stop_density(law, z, decay, stop[1], stop[2]))
+    return add_log(sums, wp.log(weight) + stop_log_density(law, z, decay, stop[1], stop[2]))
+
+
+@wp.func
+def weight_of_nothing(law: SensorLaw64) -> wp.float64:
+    """A beam less likely than this to get so far is at its end."""
+    return wp.where(law.kind == MIXTURE, GONE_ROBUST, GONE)
+
+
+@wp.kernel
+def add_forecasts(
+    first: int,
+    law: SensorLaw64,
+    lines: Lines,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    columns: wp.array(dtype=wp.int32),
+    maps: Maps,
+    draws: int,
+    range_m: wp.array(dtype=wp.float64),
+    reach_m: wp.array(dtype=wp.float64),
+    with_cumulative: int,
+    most: wp.array(dtype=wp.float64),
+    total: wp.array(dtype=wp.float64),
+    below: wp.array(dtype=wp.float64),
+    below_max: wp.array(dtype=wp.float64),
+    below_min: wp.array(dtype=wp.float64),
+):
+    """One thread a beam: add the law of its reading under each draw of a batch to running sums.
+
+    A stop in a cell that the beam enters past its reach explains the reading as well as none at all.
+    """
+    b = first + wp.tid()
+    z = range_m[b]
+    if wp.isnan(z):
+        return
+    one = wp.float64(1.0)
+    line = line_of(lines, b)
+    nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
+    sums = wp.vec2d(most[b], total[b])
+    at = z
+    if wp.isinf(z):
+        at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
+    gone = weight_of_nothing(law)
+    decay = object_decay(law, z)
+    past = first_past(line, cells, offsets[b], offsets[b + 1], reach_m[b], wp.float64(0.0))
+    for d in range(draws):
+        survive = wp.float64(1.0)
+        for i in range(offsets[b + 1] - offsets[b] + 1):
+            k = offsets[b] + i
+            if k == past:
+                sums = add_stop(law, sums, survive, z, decay, nowhere)
+                if with_cumulative == 0:
+                    break
+            weight = survive
+            stop = nowhere
+            if k < offsets[b + 1]:
+                stop = stop_in(maps, d, columns[k], line, cells[k])
+                weight = survive * stop[0]
+                survive = survive * (one - stop[0])
+            if weight > wp.float64(0.0):
+                if k < past:
+                    sums = add_stop(law, sums, weight, z, decay, stop)
+                if with_cumulative != 0:
+                    below[b] = below[b] + weight * cumulative(law, at, stop[1], stop[2])
+                    if law.kind != NOISE:
+                        below_max[b] = below_max[b] + weight * cumulative(law, law.max_m, stop[1], stop[2])
+                        below_min[b] = below_min[b] + weight * cumulative(law, law.min_m, stop[1], stop[2])
+                if survive < gone:
+                    break
+    most[b] = sums[0]
+    total[b] = sums[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Forecast:
+    """What was predicted of each beam's reading; NaN where the reading is invalid.
+
+    Attributes:
+        log_density: log predictive density of a range in nats per metre, log probability of a typed reading, (B,).
+        pit_low, pit_high: P(reading < the one that came) and P(reading <= it): equal for ranges, (B,).
+        p_no_return, p_too_close: predictive probabilities of the two, (B,); 0 for a sensor that is noise alone.
+    """
+
+    log_density: Floats
+    pit_low: Floats
+    pit_high: Floats
+    p_no_return: Floats
+    p_too_close: Floats
+
+
+def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
+    """The sensor's law for kernels that ask how likely readings are to fall below a range.
+
+    Raises:
+        BadInput: a model of the user's own whose probabilities do not add up to one.
+    """
+    law = sensor_law(sensor, limits, device)
+    if sensor.kernel_parameters() is None and not tabulated(sensor, limits).has_cumulative:
+        raise BadInput(
+            f"score: the densities of {type(sensor).__name__} do not integrate to one, so only its log score can be "
+            "had (Run.log_score); mend log_likelihood(), or add cumulative()"
+        )
+    return law
+
+
+def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
+    """Whether no return and too close are outcomes of their own; else they stand for the limits."""
+    parameters = sensor.kernel_parameters()
+    return tabulated(sensor, limits).typed if parameters is None else parameters.robust
+
+
+def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
+    """Of each reading how far away a stop may be to make it likelier than no stop would, metres; infinite if any may.
+
+    Args:
+        range_m: readings.
+        sensor: their law.
+        limits: of the sensor.
+        resolution_m: edge of the map's cells.
+    """
+    return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
+
+
+def _sums(
+    rays: Rays,
+    columns: NDArray[np.int32],
+    batches: Iterable[StopStates],
+    sensor: SensorModel,
+    hit_depth: float,
+    device: str,
+    with_cumulative: bool,
+) -> tuple[Floats, list[Floats]]:
+    """Log densities, and mean cumulative probabilities at the reading and at both limits."""
+    device = devices.resolve(device)
+    law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
+    beams = rays.n_beams
+    most: Any = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
+    total = wp.zeros(beams, dtype=wp.float64, device=device)
+    cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
+    fixed = [*put_rays(rays, device), devices.to_device(columns, wp.int32, device)]
+    reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
+    readings = [devices.to_device(a, wp.float64, device) for a in (rays.range_m, reach_m)]
+    draws = 0
+    for batch in batches:
+        draws += len(batch)
+        inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
+        devices.launch(
+            add_forecasts, beams, [*inputs, most, total, *cumulatives], device, 1 if beams < FEW_BEAMS else None
+        )
+    if draws == 0:
+        raise BadInput("score: there is no draw to predict from")
+    with np.errstate(divide="ignore"):
+        log_density = most.numpy() + np.log(total.numpy() / draws)
+    log_density[np.isnan(rays.range_m)] = np.nan
+    return log_density, [c.numpy() / draws for c in cumulatives]
+
+
+def log_densities(
+    rays: Rays,
+    batches: Iterable[StopStates],
+    sensor: SensorModel,
+    hit_depth: float,
+    *,
+    columns: NDArray[np.int32] | None = None,
+    device: str = "cpu",
+) -> Floats:
+    """Log predictive density of every reading alone, (B,): see `forecast`.
+
+    Here, and here alone, beams may have been traced no further than their reading reaches; and each entry's cell may
+    have a column of its own in the draws, ``columns``.
+    """
+    return _sums(rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, False)[0]
+
+
+def forecast(
+    rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
+) -> Forecast:
+    """Predict the reading of every beam under the mean over draws of the law above.
+
+    Args:
+        rays: beams traced over their whole length, and their readings.
+        batches: draws of the map, some at a time, whose columns are the cells ``rays.touched``.
+        sensor: the law of a reading given where its beam stops.
+        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
+        device: where to compute.
+
+    Raises:
+        BadInput: no draws, or a sensor of the user's own whose probabilities do not add up to one.
+    """
+    log_density, (at, at_max, at_min) = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
+    z = rays.range_m
+    typed = are_typed(sensor, rays.limits)
+    nan = np.where(np.isnan(z), np.nan, 0.0)
+    none, close = (1.0 - at_max, at_min) if typed else (np.zeros_like(at), np.zeros_like(at))
+    low = np.where(np.isneginf(z) & typed, 0.0, np.where(np.isposinf(z) & typed, at_max, at))
+    high = np.where(np.isposinf(z) & typed, 1.0, at)
+    return Forecast(log_density, *(np.clip(a, 0.0, 1.0) + nan for a in (low, high, none, close)))

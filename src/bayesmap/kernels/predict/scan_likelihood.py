@@ -1,0 +1,220 @@
+"""The likelihood of whole scans at any poses, given the cells: what a pose is weighed by.
+
+Beams walk the grid from the pose itself, so nothing has to be traced beforehand. A beam stops in the i-th cell that it
+meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, and its reading has the density ``sum_i w_i p(z | stop
+i)``, the law of `bayesmap.kernels.predict.density` under one map. Where each beam stopped is summed out.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.predict.density import add_stop, no_sum, weight_of_nothing
+from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
+from bayesmap.kernels.surfaces.crossing import Cell, cross_surface, ray_from
+from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
+
+
+@wp.struct
+class Cells:
+    """One map a chain: stop probabilities, or surfaces; rows are chains, columns the flat cells of the grid."""
+
+    stop: wp.array2d(dtype=wp.float32)
+    surface: wp.array2d(dtype=Cell)
+    surfaces: int
+
+
+@wp.struct
+class Frame:
+    """The grid that beams walk, and where in a cell without a surface they stop, as a part of their chord."""
+
+    nx: int
+    ny: int
+    origin_x: wp.float64
+    origin_y: wp.float64
+    resolution: wp.float64
+    depth: wp.float64
+
+
+@wp.func
+def stop_in(cells: Cells, chain: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64) -> wp.vec3d:
+    """Chance that a beam stops in a cell that it has reached, and distance and spread in metres if it does."""
+    if cells.surfaces != 0:
+        state = cells.surface[chain, cell]
+        met = cross_surface(state, ray_from(start, direction))
+        return wp.vec3d(
+            wp.float64(state[0]) * wp.float64(met.chance),
+            wp.float64(met.distance_m),
+            wp.sqrt(wp.float64(met.variance)),
+        )
+    return wp.vec3d(wp.float64(cells.stop[chain, cell]), distance, wp.float64(0.0))
+
+
+@wp.kernel
+def beam_log_likelihoods(
+    first: int,
+    law: SensorLaw64,
+    frame: Frame,
+    cells: Cells,
+    poses: wp.array2d(dtype=wp.float64),
+    scan: wp.array(dtype=wp.int32),
+    chain: wp.array(dtype=wp.int32),
+    beams: int,
+    mounts: wp.array2d(dtype=wp.float64),
+    range_m: wp.array(dtype=wp.float64),
+    out: wp.array(dtype=wp.float64),
+):
+    """One thread a beam of a pose: log p(reading | cells, pose).
+
+    A mount is a beam's start and angle in its scan's frame; ``mounts`` has one for each angle, or one for each beam.
+    """
+    b = first + wp.tid()
+    row = b / beams
+    reading = scan[row] * beams + b % beams
+    z = range_m[reading]
+    out[b] = wp.float64(0.0)
+    if wp.isnan(z):
+        return
+    m = b % beams
+    if mounts.shape[0] > beams:
+        m = reading
+    one = wp.float64(1.0)
+    yaw = poses[row, 2]
+    x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1] - frame.origin_x
+    y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1] - frame.origin_y
+    angle = yaw + mounts[m, 2]
+    ux = wp.cos(angle)
+    uy = wp.sin(angle)
+    start = wp.vec2(wp.float32(x), wp.float32(y))
+    direction = wp.vec2(wp.float32(ux), wp.float32(uy))
+    gone = weight_of_nothing(law)
+    decay = object_decay(law, z)
+    sums = no_sum(law)
+    survive = wp.float64(1.0)
+    w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, law.max_m / frame.resolution)
+    while w.distance <= w.end and survive >= gone:
+        if is_inside(w, frame.nx, frame.ny):
+            chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
+            if w.cell_x != w.x or w.cell_y != w.y:
+                chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
+            distance = wp.float64(wp.float32((w.distance + frame.depth * chord) * frame.resolution))
+            stop = stop_in(cells, chain[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
+            weight = survive * stop[0]
+            survive = survive * (one - stop[0])
+            if weight > wp.float64(0.0):
+                known = wp.vec3d(weight, stop[1], stop[2] * stop[2])
+                sums = add_stop(law, sums, weight, z, decay, known)
+        w = walk_next(w)
+    if survive > wp.float64(0.0):
+        sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
+    out[b] = sums[0] + wp.log(sums[1])
+
+
+@dataclass(frozen=True, eq=False)
+class ScanLikelihood:
+    """Scans and the law of their readings, ready to be weighed at any poses under any cells.
+
+    Attributes:
+        scans: S scans of A beams; their own poses are where beams that left while the sensor moved are taken from.
+        grid: of the map.
+        sensor: the law of a reading given where its beam stops.
+        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
+        device: where to compute.
+    """
+
+    scans: Scans
+    grid: Grid
+    sensor: SensorModel
+    hit_depth: float
+    device: str = "cpu"
+
+    def beams(
+        self, cells: "NDArray[np.float32] | Cells", poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+    ) -> Floats:
+        """Log density of each reading, invalid ones 0, in nats, (P, A).
+
+        Args:
+            cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
+                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. Or these, already put where
+                kernels read them, if they are weighed by often.
+            poses: P poses in the world frame, (P, 3).
+            scan: which scan is weighed there, (P,).
+            chain: under which chain's cells, (P,).
+        """
+        device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
+        limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
+        out = wp.zeros(len(poses) * beams, dtype=wp.float64, device=device)
+        mounts, readings = self._on_device
+        inputs = [
+            sensor_law(self.sensor, limits, device),
+            grid_frame(self.grid, self.hit_depth),
+            put_cells(cells, device),
+            devices.to_device(poses, wp.float64, device),
+            devices.to_device(scan, wp.int32, device),
+            devices.to_device(chain, wp.int32, device),
+            beams,
+            mounts,
+            readings,
+            out,
+        ]
+        devices.launch(beam_log_likelihoods, len(out), inputs, device, devices.threads_for(len(out)))
+        return np.asarray(out.numpy().reshape(len(poses), beams))
+
+    def __call__(
+        self, cells: NDArray[np.float32], poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+    ) -> Floats:
+        """Log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
+        return np.asarray(self.beams(cells, poses, scan, chain).sum(axis=1))
+
+    @cached_property
+    def _on_device(self) -> tuple[Any, Any]:
+        scans = self.scans
+        readings = devices.to_device(scans.ranges_m.ravel(), wp.float64, self.device)
+        mounts = np.zeros((len(scans.angles_rad), 3))
+        mounts[:, 2] = scans.angles_rad
+        if scans.own_angles_rad is not None:
+            mounts = np.zeros((*scans.ranges_m.shape, 3))
+            mounts[..., 2] = scans.angles_by_scan()
+            mounts = mounts.reshape(-1, 3)
+        if scans.beam_poses is not None:
+            dx, dy = np.moveaxis(scans.beam_poses[..., :2] - scans.poses[:, None, :2], -1, 0)
+            yaw = scans.poses[:, 2:3]
+            x, y = np.cos(yaw) * dx + np.sin(yaw) * dy, np.cos(yaw) * dy - np.sin(yaw) * dx
+            mounts = np.stack([x, y, scans.beam_angles_world() - yaw], axis=-1).reshape(-1, 3)
+        return devices.to_device(mounts, wp.float64, self.device), readings
+
+
+def grid_frame(grid: Grid, hit_depth: float) -> Frame:
+    """A grid as kernels take it."""
+    frame = Frame()
+    frame.nx, frame.ny = grid.shape
+    frame.origin_x, frame.origin_y = grid.origin
+    frame.resolution, frame.depth = grid.resolution, hit_depth
+    return frame
+
+
+def put_cells(cells: "NDArray[np.float32] | Cells", device: str) -> Cells:
+    """Maps of some chains where kernels read them: (C, N) stop probabilities, or (C, N, 6) surfaces."""
+    if not isinstance(cells, np.ndarray):
+        return cells
+    packed = Cells()
+    packed.surfaces = int(cells.ndim == 3)
+    if cells.ndim == 3:
+        padded = np.zeros((*cells.shape[:2], 8), dtype=np.float32)
+        padded[..., : cells.shape[2]] = cells
+        packed.surface = wp.array(padded, dtype=Cell, device=device)
+    else:
+        packed.stop = devices.to_device(cells, wp.float32, device)
+    return packed

@@ -1,0 +1,235 @@
+"""Where beams stop, averaged over draws, and the chances of first hits that follow from that.
+
+All that a prediction needs of many draws of a map is the mean weight of each stop, since the predictive law is linear
+in the weights. Where draws also differ in *where* a cell is hit, the places of one cell are merged into one, with their
+mean and with their scatter added to the spread.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.errors import BadInput
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.predict.density import HeldMaps, Maps, StopStates, law_with_cumulative, put_maps, stop_in
+from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
+from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
+from bayesmap.sensors.model import SensorModel
+
+wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
+LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # of an event, and of getting to it
+LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # of a stop that is looked at: a thousand less likely ones add nothing
+MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
+
+
+@wp.kernel
+def add_stops(
+    first: int,
+    lines: Lines,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    columns: wp.array(dtype=wp.int32),
+    maps: Maps,
+    draws: int,
+    gone: wp.float64,
+    weight: wp.array(dtype=wp.float32),
+    shift: wp.array(dtype=wp.float32),
+    square: wp.array(dtype=wp.float32),
+    no_stop: wp.array(dtype=wp.float64),
+):
+    """One thread a beam: add the weight of each stop, and the moments of where it is about the part ``maps.depth`` of
+    the cell's stretch. A beam less likely than ``gone`` to get so far is at its end.
+    """
+    b = first + wp.tid()
+    line = line_of(lines, b)
+    for d in range(draws):
+        survive = wp.float64(1.0)
+        for k in range(offsets[b], offsets[b + 1]):
+            stop = stop_in(maps, d, columns[k], line, cells[k])
+            w = survive * stop[0]
+            survive = survive * (wp.float64(1.0) - stop[0])
+            if w > wp.float64(0.0):
+                weight[k] = weight[k] + wp.float32(w)
+                if maps.surfaces != 0:
+                    away = stop[1] - distance_at(line, cells[k], maps.depth)
+                    shift[k] = shift[k] + wp.float32(w * away)
+                    square[k] = square[k] + wp.float32(w * (away * away + stop[2]))
+                if survive < gone:
+                    break
+        no_stop[b] = no_stop[b] + survive
+
+
+@dataclass(frozen=True, eq=False)
+class StopMixture:
+    """Where each beam stops: a mixture over the cells that it meets.
+
+    Attributes:
+        rays: the beams; entries below are theirs.
+        weight: probability that the beam stops there, (K,), float32.
+        distance_m, spread_m: mean and standard deviation of where, metres, (K,), float32.
+        no_stop: probability that it stops nowhere in the map, (B,).
+    """
+
+    rays: Rays
+    weight: NDArray[np.float32]
+    distance_m: NDArray[np.float32]
+    spread_m: NDArray[np.float32]
+    no_stop: Floats
+
+
+def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
+    """Average over draws; arguments as of `bayesmap.kernels.predict.density.forecast`.
+
+    Raises:
+        BadInput: no draws.
+    """
+    device = devices.resolve(device)
+    there = ((put_maps(batch, hit_depth, device), len(batch)) for batch in batches)
+    return _mixed(rays, rays.columns, there, hit_depth, device, float(LEAST_CHANCE))
+
+
+def mix_held_stops(rays: Rays, held: HeldMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
+    """The same for draws of all cells that are on a device already.
+
+    Args:
+        rays: the beams.
+        held: the draws.
+        gone: a beam that is less likely than this to get to a cell is not followed so far, and counts as one that
+            stops nowhere: probabilities are off by no more than this.
+    """
+    return _mixed(rays, rays.cells, [(held.maps, held.draws)], held.hit_depth, held.device, gone)
+
+
+def _mixed(
+    rays: Rays,
+    columns: NDArray[np.int32],
+    batches: Iterable[tuple[Any, int]],
+    hit_depth: float,
+    device: str,
+    gone: float,
+) -> StopMixture:
+    """Some maps and their number at a time; ``columns`` says where they have each entry's cell."""
+    sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
+    no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
+    fixed = [*put_rays(rays, device), devices.to_device(columns, wp.int32, device)]
+    draws = 0
+    for maps, count in batches:
+        draws += count
+        inputs = [*fixed, maps, count, wp.float64(gone), *sums, no_stop]
+        devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
+    if draws == 0:
+        raise BadInput("score: there is no draw to predict from")
+    weight, shift, square = (a.numpy() for a in sums)
+    some = np.where(weight > 0, weight, np.float32(1.0))
+    mean = shift / some
+    spread = np.sqrt(np.maximum(square / some - mean * mean, 0.0))
+    distance_m = stop_distances(rays, hit_depth, device) + mean
+    return StopMixture(rays, weight / np.float32(draws), distance_m, spread, no_stop.numpy() / draws)
+
+
+@wp.struct
+class Stops:
+    """A `StopMixture` on a device."""
+
+    offsets: wp.array(dtype=wp.int32)
+    weight: wp.array(dtype=wp.float32)
+    distance_m: wp.array(dtype=wp.float32)
+    variance: wp.array(dtype=wp.float32)
+    no_stop: wp.array(dtype=wp.float64)
+
+
+@wp.func
+def mixture_below(law: SensorLaw64, stops: Stops, b: int, range_m: wp.float64) -> wp.float64:
+    """P(reading <= range) of a beam."""
+    p = stops.no_stop[b] * cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
+    for k in range(stops.offsets[b], stops.offsets[b + 1]):
+        weight = wp.float64(stops.weight[k])
+        if weight > LEAST_WEIGHT:
+            p += weight * cumulative(law, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
+    return p
+
+
+@wp.kernel
+def find_events(
+    first: int,
+    law: SensorLaw64,
+    stops: Stops,
+    lines: Lines,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    range_m: wp.array(dtype=wp.float64),
+    chance: wp.array(dtype=wp.float32),
+    stopped: wp.array(dtype=wp.int8),
+):
+    """One thread a beam: for each stretch that its reading gets to, the chance that it ends there, and whether it did.
+
+    ``stopped`` is -1 where the reading never gets, or where there is no stretch.
+    """
+    b = first + wp.tid()
+    z = range_m[b]
+    one = wp.float64(1.0)
+    if wp.isnan(z):
+        return
+    line = line_of(lines, b)
+    before = wp.float64(-1.0)
+    for k in range(offsets[b], offsets[b + 1]):
+        own = stretch(line, cells[k])
+        enter = own[0]
+        leave = own[1]
+        if k + 1 < offsets[b + 1]:
+            leave = stretch(line, cells[k + 1])[0]
+        leave = wp.min(leave, law.max_m)
+        if enter > z:
+            break
+        if leave > enter:
+            if before < wp.float64(0.0):
+                before = mixture_below(law, stops, b, enter)
+            after = mixture_below(law, stops, b, leave)
+            p = (after - before) / wp.max(one - before, LEAST_CHANCE)
+            chance[k] = wp.float32(wp.clamp(p, LEAST_CHANCE, MOST_CHANCE))
+            stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
+            before = after
+
+
+def put_stops(stops: StopMixture, device: str) -> Any:
+    """A mixture where kernels read it."""
+    packed = Stops()
+    packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
+    packed.weight = devices.to_device(stops.weight, wp.float32, device)
+    packed.distance_m = devices.to_device(stops.distance_m, wp.float32, device)
+    packed.variance = devices.to_device(stops.spread_m**2, wp.float32, device)
+    packed.no_stop = devices.to_device(stops.no_stop, wp.float64, device)
+    return packed
+
+
+def first_hit_events(
+    stops: StopMixture, sensor: SensorModel, device: str = "cpu"
+) -> tuple[NDArray[np.float32], NDArray[np.int8]]:
+    """Of each stretch of a beam in a cell that its reading gets to: does the reading end there?
+
+    With F the beam's predictive cumulative and [a, b) the stretch, the chance is ``(F(b) - F(a)) / (1 - F(a))``: the
+    probability of a reading in it, if it got there. The product over a beam's events is the probability of its cell.
+
+    Args:
+        stops: where the beams stop.
+        sensor: the law of a reading given where its beam stops.
+        device: where to compute.
+
+    Returns:
+        The chances, and 1 where the reading ended, 0 where it went on, -1 where there is no event; both (K,).
+    """
+    device = devices.resolve(device)
+    rays, size = stops.rays, len(stops.weight)
+    chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
+    stopped = wp.full(size, -1, dtype=wp.int8, device=device)
+    inputs = [law_with_cumulative(sensor, rays.limits, device), put_stops(stops, device), *put_rays(rays, device)]
+    inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
+    devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
+    return chance.numpy(), stopped.numpy()

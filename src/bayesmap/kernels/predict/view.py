@@ -1,0 +1,256 @@
+"""What a sensor would see from a pose: where its beams would stop under given cells, and what that would tell.
+
+Beams walk the grid from the pose, as in `bayesmap.kernels.predict.scan_likelihood`.
+"""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.predict.scan_likelihood import Cells, Frame, grid_frame, put_cells, stop_in
+from bayesmap.kernels.random import random_bits, to_uniform
+from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
+from bayesmap.space.grid import Grid
+
+wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
+
+CERTAIN = wp.constant(wp.float64(1.0e-6))
+"""A beam less likely than this to get so far is at its end."""
+NEGLIGIBLE = wp.constant(wp.float64(4.0))
+"""Standard deviations past which a reading is not expected."""
+
+
+@wp.kernel
+def draw_stops(
+    first: int,
+    frame: Frame,
+    cells: Cells,
+    poses: wp.array2d(dtype=wp.float64),
+    chain: wp.array(dtype=wp.int32),
+    angles: wp.array(dtype=wp.float64),
+    longest_m: wp.float64,
+    key: wp.uint64,
+    distance_m: wp.array(dtype=wp.float64),
+    spread_m: wp.array(dtype=wp.float64),
+):
+    """One thread a beam of a pose: where it stops, drawn; infinitely far if nowhere."""
+    b = first + wp.tid()
+    beams = angles.shape[0]
+    row = b / beams
+    x = poses[row, 0] - frame.origin_x
+    y = poses[row, 1] - frame.origin_y
+    angle = poses[row, 2] + angles[b % beams]
+    ux = wp.cos(angle)
+    uy = wp.sin(angle)
+    start = wp.vec2(wp.float32(x), wp.float32(y))
+    direction = wp.vec2(wp.float32(ux), wp.float32(uy))
+    left = to_uniform(random_bits(key, wp.uint64(b)))  # stops where the chance of getting further falls below it
+    survive = wp.float64(1.0)
+    distance_m[b] = wp.float64(wp.inf)
+    spread_m[b] = wp.float64(0.0)
+    w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, longest_m / frame.resolution)
+    while w.distance <= w.end:
+        if is_inside(w, frame.nx, frame.ny):
+            chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
+            if w.cell_x != w.x or w.cell_y != w.y:
+                chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
+            distance = (w.distance + frame.depth * chord) * frame.resolution
+            stop = stop_in(cells, chain[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
+            survive = survive * (wp.float64(1.0) - stop[0])
+            if survive < left:
+                distance_m[b] = stop[1]
+                spread_m[b] = stop[2]
+                return
+        w = walk_next(w)
+
+
+def drawn_stops(
+    cells: "NDArray[np.float32] | Cells",
+    grid: Grid,
+    poses: Floats,
+    chain: NDArray[np.intp],
+    angles_rad: Floats,
+    longest_m: float,
+    hit_depth: float,
+    key: int,
+    device: str = "cpu",
+) -> tuple[Floats, Floats]:
+    """Draw where the beams of a scan at each pose stop.
+
+    Args:
+        cells: maps, (C, N) stop probabilities or (C, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`; or
+            these, already put where kernels read them.
+        grid: of the maps.
+        poses: in the world frame, (P, 3).
+        chain: which map each pose is in, (P,).
+        angles_rad: of the beams in the sensor's frame, (A,).
+        longest_m: how far a beam goes.
+        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
+        key: of the random numbers.
+        device: where to compute.
+
+    Returns:
+        distance in metres, infinite for a beam that meets nothing, and its standard deviation, (P, A) each.
+    """
+    device = devices.resolve(device)
+    beams = len(poses) * len(angles_rad)
+    out = [wp.zeros(beams, dtype=wp.float64, device=device) for _ in range(2)]
+    inputs = [
+        grid_frame(grid, hit_depth),
+        put_cells(cells, device),
+        devices.to_device(poses, wp.float64, device),
+        devices.to_device(chain, wp.int32, device),
+        devices.to_device(angles_rad, wp.float64, device),
+        wp.float64(longest_m),
+        wp.uint64(key),
+        *out,
+    ]
+    devices.launch(draw_stops, beams, inputs, device)
+    distance_m, spread_m = (np.asarray(a.numpy().reshape(len(poses), -1)) for a in out)
+    return distance_m, spread_m
+
+
+@wp.func
+def normal_below(x: wp.float64) -> wp.float64:
+    """P(standard normal < x)."""
+    return wp.float64(0.5) * wp.erfc(-x * wp.float64(0.7071067811865476))
+
+
+@wp.kernel
+def add_beam_information(
+    first: int,
+    frame: Frame,
+    occupied: wp.array(dtype=wp.float64),
+    of_hit: wp.array(dtype=wp.float64),
+    of_pass: wp.array(dtype=wp.float64),
+    poses: wp.array2d(dtype=wp.float64),
+    angles: wp.array(dtype=wp.float64),
+    longest_m: wp.float64,
+    sigma_m: wp.float64,
+    out: wp.array(dtype=wp.float64),
+):
+    """One thread a beam: FSMI's information, over pairs of a cell that the beam stops in and one that it is read in.
+
+    For the cell k in which the reading falls, what is learnt is C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), the
+    functions of the cells' odds r being ``of_hit`` and ``of_pass``; it falls
+    there with probability sum_j P(stop in j) G_kj, G_kj being the noise about cell j's distance between the edges of
+    cell k. The sum over j is over cells whose distance lies within some standard deviations of cell k.
+    """
+    b = first + wp.tid()
+    beams = angles.shape[0]
+    row = b / beams
+    x = (poses[row, 0] - frame.origin_x) / frame.resolution
+    y = (poses[row, 1] - frame.origin_y) / frame.resolution
+    angle = poses[row, 2] + angles[b % beams]
+    ux = wp.cos(angle)
+    uy = wp.sin(angle)
+    longest = longest_m / frame.resolution
+    sigma = sigma_m / frame.resolution
+    one = wp.float64(1.0)
+    half = wp.float64(0.5)
+    total = wp.float64(0.0)
+    survive = wp.float64(1.0)
+    # The outer walk goes over the cells that the beam may stop in; what was learnt before the first that a reading of
+    # such a stop can fall in is carried along by a second walk that trails behind.
+    behind = walk_begin(x, y, ux, uy, frame.nx, frame.ny, longest)
+    behind_enter = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
+    learnt = wp.float64(0.0)
+    w = walk_begin(x, y, ux, uy, frame.nx, frame.ny, longest)
+    enter = wp.float64(0.0)
+    while w.distance <= w.end and survive > CERTAIN:
+        if w.cell_x == w.x and w.cell_y == w.y:
+            leave = wp.min(w.next_x, w.next_y)
+            if is_inside(w, frame.nx, frame.ny):
+                p = occupied[w.cell_x * frame.ny + w.cell_y]
+                weight = survive * p
+                survive = survive * (one - p)
+                middle = half * (enter + leave)
+                low = middle - NEGLIGIBLE * sigma
+                high = middle + NEGLIGIBLE * sigma
+                while weight > CERTAIN and wp.min(behind.next_x, behind.next_y) < low and behind.distance <= behind.end:
+                    if behind.cell_x == behind.x and behind.cell_y == behind.y:
+                        behind_enter = wp.min(behind.next_x, behind.next_y)
+                        if is_inside(behind, frame.nx, frame.ny):
+                            learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
+                    behind = walk_next(behind)
+                ahead = behind
+                begin = behind_enter
+                known = learnt
+                below = wp.float64(0.0)
+                if weight > CERTAIN:
+                    below = normal_below((begin - middle) / sigma)
+                while weight > CERTAIN and ahead.distance <= ahead.end and begin < high:
+                    if ahead.cell_x == ahead.x and ahead.cell_y == ahead.y:
+                        over = wp.min(ahead.next_x, ahead.next_y)
+                        below_over = normal_below((over - middle) / sigma)
+                        if is_inside(ahead, frame.nx, frame.ny):
+                            cell = ahead.cell_x * frame.ny + ahead.cell_y
+                            total += weight * (below_over - below) * (known + of_hit[cell])
+                            known += of_pass[cell]
+                        begin = over
+                        below = below_over
+                    ahead = walk_next(ahead)
+            enter = leave
+        w = walk_next(w)
+    # The beam that meets nothing passes every cell.
+    if survive > CERTAIN:
+        while behind.distance <= behind.end:
+            if is_inside(behind, frame.nx, frame.ny) and behind.cell_x == behind.x and behind.cell_y == behind.y:
+                learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
+            behind = walk_next(behind)
+        total += survive * learnt
+    out[b] = total
+
+
+def surprise(update: float, odds: Floats) -> Floats:
+    """FSMI's f(delta, r): information in nats of an update of the odds r by the factor delta."""
+    return np.asarray(np.log((odds + 1.0) / (odds + 1.0 / update)) - np.log(update) / (odds * update + 1.0))
+
+
+def independent_information(
+    occupied: Floats,
+    grid: Grid,
+    poses: Floats,
+    angles_rad: Floats,
+    longest_m: float,
+    *,
+    sigma_m: float,
+    hit_factor: float,
+    pass_factor: float,
+    device: str = "cpu",
+) -> Floats:
+    """Fast Shannon mutual information of every beam with a map of independent cells, in nats, (P, A).
+
+    Zhang, Henderson, Sze and Karaman, *FSMI* (ICRA 2019), equation 14, with the exact integrals of the noise.
+
+    Args:
+        occupied: probability that each cell stops a beam, inside (0, 1), (N,).
+        grid: of the map.
+        poses: (P, 3).
+        angles_rad: (A,).
+        longest_m: of beams.
+        sigma_m: of the readings.
+        hit_factor: by which a reading in a cell multiplies its odds, over 1.
+        pass_factor: by which one behind it does, below 1.
+        device: where to compute.
+    """
+    device = devices.resolve(device)
+    out: Any = wp.zeros(len(poses) * len(angles_rad), dtype=wp.float64, device=device)
+    odds = occupied / (1.0 - occupied)
+    inputs = [
+        grid_frame(grid, 0.5),
+        devices.to_device(occupied, wp.float64, device),
+        devices.to_device(surprise(hit_factor, odds), wp.float64, device),
+        devices.to_device(surprise(pass_factor, odds), wp.float64, device),
+        devices.to_device(poses, wp.float64, device),
+        devices.to_device(angles_rad, wp.float64, device),
+        *(wp.float64(value) for value in (longest_m, sigma_m)),
+        out,
+    ]
+    devices.launch(add_beam_information, len(poses) * len(angles_rad), inputs, device)
+    return np.asarray(out.numpy().reshape(len(poses), -1))

@@ -1,0 +1,223 @@
+r"""The other half of a sweep: the cells, given where the beams stopped.
+
+Cells in which readings end have a kernel of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Of the others, one
+that tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met), a and b being those of its label where
+cells have labels (`bayesmap.kernels.surfaces.labels`, which draws these before). One that tries a candidate for its
+surface, drawn from the prior (`bayesmap.kernels.surfaces.cell_prior`), accepts it with probability min(1, exp(gain)),
+where the gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
+"""
+
+import warp as wp
+
+from bayesmap.kernels.random import CELLS, beta_or_nothing, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.surfaces.cell_prior import (
+    CellPrior,
+    centre_of,
+    fresh_surface,
+    is_own,
+    log_reflectivity_prior,
+    log_size_penalty,
+    log_surface_prior,
+    pseudo_counts,
+)
+from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING, Cell
+from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
+
+wp.set_module_options({"enable_backward": False})
+
+FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
+HIDDEN = wp.constant(wp.float32(0.0))
+FRESH = wp.constant(wp.float32(1.0))
+TRIES_EVERY = wp.constant(4)
+"""In one of so many of its turns a cell in which no reading ends tries a candidate, unless it stops next to no beam; in
+the others it draws its reflectivity."""
+
+SILENT_EVERY = wp.constant(3)
+"""In one of so many sweeps a cell of whose surface no beam says anything takes another one from the prior."""
+
+# Counters of one cell in one sweep, of the part CELLS; others follow in `square_counts` and `labels`.
+PER_CELL = wp.constant(wp.uint64(1024))
+AT_ACCEPT = wp.constant(wp.uint64(0))
+AT_BETA = wp.constant(wp.uint64(32))
+AT_FRESH = wp.constant(wp.uint64(256))
+AT_SILENT = wp.constant(wp.uint64(448))
+
+
+@wp.struct
+class ActiveCells:
+    """The cells that a sweep visits, those that beams touch, ascending, and in every how many sweeps it is their turn.
+
+    That is 0 for cells in which readings end: theirs is always. ``ny`` and ``edge_m`` are the grid's.
+    """
+
+    cell: wp.array(dtype=wp.int32)
+    every: wp.array(dtype=wp.uint8)
+    ny: int
+    edge_m: wp.float64
+
+
+@wp.func
+def tries(sweep: int, every: int, c: int) -> bool:
+    """Whether a cell in which no reading ends tries a candidate at its turn in a sweep, if it has surfaces."""
+    return (sweep // every + c) % TRIES_EVERY == 0
+
+
+@wp.func
+def is_silent(sweep: int, every: int, c: int, m: wp.float32, stopped_in: int) -> bool:
+    """Whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
+
+    It does by turns, if it stopped no beam in this sweep, and its reflectivity is so small that beams which passed say
+    nothing either.
+    """
+    return every != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
+
+
+@wp.func
+def renewed_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """Another surface of a cell of which neither stops nor passing beams say anything, whatever its surface. So its
+    conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
+    """
+    candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
+    log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
+    accepted = wp.log(to_uniform(random_bits(key, at + AT_SILENT - wp.uint64(1)))) < log_ratio
+    if accepted and is_own(prior, centre, candidate):
+        return candidate
+    return cell
+
+
+@wp.kernel
+def begin_sweep(
+    first: int,
+    sweep: int,
+    without_surfaces: int,
+    prior: CellPrior,
+    prior_moved: int,
+    active: ActiveCells,
+    state: ChainArrays,
+    keys: wp.array(dtype=wp.uint64),
+    log_prior: wp.array(dtype=wp.float32),
+):
+    """One thread a chain's cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
+
+    ``log_prior`` is that of the cells as they are, and is computed anew where the last sweep can have changed it.
+    """
+    i = first + wp.tid()
+    chain = i // active.cell.shape[0]
+    a = i - chain * active.cell.shape[0]
+    c = active.cell[a]
+    here = chain * state.n_cells + c
+    every = int(active.every[a])
+    held_m = state.fixed_m[here]  # in the sweep before
+    learns = True
+    if every != 0:
+        learns = sweep % every == 0
+    renewed = without_surfaces == 0 and is_silent(sweep - 1, every, c, held_m, state.stopped_in[here])
+    moved = prior_moved != 0 or every == 0 or renewed or held_m == LEARNS
+    if not moved and not learns:
+        return
+    cell = state.cells[here]
+    centre = centre_of(c, active.ny, active.edge_m)
+    if moved:
+        density = log_reflectivity_prior(prior, state.solid[here], cell[REFLECTIVITY])
+        if without_surfaces == 0:
+            density += wp.float32(log_surface_prior(prior, centre, cell))
+        log_prior[i] = density
+    trying = HIDDEN
+    if without_surfaces == 0:
+        if every == 0:
+            learns = False  # a kernel of its own knows its beams
+        elif learns and tries(sweep, every, c):
+            # One of whose surface passing beams say nothing needs no candidate: it takes surfaces from the prior.
+            learns = cell[REFLECTIVITY] > CLEAR
+            if learns:
+                trying = FRESH
+                key = sweep_key(keys[chain], sweep, CELLS)
+                at = wp.uint64(c) * PER_CELL + AT_FRESH
+                state.candidates[here] = fresh_surface(prior, centre, cell, key, at)
+    if learns:
+        for part in range(state.parts):
+            row = chain * state.parts + part
+            state.met[row, c] = 0
+            state.hits[row, c] = 0
+            state.gain[row, c] = wp.int64(0)
+    state.fixed_m[here] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
+    if cell[TRYING] != trying:
+        cell[TRYING] = trying
+        state.cells[here] = cell
+
+
+@wp.kernel
+def update_free_cells(
+    first: int,
+    sweep: int,
+    without_surfaces: int,
+    prior: CellPrior,
+    active: ActiveCells,
+    state: ChainArrays,
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
+    neither; and where next to no beam would stop perhaps take another surface.
+
+    ``hits`` and ``met`` keep the counts behind the cell's last reflectivity.
+    """
+    i = first + wp.tid()
+    chain = i // active.cell.shape[0]
+    place = i - chain * active.cell.shape[0]
+    c = active.cell[place]
+    here = chain * state.n_cells + c
+    every = int(active.every[place])
+    held_m = state.fixed_m[here]
+    learns = held_m == LEARNS
+    if not learns and (without_surfaces != 0 or not is_silent(sweep, every, c, held_m, state.stopped_in[here])):
+        return
+    cell = state.cells[here]
+    key = sweep_key(keys[chain], sweep, CELLS)
+    at = wp.uint64(c) * PER_CELL
+    centre = centre_of(c, active.ny, active.edge_m)
+    if learns:
+        n_hits = int(0)
+        n_met = int(0)
+        gain = wp.int64(0)
+        for part in range(state.parts):
+            row = chain * state.parts + part
+            n_hits += state.hits[row, c]
+            n_met += state.met[row, c]
+            gain += state.gain[row, c]
+        if cell[TRYING] == HIDDEN:
+            counts = pseudo_counts(prior, state.solid[here])
+            a = counts[0] + wp.float64(n_hits)
+            b = counts[1] + wp.float64(n_met)
+            cell[REFLECTIVITY] = wp.float32(beta_or_nothing(a, b, key, at + AT_BETA))
+            hits[here] = n_hits
+            met[here] = n_met
+        else:
+            candidate = state.candidates[here]
+            log_ratio = wp.float64(gain) * FROM_UNITS
+            log_ratio += log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
+            accepted = wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio
+            if accepted and is_own(prior, centre, candidate):
+                cell = candidate
+    if without_surfaces == 0 and is_silent(sweep, every, c, cell[REFLECTIVITY], state.stopped_in[here]):
+        cell = renewed_surface(prior, centre, cell, key, at)
+    cell[TRYING] = HIDDEN
+    state.cells[here] = cell
+
+
+@wp.kernel
+def count_observed(
+    first: int,
+    active: ActiveCells,
+    n_cells: int,
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+    observed_counts: wp.array(dtype=wp.vec2i),
+):
+    """One thread a chain's cell, after a sweep: has it counted beams yet, and did any beam come into the count?"""
+    i = first + wp.tid()
+    chain = i // active.cell.shape[0]
+    here = chain * n_cells + active.cell[i - chain * active.cell.shape[0]]
+    if met[here] >= 0:
+        observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(hits[here] + met[here] > 0, 1, 0), 1)

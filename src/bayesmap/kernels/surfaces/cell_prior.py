@@ -1,0 +1,152 @@
+r"""The prior of a cell, its reflectivity's and its surface's: densities, and surfaces drawn from it.
+
+The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square, and for Sigma an InverseWishart(nu,
+psi I) times exp(-tr Sigma / (2 kappa^2)): beams of other cells say nothing about a surface that grows beyond its own,
+and the Wishart's tail alone would let it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these
+coordinates the density is, inside the square, proportional to
+
+    exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1 - tr Sigma / (2 kappa^2)):
+
+the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
+"""
+
+from typing import Any
+
+import warp as wp
+from scipy import special
+
+from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
+from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, Cell
+
+MEAN_TRIES = wp.constant(8)
+
+
+@wp.struct
+class CellPrior:
+    """Beta(a, b) of the reflectivity, and the surface's prior as above.
+
+    At a coupling above 0 that is the Beta of free cells, and solid ones have their own; ``log_beta`` and
+    ``log_beta_solid`` are the logarithms of what the two densities are divided by, and 0 where there are no labels.
+    """
+
+    a: wp.float64
+    b: wp.float64
+    tau_m: wp.float64
+    psi_m2: wp.float64
+    nu: wp.float64
+    kappa_m: wp.float64
+    half_m: wp.float64  # half of a cell's edge
+    coupling: wp.float64
+    a_solid: wp.float64
+    b_solid: wp.float64
+    log_beta: wp.float64
+    log_beta_solid: wp.float64
+
+
+def put_prior(numbers: KernelNumbers) -> Any:
+    """A prior as kernels read it."""
+    there = CellPrior()
+    for name, value in numbers._asdict().items():
+        setattr(there, name, value)
+    there.log_beta = there.log_beta_solid = 0.0
+    if numbers.coupling > 0:
+        there.log_beta = float(special.betaln(numbers.a, numbers.b))
+        there.log_beta_solid = float(special.betaln(numbers.a_solid, numbers.b_solid))
+    return there
+
+
+@wp.func
+def pseudo_counts(prior: CellPrior, solid: wp.uint8) -> wp.vec2d:
+    """a and b of the reflectivity of a cell with this label; all cells are free where there are no labels."""
+    if solid != wp.uint8(0):
+        return wp.vec2d(prior.a_solid, prior.b_solid)
+    return wp.vec2d(prior.a, prior.b)
+
+
+@wp.func
+def centre_of(c: int, ny: int, edge_m: wp.float64) -> wp.vec2:
+    """Centre of a cell, metres from the grid's lower left corner."""
+    half = wp.float64(0.5)
+    x = wp.float32((wp.float64(c // ny) + half) * edge_m)
+    return wp.vec2(x, wp.float32((wp.float64(c % ny) + half) * edge_m))
+
+
+@wp.func
+def is_own(prior: CellPrior, centre: wp.vec2, cell: Cell) -> bool:
+    """Whether the surface's mean lies in the cell's own square."""
+    half = wp.float32(prior.half_m)
+    return wp.abs(cell[MEAN_X] - centre[0]) <= half and wp.abs(cell[MEAN_Y] - centre[1]) <= half
+
+
+@wp.func
+def mean_within(prior: CellPrior, key: wp.uint64, at: wp.uint64) -> wp.float32:
+    """A coordinate of a mean from its prior, from the cell's centre; takes two times `MEAN_TRIES` counters.
+
+    By rejection: of the default prior one try in five fails, and all of them once in 300 000 times, when the candidate
+    is left out of the cell and is not accepted.
+    """
+    x = prior.tau_m * normal(key, at)
+    for i in range(1, MEAN_TRIES):
+        if wp.abs(x) > prior.half_m:
+            x = prior.tau_m * normal(key, at + wp.uint64(2 * i))
+    return wp.float32(x)
+
+
+@wp.func
+def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """The cell with a surface drawn from the prior, but for `log_size_penalty`, which the acceptance makes good.
+
+    Sigma^-1 = A A' / psi with Bartlett's lower triangular A; its inverse has the upper factor A^-T sqrt(psi), which
+    turns into a lower one when x and y are exchanged, and the law does not care.
+    """
+    half = wp.float64(0.5)
+    a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, at) + wp.log(wp.float64(2.0))))
+    at_2 = at + wp.uint64(PER_GAMMA)
+    shape = half * (prior.nu - wp.float64(1.0))
+    a22 = wp.exp(half * (log_gamma_variate(shape, key, at_2) + wp.log(wp.float64(2.0))))
+    n = at_2 + wp.uint64(PER_GAMMA)
+    a21 = normal(key, n)
+    scale = wp.sqrt(prior.psi_m2)
+    cell[MEAN_X] = centre[0] + mean_within(prior, key, n + wp.uint64(2))
+    cell[MEAN_Y] = centre[1] + mean_within(prior, key, n + wp.uint64(2 + 2 * MEAN_TRIES))
+    cell[L11] = wp.float32(scale / a22)
+    cell[L21] = wp.float32(-scale * a21 / (a11 * a22))
+    cell[L22] = wp.float32(scale / a11)
+    return cell
+
+
+@wp.func
+def log_surface_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float64:
+    """Log density of a surface in the coordinates above, up to a constant."""
+    x = wp.float64(cell[MEAN_X] - centre[0])
+    y = wp.float64(cell[MEAN_Y] - centre[1])
+    l11 = wp.float64(cell[L11])
+    l22 = wp.float64(cell[L22])
+    q = wp.float64(cell[L21]) / (l11 * l22)
+    one = wp.float64(1.0)
+    trace = one / (l11 * l11) + one / (l22 * l22) + q * q
+    half = wp.float64(0.5)
+    shape = -prior.nu * wp.log(l11) - (prior.nu + one) * wp.log(l22) - half * prior.psi_m2 * trace
+    shape += log_size_penalty(prior, cell)
+    return shape - half * (x * x + y * y) / (prior.tau_m * prior.tau_m)
+
+
+@wp.func
+def log_size_penalty(prior: CellPrior, cell: Cell) -> wp.float64:
+    """The factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
+    l11 = wp.float64(cell[L11])
+    l21 = wp.float64(cell[L21])
+    l22 = wp.float64(cell[L22])
+    return wp.float64(-0.5) * (l11 * l11 + l21 * l21 + l22 * l22) / (prior.kappa_m * prior.kappa_m)
+
+
+@wp.func
+def log_reflectivity_prior(prior: CellPrior, solid: wp.uint8, m: wp.float32) -> wp.float32:
+    """Log density of logit m given the label, without labels up to a constant; m is kept above what single precision
+    can hold.
+    """
+    at = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
+    counts = pseudo_counts(prior, solid)
+    density = wp.float32(counts[0]) * wp.log(at) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - at)
+    return density - wp.float32(wp.where(solid != wp.uint8(0), prior.log_beta_solid, prior.log_beta))

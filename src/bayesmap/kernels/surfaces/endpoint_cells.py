@@ -1,0 +1,286 @@
+"""Update the cells in which readings end: all of a sweep's work on such a cell.
+
+Such a cell knows its incidences. Given where the beams stopped, it counts the beams that met its surface and went on.
+Then labels are drawn, if cells have labels, and the cell draws its reflectivity. Then reflectivity and surface move
+together by a few Metropolis steps, which do not depend on the counts (`bayesmap.kernels.surfaces.endpoint_beams`).
+
+The beams hardly determine where *along* a wall a surface lies and how far it extends, as long as it fills its cell.
+They determine its place and its thickness *across* the wall to millimetres. So each cell has a frame whose first axis
+points along its wall (`bayesmap.samplers.initial_estimate`), and steps have a size of their own for each coordinate in
+this frame. A cell in its frame is a `Cell` with the mean along and across, from the cell's centre, and the Cholesky
+factor of the covariance in these axes.
+
+A row of step sizes holds: sizes for logit m, mean along, mean across, log l11, l21, log l22, and the frame's cosine and
+sine. Frame and sizes are fixed beforehand, by where readings end. They may not depend on the cell that a step changes:
+the reverse step would have another size.
+"""
+
+import warp as wp
+
+from bayesmap.kernels.random import (
+    CELLS,
+    MEETINGS,
+    SURFACES,
+    beta_variate,
+    nearly_normal,
+    random_bits,
+    sweep_key,
+    to_uniform,
+)
+from bayesmap.kernels.sensor_law import SensorLaw32
+from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
+from bayesmap.kernels.surfaces.cell_prior import (
+    CellPrior,
+    centre_of,
+    is_own,
+    log_reflectivity_prior,
+    log_surface_prior,
+    pseudo_counts,
+)
+from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
+from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, crossing_probability_of, log_stops
+from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
+from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
+
+wp.set_module_options({"enable_backward": False})
+
+COSINE, SINE = 6, 7
+SHORT = wp.constant(wp.float32(0.3))
+LEAST_M = wp.constant(wp.float64(1.0e-30))
+MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))
+"""Beyond these logit m takes no step, neither there nor back: single precision could not undo it."""
+THINNEST = wp.constant(wp.float32(1.0e-12))  # variance that rounding must not take away, square metres
+
+
+@wp.func
+def turned(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
+    """The surface in axes turned by an angle: the factor of R Sigma R', whose determinant stays what it was."""
+    x = cell[MEAN_X]
+    y = cell[MEAN_Y]
+    var_x = cell[L11] * cell[L11]
+    both = cell[L11] * cell[L21]
+    var_y = cell[L21] * cell[L21] + cell[L22] * cell[L22]
+    area = cell[L11] * cell[L22]
+    cross = wp.float32(2.0) * cosine * sine * both
+    first = wp.sqrt(wp.max(cosine * cosine * var_x + cross + sine * sine * var_y, THINNEST))
+    mixed = cosine * sine * (var_y - var_x) + (cosine * cosine - sine * sine) * both
+    cell[MEAN_X] = cosine * x + sine * y
+    cell[MEAN_Y] = cosine * y - sine * x
+    cell[L11] = first
+    cell[L21] = mixed / first
+    cell[L22] = area / first
+    return cell
+
+
+@wp.func
+def into_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
+    """The cell in its frame."""
+    cell[MEAN_X] = cell[MEAN_X] - centre[0]
+    cell[MEAN_Y] = cell[MEAN_Y] - centre[1]
+    return turned(cell, step[COSINE], step[SINE])
+
+
+@wp.func
+def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
+    """The cell in the grid's axes."""
+    cell = turned(cell, step[COSINE], -step[SINE])
+    cell[MEAN_X] = cell[MEAN_X] + centre[0]
+    cell[MEAN_Y] = cell[MEAN_Y] + centre[1]
+    return cell
+
+
+@wp.func
+def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
+    """The cell, in its frame, moved by a random step, half of the time a short one.
+
+    By turns what beams hardly say (logit m, mean along, size: a wide surface that stops few of the beams that meet it
+    looks like a small one that stops many) and what they say well (mean across, slope, thickness).
+    """
+    size = wp.where(random_bits(key, at) & wp.uint64(1) == wp.uint64(0), SHORT, wp.float32(1.0))
+    one = wp.float64(1.0)
+    e_1 = size * nearly_normal(random_bits(key, at + wp.uint64(1)))
+    e_2 = size * nearly_normal(random_bits(key, at + wp.uint64(2)))
+    e_3 = size * nearly_normal(random_bits(key, at + wp.uint64(3)))
+    if i % 2 == 0:
+        m = wp.float64(cell[REFLECTIVITY])
+        odds = m / wp.max(one - m, LEAST_M) * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
+        other = odds / (one + odds)
+        if wp.min(m, other) > LEAST_M and wp.max(m, other) < MOST_M:
+            cell[REFLECTIVITY] = wp.float32(other)
+        cell[MEAN_X] = cell[MEAN_X] + e_1 * step[MEAN_X]
+        cell[L11] = cell[L11] * wp.exp(e_2 * step[L11])
+    else:
+        cell[MEAN_Y] = cell[MEAN_Y] + e_1 * step[MEAN_Y]
+        cell[L21] = cell[L21] + e_2 * step[L21]
+        cell[L22] = cell[L22] * wp.exp(e_3 * step[L22])
+    return cell
+
+
+STEPS = 6
+"""Metropolis steps of a surface in each sweep."""
+MOST_STEPS = 24
+"""As many as a cell has counters of random numbers for."""
+NO_LEAST = wp.constant(wp.float64(-1.0e300))
+AT_STEP = wp.constant(wp.uint64(32))
+"""Counters of a step of a cell's surface, of the part SURFACES."""
+
+
+@wp.func
+def log_cell_prior(prior: CellPrior, solid: wp.uint8, cell: Cell) -> wp.float64:
+    """Log prior of logit m and of the surface in its frame, up to a constant: the same in all frames."""
+    surface = log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
+    return surface + wp.float64(log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
+
+
+@wp.func
+def log_beams(
+    law: SensorLaw32,
+    beta: wp.float32,
+    rays: TracedRays,
+    endpoints: EndpointCells,
+    blocks: Blocks,
+    row: int,
+    u: int,
+    listed: wp.array(dtype=wp.int32),
+    span: wp.vec4i,
+    others: int,
+    centre: wp.vec2,
+    cell: Cell,
+    least: wp.float64,
+) -> wp.float64:
+    """`log_stops`, of beams in blocks and ``others`` at the head of those that stopped; -1 if there are no blocks."""
+    rest = span
+    total = wp.float64(0.0)
+    if others >= 0:
+        beams = wp.vec2i(span[1] - span[0], span[3] - span[2] - others)
+        total = log_stops_in_lanes(law, blocks, row, u, beams, centre, cell, wp.where(others == 0, least, NO_LEAST))
+        if total == UNKNOWN:
+            total = wp.float64(0.0)
+        else:
+            rest = wp.vec4i(span[0], span[0], span[2], span[2] + others)
+    if rest[0] < rest[1] or rest[2] < rest[3]:
+        total += log_stops(law, beta, rays, endpoints, listed, rest, centre, cell, least - total)
+    return total
+
+
+@wp.kernel
+def count_endpoint_cells(
+    first: int,
+    sweep: int,
+    endpoints: EndpointCells,
+    active: ActiveCells,
+    state: ChainArrays,
+    lists: wp.array2d(dtype=wp.int32),
+    passes: wp.array2d(dtype=wp.int32),
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a chain's cell in which readings end: list its incidences, and count its beams.
+
+    ``lists`` is room for a chain's incidences, a row each: of each cell those of passing beams, from its first on, and
+    at its end those of stopped ones. ``passes`` counts the former, ``hits`` the latter, ``met`` the passing beams that
+    met the surface.
+    """
+    i_cell = first + wp.tid()
+    chain = i_cell // endpoints.cell.shape[0]
+    u = i_cell - chain * endpoints.cell.shape[0]
+    c = endpoints.cell[u]
+    here = chain * state.n_cells + c
+    beam_0 = chain * state.n_beams
+    listed = lists[chain]
+    one = wp.float32(1.0)
+    key = sweep_key(keys[chain], sweep, MEETINGS)
+    cell = state.cells[here]
+    centre = centre_of(c, active.ny, active.edge_m)
+    m = cell[REFLECTIVITY]
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
+    begin = endpoints.offsets[u]
+    end = endpoints.offsets[u + 1]
+    passed = begin
+    stopped = end
+    for e in range(begin, end):
+        k = endpoints.entry[e]
+        stop = state.stop[beam_0 + endpoints.beam[e]]
+        if k < stop:
+            listed[passed] = e
+            passed = passed + 1
+        elif k == stop:
+            stopped = stopped - 1
+            listed[stopped] = e
+    n_met = int(0)
+    for i in range(begin, passed):
+        e = listed[i]
+        g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
+        x = wp.float32(to_uniform(random_bits(key, wp.uint64(e))))
+        n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
+    passes[chain, u] = passed - begin
+    hits[here] = end - stopped
+    met[here] = n_met
+
+
+@wp.kernel
+def update_endpoint_cells(
+    first: int,
+    part: int,
+    sweep: int,
+    steps: int,
+    law: SensorLaw32,
+    prior: CellPrior,
+    rays: TracedRays,
+    endpoints: EndpointCells,
+    active: ActiveCells,
+    state: ChainArrays,
+    lists: wp.array2d(dtype=wp.int32),
+    passes: wp.array2d(dtype=wp.int32),
+    blocks: Blocks,
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a chain's cell in which readings end: its reflectivity, then steps of both, given lists and counts."""
+    i_cell = first + wp.tid()
+    chain = i_cell // endpoints.cell.shape[0]
+    u = i_cell - chain * endpoints.cell.shape[0]
+    c = endpoints.cell[u]
+    here = chain * state.n_cells + c
+    listed = lists[chain]
+    key = sweep_key(keys[chain], sweep, SURFACES)
+    at = wp.uint64(c) * PER_CELL
+    cell = state.cells[here]
+    solid = state.solid[here]
+    centre = centre_of(c, active.ny, active.edge_m)
+    begin = endpoints.offsets[u]
+    end = endpoints.offsets[u + 1]
+    span = wp.vec4i(begin, begin + passes[chain, u], end - hits[here], end)
+    counts = pseudo_counts(prior, solid)
+    a = counts[0] + wp.float64(hits[here])
+    b = counts[1] + wp.float64(met[here])
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at + AT_BETA))
+
+    step = endpoints.step[u]
+    framed = into_frame(cell, step, centre)
+    row = chain * state.parts + part
+    others = int(-1)
+    if takes_lanes(law, state.beta):
+        others = put_in_blocks(blocks, row, u, rays, endpoints, listed, span)
+    present = wp.float64(0.0)
+    candidate = framed
+    moved = cell
+    for i in range(steps + 1):  # round 0 asks for the cell as it is: one call of a long function, not two
+        least = NO_LEAST
+        if i > 0:
+            here_at = at + AT_STEP * wp.uint64(i)
+            candidate = stepped(framed, step, key, here_at + wp.uint64(1), i - 1)
+            moved = out_of_frame(candidate, step, centre)
+            least = present + wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT)))
+        if i == 0 or is_own(prior, centre, moved):
+            value = log_cell_prior(prior, solid, candidate)
+            value += log_beams(
+                law, state.beta, rays, endpoints, blocks, row, u, listed, span, others, centre, moved, least - value
+            )  # fmt: skip
+            if value > least:
+                framed = candidate
+                present = value
+    state.cells[here] = out_of_frame(framed, step, centre)

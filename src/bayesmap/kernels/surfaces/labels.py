@@ -1,0 +1,164 @@
+r"""A label for every cell of the grid, free or solid, drawn given its four neighbours' labels and its own counts.
+
+With its reflectivity integrated out a cell that h beams of those that met its surface were stopped in, and n were not,
+has
+
+    p(solid | all others) / p(free | all others)
+        = exp(coupling * (solid - free among its neighbours)) * r(a_solid, b_solid) / r(a, b),
+    r(a, b) = B(a + h, b + n) / B(a, b)
+
+(a Beta-binomial). Its reflectivity is then drawn given the label and the counts (`cell_draws`,
+`endpoint_cells`): both together are a Gibbs step of the pair. Cells that learn nothing in a sweep keep their
+label and reflectivity. Those that no beam touches have no counts and no reflectivity, until beams may come to them:
+then it is drawn given the label (`draw_untouched`).
+
+The grid is a checkerboard: the cells of one colour have all their neighbours in the other, so they can be drawn at once
+and in any order.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.random import CELLS, beta_variate, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.surfaces.cell_draws import PER_CELL
+from bayesmap.kernels.surfaces.cell_prior import CellPrior
+from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING
+from bayesmap.kernels.surfaces.stops import LEARNS, ChainArrays
+from bayesmap.kernels.walls.wall_prior import draw_wall
+
+wp.set_module_options({"enable_backward": False})
+
+UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2
+"""What is known of a cell: no beam touches it; beams do; or a kernel of its own has counted these beforehand."""
+
+AT_LABEL = wp.constant(wp.uint64(800))
+AT_UNTOUCHED = wp.constant(wp.uint64(832))  # of the counters of a cell in a sweep
+
+HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
+LARGE = wp.constant(wp.float64(10.0))
+STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 12, -1 / 360, 1 / 1260))
+STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
+
+
+def put_known(cells: int, touched: NDArray[np.int32], counted: NDArray[np.int32], device: str) -> Any:
+    """What is known of each cell where kernels read it, by flat indices of those that are touched and counted."""
+    known = np.full(cells, UNTOUCHED, dtype=np.uint8)
+    known[touched] = TOUCHED
+    known[counted] = COUNTED
+    return devices.to_device(known, wp.uint8, device)
+
+
+@wp.func
+def log_gamma(x: wp.float64) -> wp.float64:
+    """Logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
+    one = wp.float64(1.0)
+    below = one
+    while x < LARGE:
+        below = below * x
+        x = x + one
+    y = one / x
+    z = y * y
+    series = STIRLING_7 + z * (STIRLING_9 + z * STIRLING_11)
+    series = y * (STIRLING_1 + z * (STIRLING_3 + z * (STIRLING_5 + z * series)))
+    return (x - wp.float64(0.5)) * wp.log(x) - x + HALF_LOG_TWO_PI + series - wp.log(below)
+
+
+@wp.func
+def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
+    """Logarithm of the beta function."""
+    return log_gamma(a) + log_gamma(b) - log_gamma(a + b)
+
+
+@wp.func
+def balance(solid: wp.array(dtype=wp.uint8), cell_0: int, x: int, y: int, nx: int, ny: int) -> int:
+    """Solid less free cells among a cell's neighbours."""
+    here = cell_0 + x * ny + y
+    total = int(0)
+    if x > 0:
+        total += wp.where(solid[here - ny] != wp.uint8(0), 1, -1)
+    if x < nx - 1:
+        total += wp.where(solid[here + ny] != wp.uint8(0), 1, -1)
+    if y > 0:
+        total += wp.where(solid[here - 1] != wp.uint8(0), 1, -1)
+    if y < ny - 1:
+        total += wp.where(solid[here + 1] != wp.uint8(0), 1, -1)
+    return total
+
+
+@wp.kernel
+def draw_labels(
+    first: int,
+    colour: int,
+    sweep: int,
+    nx: int,
+    ny: int,
+    prior: CellPrior,
+    known: wp.array(dtype=wp.uint8),
+    state: ChainArrays,
+    keys: wp.array(dtype=wp.uint64),
+    hits: wp.array(dtype=wp.int32),
+    met: wp.array(dtype=wp.int32),
+):
+    """One thread a chain's cell: its label, if the cell has the colour, and learns in this sweep or is untouched.
+
+    ``hits`` and ``met`` are the counts of cells that are `COUNTED`.
+    """
+    here = first + wp.tid()
+    chain = here // state.n_cells
+    cell_0 = chain * state.n_cells
+    c = here - cell_0
+    x = c // ny
+    y = c - x * ny
+    if (x + y) % 2 != colour:
+        return
+    log_odds = prior.coupling * wp.float64(balance(state.solid, cell_0, x, y, nx, ny))
+    what = int(known[c])
+    if what != UNTOUCHED:
+        n_hits = int(0)
+        n_met = int(0)
+        if what == COUNTED:
+            n_hits = hits[here]
+            n_met = met[here]
+        else:
+            if state.fixed_m[here] != LEARNS or state.cells[here][TRYING] != wp.float32(0.0):
+                return
+            for part in range(state.parts):
+                row = chain * state.parts + part
+                n_hits += state.hits[row, c]
+                n_met += state.met[row, c]
+        h = wp.float64(n_hits)
+        n = wp.float64(n_met)
+        log_odds += log_beta(prior.a_solid + h, prior.b_solid + n) - prior.log_beta_solid
+        log_odds -= log_beta(prior.a + h, prior.b + n) - prior.log_beta
+    key = sweep_key(keys[chain], sweep, CELLS)
+    is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(c) * PER_CELL + AT_LABEL)))
+    state.solid[here] = wp.uint8(wp.where(is_solid, 1, 0))
+
+
+@wp.kernel
+def draw_untouched(
+    first: int,
+    sweep: int,
+    prior: CellPrior,
+    known: wp.array(dtype=wp.uint8),
+    state: ChainArrays,
+    keys: wp.array(dtype=wp.uint64),
+):
+    """One thread a chain's cell: the reflectivity of one that no beam touches, given its label."""
+    here = first + wp.tid()
+    chain = here // state.n_cells
+    c = here - chain * state.n_cells
+    if int(known[c]) != UNTOUCHED:
+        return
+    at = wp.uint64(c) * PER_CELL + AT_UNTOUCHED
+    solid = state.solid[here] != wp.uint8(0)
+    a = wp.where(solid, prior.a_solid, prior.a)
+    b = wp.where(solid, prior.b_solid, prior.b)
+    cell = state.cells[here]
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at))
+    state.cells[here] = cell

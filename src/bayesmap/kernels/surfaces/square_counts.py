@@ -1,0 +1,289 @@
+r"""Count the beams stopped inside each square of the grid, and the beams that pass it, for maps of surfaces.
+
+A surface need not lie in the square of the cell that it belongs to, and which of two neighbouring cells a piece of wall
+belongs to is a label. So a beam's stop is counted in the square that holds the point at which it was stopped. The beam
+passes the squares that it crosses before that point, and says nothing of the squares behind it. With S beams stopped in
+a square and P beams that pass it, the chance q that a beam which comes to the square is stopped inside it is drawn from
+
+    q | stops ~ Beta(a + S, b + P)
+
+with a and b of the label of the square's own cell, where cells have labels. The labels are those of the map with which
+the sweep began, because a kept draw shows that map.
+
+The point at which a beam was stopped is drawn given its reading. For a beam that a surface stops at about t* with
+variance s^2 (`bayesmap.kernels.surfaces.crossing`), the distance t of the point follows
+
+    p(t | z) proportional to N(t; t*, s^2) p(z | t).
+
+In the mixture, either the reading z came back from there, with the sensor's variance sigma^2, and then
+
+    t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)),
+
+or it is a passing object, a random reading or no return, and says nothing of the point: t ~ N(t*, s^2). The law of a
+sensor in a table has no such parts. There t is one of some candidates, chosen with weights p(t | z) / q(t) (sampling
+importance resampling, Rubin 1987). Half of the candidates lie at quantiles of the surface's law and half at quantiles
+of the law that the reading suggests, evenly spread and shifted together at random; q is the density of both halves
+together.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.law_table import readings_scale_m, table_log_density
+from bayesmap.kernels.random import BEAMS, CELLS, beta_or_nothing, normal, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
+from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
+from bayesmap.kernels.surfaces.cell_draws import PER_CELL
+from bayesmap.kernels.surfaces.cell_prior import CellPrior, pseudo_counts
+from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
+
+wp.set_module_options({"enable_backward": False})
+
+CANDIDATES, HALF, PER_HALF = wp.constant(32), wp.constant(16), wp.constant(wp.float64(1.0 / 16.0))
+"""How many candidates there are, how many in each half, and one over that."""
+LOGISTIC = wp.constant(wp.float64(0.6))
+"""Scale of the logistic distribution that stands for a standard normal one: its quantiles have a formula, and its tails
+are the longer ones."""
+LEAST_SPREAD = wp.constant(wp.float64(1.0e-12))  # square metres; of a thinner surface all points are one
+NEVER = wp.constant(wp.float64(-1.0e300))
+
+
+@wp.func
+def stop_point_m(
+    law: SensorLaw32,
+    reading: wp.float32,
+    decay: wp.float32,
+    distance: wp.float32,
+    variance: wp.float32,
+    key: wp.uint64,
+    counter: wp.uint64,
+) -> wp.float64:
+    """The distance at which a beam was stopped, drawn given its reading; never behind the beam's start.
+
+    Four counters are its own.
+    """
+    mean = wp.float64(distance)
+    spread = wp.float64(variance)
+    if law.kind == TABLE:
+        if spread > LEAST_SPREAD:
+            return wp.max(point_by_table_m(law, reading, mean, spread, key, counter), wp.float64(0.0))
+        return wp.max(mean, wp.float64(0.0))
+    if wp.isfinite(reading):
+        from_there = returned_density(law, reading, decay, distance, variance)
+        u = wp.float32(to_uniform(random_bits(key, counter)))
+        if u * mixed_density(law, reading, decay, distance, from_there) < from_there:
+            total = wp.float64(variance_at(law, distance, variance))
+            mean += spread / total * (wp.float64(reading) - mean)
+            spread = spread * (total - spread) / total
+    point = mean + wp.sqrt(wp.max(spread, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
+    return wp.max(point, wp.float64(0.0))
+
+
+@wp.func
+def logistic_density(x: wp.float64, middle: wp.float64, scale: wp.float64) -> wp.float64:
+    """Density of the logistic distribution."""
+    e = wp.exp(-wp.abs(x - middle) / scale)
+    return e / (scale * (wp.float64(1.0) + e) * (wp.float64(1.0) + e))
+
+
+@wp.func
+def point_by_table_m(
+    law: SensorLaw32, reading: wp.float32, mean: wp.float64, spread: wp.float64, key: wp.uint64, counter: wp.uint64
+) -> wp.float64:
+    """The same under a law in a table, perhaps behind the beam's start."""
+    one = wp.float64(1.0)
+    scale = LOGISTIC * wp.sqrt(spread)
+    near = mean
+    near_scale = scale
+    if wp.isfinite(reading):
+        sigma = wp.float64(readings_scale_m(law.table, wp.float32(mean), law.max_m))
+        total = spread + sigma * sigma
+        near = mean + spread / total * (wp.float64(reading) - mean)
+        near_scale = LOGISTIC * wp.sqrt(spread * sigma * sigma / total)
+    shift = to_uniform(random_bits(key, counter))
+    target = to_uniform(random_bits(key, counter + wp.uint64(1)))
+    # Weights are added up on the scale of the largest one so far; each candidate takes the place of the chosen one with
+    # the probability that it has among those up to it. One uniform number serves all of these choices: what it says of
+    # one is taken out before the next.
+    chosen = mean
+    most = NEVER
+    total_weight = wp.float64(0.0)
+    number = int(0)
+    while number < CANDIDATES:
+        middle = mean
+        width = scale
+        place = number
+        if number >= HALF:
+            middle = near
+            width = near_scale
+            place = number - HALF
+        number = number + 1
+        u = (wp.float64(place) + shift) * PER_HALF
+        t = middle + width * wp.log(u / (one - u))
+        log_weight = wp.float64(table_log_density(law.table, reading, wp.float32(t), wp.float32(0.0), law.max_m))
+        log_weight -= wp.float64(0.5) * (t - mean) * (t - mean) / spread
+        log_weight -= wp.log(logistic_density(t, mean, scale) + logistic_density(t, near, near_scale))
+        if t < wp.float64(0.0):
+            log_weight = NEVER
+        if log_weight > most:
+            total_weight = total_weight * wp.exp(most - log_weight)
+            most = log_weight
+        weight = wp.exp(log_weight - most)
+        total_weight += weight
+        p = weight / total_weight
+        if target <= p:  # rounding may have made it one
+            chosen = t
+            target = target / p
+        else:
+            target = (target - p) / (one - p)
+    return chosen
+
+
+AT_SQUARE = wp.constant(wp.uint64(640))  # of the counters of a cell in a sweep
+STREAM_POINT = wp.constant(wp.uint64(5 << 32))
+
+
+@wp.kernel
+def count_in_squares(
+    chain: int,
+    sweep: int,
+    law: SensorLaw32,
+    lines: Lines,
+    rays: TracedRays,
+    state: ChainArrays,
+    keys: wp.array(dtype=wp.uint64),
+    stopped: wp.array(dtype=wp.int32),
+    behind: wp.array(dtype=wp.int32),
+):
+    """One thread a beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
+    b = wp.tid()
+    i = chain * state.n_beams + b
+    begin = rays.offsets[b]
+    end = rays.offsets[b + 1]
+    stop = state.stop[i]
+    if stop < begin or stop >= end:
+        return
+    counter = STREAM_POINT + wp.uint64(b) * wp.uint64(4)
+    where = state.where[i]
+    key = sweep_key(keys[chain], sweep, BEAMS)
+    point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
+    line = line_of(lines, b)
+    k = end - 1
+    crossed = stretch(line, rays.cells[k])
+    if point > crossed[1]:  # further than the beam is followed
+        return
+    while k > begin and crossed[0] > point:
+        wp.atomic_add(behind, rays.cells[k], 1)
+        k -= 1
+        crossed = stretch(line, rays.cells[k])
+    wp.atomic_add(stopped, rays.cells[k], 1)
+
+
+@wp.kernel
+def draw_stop_chances(
+    chain: int,
+    sweep: int,
+    prior: CellPrior,
+    touched: wp.array(dtype=wp.int32),
+    keys: wp.array(dtype=wp.uint64),
+    crossings: wp.array(dtype=wp.int32),
+    stopped: wp.array(dtype=wp.int32),
+    behind: wp.array(dtype=wp.int32),
+    drawn: wp.array(dtype=wp.float32),
+    expected: wp.array(dtype=wp.float32),
+    kept: int,
+    n_cells: int,
+    solid: wp.array(dtype=wp.uint8),
+    observed_counts: wp.array(dtype=wp.vec2i),
+):
+    """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P). ``solid`` are the labels.
+
+    If the draw is kept, ``observed_counts`` counts it, and whether some beam comes to the square in it.
+    """
+    i = wp.tid()
+    c = touched[i]
+    here = chain * n_cells + c
+    counts = pseudo_counts(prior, solid[c])
+    a = counts[0] + wp.float64(stopped[c])
+    b = counts[1] + wp.float64(crossings[c] - stopped[c] - behind[c])
+    key = sweep_key(keys[chain], sweep, CELLS)
+    drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
+    expected[i] = wp.float32(a / (a + b))
+    if kept != 0:
+        observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)
+
+
+class InSquares(NamedTuple):
+    """Of every touched cell's square, (T,) each: beams stopped in it, beams that pass it, and the chance that a beam
+    which comes to it is stopped in it, drawn given these counts, and its mean.
+    """
+
+    stopped: NDArray[np.int32]
+    passed: NDArray[np.int32]
+    drawn: NDArray[np.float32]
+    expected: NDArray[np.float32]
+
+
+class Squares:
+    """Room for each chain's counts, and the beams' lines, on a device."""
+
+    def __init__(self, rays: Rays, chains: int, device: str) -> None:
+        self._rays, self._device = rays, device
+        cells, touched = rays.grid.n_cells, rays.touched
+        self._crossings = np.bincount(rays.cells, minlength=cells).astype(np.int32)
+        self._lines = put_lines(rays.start_m, rays.direction, rays.grid, device)
+        self._crossings_there = devices.to_device(self._crossings, wp.int32, device)
+        self._touched = devices.to_device(touched, wp.int32, device)
+        sizes = ((cells, wp.int32), (cells, wp.int32), (len(touched), wp.float32), (len(touched), wp.float32))
+        self._room = [[wp.zeros(n, dtype=dtype, device=device) for n, dtype in sizes] for _ in range(chains)]
+
+    def of_chain(
+        self,
+        chain: int,
+        sweep: int,
+        law: SensorLaw32,
+        prior: CellPrior,
+        rays: TracedRays,
+        state: ChainArrays,
+        keys: wp.array,
+        observed_counts: wp.array,
+        kept: bool,
+        solid: NDArray[np.bool_] | None = None,
+    ) -> InSquares:
+        """Count a chain's stops, and draw the chances given the counts.
+
+        Args:
+            chain: its number on the device.
+            sweep: number of the sweep that drew the stops.
+            law: of the readings.
+            prior: of the cells.
+            rays: the beams where kernels read them.
+            state: of all chains.
+            keys: of all chains' random numbers.
+            observed_counts: draws in which a beam says something of each square, and draws, of all chains so far.
+            kept: whether this draw counts there.
+            solid: labels of all cells when the sweep began, (N,); those that the chain has now if None.
+        """
+        stopped, behind, drawn, expected = self._room[chain]
+        for counts in (stopped, behind):
+            counts.zero_()
+        inputs = [chain, sweep, law, self._lines, rays, state, keys, stopped, behind]
+        wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
+        cells = self._rays.grid.n_cells
+        labels = state.solid[chain * cells : (chain + 1) * cells]
+        if solid is not None:
+            labels = devices.to_device(solid, wp.uint8, self._device)
+        inputs = [
+            chain, sweep, prior, self._touched, keys, self._crossings_there, stopped, behind, drawn, expected,
+            int(kept), cells, labels, observed_counts,
+        ]  # fmt: skip
+        wp.launch(draw_stop_chances, dim=len(self._rays.touched), inputs=inputs, device=self._device)
+        touched = self._rays.touched
+        ends, unseen = (np.asarray(counts.numpy())[touched] for counts in (stopped, behind))
+        passed = self._crossings[touched] - ends - unseen
+        return InSquares(ends, passed, np.array(drawn.numpy()), np.array(expected.numpy()))

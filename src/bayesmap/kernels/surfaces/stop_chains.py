@@ -1,0 +1,356 @@
+"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, label and update
+cells.
+
+All chains stand in the same arrays. On a GPU each kernel is launched once for all of them, with a thread for each
+chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last;
+where there are more threads than chains, its beams are cut into parts, one a thread, each with counts of its own.
+Counts are whole numbers, and sums of floating-point numbers are over slices of fixed size: the result depends on
+neither threads nor chains beside it.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
+from bayesmap.kernels.surfaces.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
+from bayesmap.kernels.surfaces.cell_prior import put_prior
+from bayesmap.kernels.surfaces.crossing import Cell, put_cells
+from bayesmap.kernels.surfaces.endpoint_beams import put_endpoint_cells
+from bayesmap.kernels.surfaces.endpoint_cells import STEPS, count_endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.surfaces.endpoint_lanes import room_for_blocks
+from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, put_known
+from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
+from bayesmap.kernels.surfaces.stops import (
+    LEARNS,
+    ChainArrays,
+    HeldCells,
+    decay_of_readings,
+    draw_stops,
+    pass_held_cells,
+    put_traced_rays,
+)
+from bayesmap.kernels.surfaces.sums import SLICE, sum_label_prior, sum_of_slices, sum_slices
+from bayesmap.sensors.model import SensorModel
+
+STATE_SIZE = 6  # of a Cell's eight numbers: the others are no part of a state
+KERNELS = (
+    begin_sweep, pass_held_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
+    update_endpoint_cells, count_in_squares, draw_stop_chances,
+)  # fmt: skip
+
+
+def load_stop_kernels(device: str) -> Iterator[int]:
+    """Compile what sweeps need, or fetch it from Warp's cache, and count the kernels that are there."""
+    for done, kernel in enumerate(KERNELS, 1):
+        devices.load_kernels(kernel, device)
+        yield done
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What the sweeps of all chains share.
+
+    Attributes:
+        rays: with flat indices of the grid's cells.
+        every: in every how many sweeps it is each touched cell's turn, 0 where readings end, (T,).
+        endpoints: the cells in which readings end, flat, ascending, (U,).
+        steps: sizes and frames of these cells' steps, (U, 8).
+        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
+        device: where it is.
+    """
+
+    rays: Rays
+    every: NDArray[np.uint8]
+    endpoints: NDArray[np.int32]
+    steps: NDArray[np.float32]
+    distance_m: NDArray[np.float32] | None
+    device: str
+
+    @property
+    def touched(self) -> NDArray[np.int32]:
+        """The cells that beams touch, flat, ascending, (T,)."""
+        return self.rays.touched
+
+
+class StopChains:
+    """Chains where kernels change them."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        states: Callable[[int], NDArray[np.float32]],
+        keys: Sequence[int],
+        *,
+        threads: int | None,
+        counts: NDArray[np.int32] | None = None,
+        observed_counts: NDArray[np.int32] | None = None,
+        solid: NDArray[np.bool_] | None = None,
+    ) -> None:
+        """Put chains on the device, one for each key.
+
+        ``states`` gives the cells at which a chain stands, (N, 6), and ``solid`` their labels, (C, N), if they have
+        any; ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2) are those of chains that go on.
+        """
+        self.plan, device = plan, plan.device
+        self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
+        chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
+        self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
+        self._rays = put_traced_rays(plan.rays, plan.distance_m, device)
+        self._held = HeldCells(plan.rays, plan.every)
+        self._holds = self._held.put_watched(self._rays, device)
+        self._endpoints = put_endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
+        active = ActiveCells()
+        active.cell = devices.to_device(plan.touched, wp.int32, device)
+        active.every = devices.to_device(plan.every, wp.uint8, device)
+        active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
+        self._active = active
+        self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)
+        self._keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
+        self._law: tuple[Any, ...] = ()
+        self._packed: tuple[Any, Any] | None = None
+        self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
+
+        empty = partial(wp.zeros, device=device)
+        parts = max(1, -(-self.threads // chains))
+        state = ChainArrays()
+        state.n_cells, state.n_beams, state.parts, state.beta = cells, beams, parts, 1.0
+        state.cells = empty(chains * cells, dtype=Cell)
+        labels = np.zeros(chains * cells) if solid is None else solid.ravel()
+        state.solid = wp.array(labels.astype(np.uint8), dtype=wp.uint8, device=device)
+        state.fixed_m = wp.full(chains * cells, LEARNS, dtype=wp.float32, device=device)
+        state.candidates = empty(1 if self.without_surfaces else chains * cells, dtype=Cell)
+        state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
+        state.gain = empty((chains * parts, cells), dtype=wp.int64)
+        state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
+        state.where = empty(chains * beams, dtype=wp.vec2)
+        state.stopped_in = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
+        state.log_likelihood, state.held_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
+        self._state = state
+        for chain in range(chains):
+            self.put_cells(chain, states(chain))
+        if counts is None:
+            self._hits = empty(chains * cells, dtype=wp.int32)
+            self._met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
+        else:
+            self._hits, self._met = (wp.array(counts[:, i].ravel(), dtype=wp.int32, device=device) for i in (0, 1))
+        there = np.zeros((chains * cells, 2), np.int32) if observed_counts is None else observed_counts.reshape(-1, 2)
+        self._observed_counts = wp.array(there, dtype=wp.vec2i, device=device)
+        self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
+        self._passes = empty((chains, len(plan.endpoints)), dtype=wp.int32)
+        self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
+        self._log_priors = empty(chains * touched, dtype=wp.float32)
+        slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # of labels zero where there are none
+        self._slices = [empty((chains, count), dtype=wp.float64) for count in slices]
+
+    def sweeps(
+        self,
+        first: int,
+        count: int,
+        sensor: SensorModel,
+        prior: KernelNumbers,
+        beta: float = 1.0,
+        *,
+        steps: int = STEPS,
+        observing_after: int | None = None,
+        before: Callable[[int, int], None] | None = None,
+        after: Callable[[int, int], None] | None = None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Advance every chain by some sweeps, which are numbered from 0.
+
+        Args:
+            first: number of the first sweep.
+            count: how many.
+            sensor: the law of the readings.
+            prior: of the cells.
+            beta: inverse temperature.
+            steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`; with
+                0 beams draw where they stop, and cells do nothing.
+            observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
+                surfaces `in_squares` counts it.
+            before: given chain and number of each sweep before it.
+            after: likewise after it, by whatever thread has run it.
+
+        Returns:
+            log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
+        """
+        packed = put_prior(prior)
+        law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
+        moved, starts = self._law != (sensor, prior, beta), not self.swept
+        self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
+        if moved:
+            self._launch(decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
+        zeros = partial(wp.zeros, (self.n_chains, count), dtype=wp.float64, device=self.device)
+        likelihood, log_prior = zeros(), zeros()
+        beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
+        endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
+        state, keys, counts = self._state, self._keys, [self._hits, self._met]
+        shape, cells = self.plan.rays.grid.shape, state.n_cells
+        drawn = [state, keys, *counts]
+        at_ends = [self._endpoints, self._active, state, self._lists, self._passes]
+        beam_sums, cell_sums, label_sums = self._slices
+
+        def of_cells(number: int) -> list[tuple[Any, int, list[Any]]]:
+            """Those of the cells' half, given the stops."""
+            out = [(count_endpoint_cells, endpoints, [number, *at_ends, keys, *counts])]
+            if prior.coupling > 0:
+                out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
+                labelled = [number, *shape, packed, self._known, *drawn]
+                out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
+            out += [
+                (update_free_cells, touched, [number, self.without_surfaces, packed, self._active, *drawn]),
+                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, *at_ends, self._blocks,
+                                                    keys, *counts]),
+            ]  # fmt: skip
+            if self.without_surfaces and observing_after is not None and number >= observing_after:
+                out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
+            return out
+
+        def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
+            """Kernels of a sweep in their order, with the elements of a chain."""
+            number, changed = first + i, int(moved and i == 0)
+            turn, after_turn = (int(self._held.have_turn(sweep)) for sweep in (number, number - 1))
+            begin = [number, self.without_surfaces, packed, changed, self._active, state, keys, self._log_priors]
+            out = [(begin_sweep, touched, begin)]
+            if not turn and (after_turn or (starts and i == 0)):
+                out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
+            out.append((draw_stops, beams, [number, turn, law, self._rays, state, keys]))
+            if steps > 0:
+                out += of_cells(number)
+            out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
+            out.append((sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
+            out.append((sum_of_slices, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
+            return out
+
+        def note(call: Callable[[int, int], None] | None, chains: range, i: int) -> None:
+            if call is not None:
+                for chain in chains:
+                    call(chain, first + i)
+
+        def all_sweeps(chains: range) -> None:
+            for i in range(count):
+                note(before, chains, i)
+                for phase in phases(i):
+                    self._part(phase, (chains, 0))
+                note(after, chains, i)
+
+        if self.device != "cpu":
+            all_sweeps(range(self.n_chains))
+        elif self._state.parts == 1:
+            self._each(all_sweeps, [range(chain, chain + 1) for chain in range(self.n_chains)])
+        else:
+            parts = [(range(i, i + 1), part) for i in range(self.n_chains) for part in range(self._state.parts)]
+            for i in range(count):
+                note(before, range(self.n_chains), i)
+                for phase in phases(i):
+                    self._each(partial(self._part, phase), parts)
+                note(after, range(self.n_chains), i)
+        return likelihood.numpy(), log_prior.numpy()
+
+    def _part(self, phase: tuple[Any, int, list[Any]], at: tuple[range, int]) -> None:
+        """Launch a kernel over a part of the elements of neighbouring chains."""
+        (kernel, size, inputs), (chains, part) = phase, at
+        begin, end = (size * i // self._state.parts for i in (part, part + 1))
+        if len(chains) > 1:
+            end = size * len(chains)
+        if end > begin:
+            first = chains.start * size + begin
+            inputs = [first, part, *inputs] if kernel in (draw_stops, update_endpoint_cells) else [first, *inputs]
+            wp.launch(kernel, dim=end - begin, inputs=inputs, device=self.device)
+
+    def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:
+        wp.launch(kernel, dim=size, inputs=[0, *inputs], device=self.device)
+
+    def _each(self, work: Callable[[Any], None], tasks: Sequence[Any]) -> None:
+        if self.threads == 1 or len(tasks) == 1:
+            for task in tasks:
+                work(task)
+            return
+        for kernel in (*KERNELS, count_observed, sum_label_prior, sum_slices, sum_of_slices):
+            devices.load_kernels(kernel, self.device)
+        list(devices.thread_pool(self.threads).map(work, tasks))
+
+    def _of(self, array: Any, chain: int) -> NDArray[Any]:
+        """A chain's cells or beams of an array: on the CPU not a copy, and good until the next sweep."""
+        size = array.shape[0] // self.n_chains
+        return np.asarray(array[chain * size : (chain + 1) * size].numpy())
+
+    def cells(self, chain: int) -> NDArray[np.float32]:
+        """All cells of a chain, (N, 6): on the CPU not a copy, and good until the next sweep."""
+        return self._of(self._state.cells, chain)[:, :STATE_SIZE]
+
+    def put_cells(self, chain: int, states: NDArray[np.float32], solid: NDArray[np.bool_] | None = None) -> None:
+        """Let a chain go on from other cells, (N, 6), and labels, (N,), if it has any."""
+        here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
+        wp.copy(self._state.cells[here], put_cells(states, self.device))
+        if solid is not None:
+            wp.copy(self._state.solid[here], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
+        self._law, self._packed = (), None  # what was worked out of the cells before them is worthless
+
+    def solid(self, chain: int) -> NDArray[np.bool_]:
+        """Labels of all cells of a chain, (N,), likewise; none is solid if cells have no labels."""
+        return self._of(self._state.solid, chain).view(np.bool_)
+
+    def draw_untouched(self, sweep: int) -> None:
+        """Draw the reflectivities of cells that no beam touches given their labels, before the sweep with this number.
+
+        No sweep does: until beams may come to such cells they say nothing.
+        """
+        assert self._packed is not None, "no sweep has been made"
+        size = self.n_chains * self._state.n_cells
+        self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state, self._keys])
+
+    def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """How many beams stopped in each cell of a chain, and how many met its surface and passed, (N,) each, likewise.
+
+        They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
+        """
+        return self._of(self._hits, chain), self._of(self._met, chain)
+
+    @property
+    def swept(self) -> bool:
+        """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
+        return self._packed is not None
+
+    def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
+        """Where the beams of a chain with surfaces were stopped in the sweep with this number, its last.
+
+        ``kept``: it counts in `observed_counts`. ``solid``: cells' labels before the sweep, (N,), if they have any.
+        """
+        assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
+        assert self._packed is not None, "no sweep has been made"
+        law, prior = self._packed
+        there = (self._rays, self._state, self._keys, self._observed_counts)
+        return self._squares.of_chain(chain, sweep, law, prior, *there, kept, solid)
+
+    def observed_counts(self, chain: int) -> NDArray[np.int32]:
+        """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.
+
+        Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
+        """
+        return self._of(self._observed_counts, chain)
+
+    def log_likelihood(self, chain: int) -> NDArray[np.float32]:
+        """Of every beam of a chain before its last sweep, summed over all stops, (B,), likewise."""
+        return self._of(self._state.log_likelihood, chain)
+
+    def stopped_by(self, chain: int) -> NDArray[np.int32]:
+        """The cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
+        stop, rays = self._of(self._state.stop, chain), self.plan.rays
+        stopped = stop < rays.offsets[1:]
+        out = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all
+        out[stopped] = rays.cells[stop[stopped]]
+        return out
+
+    def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
+        """Of every beam of a chain: whether it stopped, at what distance in metres, and with what variance, (B,)."""
+        where = self._of(self._state.where, chain)
+        return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], where[:, 0].copy(), where[:, 1].copy()

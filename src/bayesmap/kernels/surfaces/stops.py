@@ -1,0 +1,394 @@
+"""The first half of a sweep: draw where every beam stops, given the cells.
+
+A beam walks its cells in order. In each cell it meets the surface with chance g, and is then stopped with probability
+m. With a = m g it stops there with probability T a, T being the product of 1 - a over the cells before. The posterior
+probability of this stop is proportional to T a p(z | stop). Far before the reading, p(z | stop) is the constant density
+of a random reading, and the sum over those cells is that density times (1 - T): each costs one multiplication.
+
+A cell that a beam passes learns one of two things. In most sweeps it learns whether the beam *met* the surface without
+being stopped, which given that it passed has probability g (1 - m) / (1 - a). The beams that met the surface and those
+that were stopped make the Beta of the reflectivity. In sweeps that try a candidate for its surface it learns
+log (1 - m g') / (1 - m g), the beam's part of the Metropolis ratio. Both are added up in whole numbers, so that the
+result does not depend on the order of beams.
+
+Most cells are free, and hundreds of beams say so in every sweep. Such a cell is updated *lazily*: only in some sweeps,
+and all lazy cells in the same ones. In the other sweeps it keeps its reflectivity, and its surface changes nothing that
+matters. So the product over a beam's lazy cells far before its reading,
+
+    prod over lazy far cells (1 - m g),
+
+is computed once after each update (`pass_held_cells`). The other far cells, those in which readings end or that few
+beams pass, are *watched*: each sweep walks them. A lazy cell whose reflectivity is below single precision does not
+change T, and is skipped without a look at its surface.
+
+At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not
+tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
+"""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.sensor_law import (
+    SensorLaw32,
+    highest_density,
+    lowest_density,
+    no_stop_density,
+    object_decay,
+    stop_density,
+)
+from bayesmap.kernels.surfaces.crossing import (
+    REFLECTIVITY,
+    TRYING,
+    Cell,
+    Crossing,
+    Ray,
+    cross_surface,
+    crossing_probability,
+    ray_from,
+)
+
+wp.set_module_options({"enable_backward": False})
+
+GAIN_UNITS = 1 << 24
+TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
+LEAST = wp.constant(wp.float32(1.0e-30))
+TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
+
+FAR = wp.constant(-1)  # a stop before the near entries
+LEARNS = wp.constant(wp.float32(-1.0))
+CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
+NEGLIGIBLE = wp.constant(wp.float32(2.0**-26))
+
+# Counters of a sweep's random numbers: one for each purpose and entry or beam.
+STREAM_CHOICE = wp.constant(wp.uint64(1 << 32))
+STREAM_END = wp.constant(wp.uint64(2 << 32))
+STREAM_FAR = wp.constant(wp.uint64(3 << 32))
+
+
+@wp.struct
+class TracedRays:
+    """`Rays` on a device; ``without_surfaces`` says that cells have no surfaces, and stop beams at ``distance_m``."""
+
+    without_surfaces: int
+    offsets: wp.array(dtype=wp.int32)
+    cells: wp.array(dtype=wp.int32)
+    distance_m: wp.array(dtype=wp.float32)
+    near: wp.array(dtype=wp.int32)
+    start_m: wp.array(dtype=wp.vec2)
+    direction: wp.array(dtype=wp.vec2)
+    range_m: wp.array(dtype=wp.float32)
+    decay: wp.array(dtype=wp.float32)  # see `decay_of_readings`
+    watched_offsets: wp.array(dtype=wp.int32)  # of each beam, in `watched`
+    watched: wp.array(dtype=wp.int32)  # far entries whose cells are not held together with all others
+
+
+def put_traced_rays(
+    rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
+) -> Any:
+    """TracedRays where kernels read them.
+
+    Args:
+        rays: beams.
+        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
+        device: where to.
+        cells: other numbers of the cells than their places in the grid, (K,).
+    """
+    there = TracedRays()
+    there.without_surfaces = int(distance_m is not None)
+    there.offsets = devices.to_device(rays.offsets, wp.int32, device)
+    there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
+    there.near = devices.to_device(rays.near, wp.int32, device)
+    there.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
+    there.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
+    there.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
+    there.range_m = devices.to_device(rays.range_m, wp.float32, device)
+    there.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
+    return there
+
+
+@wp.struct
+class ChainArrays:
+    """All chains: their cells, what beams say of these in this sweep, and where the beams stopped.
+
+    Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the
+    grid.
+    """
+
+    n_cells: int
+    n_beams: int
+    parts: int  # of the beams, each counted by itself
+    beta: wp.float32  # inverse temperature
+    cells: wp.array(dtype=Cell)
+    solid: wp.array(dtype=wp.uint8)  # labels; all zero where cells have none
+    fixed_m: wp.array(dtype=wp.float32)  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
+    candidates: wp.array(dtype=Cell)  # for each cell's surface, while one is tried
+    met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed
+    hits: wp.array2d(dtype=wp.int32)  # beams that stopped
+    gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate, in units of 2^-24 nats
+    held_free: wp.array(dtype=wp.float32)  # each beam's chance to come past its held far cells
+    stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
+    where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
+    stopped_in: wp.array(dtype=wp.int32)  # the last sweep in which a cell stopped a beam
+    log_likelihood: wp.array(dtype=wp.float32)  # of the beam's reading, summed over all stops
+
+
+@wp.func
+def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
+    """A density at an inverse temperature."""
+    if beta == wp.float32(1.0):
+        return p
+    return wp.pow(p, beta)
+
+
+@wp.func
+def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
+    """The chance of meeting the surface in the cell of entry k, one if cells have none, and where a stop would lie."""
+    if rays.without_surfaces != 0:
+        met = Crossing()
+        met.chance = wp.float32(1.0)
+        met.distance_m = rays.distance_m[k]
+        met.variance = wp.float32(0.0)
+        return met
+    return cross_surface(cell, ray)
+
+
+@wp.func
+def in_units(log_ratio: wp.float32) -> wp.int64:
+    """A logarithm as a whole number."""
+    return wp.int64(wp.round(wp.clamp(log_ratio, wp.float32(-1.0e6), wp.float32(1.0e6)) * TO_UNITS))
+
+
+@wp.func
+def pass_by(
+    state: ChainArrays,
+    chain: int,
+    part: int,
+    c: int,
+    cell: Cell,
+    g: wp.float32,
+    ray: Ray,
+    key: wp.uint64,
+    k: int,
+    sign: int,
+):
+    """Count that a beam passed a cell; with sign -1 take that back."""
+    one = wp.float32(1.0)
+    m = cell[0]
+    row = chain * state.parts + part
+    if cell[TRYING] != wp.float32(0.0):
+        other = crossing_probability(state.candidates[chain * state.n_cells + c], ray)
+        ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
+        wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
+        return
+    u = wp.float32(random_bits(key, wp.uint64(k)) >> wp.uint64(40)) * TO_UNIT_24
+    if u * (one - m * g) < g * (one - m):
+        wp.atomic_add(state.met, row, c, sign)
+
+
+@wp.func
+def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
+    """The chance of meeting a cell's surface: one where cells have no surfaces."""
+    if rays.without_surfaces != 0:
+        return wp.float32(1.0)
+    return crossing_probability(cell, ray)
+
+
+@wp.kernel
+def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
+    """One thread a beam: `object_decay` of its reading, the same for all chains and sweeps."""
+    b = first + wp.tid()
+    rays.decay[b] = object_decay(law, rays.range_m[b])
+
+
+@wp.kernel
+def draw_stops(
+    first: int,
+    part: int,
+    sweep: int,
+    all_turn: int,
+    law: SensorLaw32,
+    rays: TracedRays,
+    state: ChainArrays,
+    keys: wp.array(dtype=wp.uint64),
+):
+    """One thread a chain's beam: draw where it stops, and count it in the cells.
+
+    ``all_turn`` says that it is the turn of cells that mostly hold what they are.
+    """
+    i = first + wp.tid()
+    chain = i // state.n_beams
+    b = i - chain * state.n_beams
+    cell_0 = chain * state.n_cells
+    key = sweep_key(keys[chain], sweep, BEAMS)
+    one = wp.float32(1.0)
+    reading = rays.range_m[b]
+    begin = rays.offsets[b]
+    end = rays.offsets[b + 1]
+    near = rays.near[b]
+    decay = rays.decay[b]
+    if begin == end or wp.isnan(reading):
+        state.stop[i] = end
+        state.log_likelihood[i] = wp.float32(0.0)
+        if not wp.isnan(reading):
+            state.log_likelihood[i] = wp.log(tempered(no_stop_density(law, reading, decay), state.beta))
+        return
+    ray = ray_from(rays.start_m[b], rays.direction[b])
+
+    free = one
+    far_begin = begin
+    far_end = near
+    if all_turn == 0:
+        free = state.held_free[i]
+        far_begin = rays.watched_offsets[b]
+        far_end = rays.watched_offsets[b + 1]
+    # Names of one loop are not used in another: Warp would carry them, and whole cells, from round to round.
+    for far in range(far_begin, far_end):
+        k_far = far
+        if all_turn == 0:
+            k_far = rays.watched[far]
+        c_far = rays.cells[k_far]
+        m_far = state.fixed_m[cell_0 + c_far]
+        if m_far < wp.float32(0.0) or m_far > CLEAR:
+            cell_far = state.cells[cell_0 + c_far]
+            g_far = chance_at(rays, cell_far, ray)
+            free = free * (one - cell_far[0] * g_far)
+            if m_far < wp.float32(0.0):
+                pass_by(state, chain, part, c_far, cell_far, g_far, ray, key, k_far, 1)
+    stopped_far = one - free
+    total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
+    choice = FAR
+
+    # A stop whose weight is under single precision beside the others' is not weighed; all weights add up to at least
+    # that of the least likely stop.
+    peak = tempered(highest_density(law, reading), state.beta)
+    negligible = NEGLIGIBLE / peak
+    bound = negligible * tempered(lowest_density(law, reading), state.beta)
+    some_learn = int(0)
+    for k_near in range(near, end):
+        c_near = rays.cells[k_near]
+        m_near = state.fixed_m[cell_0 + c_near]
+        if m_near < wp.float32(0.0):
+            some_learn = 1
+        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > CLEAR:
+            cell_near = state.cells[cell_0 + c_near]
+            if cell_near[0] * free > bound:
+                met = cross_cell(rays, k_near, cell_near, ray)
+                a = cell_near[0] * met.chance
+                p = tempered(stop_density(law, reading, decay, met.distance_m, met.variance), state.beta)
+                weight = wp.float64(free * a * p)
+                total += weight
+                bound = wp.max(bound, negligible * wp.float32(total))
+                u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k_near)))
+                if u * total < weight:
+                    choice = k_near
+                free = free * (one - a)
+            elif cell_near[0] > CLEAR:
+                free = free * (one - cell_near[0] * chance_at(rays, cell_near, ray))
+            if free <= bound:
+                break  # the others have no weight, and behind a wall they are many
+    nowhere = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
+    total += nowhere
+    if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < nowhere:
+        choice = end
+        some_learn = 1  # perhaps behind where the walk ended
+    state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
+
+    if choice == FAR:
+        # Rare. Find the cell, and take back what was counted in those from it on.
+        target = wp.float32(to_uniform(random_bits(key, STREAM_FAR + wp.uint64(b)))) * stopped_far
+        past = wp.float32(1.0)
+        for k in range(begin, near):
+            c = rays.cells[k]
+            cell = state.cells[cell_0 + c]
+            g = chance_at(rays, cell, ray)
+            past = past * (one - cell[0] * g)
+            if choice == FAR and (one - past >= target or k == near - 1):
+                choice = k
+            if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
+                pass_by(state, chain, part, c, cell, g, ray, key, k, -1)
+    for k_passed in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
+        c_passed = rays.cells[k_passed]
+        if state.fixed_m[cell_0 + c_passed] < wp.float32(0.0):
+            cell_passed = state.cells[cell_0 + c_passed]
+            g_passed = chance_at(rays, cell_passed, ray)
+            pass_by(state, chain, part, c_passed, cell_passed, g_passed, ray, key, k_passed, 1)
+
+    state.stop[i] = choice
+    if choice < end:
+        c_stop = rays.cells[choice]
+        cell_stop = state.cells[cell_0 + c_stop]
+        stopped = cross_cell(rays, choice, cell_stop, ray)
+        state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
+        state.stopped_in[cell_0 + c_stop] = sweep
+        if state.fixed_m[cell_0 + c_stop] >= wp.float32(0.0):
+            return  # it counts no beams now, or has a kernel that does
+        row = chain * state.parts + part
+        wp.atomic_add(state.hits, row, c_stop, 1)
+        if cell_stop[TRYING] != wp.float32(0.0):
+            new = cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
+            after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
+            before = wp.max(stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), LEAST)
+            wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(after / before)))
+
+
+@wp.func
+def hit_law(
+    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, met: Crossing
+) -> wp.float32:
+    """p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
+    if k < near:
+        return tempered(law.uniform, beta)
+    return tempered(stop_density(law, reading, decay, met.distance_m, met.variance), beta)
+
+
+OFTEN = 2
+"""Cells whose turn it is in every so many sweeps or more often are watched."""
+
+
+@wp.kernel
+def pass_held_cells(first: int, holds: wp.array(dtype=wp.uint8), rays: TracedRays, state: ChainArrays):
+    """One thread a chain's beam: the product above, over the cells that ``holds`` marks."""
+    i = first + wp.tid()
+    chain = i // state.n_beams
+    b = i - chain * state.n_beams
+    cell_0 = chain * state.n_cells
+    ray = ray_from(rays.start_m[b], rays.direction[b])
+    free = wp.float32(1.0)
+    for k in range(rays.offsets[b], rays.near[b]):
+        c = rays.cells[k]
+        if holds[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > CLEAR:
+            cell = state.cells[cell_0 + c]
+            free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * chance_at(rays, cell, ray))
+    state.held_free[i] = free
+
+
+class HeldCells:
+    """Which cells hold in most sweeps, and in which sweeps it is their turn."""
+
+    def __init__(self, rays: Rays, every: NDArray[np.uint8]) -> None:
+        """``every`` is that of `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
+        self._turns = [int(length) for length in np.unique(every[every > OFTEN])]
+        self._holds = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+        self._holds[rays.touched[every > OFTEN]] = True
+        self._rays = rays
+
+    def have_turn(self, sweep: int) -> bool:
+        """Whether it is the turn of some of them in a sweep."""
+        return any(sweep % length == 0 for length in self._turns)
+
+    def put_watched(self, there: TracedRays, device: str) -> Any:
+        """Tell the rays on a device which of their far entries are watched; the marks of the held cells, there."""
+        rays = self._rays
+        watched = np.flatnonzero(~self._holds[rays.cells])
+        beam = np.searchsorted(rays.offsets, watched, side="right") - 1
+        far = watched < rays.near[beam]
+        counts = np.bincount(beam[far], minlength=rays.n_beams)
+        there.watched = devices.to_device(watched[far], wp.int32, device)
+        there.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
+        return devices.to_device(self._holds, wp.uint8, device)

@@ -1,0 +1,360 @@
+"""2 x 2 block Gibbs sweeps on binary walls.
+
+A sweep draws the four cells of a block together, from their 16 joint states given all other cells. Blocks overlap: one
+stands at every position of the grid, so every pair of neighbours is drawn together in some block. Such a step moves a
+wall sideways. Single cells cannot do that where free space is likely and a beam insists on a wall.
+
+For each beam that reaches the block, let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells in the
+order in which it meets them, before the first wall outside the block, and l_out that of the wall behind (or of
+"no hit"). A state is worth l_j for the first j that is a wall in it, else l_out; l_out is the same for all 16.
+
+Where neighbours are coupled, a state is also worth its equal pairs: those within the block, and those of its cells with
+the neighbours around it.
+"""
+
+import numpy as np
+import warp as wp
+
+from bayesmap.beams.rays import MAX_INCIDENCES
+from bayesmap.beams.table import BeamTable
+from bayesmap.errors import BadInput
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.random import random_bits, shuffled, to_uniform
+from bayesmap.kernels.walls.chains import (
+    Chain,
+    Chains,
+    Table,
+    chain_of,
+    entry_loglik,
+    keep_walls,
+    log_likelihood,
+    put_wall,
+    remove_wall,
+)
+from bayesmap.kernels.walls.wall_prior import CERTAIN_LEVEL, Prior, draw_from_prior, log_prior
+
+wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
+
+LOOK_BACK = wp.constant(8)  # a beam's cells in one block lie close together, even where it runs along a line
+Weights = wp.types.vector(length=16, dtype=wp.float64)
+
+
+@wp.struct
+class Blocks:
+    """Which beams touch each block, and where."""
+
+    offsets: wp.array(dtype=wp.int32)
+    beam: wp.array(dtype=wp.int32)
+    first: wp.array(dtype=wp.int32)  # the first of the beam's entries in the block
+    last: wp.array(dtype=wp.int32)  # the last of them
+    takes: wp.array(dtype=Weights)  # [free * 4 + j][state]: 1 if j is a wall there and the cells of `free` are not
+    rows: int
+    nx: int
+    ny: int
+
+
+@wp.func
+def cell_of_block(blocks: Blocks, x: int, y: int, j: int) -> int:
+    """The j-th cell of the block at (x, y), or -1 where a grid one cell wide has none."""
+    cx = x + j // 2
+    cy = y + j % 2
+    if cx >= blocks.nx or cy >= blocks.ny:
+        return -1
+    return cx * blocks.ny + cy
+
+
+@wp.func
+def place_in_block(c: int, x: int, y: int, ny: int) -> int:
+    """Which of the four cells c is, or -1."""
+    dx = c // ny - x
+    dy = c % ny - y
+    if dx < 0 or dx > 1 or dy < 0 or dy > 1:
+        return -1
+    return 2 * dx + dy
+
+
+@wp.kernel
+def list_block_beams(
+    first: int,
+    filling: int,
+    bounds: wp.array(dtype=wp.int32),
+    nx: int,
+    ny: int,
+    rows: int,
+    table_offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    counts: wp.array(dtype=wp.int32),
+    beam: wp.array(dtype=wp.int32),
+    begin: wp.array(dtype=wp.int32),
+    end: wp.array(dtype=wp.int32),
+):
+    """One thread a range of block columns: count the beams of each block, or fill their entries in."""
+    thread = first + wp.tid()
+    for b in range(table_offsets.shape[0] - 1):
+        for k in range(table_offsets[b], table_offsets[b + 1]):
+            cx = cells[k] // ny
+            cy = cells[k] % ny
+            for dx in range(2):
+                for dy in range(2):
+                    x = cx - dx
+                    y = cy - dy
+                    if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < rows:
+                        seen = int(0)
+                        for j in range(wp.max(table_offsets[b], k - LOOK_BACK), k):
+                            if place_in_block(cells[j], x, y, ny) >= 0:
+                                seen = 1
+                        block = x * rows + y
+                        if seen == 0:
+                            i = counts[block]
+                            counts[block] = i + 1
+                            if filling != 0:
+                                beam[i] = b
+                                begin[i] = k
+                                end[i] = k
+                        elif filling != 0:
+                            end[counts[block] - 1] = k
+
+
+def list_blocks(table: BeamTable, device: str) -> Blocks:
+    """List the beams of every block; memory is about 25 bytes for each incidence of the table."""
+    nx, ny = table.grid.shape
+    columns, rows = max(1, nx - 1), max(1, ny - 1)
+    threads = min(devices.available_cores(), columns)
+    bounds = np.linspace(0, columns, threads + 1).astype(np.int32)
+    counts = np.zeros(columns * rows, dtype=np.int32)
+    empty = np.empty(0, dtype=np.int32)
+
+    def run(filling: int, *arrays: np.ndarray) -> None:
+        shared = [devices.to_device(a, wp.int32, "cpu") for a in arrays]
+        inputs = [filling, devices.to_device(bounds, wp.int32, "cpu"), nx, ny, rows]
+        inputs += [devices.to_device(a, wp.int32, "cpu") for a in (table.offsets, table.cells)]
+        devices.launch(list_block_beams, threads, [*inputs, *shared], "cpu")
+
+    run(0, counts, empty, empty, empty)
+    total = int(counts.sum(dtype=np.int64))
+    if total > MAX_INCIDENCES:
+        raise BadInput(
+            f"block: the beams meet {total:,} blocks, over the limit of {MAX_INCIDENCES:,}; "
+            "use method 'gibbs', a coarser resolution, or fewer scans"
+        )
+    offsets = np.zeros(len(counts) + 1, dtype=np.int32)
+    np.cumsum(counts, out=offsets[1:])
+    beam, begin, end = (np.empty(offsets[-1], dtype=np.int32) for _ in range(3))
+    run(1, offsets[:-1].copy(), beam, begin, end)
+
+    state = np.arange(16)
+    takes = [((state >> j) & 1) * ((state & free) == 0) for free in range(16) for j in range(4)]
+    blocks = Blocks()
+    blocks.offsets = devices.to_device(offsets, wp.int32, device)
+    blocks.beam = devices.to_device(beam, wp.int32, device)
+    blocks.first = devices.to_device(begin, wp.int32, device)
+    blocks.last = devices.to_device(end, wp.int32, device)
+    blocks.takes = wp.array(np.array(takes, dtype=np.float64), dtype=Weights, device=device)
+    blocks.rows, blocks.nx, blocks.ny = rows, nx, ny
+    return blocks
+
+
+CERTAIN = wp.constant(wp.uint64(CERTAIN_LEVEL))
+IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))
+ZERO = wp.constant(wp.float64(0.0))
+
+
+@wp.func
+def block_weights(
+    t: Table,
+    blocks: Blocks,
+    chain: Chain,
+    block: int,
+    x: int,
+    y: int,
+) -> Weights:
+    """Log-likelihood of the 16 states, up to a constant: each beam is walked once."""
+    weights = Weights()
+    for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
+        b = blocks.beam[i]
+        f = chain.first[b]
+        k = blocks.first[i]
+        if f >= k:  # else a wall stands before the block
+            last = blocks.last[i]
+            end = t.offsets[b + 1]
+            out = f
+            l_out = chain.current[b]
+            if f <= last and place_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
+                out = f + 1
+                while out < end:
+                    c = t.cells[out]
+                    if chain.walls[c] != wp.uint8(0) and place_in_block(c, x, y, blocks.ny) < 0:
+                        break
+                    out += 1
+                l_out = entry_loglik(t, b, out, end)
+            free = int(0)
+            for e in range(k, wp.min(last + 1, out)):
+                j = place_in_block(t.cells[e], x, y, blocks.ny)
+                if j >= 0:
+                    weights = weights + wp.float64(t.loglik[e] - l_out) * blocks.takes[4 * free + j]
+                    free = free | (1 << j)
+    return weights
+
+
+@wp.func
+def draw_state(weights: Weights, u: wp.float64) -> int:
+    """A categorical draw from unnormalised log weights, by inversion."""
+    most = weights[0]
+    for m in range(1, 16):
+        most = wp.max(most, weights[m])
+    total = wp.float64(0.0)
+    share = Weights()
+    for m in range(16):
+        if weights[m] > most - wp.float64(40.0):
+            share[m] = wp.exp(weights[m] - most)
+            total += share[m]
+    level = u * total
+    for m in range(16):
+        level -= share[m]
+        if level <= wp.float64(0.0) and share[m] > wp.float64(0.0):
+            return m
+    return 15
+
+
+@wp.func
+def beams_reaching(blocks: Blocks, reached: wp.array(dtype=wp.int32), x: int, y: int) -> int:
+    """How many beams reach the block's cells, counted cell by cell."""
+    total = int(0)
+    for j in range(4):
+        c = cell_of_block(blocks, x, y, j)
+        if c >= 0:
+            total += reached[c]
+    return total
+
+
+@wp.func
+def draw_block_from_prior(
+    blocks: Blocks,
+    prior: Prior,
+    walls: wp.array(dtype=wp.uint8),
+    x: int,
+    y: int,
+    key: wp.uint64,
+    counter: wp.uint64,
+):
+    """No beam reaches the block, and nothing couples its cells: they are independent again."""
+    for j in range(4):
+        c = cell_of_block(blocks, x, y, j)
+        if c >= 0:
+            walls[c] = wp.uint8(draw_from_prior(prior, c, random_bits(key, counter + wp.uint64(j))))
+
+
+@wp.func
+def prior_weights(blocks: Blocks, prior: Prior, x: int, y: int) -> Weights:
+    """Log prior of the 16 states without their pairs, up to a constant; impossible where a cell is fixed or outside."""
+    weights = Weights()
+    for j in range(4):
+        c = cell_of_block(blocks, x, y, j)
+        if c < 0 or prior.level[c] == wp.uint64(0):
+            weights = weights + IMPOSSIBLE * blocks.takes[j]
+        elif prior.level[c] == CERTAIN:
+            weights = weights + IMPOSSIBLE * (Weights(wp.float64(1.0)) - blocks.takes[j])
+        else:
+            weights = weights + prior.logit[c] * blocks.takes[j]
+    return weights
+
+
+@wp.func
+def equal_in_block(blocks: Blocks, i: int, j: int) -> Weights:
+    """1 in the states in which two cells of a block are alike, else 0."""
+    wall_i = blocks.takes[i]
+    wall_j = blocks.takes[j]
+    both = wp.cw_mul(wall_i, wall_j)
+    return Weights(wp.float64(1.0)) - wall_i - wall_j + both + both
+
+
+@wp.func
+def coupling_weights(blocks: Blocks, prior: Prior, walls: wp.array(dtype=wp.uint8), x: int, y: int) -> Weights:
+    """What the 16 states are worth for their equal pairs, up to a constant."""
+    weights = Weights()
+    for j in range(4):
+        c = cell_of_block(blocks, x, y, j)
+        if c >= 0:
+            around = int(0)  # walls less free cells among the neighbours outside the block
+            cx = c // blocks.ny
+            cy = c % blocks.ny
+            if j < 2:
+                if cx > 0:
+                    around += wp.where(walls[c - blocks.ny] != wp.uint8(0), 1, -1)
+            elif cx < blocks.nx - 1:
+                around += wp.where(walls[c + blocks.ny] != wp.uint8(0), 1, -1)
+            if j % 2 == 0:
+                if cy > 0:
+                    around += wp.where(walls[c - 1] != wp.uint8(0), 1, -1)
+            elif cy < blocks.ny - 1:
+                around += wp.where(walls[c + 1] != wp.uint8(0), 1, -1)
+            weights = weights + wp.float64(around) * blocks.takes[j]
+    # A cell that is outside of a narrow grid is free in all possible states, and has no pairs.
+    if blocks.ny > 1:
+        weights = weights + equal_in_block(blocks, 0, 1)
+    if blocks.nx > 1:
+        weights = weights + equal_in_block(blocks, 0, 2)
+    if blocks.nx > 1 and blocks.ny > 1:
+        weights = weights + equal_in_block(blocks, 1, 3) + equal_in_block(blocks, 2, 3)
+    return prior.coupling * weights
+
+
+@wp.kernel
+def block_sweeps(
+    chain_0: int,
+    t: Table,
+    blocks: Blocks,
+    prior: Prior,
+    log_all_free: wp.float64,
+    beta: wp.float64,
+    keys: wp.array(dtype=wp.uint64),
+    order: wp.array(dtype=wp.int32),
+    shuffle_bits: wp.uint32,
+    sweep_0: int,
+    sweeps: int,
+    chains: Chains,
+    first_kept: int,
+    every: int,
+    draws: wp.array3d(dtype=wp.uint8),
+    log_likelihoods: wp.array2d(dtype=wp.float64),
+    log_priors: wp.array2d(dtype=wp.float64),
+):
+    """One thread a chain: several sweeps, each over all block positions; as `gibbs.gibbs_sweeps` otherwise."""
+    n = chain_0 + wp.tid()
+    chain = chain_of(chains, n)
+    size = order.shape[0]
+    for s in range(sweeps):
+        sweep = sweep_0 + s
+        base = wp.uint64(sweep) * wp.uint64(size) * wp.uint64(4)
+        shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
+        for i in range(size):
+            place = i
+            if shuffle_bits > wp.uint32(0):
+                place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
+            block = order[place]
+            x = block // blocks.rows
+            y = block % blocks.rows
+            counter = base + wp.uint64(4 * block)
+            reaching = beams_reaching(blocks, chain.reached, x, y)
+            if reaching == 0 and prior.coupling == ZERO:
+                draw_block_from_prior(blocks, prior, chain.walls, x, y, keys[n], counter)
+            else:
+                weights = Weights()
+                if reaching > 0:
+                    weights = beta * block_weights(t, blocks, chain, block, x, y)
+                weights = weights + prior_weights(blocks, prior, x, y)
+                if prior.coupling != ZERO:
+                    weights = weights + coupling_weights(blocks, prior, chain.walls, x, y)
+                state = draw_state(weights, to_uniform(random_bits(keys[n], counter)))
+                for j in range(4):
+                    c = cell_of_block(blocks, x, y, j)
+                    if c >= 0:
+                        if ((state >> j) & 1) != 0 and chain.walls[c] == wp.uint8(0):
+                            put_wall(t, chain, c)
+                        if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
+                            remove_wall(t, chain, c)
+        log_likelihoods[n, s] = beta * log_likelihood(chain.current)
+        log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
+        past = sweep + 1 - first_kept
+        if draws.shape[1] > 0 and past >= 0 and past % every == 0:
+            keep_walls(chain.walls, draws[n, past // every])

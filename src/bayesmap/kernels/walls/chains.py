@@ -1,0 +1,264 @@
+"""Chains on binary walls: what a chain keeps up to date, the moves that keep it so, and how sweeps are run.
+
+For every beam: the table entry of its first wall (`first`, the end of the beam's entries if there is none) and the
+log-likelihood of that entry (`current`). For every cell: the number of beams that reach it at present (`reached`), that
+is, have no wall before it; and what a wall there adds to the log-likelihood (`gain`), as far as it is `known`: a beam
+that moves its first wall makes it unknown in the cells that it reached or now reaches. All of it follows from the walls
+alone, so a chain is stored as its walls.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.table import BeamTable, CellIndex
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.random import cipher_bits
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.struct
+class Table:
+    """The beam table and its index by cells, on a device."""
+
+    offsets: wp.array(dtype=wp.int32)
+    cells: wp.array(dtype=wp.int32)
+    loglik: wp.array(dtype=wp.float32)
+    no_hit: wp.array(dtype=wp.float32)
+    cell_offsets: wp.array(dtype=wp.int32)
+    cell_entry: wp.array(dtype=wp.int32)
+    cell_beam: wp.array(dtype=wp.int32)
+    cell_loglik: wp.array(dtype=wp.float32)
+    cell_gain: wp.array(dtype=wp.float32)
+    cell_advantage: wp.array(dtype=wp.float32)
+
+
+UNKNOWN = wp.constant(wp.uint8(0))  # `gain` has to be summed again
+BOUND = wp.constant(wp.uint8(1))  # the sum is at most `gain` for a free cell, at least `gain` for a wall
+EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
+
+
+@wp.struct
+class Chain:
+    """One chain's state, as described above."""
+
+    walls: wp.array(dtype=wp.uint8)
+    first: wp.array(dtype=wp.int32)
+    current: wp.array(dtype=wp.float32)
+    reached: wp.array(dtype=wp.int32)
+    gain: wp.array(dtype=wp.float32)
+    known: wp.array(dtype=wp.uint8)
+
+
+@wp.struct
+class Chains:
+    """The states of several chains, one a row."""
+
+    walls: wp.array2d(dtype=wp.uint8)
+    first: wp.array2d(dtype=wp.int32)
+    current: wp.array2d(dtype=wp.float32)
+    reached: wp.array2d(dtype=wp.int32)
+    gain: wp.array2d(dtype=wp.float32)
+    known: wp.array2d(dtype=wp.uint8)
+
+
+@wp.func
+def chain_of(chains: Chains, i: int) -> Chain:
+    """The i-th chain; its arrays are views."""
+    chain = Chain()
+    chain.walls = chains.walls[i]
+    chain.first = chains.first[i]
+    chain.current = chains.current[i]
+    chain.reached = chains.reached[i]
+    chain.gain = chains.gain[i]
+    chain.known = chains.known[i]
+    return chain
+
+
+@wp.func
+def next_wall(t: Table, walls: wp.array(dtype=wp.uint8), start: int, end: int) -> int:
+    """The first entry in [start, end) whose cell is a wall, or end."""
+    k = start
+    while k < end:
+        if walls[t.cells[k]] != wp.uint8(0):
+            return k
+        k += 1
+    return k
+
+
+@wp.func
+def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
+    """What beam b's reading is worth when entry k is its first wall."""
+    if k < end:
+        return t.loglik[k]
+    return t.no_hit[b]
+
+
+@wp.func
+def move_first_wall(t: Table, chain: Chain, b: int, k: int):
+    """Beam b now ends at entry k: put its numbers right, and those of the cells that it reached or now reaches."""
+    start = t.offsets[b]
+    end = t.offsets[b + 1]
+    f = chain.first[b]
+    chain.first[b] = k
+    chain.current[b] = entry_loglik(t, b, k, end)
+    nearer = wp.min(f, k)
+    for j in range(start, wp.min(nearer + 1, end)):
+        chain.known[t.cells[j]] = UNKNOWN
+    change = wp.where(k > f, 1, -1)
+    for j in range(nearer + 1, wp.min(wp.max(f, k) + 1, end)):
+        c = t.cells[j]
+        chain.known[c] = UNKNOWN
+        chain.reached[c] = chain.reached[c] + change
+
+
+@wp.kernel
+def derive_state(chain_0: int, t: Table, chains: Chains):
+    """One thread a chain: everything that follows from its walls."""
+    chain = chain_of(chains, chain_0 + wp.tid())
+    for c in range(chain.reached.shape[0]):
+        chain.reached[c] = 0
+        chain.known[c] = UNKNOWN
+    for b in range(t.no_hit.shape[0]):
+        start = t.offsets[b]
+        end = t.offsets[b + 1]
+        k = next_wall(t, chain.walls, start, end)
+        chain.first[b] = k
+        chain.current[b] = entry_loglik(t, b, k, end)
+        for j in range(start, wp.min(k + 1, end)):
+            c = t.cells[j]
+            chain.reached[c] = chain.reached[c] + 1
+
+
+@wp.func
+def put_wall(t: Table, chain: Chain, c: int):
+    """Make a free cell a wall: the beams that passed through it now end there."""
+    chain.walls[c] = wp.uint8(1)
+    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        if chain.first[t.cell_beam[i]] > t.cell_entry[i]:
+            move_first_wall(t, chain, t.cell_beam[i], t.cell_entry[i])
+
+
+@wp.func
+def remove_wall(t: Table, chain: Chain, c: int):
+    """Make a wall a free cell: the beams that ended there go on to their next wall."""
+    chain.walls[c] = wp.uint8(0)
+    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        b = t.cell_beam[i]
+        e = t.cell_entry[i]
+        if chain.first[b] == e:
+            move_first_wall(t, chain, b, next_wall(t, chain.walls, e + 1, t.offsets[b + 1]))
+
+
+@wp.func
+def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)):
+    """Pack a map, eight cells to a byte, the first in its highest bit: as `numpy.packbits` does."""
+    for j in range(packed.shape[0]):
+        bits = int(0)
+        for c in range(8 * j, wp.min(8 * j + 8, walls.shape[0])):
+            bits = bits | (wp.where(walls[c] != wp.uint8(0), 128, 0) >> (c - 8 * j))
+        packed[j] = wp.uint8(bits)
+
+
+@wp.func
+def log_likelihood(current: wp.array(dtype=wp.float32)) -> wp.float64:
+    """Log p(readings | walls): always summed in the same order, so that a resumed chain repeats it exactly."""
+    total = wp.float64(0.0)
+    for b in range(current.shape[0]):
+        total += wp.float64(current[b])
+    return total
+
+
+def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
+    """Table and index on a device; on the CPU they share the arrays' memory."""
+    on = Table()
+    on.offsets = devices.to_device(table.offsets, wp.int32, device)
+    on.cells = devices.to_device(table.cells, wp.int32, device)
+    on.loglik = devices.to_device(table.loglik, wp.float32, device)
+    on.no_hit = devices.to_device(table.no_hit, wp.float32, device)
+    on.cell_offsets = devices.to_device(index.offsets, wp.int32, device)
+    on.cell_entry = devices.to_device(index.entry, wp.int32, device)
+    on.cell_beam = devices.to_device(index.beam, wp.int32, device)
+    on.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
+    on.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
+    on.cell_advantage = devices.to_device(index.advantage, wp.float32, device)
+    return on
+
+
+class WallChains:
+    """The states of several chains on a device, each following from its walls (see `bayesmap.kernels.walls.chains`).
+
+    Attributes:
+        states: the arrays, one row a chain.
+        keys: (chains,), one key of random numbers each.
+    """
+
+    def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
+        self.device = device
+        self.shape = chains, cells = walls.shape
+        beams = table.no_hit.shape[0]
+        states = Chains()
+        states.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
+        states.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
+        states.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
+        states.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
+        states.gain = wp.empty((chains, cells), dtype=wp.float32, device=device)
+        states.known = wp.empty((chains, cells), dtype=wp.uint8, device=device)
+        self.states = states
+        self.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
+        devices.launch(derive_state, chains, [table, states], device)
+
+    def host_walls(self) -> NDArray[np.uint8]:
+        """A copy of the maps in main memory, shape (chains, N)."""
+        return np.array(self.states.walls.numpy())
+
+
+def run_sweeps(
+    kernel: Any,
+    tables: Sequence[Any],
+    prior: Any,
+    log_all_free: float,
+    order: NDArray[np.int32],
+    shuffle: bool,
+    chains: WallChains,
+    *,
+    first: int,
+    sweeps: int,
+    kept: range,
+    beta: float = 1.0,
+    threads: int | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    """Advance the chains in place by some sweeps of a kernel, one chain a thread.
+
+    Args:
+        kernel: of the sweep.
+        tables: that it takes first.
+        prior: of the walls, on the device.
+        log_all_free: log prior of the map with no wall but those that the prior fixes.
+        order: of the sites.
+        shuffle: whether it is shuffled in each sweep.
+        chains: to advance.
+        first: number of the first sweep, from 0.
+        sweeps: how many.
+        kept: numbers, from 1, of those whose maps are kept.
+        beta: inverse temperature.
+        threads: of the CPU; all cores if None.
+
+    Returns:
+        log-likelihoods and log priors after each sweep, (chains, sweeps), and the kept maps, packed, (chains, kept,
+        ceil(N / 8)).
+    """
+    n, cells = chains.shape
+    device = chains.device
+    log_likelihoods, log_priors = (wp.empty((n, sweeps), dtype=wp.float64, device=device) for _ in range(2))
+    draws = wp.empty((n, len(kept), (cells + 7) // 8), dtype=wp.uint8, device=device)
+    bits = cipher_bits(len(order)) if shuffle else 0
+    inputs = [*tables, prior, wp.float64(log_all_free), wp.float64(beta), chains.keys]
+    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(bits), first, sweeps]
+    inputs += [chains.states, kept.start, kept.step, draws, log_likelihoods, log_priors]
+    devices.launch(kernel, n, inputs, device, threads=threads)
+    return log_likelihoods.numpy(), log_priors.numpy(), draws.numpy()

@@ -1,0 +1,151 @@
+"""Single-site Gibbs sweeps on binary walls.
+
+The conditional of a cell is Bernoulli on its prior log-odds, given its neighbours where the prior couples them, plus
+the sum, over the beams that reach it, of what a wall there would add to their log-likelihood. One thread draws a
+chain's cells one after the other, so that no neighbour is ever out of date. Three things keep a sweep from visiting
+every incidence, and none changes a draw: a cell that no beam reaches takes a draw of the prior without its beams being
+looked at; a free cell's sum is kept until one of its beams moves; and where a bound already makes the cell's state
+certain up to a chance of e^-20 it serves instead of the sum (`CellIndex.gain_bound` for free cells,
+`CellIndex.advantage` for walls, which need not then look for the walls behind them), unless the uniform number turns
+out to be smaller than that. Sums and bounds are of likelihoods alone, and so hold whatever the neighbours become.
+"""
+
+import warp as wp
+
+from bayesmap.kernels.random import random_bits, shuffled, to_uniform
+from bayesmap.kernels.walls.chains import (
+    BOUND,
+    EXACT,
+    UNKNOWN,
+    Chain,
+    Chains,
+    Table,
+    chain_of,
+    entry_loglik,
+    keep_walls,
+    log_likelihood,
+    next_wall,
+    put_wall,
+    remove_wall,
+)
+from bayesmap.kernels.walls.wall_prior import Prior, draw_given_neighbours, draw_wall, log_prior, prior_log_odds
+
+wp.set_module_options({"enable_backward": False})
+
+CERTAIN = wp.constant(wp.float64(20.0))  # log-odds
+NO_BOUND = wp.constant(wp.float64(-1.0e300))
+
+
+@wp.func
+def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
+    """What the wall in a cell adds to the log-likelihood over free space there."""
+    gain = wp.float64(0.0)
+    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        b = t.cell_beam[i]
+        e = t.cell_entry[i]
+        if chain.first[b] == e:
+            end = t.offsets[b + 1]
+            k = next_wall(t, chain.walls, e + 1, end)
+            gain += wp.float64(t.cell_loglik[i] - entry_loglik(t, b, k, end))
+    return gain
+
+
+@wp.func
+def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
+    """Sum what a wall in a free cell would add; stop, with a bound, once it is sure to stay below ``enough``."""
+    gain = wp.float64(0.0)
+    known = EXACT
+    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+        bound = gain + wp.float64(t.cell_gain[i])
+        if bound < enough:
+            gain = bound
+            known = BOUND
+            break
+        b = t.cell_beam[i]
+        if chain.first[b] > t.cell_entry[i]:
+            gain += wp.float64(t.cell_loglik[i] - chain.current[b])
+    chain.gain[c] = wp.float32(gain)
+    chain.known[c] = known
+
+
+@wp.func
+def draw_free_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+    """Whether a free cell that beams reach becomes a wall, at an inverse temperature."""
+    logit = prior_log_odds(prior, chain.walls, c)
+    if chain.known[c] == UNKNOWN:
+        sum_gain(t, chain, c, (-CERTAIN - logit) / beta)
+    if not draw_wall(logit + beta * wp.float64(chain.gain[c]), u):
+        return False
+    if chain.known[c] == EXACT:
+        return True
+    sum_gain(t, chain, c, NO_BOUND)
+    return draw_wall(logit + beta * wp.float64(chain.gain[c]), u)
+
+
+@wp.func
+def draw_wall_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+    """Whether a wall that beams reach stays one, at an inverse temperature."""
+    logit = prior_log_odds(prior, chain.walls, c)
+    if chain.known[c] == UNKNOWN:
+        least = wp.float64(0.0)
+        for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
+            if chain.first[t.cell_beam[i]] == t.cell_entry[i]:
+                least += wp.float64(t.cell_advantage[i])
+        chain.gain[c] = wp.float32(least)
+        chain.known[c] = BOUND
+    if chain.known[c] == BOUND:
+        least = logit + beta * wp.float64(chain.gain[c])
+        if least > CERTAIN and draw_wall(least, u):
+            return True
+    return draw_wall(logit + beta * wall_gain(t, chain, c), u)
+
+
+@wp.kernel
+def gibbs_sweeps(
+    chain_0: int,
+    t: Table,
+    prior: Prior,
+    log_all_free: wp.float64,
+    beta: wp.float64,
+    keys: wp.array(dtype=wp.uint64),
+    order: wp.array(dtype=wp.int32),
+    shuffle_bits: wp.uint32,
+    sweep_0: int,
+    sweeps: int,
+    chains: Chains,
+    first_kept: int,
+    every: int,
+    draws: wp.array3d(dtype=wp.uint8),
+    log_likelihoods: wp.array2d(dtype=wp.float64),
+    log_priors: wp.array2d(dtype=wp.float64),
+):
+    """One thread a chain: several sweeps, each over all cells in the given order, at an inverse temperature.
+
+    With ``shuffle_bits`` positive the order is shuffled afresh in every sweep. The maps after the sweeps of numbers
+    ``first_kept``, ``first_kept + every``, ..., counted from 1, are packed into ``draws`` as far as that has room.
+    """
+    n = chain_0 + wp.tid()
+    chain = chain_of(chains, n)
+    size = order.shape[0]
+    for s in range(sweeps):
+        sweep = sweep_0 + s
+        base = wp.uint64(sweep) * wp.uint64(size)
+        shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
+        for i in range(size):
+            place = i
+            if shuffle_bits > wp.uint32(0):
+                place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
+            c = order[place]
+            bits = random_bits(keys[n], base + wp.uint64(c))
+            if chain.reached[c] == 0:
+                chain.walls[c] = wp.uint8(draw_given_neighbours(prior, chain.walls, c, bits))
+            elif chain.walls[c] != wp.uint8(0):
+                if not draw_wall_cell(t, prior, chain, beta, c, to_uniform(bits)):
+                    remove_wall(t, chain, c)
+            elif draw_free_cell(t, prior, chain, beta, c, to_uniform(bits)):
+                put_wall(t, chain, c)
+        log_likelihoods[n, s] = beta * log_likelihood(chain.current)
+        log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
+        past = sweep + 1 - first_kept
+        if draws.shape[1] > 0 and past >= 0 and past % every == 0:
+            keep_walls(chain.walls, draws[n, past // every])

@@ -1,0 +1,134 @@
+"""Importance sampling from the prior, and the log-likelihood of stored maps.
+
+The particles are maps that are never stored: a counter can draw each of them again.
+"""
+
+from typing import Any
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.table import BeamTable
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.random import random_bits
+from bayesmap.kernels.walls.chains import Table
+from bayesmap.kernels.walls.wall_prior import Prior, draw_from_prior
+
+wp.set_module_options({"enable_backward": False})
+
+
+@wp.func
+def particle_wall(prior: Prior, key: wp.uint64, particle: wp.uint64, cells: wp.uint64, c: int) -> bool:
+    """Whether cell c is a wall in the map of a particle."""
+    return draw_from_prior(prior, c, random_bits(key, particle * cells + wp.uint64(c)))
+
+
+@wp.kernel
+def weigh_particles(
+    first: int,
+    t: Table,
+    prior: Prior,
+    key: wp.uint64,
+    particle_0: wp.uint64,
+    log_weights: wp.array(dtype=wp.float64),
+):
+    """One thread a particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
+    i = first + wp.tid()
+    particle = particle_0 + wp.uint64(i)
+    cells = wp.uint64(prior.level.shape[0])
+    total = wp.float64(0.0)
+    for b in range(t.no_hit.shape[0]):
+        term = t.no_hit[b]
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            if particle_wall(prior, key, particle, cells, t.cells[k]):
+                term = t.loglik[k]
+                break
+        total += wp.float64(term)
+    log_weights[i] = total
+
+
+@wp.kernel
+def draw_particles(
+    first: int,
+    prior: Prior,
+    key: wp.uint64,
+    particles: wp.array(dtype=wp.uint64),
+    walls: wp.array2d(dtype=wp.uint8),
+):
+    """One thread a particle: write its whole map."""
+    i = first + wp.tid()
+    cells = walls.shape[1]
+    for c in range(cells):
+        wall = particle_wall(prior, key, particles[i], wp.uint64(cells), c)
+        walls[i, c] = wp.uint8(wp.where(wall, 1, 0))
+
+
+def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> NDArray[np.float64]:
+    """Log weights of particles first .. first + count - 1."""
+    log_weights = wp.empty(count, dtype=wp.float64, device=device)
+    inputs = [table, prior, wp.uint64(key), wp.uint64(first), log_weights]
+    devices.launch(weigh_particles, count, inputs, device)
+    return np.array(log_weights.numpy())
+
+
+def draw(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
+    """The maps of some particles, (n, N)."""
+    cells = prior.level.shape[0]
+    walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
+    chosen = wp.array(particles.astype(np.uint64), dtype=wp.uint64, device=device)
+    devices.launch(draw_particles, len(particles), [prior, wp.uint64(key), chosen, walls], device)
+    return np.array(walls.numpy())
+
+
+@wp.func
+def beam_term(
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+    packed: wp.array2d(dtype=wp.uint8),
+    d: int,
+    b: int,
+) -> wp.float32:
+    """What beam b's reading is worth under packed map d: the log-likelihood of its first wall."""
+    for k in range(offsets[b], offsets[b + 1]):
+        c = cells[k]
+        if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
+            return loglik[k]
+    return no_hit[b]
+
+
+def _on_device(table: BeamTable, device: str) -> list[Any]:
+    """The table's arrays, as both kernels take them."""
+    indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
+    return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
+
+
+@wp.kernel
+def sum_log_likelihoods(
+    first: int,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+    packed: wp.array2d(dtype=wp.uint8),
+    total: wp.array(dtype=wp.float64),
+):
+    """One thread a packed map: log p(readings | map)."""
+    d = first + wp.tid()
+    value = wp.float64(0.0)
+    for b in range(no_hit.shape[0]):
+        value += wp.float64(beam_term(offsets, cells, loglik, no_hit, packed, d, b))
+    total[d] = value
+
+
+def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.float64]:
+    """Log p(all readings | map) of each packed map (draws, bytes), shape (draws,)."""
+    device = devices.resolve(device)
+    total = wp.empty(len(packed), dtype=wp.float64, device=device)
+    inputs = _on_device(table, device)
+    devices.launch(
+        sum_log_likelihoods, len(packed), [*inputs, devices.to_device(packed, wp.uint8, device), total], device
+    )
+    return np.array(total.numpy())

@@ -1,0 +1,254 @@
+"""Belief propagation with ray potentials: all messages of a beam in one pass back and one forth.
+
+For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a first hit on cell i and l_out of no hit
+(all relative to the beam's largest),
+
+    S_i = p_{i+1} l_{i+1} + (1 - p_{i+1}) S_{i+1},  S_n = l_out       expected likelihood if cells up to i are free
+    T_i = prod_{j<i} (1 - p_j)                                        chance that all cells before i are free
+    A_i = sum_{j<i} T_j p_j l_j                                       expected likelihood of a hit before i
+
+    message_i(wall) / message_i(free) = (A_i + T_i l_i) / (A_i + T_i S_i)
+
+(Ulusoy, Geiger and Black, *Towards probabilistic volumetric reconstruction using ray potentials*, 3DV 2015.)
+A pair of neighbours that are worth J more if they are alike sends, with the log-odds h of the sender without what it
+received from the other, log(exp(J + h) + 1) - log(exp(h) + exp(J)), which is 2 artanh(tanh(J / 2) tanh(h / 2)) (Pearl's
+messages of a pairwise field, as in Yedidia, Freeman and Weiss, 2003).
+
+Messages of beams are kept as ratios: then no logarithm and no exponential is needed along a beam, and damping by a half
+is a square root. A cell's belief is its prior log-odds plus the logarithms of the messages that it receives.
+"""
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.table import BeamTable
+from bayesmap.kernels import device as devices
+
+wp.set_module_options({"enable_backward": False})
+
+TINY = wp.constant(wp.float32(1.0e-30))
+LARGEST_RATIO = wp.constant(wp.float32(1.0e6))
+LARGEST_PRODUCT = wp.constant(wp.float32(1.0e30))
+FIXED = wp.constant(wp.float32(1.0e12))  # prior log-odds past any beam's
+LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
+
+
+@wp.kernel
+def relative_likelihood(
+    first: int,
+    beta: wp.float32,
+    offsets: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+    relative: wp.array(dtype=wp.float32),
+    relative_no_hit: wp.array(dtype=wp.float32),
+):
+    """One thread a beam: likelihoods relative to the beam's largest, at an inverse temperature."""
+    b = first + wp.tid()
+    most = no_hit[b]
+    for k in range(offsets[b], offsets[b + 1]):
+        most = wp.max(most, loglik[k])
+    last = wp.float32(1.0)
+    value = wp.float32(1.0)
+    for k in range(offsets[b], offsets[b + 1]):
+        now = beta * (loglik[k] - most)
+        if now != last:  # long stretches of a beam share one value
+            value = wp.max(wp.exp(now), TINY)
+            last = now
+        relative[k] = value
+    relative_no_hit[b] = wp.max(wp.exp(beta * (no_hit[b] - most)), TINY)
+
+
+@wp.kernel
+def beam_messages(
+    part_0: int,
+    bounds: wp.array(dtype=wp.int32),
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    relative: wp.array(dtype=wp.float32),
+    relative_no_hit: wp.array(dtype=wp.float32),
+    odds: wp.array(dtype=wp.float32),
+    damping: wp.float32,
+    ratio: wp.array(dtype=wp.float32),
+    behind: wp.array(dtype=wp.float32),
+    product_of: wp.array2d(dtype=wp.float32),
+    received_of: wp.array2d(dtype=wp.float32),
+):
+    """One thread a part of the beams: new messages to their cells, and their logarithms summed by cell.
+
+    ``behind`` is room for S. Each part has its own sums, so their order never depends on the threads.
+    """
+    part = part_0 + wp.tid()
+    received = received_of[part]
+    product = product_of[part]
+    one = wp.float32(1.0)
+    for c in range(received.shape[0]):
+        received[c] = wp.float32(0.0)
+        product[c] = one
+    for b in range(bounds[part], bounds[part + 1]):
+        start = offsets[b]
+        end = offsets[b + 1]
+        s = relative_no_hit[b]
+        for i in range(end - start):
+            k = end - 1 - i
+            behind[k] = s
+            o = odds[cells[k]]
+            p = o / (o + ratio[k])  # the cavity: the belief without this beam's own message
+            s += p * (relative[k] - s)
+        free = wp.float32(1.0)
+        before = wp.float32(0.0)
+        for k in range(start, end):
+            c = cells[k]
+            o = odds[c]
+            old = ratio[k]
+            p = o / (o + old)
+            new = (before + free * relative[k] + TINY) / (before + free * behind[k] + TINY)
+            new = wp.clamp(new, one / LARGEST_RATIO, LARGEST_RATIO)
+            before += free * p * relative[k]
+            free *= one - p
+            if damping == wp.float32(0.5):
+                new = wp.sqrt(old * new)
+            else:
+                new = wp.pow(old, damping) * wp.pow(new, one - damping)
+            ratio[k] = new
+            m = product[c] * new
+            if m > LARGEST_PRODUCT or m < one / LARGEST_PRODUCT:
+                received[c] = received[c] + wp.log(m)
+                m = one
+            product[c] = m
+    for c in range(received.shape[0]):
+        received[c] = received[c] + wp.log(product[c])
+
+
+@wp.func
+def softplus(x: wp.float64) -> wp.float64:
+    """log(1 + exp(x))."""
+    return wp.max(x, wp.float64(0.0)) + wp.log(wp.float64(1.0) + wp.exp(-wp.abs(x)))
+
+
+@wp.func
+def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
+    """What a cell tells a neighbour, as log-odds: from its belief, less what it received from there."""
+    h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
+    return softplus(coupling + h) - (coupling + softplus(h - coupling))
+
+
+@wp.kernel
+def neighbour_messages(
+    first: int,
+    nx: int,
+    ny: int,
+    coupling: wp.float64,
+    damping: wp.float32,
+    belief: wp.array(dtype=wp.float32),
+    last: wp.array2d(dtype=wp.float32),
+    messages: wp.array2d(dtype=wp.float32),
+):
+    """One thread a cell: what it receives from its neighbours, as log-odds, from those below, above, left and right.
+
+    Rows of the messages are (x - 1, x + 1, y - 1, y + 1); where there is no neighbour they stay 0.
+    """
+    c = first + wp.tid()
+    x = c // ny
+    y = c - x * ny
+    for side in range(4):
+        d = int(-1)
+        if side == 0 and x > 0:
+            d = c - ny
+        if side == 1 and x < nx - 1:
+            d = c + ny
+        if side == 2 and y > 0:
+            d = c - 1
+        if side == 3 and y < ny - 1:
+            d = c + 1
+        if d >= 0:
+            # What came from here to there is on the other side there.
+            message = wp.float32(from_neighbour(belief[d], last[side ^ 1, d], coupling))
+            messages[side, c] = damping * last[side, c] + (wp.float32(1.0) - damping) * message
+
+
+@wp.kernel
+def cell_beliefs(
+    first: int,
+    logit: wp.array(dtype=wp.float64),
+    received: wp.array2d(dtype=wp.float32),
+    from_neighbours: wp.array2d(dtype=wp.float32),
+    odds: wp.array(dtype=wp.float32),
+    belief: wp.array(dtype=wp.float32),
+):
+    """One thread a cell: prior log-odds plus all messages; where nothing couples, neighbours have sent none."""
+    c = first + wp.tid()
+    total = wp.float32(logit[c])
+    if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the others say
+        for part in range(received.shape[0]):
+            total += received[part, c]
+        for side in range(from_neighbours.shape[0]):
+            total += from_neighbours[side, c]
+    belief[c] = total
+    odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))
+
+
+CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
+GPU_PARTS = 256
+
+
+class Beliefs:
+    """Messages and beliefs of one problem.
+
+    Memory: 12 bytes for each incidence of the table, and where neighbours are coupled 32 for each cell.
+    """
+
+    def __init__(
+        self,
+        table: BeamTable,
+        logit: NDArray[np.float64],
+        device: str,
+        beta: float = 1.0,
+        coupling: float = 0.0,
+    ) -> None:
+        cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
+        parts = min(CPU_PARTS if device == "cpu" else GPU_PARTS, max(1, beams))
+        bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
+        bounds[0], bounds[-1] = 0, beams
+        self._device, self._beams, self._cells, self._parts = device, beams, cells, parts
+        self._bounds = devices.to_device(bounds.astype(np.int32), wp.int32, device)
+        self._offsets = devices.to_device(table.offsets, wp.int32, device)
+        self._table_cells = devices.to_device(table.cells, wp.int32, device)
+        self._relative = wp.empty(incidences, dtype=wp.float32, device=device)
+        self._no_hit = wp.empty(beams, dtype=wp.float32, device=device)
+        self._ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
+        self._behind = wp.empty(incidences, dtype=wp.float32, device=device)
+        self._logit = devices.to_device(logit, wp.float64, device)
+        self._product = wp.empty((parts, cells), dtype=wp.float32, device=device)
+        self._received = wp.zeros((parts, cells), dtype=wp.float32, device=device)
+        self._shape, self._coupling = table.grid.shape, coupling
+        sides = 4 if coupling else 0
+        # Two of each: messages are made of those of the last round, whichever thread comes first.
+        self._sides, self._next_sides = (wp.zeros((sides, cells), dtype=wp.float32, device=device) for _ in range(2))
+        self._odds = wp.empty(cells, dtype=wp.float32, device=device)
+        self._belief = wp.empty(cells, dtype=wp.float32, device=device)
+        inputs: list[object] = [wp.float32(beta), self._offsets]
+        inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
+        devices.launch(relative_likelihood, beams, [*inputs, self._relative, self._no_hit], device)
+        self._gather()
+
+    def round(self, damping: float, threads: int | None = None) -> None:
+        """All beams and neighbours send messages, made of the beliefs of the last round; then all cells gather them."""
+        inputs = [self._bounds, self._offsets, self._table_cells, self._relative, self._no_hit, self._odds]
+        inputs += [wp.float32(damping), self._ratio, self._behind, self._product, self._received]
+        devices.launch(beam_messages, self._parts, inputs, self._device, threads)
+        if self._coupling:
+            inputs = [*self._shape, wp.float64(self._coupling), wp.float32(damping), self._belief]
+            inputs += [self._sides, self._next_sides]
+            devices.launch(neighbour_messages, self._cells, inputs, self._device, threads)
+            self._sides, self._next_sides = self._next_sides, self._sides
+        self._gather()
+
+    def log_odds(self) -> NDArray[np.float32]:
+        """Log-odds of a wall in every cell, flat, shape (N,)."""
+        return np.array(self._belief.numpy())
+
+    def _gather(self) -> None:
+        inputs = [self._logit, self._received, self._sides, self._odds, self._belief]
+        devices.launch(cell_beliefs, self._cells, inputs, self._device)

@@ -1,0 +1,250 @@
+"""Build the beam table of some scans, and its index by cells.
+
+The table holds, for each beam, the cells that it crosses and the log-likelihood of its reading for a first hit in each
+of them. The index lists, for each cell, the beams that cross it.
+"""
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from bayesmap.beams.rays import Rays
+from bayesmap.beams.table import BeamTable, CellIndex
+from bayesmap.kernels import device as devices
+from bayesmap.kernels.rays import Lines, distance_at, first_past, line_of, put_rays, stop_distances, trace_rays
+from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, object_decay, sensor_law, stop_log_density
+from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+wp.set_module_options({"enable_backward": False})
+
+SLICE = 1 << 20  # entries handed to NumPy at a time, where a model has no compiled likelihood
+
+
+def trace(
+    scans: Scans,
+    grid: Grid,
+    sensor: SensorModel,
+    *,
+    hit_depth: float = 0.0,
+    reach_m: NDArray[np.float64] | None = None,
+    device: str = "cpu",
+) -> BeamTable:
+    """Build the beam table of some scans.
+
+    Args:
+        scans: S scans of A beams; beam ``s * A + a`` of the table is beam a of scan s.
+        grid: the map's grid.
+        sensor: fills in the likelihoods.
+        hit_depth: where in a cell a beam is expected to stop, as a fraction of its chord: 0 is the edge where it
+            enters (the tutorial's closed squares), 0.5 the middle.
+        reach_m: how far each beam is followed, (B,); by default as far as its reading depends on stops.
+        device: where to trace; the table comes back in main memory.
+
+    Raises:
+        BadInput: more incidences than 32-bit indices can count.
+    """
+    if reach_m is None:
+        reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
+    return table_of(trace_rays(scans, grid, reach_m=reach_m, device=device), sensor, hit_depth=hit_depth, device=device)
+
+
+def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
+    """The beam table of some rays, arguments as of `trace`."""
+    device = devices.resolve(device)
+    if sensor.kernel_parameters() is None:
+        loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
+    else:
+        filled = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
+        inputs = [sensor_law(sensor, rays.limits, device), *put_rays(rays, device), wp.float64(hit_depth)]
+        inputs += [devices.to_device(rays.range_m, wp.float64, device), *filled]
+        devices.launch(fill_likelihood, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
+        loglik, no_hit = (a.numpy() for a in filled)
+    return BeamTable(grid=rays.grid, offsets=rays.offsets, cells=rays.cells, loglik=loglik, no_hit=no_hit)
+
+
+def _by_model(
+    sensor: SensorModel, rays: Rays, loglik: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """The same by the model's own NumPy formula; ``loglik`` holds distances, and is overwritten."""
+    no_hit = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits).astype(np.float32)
+    beam = rays.beam_of_entry()
+    for i in range(0, rays.n_incidences, SLICE):
+        some = slice(i, i + SLICE)
+        distance_m = loglik[some].astype(np.float64)
+        loglik[some] = sensor.log_likelihood(rays.range_m[beam[some]], distance_m, rays.limits)
+    return loglik, no_hit
+
+
+WIDTHS = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
+
+
+@wp.kernel
+def fill_likelihood(
+    first: int,
+    law: SensorLaw64,
+    lines: Lines,
+    offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    depth: wp.float64,
+    range_m: wp.array(dtype=wp.float64),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+):
+    """One thread a beam: the log-likelihood of each entry, and of no hit.
+
+    The normal noise of a mixture matters between two distances only, whose entries are found by halving: of walls
+    before them and behind them a range has one likelihood each.
+    """
+    b = first + wp.tid()
+    z = range_m[b]
+    no_hit[b] = wp.float32(0.0)
+    if wp.isnan(z):
+        return
+    one = wp.float64(1.0)
+    zero = wp.float64(0.0)
+    begin = offsets[b]
+    end = offsets[b + 1]
+    line = line_of(lines, b)
+    decay = object_decay(law, z)
+    no_hit[b] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
+    near = begin
+    behind = end
+    if law.kind == MIXTURE and law.dof == zero and wp.isfinite(z):
+        begins = (z - WIDTHS * law.sigma_m) / (one + WIDTHS * law.sigma_per_m)
+        near = first_past(line, cells, begin, end, begins, depth)
+        if WIDTHS * law.sigma_per_m < one:
+            ends = (z + WIDTHS * law.sigma_m) / (one - WIDTHS * law.sigma_per_m)
+            behind = first_past(line, cells, near, end, ends, depth)
+        if near > begin:
+            before = wp.float32(wp.log(law.uniform))
+            for k in range(begin, near):
+                loglik[k] = before
+    for k in range(near, behind):
+        loglik[k] = wp.float32(stop_log_density(law, z, decay, distance_at(line, cells[k], depth), zero))
+    if behind < end:
+        after = no_hit[b]
+        if z < law.max_m:
+            after = wp.float32(wp.log(law.uniform + law.passing * decay))
+        for k in range(behind, end):
+            loglik[k] = after
+
+
+GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
+
+
+@wp.kernel
+def beam_extremes(
+    first: int,
+    offsets: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    no_hit: wp.array(dtype=wp.float32),
+    lowest: wp.array(dtype=wp.float32),
+    advantage: wp.array(dtype=wp.float32),
+):
+    """One thread a beam: the least that its reading can be worth, and each entry's advantage over what lies behind."""
+    b = first + wp.tid()
+    least = no_hit[b]
+    behind = no_hit[b]
+    for i in range(offsets[b + 1] - offsets[b]):
+        k = offsets[b + 1] - 1 - i
+        advantage[k] = loglik[k] - behind
+        behind = wp.max(behind, loglik[k])
+        least = wp.min(least, loglik[k])
+    lowest[b] = least
+
+
+@wp.kernel
+def scatter_entries(
+    first: int,
+    cell_bounds: wp.array(dtype=wp.int32),
+    beam_offsets: wp.array(dtype=wp.int32),
+    cells: wp.array(dtype=wp.int32),
+    loglik: wp.array(dtype=wp.float32),
+    lowest: wp.array(dtype=wp.float32),
+    advantage: wp.array(dtype=wp.float32),
+    offsets: wp.array(dtype=wp.int32),
+    fill: wp.array(dtype=wp.int32),
+    entry: wp.array(dtype=wp.int32),
+    beam: wp.array(dtype=wp.int32),
+    out_loglik: wp.array(dtype=wp.float32),
+    gain_bound: wp.array(dtype=wp.float32),
+    out_advantage: wp.array(dtype=wp.float32),
+):
+    """One thread a range of cells: two passes over the table, gaining entries first, then bounds from behind."""
+    t = first + wp.tid()
+    low = cell_bounds[t]
+    high = cell_bounds[t + 1]
+    for c in range(low, high):
+        fill[c] = offsets[c]
+    for gaining in range(2):
+        for b in range(beam_offsets.shape[0] - 1):
+            least = lowest[b]
+            for k in range(beam_offsets[b], beam_offsets[b + 1]):
+                c = cells[k]
+                if c >= low and c < high:
+                    gain = loglik[k] - least
+                    if (gain > GAIN) == (gaining == 0):
+                        i = fill[c]
+                        fill[c] = i + 1
+                        entry[i] = k
+                        beam[i] = b
+                        out_loglik[i] = loglik[k]
+                        gain_bound[i] = gain
+                        out_advantage[i] = advantage[k]
+    for c in range(low, high):
+        bound = wp.float32(0.0)
+        for j in range(offsets[c + 1] - offsets[c]):
+            i = offsets[c + 1] - 1 - j
+            bound += gain_bound[i]
+            gain_bound[i] = bound
+
+
+def index_by_cell(table: BeamTable) -> CellIndex:
+    """Build the index; on the CPU, in a fixed order that does not depend on the number of threads."""
+    cells = table.grid.n_cells
+    offsets = np.zeros(cells + 1, dtype=np.int32)
+    np.cumsum(np.bincount(table.cells, minlength=cells), out=offsets[1:])
+    threads = devices.available_cores()
+    shares = np.linspace(0, table.n_incidences, threads + 1)[1:-1]
+    bounds = np.concatenate([[0], np.searchsorted(offsets, shares), [cells]]).astype(np.int32)
+
+    beam_offsets = devices.to_device(table.offsets, wp.int32, "cpu")
+    loglik = devices.to_device(table.loglik, wp.float32, "cpu")
+    lowest = wp.empty(table.n_beams, dtype=wp.float32, device="cpu")
+    advantage = wp.empty(table.n_incidences, dtype=wp.float32, device="cpu")
+    no_hit = devices.to_device(table.no_hit, wp.float32, "cpu")
+    devices.launch(beam_extremes, table.n_beams, [beam_offsets, loglik, no_hit, lowest, advantage], "cpu")
+    entry, beam = (wp.empty(table.n_incidences, dtype=wp.int32, device="cpu") for _ in range(2))
+    values, gain_bound, cell_advantage = (
+        wp.empty(table.n_incidences, dtype=wp.float32, device="cpu") for _ in range(3)
+    )
+    devices.launch(
+        scatter_entries,
+        threads,
+        [
+            devices.to_device(bounds, wp.int32, "cpu"),
+            beam_offsets,
+            devices.to_device(table.cells, wp.int32, "cpu"),
+            loglik,
+            lowest,
+            advantage,
+            devices.to_device(offsets, wp.int32, "cpu"),
+            wp.empty(cells, dtype=wp.int32, device="cpu"),
+            entry,
+            beam,
+            values,
+            gain_bound,
+            cell_advantage,
+        ],
+        "cpu",
+    )
+    return CellIndex(
+        offsets=offsets,
+        entry=entry.numpy(),
+        beam=beam.numpy(),
+        loglik=values.numpy(),
+        gain_bound=gain_bound.numpy(),
+        advantage=cell_advantage.numpy(),
+    )
