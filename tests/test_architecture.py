@@ -112,6 +112,48 @@ def test_an_import_that_points_up_is_noticed():
     assert forbidden("samplers", "bayesmap.kernels.walk") is None
 
 
+FAMILIES: dict[str, tuple[set[str], ...]] = {
+    "io": ({"io.layers", "io.returns"}, {"io.log_reading", "io.rep117"}, {"io.text", "io.ros"}, {"io"}),
+}
+"""Families of a room (folders, or single modules), by level, the lowest first. A family imports lower levels only."""
+
+
+def level_of_family(module):
+    """Return the family of a module (a name without `bayesmap.`) and its level; None in a room that has no families."""
+    levels = FAMILIES.get(module.split(".")[0], ())
+    parts = module.split(".")
+    heads = [".".join(parts[:n]) for n in range(len(parts), 0, -1)]
+    found = [(head, level) for head in heads for level, names in enumerate(levels) if head in names]
+    return found[0] if found else None
+
+
+def crosses_families(here, module):
+    """Return whether a module imports another family of its room that is not lower."""
+    mine, other = level_of_family(here), level_of_family(module)
+    same_room = here.split(".")[0] == module.split(".")[0]
+    return bool(same_room and mine and other and mine[0] != other[0] and other[1] >= mine[1])
+
+
+def test_families_of_a_room_import_lower_ones():
+    offenders = [
+        f"{name} imports {other}"
+        for name, path in MODULES.items()
+        for other in imported_modules(parsed(path), MODULES)
+        if crosses_families(name.removeprefix("bayesmap."), other.removeprefix("bayesmap."))
+    ]
+    assert not offenders
+
+
+def test_an_import_between_families_is_noticed():
+    assert crosses_families("io.text.carmen", "io.ros.recording")
+    assert crosses_families("io.text.carmen", "io.logs")
+    assert crosses_families("io.returns", "io.text.carmen")
+    assert not crosses_families("io.logs", "io.ros.log")
+    assert not crosses_families("io.ros.log", "io.returns")
+    assert not crosses_families("io.ros.log", "io.ros.poses")
+    assert not crosses_families("io.ros.log", "space.grid")
+
+
 def test_heavy_libraries_have_a_room_each():
     rooms = {"warp": {"kernels"}, "jax": {"gen", "programs"}, "matplotlib": {"viz"}}
     offenders = [
