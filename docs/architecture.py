@@ -35,8 +35,8 @@ STEPS = (
     Step(
         ("a line of a log", "FLASER 181 4.02 3.18 ... 1.20 0.40 0.31"),
         ("Read it", "recognise the file; type each reading: hit, no return,", "too close, invalid"),
-        ("io/logs.py", "io/carmen.py"),
-        ("recordings", "ROS bags, MCAP, g2o, CSV", "io/recording.py"),
+        ("io/logs.py", "io/text/carmen.py"),
+        ("recordings", "ROS bags, MCAP, g2o, CSV", "io/ros/recording.py"),
     ),
     Step(
         ("a reading of Scans", "ranges_m[s, a] = 3.18, angles_rad[a],", "poses[s] = (x, y, yaw)"),

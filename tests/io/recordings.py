@@ -17,7 +17,7 @@ from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import bayesmap as bm
-from bayesmap.io.compression import zstd
+from bayesmap.io.ros.compression import zstd
 
 T0 = 1_700_000_000 * 10**9
 SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"

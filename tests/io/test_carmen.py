@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bayesmap.errors import BadInput
-from bayesmap.io.carmen import read_carmen
+from bayesmap.io.text.carmen import read_carmen
 
 numbers = st.floats(-1e4, 1e4).map(lambda v: round(v, 6))
 ranges = st.floats(0.01, 80).map(lambda v: round(v, 4))

@@ -123,8 +123,8 @@ def test_a_folder_without_permission_is_named(tmp_path, name):
 
 
 def test_a_grid_of_one_cell(tmp_path):
-    from bayesmap.io.grid_map import write_grid_map
-    from bayesmap.io.occupancy_grid import write_occupancy_grid
+    from bayesmap.io.ros.grid_map import write_grid_map
+    from bayesmap.io.ros.occupancy_grid import write_occupancy_grid
     from bayesmap.space.grid import Grid
 
     for path in (tmp_path / "one.bag", tmp_path / "one.mcap"):

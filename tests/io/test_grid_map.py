@@ -4,7 +4,7 @@ from map_case import GRID, observed, occupancy
 from recorded import READERS
 
 from bayesmap.errors import BadInput
-from bayesmap.io.grid_map import write_grid_map
+from bayesmap.io.ros.grid_map import write_grid_map
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy(), "lower": occupancy() / 2}
 

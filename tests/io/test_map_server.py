@@ -7,8 +7,8 @@ from hypothesis.extra import numpy as hnp
 from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.io.map_server import read_map, write_map
-from bayesmap.io.percent import MODES
+from bayesmap.io.ros.map_server import read_map, write_map
+from bayesmap.io.ros.percent import MODES
 from bayesmap.space.grid import Grid
 
 shapes = hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=8)

@@ -4,8 +4,8 @@ from map_case import GRID, observed, occupancy
 from recorded import READERS
 
 from bayesmap.errors import BadInput
-from bayesmap.io.occupancy_grid import write_occupancy_grid
-from bayesmap.io.percent import in_percent
+from bayesmap.io.ros.occupancy_grid import write_occupancy_grid
+from bayesmap.io.ros.percent import in_percent
 from bayesmap.space.grid import Grid
 
 
@@ -97,7 +97,7 @@ def test_a_bag_in_a_folder_is_replaced_but_nothing_else_is(tmp_path):
 
 
 def test_a_failure_on_the_way_keeps_the_old_file(tmp_path, monkeypatch):
-    import bayesmap.io.recording_writer as writer
+    import bayesmap.io.ros.writer as writer
 
     for name in ("floor.mcap", "floor"):
         write_occupancy_grid(tmp_path / name, occupancy(), GRID)

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from recordings import ANGLES, on, path_of, simulated
 
 import bayesmap as bm
-from bayesmap.io.carmen_writer import write_carmen
 from bayesmap.io.logs import describe_log, read_log
+from bayesmap.io.text.carmen_writer import write_carmen
 
 TIMES = np.arange(6.0)
 

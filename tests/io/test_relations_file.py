@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.io.relations import write_relations
+from bayesmap.io.text.relations import write_relations
 
 
 @pytest.mark.parametrize("name", ["true.relations", "true.relations.gz"])

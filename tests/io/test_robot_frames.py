@@ -7,9 +7,9 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
-from bayesmap.io.frames import Samples
 from bayesmap.io.logs import describe_log
-from bayesmap.io.publishers import contradiction
+from bayesmap.io.ros.frames import Samples
+from bayesmap.io.ros.publishers import contradiction
 
 
 def way(number):

@@ -11,8 +11,8 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
-from bayesmap.io.compression import zstd
 from bayesmap.io.logs import describe_log, read_log
+from bayesmap.io.ros.compression import zstd
 
 
 def same(read, wanted, atol=1e-9):

@@ -9,8 +9,8 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
-from bayesmap.io.compression import zstd
 from bayesmap.io.logs import describe_log, read_log
+from bayesmap.io.ros.compression import zstd
 
 CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-ros1")
 

@@ -4,7 +4,7 @@ from map_case import scans
 from scipy.spatial.transform import Rotation
 
 from bayesmap.errors import BadInput
-from bayesmap.io.tum import write_trajectory
+from bayesmap.io.text.tum import write_trajectory
 
 
 def test_numpy_reads_stamps_and_scipy_reads_turns(tmp_path):

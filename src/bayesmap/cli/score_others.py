@@ -58,7 +58,7 @@ def placed_scans(log: str, values: dict[str, Any], trajectory: str | None, mount
     """
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
-    from bayesmap.io.tum import read_trajectory
+    from bayesmap.io.text.tum import read_trajectory
     from bayesmap.space.trajectory import Trajectory
 
     if values["holdout"] == 0:
@@ -92,7 +92,7 @@ def score_map(call: Call, path: str, placed: Placed, how: dict[str, Any]) -> tup
         placed: the scans.
         how: seed and device of the score.
     """
-    from bayesmap.io.map_server import read_map
+    from bayesmap.io.ros.map_server import read_map
     from bayesmap.posterior.others_maps import fit_map
     from bayesmap.posterior.scoring import score_prediction
 

@@ -72,8 +72,8 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
 
     import numpy as np
 
-    from bayesmap.io.carmen_writer import write_carmen
-    from bayesmap.io.map_server import write_map
+    from bayesmap.io.ros.map_server import write_map
+    from bayesmap.io.text.carmen_writer import write_carmen
     from bayesmap.sim.forward import simulate
     from bayesmap.space.planar import compose
 
@@ -139,8 +139,8 @@ def _write_truth(
     stamps_s: NDArray[np.float64],
     seed: int,
 ) -> list[Path]:
-    from bayesmap.io.relations import write_relations
-    from bayesmap.io.tum import write_trajectory
+    from bayesmap.io.text.relations import write_relations
+    from bayesmap.io.text.tum import write_trajectory
     from bayesmap.sim.relations import related_pairs
     from bayesmap.space.planar import between
 

@@ -112,7 +112,7 @@ def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_],
     from bayesmap.space.grid import Grid
 
     if path.suffix.lower() in MAPS:
-        from bayesmap.io.map_server import read_map
+        from bayesmap.io.ros.map_server import read_map
 
         occupancy, grid = read_map(path)
         return occupancy > 0.5, grid if resolution is None else Grid(grid.shape, resolution, grid.origin)

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.laser_messages import SCAN_TYPES
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
+from bayesmap.io.ros.laser_messages import SCAN_TYPES
 from bayesmap.poses.agreement import look_like_odometry
 from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
 from bayesmap.space.scans import Scans
@@ -89,10 +89,10 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
 
 
 def _of_recording(path: str | os.PathLike[str]) -> Contents:
-    from bayesmap.io.containers import open_recording
-    from bayesmap.io.frames import FrameTree
-    from bayesmap.io.pose_sources import POSE_TYPES, TF_TYPES, PoseMessages, topics_of_type
-    from bayesmap.io.robot_messages import TYPES, read_messages
+    from bayesmap.io.ros.containers import open_recording
+    from bayesmap.io.ros.frames import FrameTree
+    from bayesmap.io.ros.messages import TYPES, read_messages
+    from bayesmap.io.ros.poses import POSE_TYPES, TF_TYPES, PoseMessages, topics_of_type
 
     name = os.fspath(path)
     recording = open_recording(path, salvage=True, types=TYPES)
@@ -144,7 +144,7 @@ def _without_scans(recording: Any) -> str:
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
     """What the scans of one topic look like, and by which poses they can be used."""
-    from bayesmap.io.pose_sources import POSE_TYPES, topics_of_type
+    from bayesmap.io.ros.poses import POSE_TYPES, topics_of_type
 
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,

@@ -26,14 +26,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.recording_writer import ENDINGS, FOLDER
+from bayesmap.io.ros.writer import ENDINGS, FOLDER
 from bayesmap.space.grid import Grid
 from bayesmap.space.relative_law import RelativeLaw
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from bayesmap.io.g2o_writer import Edges
+    from bayesmap.io.text.g2o_writer import Edges
     from bayesmap.poses.trajectory import Trajectory as Approximation
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
@@ -164,7 +164,7 @@ def _graph_of(run: object, trajectory: Trajectory) -> Edges | None:
     """What ties the scans of a run together, if it is the approximation that tells where they are."""
     if trajectory.relative is None:
         return None
-    from bayesmap.io.slam_edges import slam_edges
+    from bayesmap.io.text.slam_edges import slam_edges
 
     return slam_edges(run.trajectory)  # type: ignore[attr-defined]
 
@@ -183,7 +183,7 @@ def export_trajectory(
         path: .tum, .g2o, or a recording (.bag, .mcap, .db3 or a folder).
         trajectory: of a map's scans, of `bayesmap.localize`, or of anything else.
         format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
-        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.g2o_writer.chain_edges`).
+        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.text.g2o_writer.chain_edges`).
         frame: of a recording.
 
     Returns:
@@ -196,11 +196,11 @@ def export_trajectory(
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
     if chosen == "g2o":
-        from bayesmap.io.g2o_writer import chain_edges, write_g2o
+        from bayesmap.io.text.g2o_writer import chain_edges, write_g2o
 
         return (write_g2o(path, trajectory.poses, chain_edges(trajectory) if edges is None else edges),)
     if chosen == "tum":
-        from bayesmap.io.tum import covariances_path, write_covariances, write_trajectory
+        from bayesmap.io.text.tum import covariances_path, write_covariances, write_trajectory
 
         written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s),)
         if trajectory.covariances is None:
@@ -209,7 +209,7 @@ def export_trajectory(
         return (*written, write_covariances(beside, trajectory.covariances, trajectory.stamps_s))
     if chosen != "trajectory":
         raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
-    from bayesmap.io.trajectory_recording import write_trajectory_recording
+    from bayesmap.io.ros.trajectory_recording import write_trajectory_recording
 
     return (write_trajectory_recording(path, trajectory, frame=frame),)
 
@@ -231,7 +231,7 @@ def export_run(
         run: the posterior.
         scans: what it was inferred from: their poses are the trajectory, and the stamp of the last is the map's.
         format: one of `FORMATS`; by the path's ending if None.
-        mode: trinary, scale or raw, see `bayesmap.io.percent`; if None, trinary for map-server and scale, which is
+        mode: trinary, scale or raw, see `bayesmap.io.ros.percent`; if None, trinary for map-server and scale, which is
             the probability in per cent, for occupancy-grid. Other formats keep the numbers and take no mode.
         occupied_thresh: above it a cell is occupied; 0.65 in trinary, 1 in scale.
         free_thresh: below it a cell is free; 0.25 in trinary, 0 in scale.
@@ -254,15 +254,15 @@ def export_run(
     grid, observed = run.grid, run.observed
     stamp_s = float(scans.stamps_s[-1]) if scans.stamps_s is not None and len(scans) else None
     if chosen == "map-server":
-        from bayesmap.io.map_server import write_map
+        from bayesmap.io.ros.map_server import write_map
 
         return write_map(path, run.occupancy, grid, observed, **options)
     if chosen == "occupancy-grid":
-        from bayesmap.io.occupancy_grid import write_occupancy_grid
+        from bayesmap.io.ros.occupancy_grid import write_occupancy_grid
 
         return (write_occupancy_grid(path, run.occupancy, grid, observed, stamp_s=stamp_s, **options),)
     if chosen == "gridmap":
-        from bayesmap.io.grid_map import write_grid_map
+        from bayesmap.io.ros.grid_map import write_grid_map
 
         return (write_grid_map(path, layers_of(run), grid, observed, stamp_s=stamp_s),)
     if chosen == "rerun":

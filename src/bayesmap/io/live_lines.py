@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterator
 
 from bayesmap.errors import BadInput
-from bayesmap.io.lines import MAX_LINE_BYTES, as_utf8
+from bayesmap.io.text.lines import MAX_LINE_BYTES, as_utf8
 
 STANDARD_INPUT = ("-", "/dev/stdin")
 LOOK_EVERY_S = 0.05

@@ -16,15 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.carmen import KNOWN, message_name
-from bayesmap.io.csv_scans import is_header, live_rows
-from bayesmap.io.g2o import KNOWN as KNOWN_G2O
-from bayesmap.io.laser_lines import LASERS, LaserLine, Malformed, parse_laser
-from bayesmap.io.lines import GZIP_MAGIC
 from bayesmap.io.live_lines import STANDARD_INPUT, live_lines
 from bayesmap.io.log_reading import Pose
 from bayesmap.io.logs import LINES_LOOKED_AT, format_of
 from bayesmap.io.returns import decode
+from bayesmap.io.text.carmen import KNOWN, message_name
+from bayesmap.io.text.csv import is_header, live_rows
+from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
+from bayesmap.io.text.laser_lines import LASERS, LaserLine, Malformed, parse_laser
+from bayesmap.io.text.lines import GZIP_MAGIC
 from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans
 

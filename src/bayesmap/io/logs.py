@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.carmen import KNOWN, read_carmen
-from bayesmap.io.compression import compression_of, first_bytes
-from bayesmap.io.csv_scans import is_header, read_csv
-from bayesmap.io.g2o import KNOWN as KNOWN_G2O
-from bayesmap.io.g2o import read_g2o
-from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, Pose
-from bayesmap.io.npz_scans import MAGIC as NPZ_MAGIC
-from bayesmap.io.npz_scans import read_npz
-from bayesmap.io.rawlog import read_rawlog, starts_as_rawlog
+from bayesmap.io.ros.compression import compression_of, first_bytes
+from bayesmap.io.text.carmen import KNOWN, read_carmen
+from bayesmap.io.text.csv import is_header, read_csv
+from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
+from bayesmap.io.text.g2o import read_g2o
+from bayesmap.io.text.lines import DamagedFile, read_lines
+from bayesmap.io.text.npz import MAGIC as NPZ_MAGIC
+from bayesmap.io.text.npz import read_npz
+from bayesmap.io.text.rawlog import read_rawlog, starts_as_rawlog
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import SAME_S, coarse_stamps_note
 from bayesmap.space.travel import jumps, steps_m, thinned
@@ -123,7 +123,7 @@ def describe_log(
     kind = format_of(path)
     chosen = {"scan_topic": scan_topic, "pose_topic": pose_topic, "fixed_frame": fixed_frame}
     if kind in RECORDINGS:
-        from bayesmap.io.robot_log import read_recording  # loads rosbags
+        from bayesmap.io.ros.log import read_recording  # loads rosbags
 
         reading = read_recording(
             path,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bayesmap.io.frames import Numbers, Samples, close
+from bayesmap.io.ros.frames import Numbers, Samples, close
 from bayesmap.space.planar import around
 
 SAME = 1e-4

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.io.layers import as_layers
-from bayesmap.io.recording_writer import header_of, pose_of, write_recording
+from bayesmap.io.ros.writer import header_of, pose_of, write_recording
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def write_grid_map(
     """Write the layers of a map as the one message of a recording, on the topic /grid_map, latched.
 
     Args:
-        path: .bag, .mcap, .db3 or a folder, see `bayesmap.io.recording_writer`.
+        path: .bag, .mcap, .db3 or a folder, see `bayesmap.io.ros.writer`.
         layers: by name, each of shape (nx, ny), NaN where unknown; the first is the basic layer.
         grid: the grid of the map.
         observed: cells that some beam reached, shape (nx, ny); the others are NaN. All by default.

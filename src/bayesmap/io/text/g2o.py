@@ -1,7 +1,7 @@
 """g2o and TORO files of a graph in the plane whose vertices carry laser scans.
 
     VERTEX_SE2 id x y yaw                  (TORO: VERTEX2)
-    ROBOTLASER1 ...                        (or FLASER: CARMEN's lines, see `bayesmap.io.carmen`)
+    ROBOTLASER1 ...                        (or FLASER: CARMEN's lines, see `bayesmap.io.text.carmen`)
     EDGE_SE2 id id dx dy dyaw ...          (TORO: EDGE2)
 
 A laser line belongs to the last vertex before it. The two poses in the line say where the laser is on the robot; the
@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.laser_lines import LASERS, Malformed, parse_floats, parse_laser
-from bayesmap.io.laser_scans import LaserScan, reading_of
-from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
+from bayesmap.io.text.laser_lines import LASERS, Malformed, parse_floats, parse_laser
+from bayesmap.io.text.laser_scans import LaserScan, reading_of
+from bayesmap.io.text.lines import DamagedFile, read_lines
 from bayesmap.space.planar import compose
 
 VERTICES = (b"VERTEX_SE2", b"VERTEX2")
@@ -42,7 +42,7 @@ def read_g2o(
     max_range_m: float | None = None,
     laser: Pose | None = None,
 ) -> LogReading:
-    """Read the scans of a g2o file, plain or gzipped. Arguments and errors are those of `bayesmap.io.carmen`."""
+    """Read the scans of a g2o file, plain or gzipped. Arguments and errors are those of `bayesmap.io.text.carmen`."""
     name = os.fspath(path)
     lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
     counts: Counter[str] = Counter()

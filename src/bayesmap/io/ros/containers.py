@@ -20,10 +20,10 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.errors import BadInput
-from bayesmap.io import bag_records, mcap_records, sqlite_records
-from bayesmap.io.compression import compression_of, first_bytes, unpack_file
-from bayesmap.io.record import Connection, OnDamage, Record, messages_of, refuse, topics_of
-from bayesmap.io.recording import Damaged, Message, Recording, Topic
+from bayesmap.io.ros import bag_records, mcap_records, sqlite_records
+from bayesmap.io.ros.compression import compression_of, first_bytes, unpack_file
+from bayesmap.io.ros.record import Connection, OnDamage, Record, messages_of, refuse, topics_of
+from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic
 
 Records = Callable[[str | os.PathLike[str], OnDamage], Iterator[Connection | Record]]
 

@@ -1,4 +1,4 @@
-"""A trajectory as a recording that ROS plays, whatever the container (`bayesmap.io.recording_writer`).
+"""A trajectory as a recording that ROS plays, whatever the container (`bayesmap.io.ros.writer`).
 
     /trajectory   nav_msgs/Path, latched: all poses
     /pose         geometry_msgs/PoseWithCovarianceStamped: a message a pose, at its time; where covariances are known
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.recording_writer import Channel, header_of, pose_of, write_channels
+from bayesmap.io.ros.writer import Channel, header_of, pose_of, write_channels
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.io.lines import read_lines
+from bayesmap.io.text.lines import read_lines
 from bayesmap.space.scans import as_poses
 from bayesmap.space.trajectory import Trajectory
 

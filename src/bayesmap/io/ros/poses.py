@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from bayesmap.errors import BadInput
-from bayesmap.io.frames import FIXED_FRAMES, Chain, FrameTree, Samples, numbers_of
-from bayesmap.io.laser_messages import LATEST_NS, Malformed, frame_of, stamp_ns_of
 from bayesmap.io.log_reading import WITHOUT_POSES, Pose
-from bayesmap.io.publishers import contradiction
-from bayesmap.io.recording import Recording, Topic
+from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Samples, numbers_of
+from bayesmap.io.ros.laser_messages import LATEST_NS, Malformed, frame_of, stamp_ns_of
+from bayesmap.io.ros.publishers import contradiction
+from bayesmap.io.ros.recording import Recording, Topic
 from bayesmap.space.rigid import Track
 
 TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
-from bayesmap.io.recording import Damaged, Message, Topic
+from bayesmap.io.ros.recording import Damaged, Message, Topic
 
 OnDamage = Callable[[str], None]
 """Is told why a part cannot be read; it raises to stop there, or returns to go on behind it."""

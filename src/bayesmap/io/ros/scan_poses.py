@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.frames import Chain
-from bayesmap.io.laser_messages import LaserMessage, Layout
-from bayesmap.io.pose_sources import PoseSource
-from bayesmap.io.robot_messages import Bad
+from bayesmap.io.ros.frames import Chain
+from bayesmap.io.ros.laser_messages import LaserMessage, Layout
+from bayesmap.io.ros.messages import Bad
+from bayesmap.io.ros.poses import PoseSource
 from bayesmap.space.rigid import planar, upright
 
 AT_ONCE = 1 << 18

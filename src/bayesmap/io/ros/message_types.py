@@ -14,8 +14,8 @@ from typing import Any
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 
-from bayesmap.io.compression import ZSTD, NotUnpacked, unpack_zstd
-from bayesmap.io.recording import Damaged, Topic
+from bayesmap.io.ros.compression import ZSTD, NotUnpacked, unpack_zstd
+from bayesmap.io.ros.recording import Damaged, Topic
 
 READABLE = ("cdr", "ros1")
 """Encodings that can be read."""

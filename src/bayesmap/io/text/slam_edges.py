@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.io.g2o_writer import Edges
+from bayesmap.io.text.g2o_writer import Edges
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.se2 import between_jacobians

@@ -1,8 +1,8 @@
 """Writing CARMEN logs, such that the reader gets back what was written.
 
 FLASER lines, which every tool knows, say neither their angles nor what they write for no return: they are written
-where the reader's rules (`bayesmap.io.carmen`, `bayesmap.io.returns`) find both by themselves. ROBOTLASER1 lines say
-first angle, step and maximum range, and are written everywhere else.
+where the reader's rules (`bayesmap.io.text.carmen`, `bayesmap.io.returns`) find both by themselves. ROBOTLASER1 lines
+say first angle, step and maximum range, and are written everywhere else.
 """
 
 from __future__ import annotations

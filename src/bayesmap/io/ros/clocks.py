@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.io.frames import Samples
-from bayesmap.io.laser_messages import LaserMessage
-from bayesmap.io.pose_sources import PoseMessages
+from bayesmap.io.ros.frames import Samples
+from bayesmap.io.ros.laser_messages import LaserMessage
+from bayesmap.io.ros.poses import PoseMessages
 
 STEP_NS = 10**9
 """Stamps that go back by less are of messages that came late."""

@@ -17,12 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.clock_runs import ClockRun, clock_runs, joined_stamps
-from bayesmap.io.containers import open_recording
-from bayesmap.io.frames import Chain
-from bayesmap.io.laser_messages import LaserMessage, LaserMessages, beams_of
 from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
-from bayesmap.io.pose_sources import (
+from bayesmap.io.rep117 import judge
+from bayesmap.io.returns import Views
+from bayesmap.io.ros.clocks import ClockRun, clock_runs, joined_stamps
+from bayesmap.io.ros.containers import open_recording
+from bayesmap.io.ros.frames import Chain
+from bayesmap.io.ros.laser_messages import LaserMessage, LaserMessages, beams_of
+from bayesmap.io.ros.messages import TYPES, Bad, read_messages, scan_topic_of, scans_and_poses
+from bayesmap.io.ros.poses import (
     POSE_TYPES,
     PoseMessages,
     PoseSource,
@@ -38,11 +41,8 @@ from bayesmap.io.pose_sources import (
     standing_still,
     topics_of_type,
 )
-from bayesmap.io.recording import Recording, Topic
-from bayesmap.io.rep117 import judge
-from bayesmap.io.returns import Views
-from bayesmap.io.robot_messages import TYPES, Bad, read_messages, scan_topic_of, scans_and_poses
-from bayesmap.io.scan_poses import in_order_of_time, left_out, poses_at_first_rays, poses_of_rays, ray_times
+from bayesmap.io.ros.recording import Recording, Topic
+from bayesmap.io.ros.scan_poses import in_order_of_time, left_out, poses_at_first_rays, poses_of_rays, ray_times
 from bayesmap.space.scans import Scans
 
 

@@ -1,6 +1,6 @@
 """CARMEN's laser messages, one a line, as CARMEN logs and g2o's files hold them.
 
-`bayesmap.io.carmen` has the formats.
+`bayesmap.io.text.carmen` has the formats.
 """
 
 from __future__ import annotations

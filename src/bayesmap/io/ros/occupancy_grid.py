@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bayesmap.io.percent import in_percent
-from bayesmap.io.recording_writer import header_of, pose_of, time_of, write_recording
+from bayesmap.io.ros.percent import in_percent
+from bayesmap.io.ros.writer import header_of, pose_of, time_of, write_recording
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
@@ -38,11 +38,11 @@ def write_occupancy_grid(
     """Write a map as the one message of a recording, on the topic /map, latched.
 
     Args:
-        path: .bag, .mcap, .db3 or a folder, see `bayesmap.io.recording_writer`.
+        path: .bag, .mcap, .db3 or a folder, see `bayesmap.io.ros.writer`.
         occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
         grid: the grid of the map.
         observed: cells that some beam reached, shape (nx, ny); the others are -1. All by default.
-        mode: scale and raw: the probability in per cent; trinary: 0, 100 and -1. See `bayesmap.io.percent`.
+        mode: scale and raw: the probability in per cent; trinary: 0, 100 and -1. See `bayesmap.io.ros.percent`.
         occupied_thresh: 0.65 for trinary, 1 for scale.
         free_thresh: 0.25 for trinary, 0 for scale.
         stamp_s: time of the map; zero if None.

@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
 from bayesmap.io.layers import as_observed, as_occupancy
-from bayesmap.io.percent import in_percent, thresholds_of
+from bayesmap.io.ros.percent import in_percent, thresholds_of
 from bayesmap.sim.image import brightness, check_thresholds
 from bayesmap.space.grid import Grid
 

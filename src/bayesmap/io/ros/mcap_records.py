@@ -11,9 +11,9 @@ from binascii import crc32
 from collections.abc import Iterator
 from pathlib import Path
 
-from bayesmap.io.compression import zstd
-from bayesmap.io.record import Connection, OnDamage, Record
-from bayesmap.io.recording import Topic, spelled_as_in_ros2
+from bayesmap.io.ros.compression import zstd
+from bayesmap.io.ros.record import Connection, OnDamage, Record
+from bayesmap.io.ros.recording import Topic, spelled_as_in_ros2
 
 MAGIC = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 1, 2, 3, 4, 5, 6, 15

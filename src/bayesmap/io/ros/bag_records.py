@@ -11,8 +11,8 @@ import struct
 from collections.abc import Iterator
 from pathlib import Path
 
-from bayesmap.io.record import Connection, OnDamage, Record
-from bayesmap.io.recording import Topic, spelled_as_in_ros2
+from bayesmap.io.ros.record import Connection, OnDamage, Record
+from bayesmap.io.ros.recording import Topic, spelled_as_in_ros2
 
 MAGIC = b"#ROSBAG V2.0\n"
 MESSAGE, BAG_HEADER, INDEX, CHUNK, CHUNK_INFO, CONNECTION = 2, 3, 4, 5, 6, 7

@@ -1,4 +1,4 @@
-"""Logs of MRPT (.rawlog): a stream of serialised objects (`bayesmap.io.rawlog_objects`), gzipped or not.
+"""Logs of MRPT (.rawlog): a stream of serialised objects (`bayesmap.io.text.rawlog_objects`), gzipped or not.
 
 Read are the laser's scans (CObservation2DRangeScan, versions 0 to 8), and of poses either the robot's motions from one
 sensory frame to the next (CActionRobotMovement2D, versions 0 to 7), or its odometry (CObservationOdometry, versions 0
@@ -22,9 +22,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.lines import file_chunks
 from bayesmap.io.log_reading import LogReading, Pose, SkippedLine, no_poses
-from bayesmap.io.rawlog_objects import (
+from bayesmap.io.rep117 import judge
+from bayesmap.io.returns import Views
+from bayesmap.io.text.lines import file_chunks
+from bayesmap.io.text.rawlog_objects import (
     BY_ODOMETRY,
     CLASS,
     Header,
@@ -37,8 +39,6 @@ from bayesmap.io.rawlog_objects import (
     odometry_of,
     scan_of,
 )
-from bayesmap.io.rep117 import judge
-from bayesmap.io.returns import Views
 from bayesmap.space.planar import compose, interpolate
 from bayesmap.space.scans import Scans, side_by_side
 from bayesmap.space.time_order import SAME_S, time_order

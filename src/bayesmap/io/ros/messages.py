@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Callable
 
 from bayesmap.errors import BadInput
-from bayesmap.io.containers import REMEDY
-from bayesmap.io.laser_messages import LASER_SCAN, SCAN_TYPES, LaserMessages, Malformed, laser_message
-from bayesmap.io.message_types import READABLE, MessageTypes, Unreadable
-from bayesmap.io.pose_sources import POSE_TYPES, TF_TYPES, PoseMessages, listed, topics_of_type
-from bayesmap.io.recording import Damaged, Recording, Topic
+from bayesmap.io.ros.containers import REMEDY
+from bayesmap.io.ros.laser_messages import LASER_SCAN, SCAN_TYPES, LaserMessages, Malformed, laser_message
+from bayesmap.io.ros.message_types import READABLE, MessageTypes, Unreadable
+from bayesmap.io.ros.poses import POSE_TYPES, TF_TYPES, PoseMessages, listed, topics_of_type
+from bayesmap.io.ros.recording import Damaged, Recording, Topic
 
 TYPES = (*SCAN_TYPES, *POSE_TYPES, *TF_TYPES)
 """Messages that are read."""

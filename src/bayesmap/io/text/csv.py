@@ -39,10 +39,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.lines import DamagedFile, read_lines
 from bayesmap.io.log_reading import LogReading, Pose, SkippedLine, no_poses
 from bayesmap.io.rep117 import judge
 from bayesmap.io.returns import Views
+from bayesmap.io.text.lines import DamagedFile, read_lines
 from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans, fan_fault, side_by_side
 from bayesmap.space.time_order import time_order

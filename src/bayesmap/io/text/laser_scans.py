@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.laser_lines import RAW, BeamLayout, LaserLine
 from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
 from bayesmap.io.returns import NoReturn, Views, decode
+from bayesmap.io.text.laser_lines import RAW, BeamLayout, LaserLine
 from bayesmap.space.scans import Scans, side_by_side
 from bayesmap.space.time_order import time_order
 

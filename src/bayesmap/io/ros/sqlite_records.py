@@ -12,8 +12,8 @@ from contextlib import closing
 from pathlib import Path
 from urllib.parse import quote
 
-from bayesmap.io.record import Connection, OnDamage, Record
-from bayesmap.io.recording import Topic
+from bayesmap.io.ros.record import Connection, OnDamage, Record
+from bayesmap.io.ros.recording import Topic
 
 MAGIC = b"SQLite format 3\0"
 LANGUAGES = {"ros2msg": "msg", "ros2idl": "idl"}

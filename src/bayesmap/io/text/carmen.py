@@ -30,7 +30,8 @@ from dataclasses import replace
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.laser_lines import (
+from bayesmap.io.log_reading import WITHOUT_POSES, LogReading, Pose, SkippedLine
+from bayesmap.io.text.laser_lines import (
     IMPLICIT,
     LASERS,
     RAW,
@@ -40,9 +41,8 @@ from bayesmap.io.laser_lines import (
     parse_floats,
     parse_laser,
 )
-from bayesmap.io.laser_scans import LaserScan, reading_of
-from bayesmap.io.lines import DamagedFile, read_lines
-from bayesmap.io.log_reading import WITHOUT_POSES, LogReading, Pose, SkippedLine
+from bayesmap.io.text.laser_scans import LaserScan, reading_of
+from bayesmap.io.text.lines import DamagedFile, read_lines
 from bayesmap.space.planar import compose
 
 OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from bayesmap.io.laser_messages import Malformed
+from bayesmap.io.ros.laser_messages import Malformed
 from bayesmap.space.planar import around
 from bayesmap.space.rigid import Track, planar
 
