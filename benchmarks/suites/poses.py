@@ -17,8 +17,8 @@ import bayesmap as bm
 from bayesmap.errors import BadInput
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.poses.key_graph import poses_between_keys
+from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.relations import read_relations, relation_errors
-from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.score import beam_log_scores

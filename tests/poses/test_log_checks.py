@@ -7,7 +7,7 @@ from simulated import path_around, ring, scans_of
 import bayesmap as bm
 from bayesmap.poses.frozen_odometry import Stretch, frozen_stretches
 from bayesmap.poses.log_checks import check_scans, doubts
-from bayesmap.poses.slam import infer_trajectory
+from bayesmap.poses.pipeline import infer_trajectory
 
 
 def scans(truth, stated, period_s=0.2):

@@ -9,9 +9,10 @@ import pytest
 from simulated import off, recording
 
 from bayesmap.errors import BadInput
-from bayesmap.poses import slam
+from bayesmap.poses import key_alignment
+from bayesmap.poses.key_alignment import KeyAlignment
+from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.rematch import Rematch
-from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
 
@@ -122,7 +123,6 @@ def test_odometry_that_never_goes_backwards_while_the_robot_does():
 
 def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
     """Two scans are moved; after alignment one is explained better than before, the other worse."""
-    recorded, _ = loop_recording()
     poses = np.zeros((4, 3))
     better = poses + np.array([1.0, 0.0, 0.0])
     answers = iter(
@@ -132,12 +132,13 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
             Rematch(np.array([0.5, 0.8, 0.5, 0.5]), np.full(4, 0.9), better, np.zeros(4, bool)),
         ]
     )
-    monkeypatch.setattr(slam, "rematch", lambda *args, **kwargs: next(answers))
-    run = slam._Run(recorded, False, 1, "cpu", None, lambda stage, done, of: None)
-    monkeypatch.setattr(run, "align", lambda name, geometry, at, *rest, **more: SimpleNamespace(poses=at, pairs=None))
-    aligned, scores = run.improve(None, SimpleNamespace(poses=poses, pairs=None), None, 1.0, 1.0)
-    np.testing.assert_array_equal(aligned.poses[:, 0], [0.0, 1.0, 0.0, 0.0])
-    np.testing.assert_array_equal(scores, [0.5, 0.8, 0.5, 0.5])
+    monkeypatch.setattr(key_alignment, "rematch", lambda *args, **kwargs: next(answers))
+    aligned = lambda self, stage, at, *rest, **more: SimpleNamespace(poses=at, pairs=None)  # noqa: E731
+    monkeypatch.setattr(KeyAlignment, "align", aligned)
+    alignment = KeyAlignment(None, None, 1.0, lambda track, stage, rounds: lambda done, at: None, 1)
+    matched = alignment.improved(SimpleNamespace(poses=poses, pairs=None), None)
+    np.testing.assert_array_equal(matched.alignment.poses[:, 0], [0.0, 1.0, 0.0, 0.0])
+    np.testing.assert_array_equal(matched.scores, [0.5, 0.8, 0.5, 0.5])
 
 
 def test_poses_are_told_at_every_stage_and_come_nearer_the_truth(trajectory):

@@ -73,7 +73,7 @@ class Locating:
         poses of the log is shown, at once.
 
         Raises:
-            BadInput: as `bayesmap.poses.slam.infer_trajectory`.
+            BadInput: as `bayesmap.poses.pipeline.infer_trajectory`.
         """
         if mode == "clear" and self.placed is not None:
             self.placed = None

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.along import counted_map, grown
 from bayesmap.app.hit_counts import Counted
-from bayesmap.poses.slam import infer_trajectory
+from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

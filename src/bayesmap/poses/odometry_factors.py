@@ -1,16 +1,24 @@
-"""Factors between key scans from odometry, or, where there is none, from the front end alone."""
+"""Odometry as the log states it, and its factors between key scans; where there is none, those of the front end."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.calibration import stated_at
+from bayesmap.poses.alignment import Alignment
+from bayesmap.poses.calibration import OdometryFit, fit_odometry, stated_at
 from bayesmap.poses.front_end import UNKNOWN, Track
+from bayesmap.poses.frozen_odometry import caught_up
 from bayesmap.poses.graph import Factors
+from bayesmap.poses.next_scans import chained
+from bayesmap.poses.odometry_motion import stated_motions, variances
+from bayesmap.poses.precision import relative_covariances
+from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 
@@ -20,6 +28,71 @@ STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
 
 GUESSED = np.diag(1.0 / UNKNOWN**2)
 """How firmly a link holds that nothing is known of: it keeps parts of the path from drifting away."""
+
+
+@dataclass(frozen=True, eq=False)
+class StatedOdometry:
+    """What a log states of the robot's motion.
+
+    Attributes:
+        poses: as stated, (S, 3).
+        stamps_s: of the scans, (S,), or None.
+        motions: from scan to scan in the earlier one's frame, (S - 1, 3).
+        impossible: motions that no robot can have made, (S - 1,).
+        used: False where the robot's motion is to be found from the scans alone.
+    """
+
+    poses: Floats
+    stamps_s: Floats | None
+    motions: Floats
+    impossible: NDArray[np.bool_]
+    used: bool
+
+    @property
+    def used_motions(self) -> Floats | None:
+        """The motions, (S - 1, 3); None where they are not used."""
+        return self.motions if self.used else None
+
+    def reversed_at(self, against: NDArray[np.bool_]) -> StatedOdometry:
+        """Return odometry with the motions before some scans, (S,), the other way round."""
+        if not (self.used and against.any()):
+            return self
+        motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
+        poses = np.vstack([self.poses[:1], chained(self.poses[0], motions)])
+        return replace(self, poses=poses, motions=motions)
+
+    def first_factors(self, track: Track, poses: Floats) -> Factors:
+        """Return factors between key scans at some poses, (K, 3), with what the front end learnt of the noise."""
+        if not self.used:
+            return chain_factors(track, poses)
+        return self._corrected(track, poses, track.slope, lambda motions: variances(motions, track.noise_ratios))
+
+    def fitted(self, track: Track, aligned: Alignment) -> tuple[OdometryFit | None, Factors]:
+        """Return the errors of odometry by aligned key scans, None where it is not used, and factors without them."""
+        poses = aligned.poses
+        if not self.used:
+            return None, chain_factors(track, poses)
+        order = np.arange(len(track.keys) - 1)
+        covariance = relative_covariances(aligned.gaussian.precision, poses, order, order + 1)
+        variance = np.diagonal(covariance, axis1=1, axis2=2)
+        fit = fit_odometry(self.poses, self.stamps_s, poses, track.keys, variance)
+        return fit, self._corrected(track, poses, fit.slope, fit.noise.variances, fit.lag_s)
+
+    def _corrected(
+        self, track: Track, poses: Floats, slope: Floats, noise: Callable[[Floats], Floats], lag_s: float = 0.0
+    ) -> Factors:
+        """Return factors between key scans, but where a motion was refused or the path breaks."""
+        return corrected_factors(
+            self.poses, self.stamps_s, self.motions, self.impossible | track.broken[1:], track.keys, poses, slope,
+            noise, lag_s,
+        )  # fmt: skip
+
+
+def stated_odometry(scans: Scans, geometry: ScanGeometry | None, threads: int | None = None) -> StatedOdometry:
+    """Return the odometry of scans in the order of time, late poses mended; without a geometry it is not used."""
+    poses = scans.poses if geometry is None else caught_up(scans, geometry, threads)
+    motions, impossible = stated_motions(poses, scans.stamps_s)
+    return StatedOdometry(poses, scans.stamps_s, motions, impossible, geometry is not None)
 
 
 def chain_factors(track: Track, poses: Floats) -> Factors:
