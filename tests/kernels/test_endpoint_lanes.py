@@ -12,7 +12,7 @@ from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells
 from bayesmap.kernels.surfaces.cell_prior import centre_of
 from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, log_stops
-from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, log_beams
+from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed_of, log_beams
 from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.model import Model
@@ -31,8 +31,7 @@ SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS}
 @wp.kernel
 def both_ways(
     law: SensorLaw32, rays: TracedRays, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays,
-    lists: wp.array2d(dtype=wp.int32), passes: wp.array2d(dtype=wp.int32), blocks: Blocks,
-    hits: wp.array(dtype=wp.int32), leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
+    lists: BeamLists, blocks: Blocks, leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
 ):  # fmt: skip
     """One by one; in lanes, those that have one; with the others; and with both cut short."""
     u = wp.tid()
@@ -40,17 +39,16 @@ def both_ways(
     cell = state.cells[c]
     centre = centre_of(c, active.ny, active.edge_m)
     begin, end = endpoints.offsets[u], endpoints.offsets[u + 1]
-    span = wp.vec4i(begin, begin + passes[0, u], end - hits[c], end)
-    listed = lists[0]
+    listed = listed_of(lists, 0, u, begin, end, state.last_hits[c])
     one = state.beta
-    out[0, u] = log_stops(law, one, rays, endpoints, listed, span, centre, cell, NO_LEAST)
-    others = put_in_blocks(blocks, 0, u, rays, endpoints, listed, span)
-    beams = wp.vec2i(span[1] - span[0], span[3] - span[2] - others)
+    out[0, u] = log_stops(law, one, rays, endpoints, listed, centre, cell, NO_LEAST)
+    others = put_in_blocks(blocks, 0, u, rays, endpoints, listed)
+    beams = wp.vec2i(listed.passing_end - listed.passing_begin, listed.stopped_end - listed.stopped_begin - others)
     out[1, u] = log_stops_in_lanes(law, blocks, 0, u, beams, centre, cell, NO_LEAST)
-    out[2, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, span, others, centre, cell, NO_LEAST)
-    out[3, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, span, others, centre, cell, leasts[u])
+    out[2, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, others, centre, cell, NO_LEAST)
+    out[3, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, others, centre, cell, leasts[u])
     out[4, u] = wp.float64(others)
-    out[5, u] = wp.float64(span[3] - span[2])
+    out[5, u] = wp.float64(listed.stopped_end - listed.stopped_begin)
 
 
 @wp.kernel
@@ -88,8 +86,8 @@ def weighed(sensor, seed, worse=0.0):
     law = sensor_law(problem.sensor, problem.rays.limits, "cpu", SensorLaw32)
     cells = len(chains.plan.endpoints)
     out = wp.zeros((6, cells), dtype=wp.float64)
-    inputs = [law, chains._rays, chains._endpoints, chains._active, chains._state, chains._lists, chains._passes,
-              chains._blocks, chains._hits]  # fmt: skip
+    inputs = [law, chains._rays, chains._endpoints, chains._active, chains._state, chains._lists,
+              chains._blocks]  # fmt: skip
     wp.launch(both_ways, dim=cells, inputs=[*inputs, wp.full(cells, -1e300, dtype=wp.float64), out])
     one_by_one = out.numpy()[0].copy()
     least = one_by_one + rng.normal(size=cells)

@@ -57,7 +57,6 @@ def tell(rays: TracedRays, state: ChainArrays, part: int, b: int, jacobian: floa
 @wp.kernel
 def speak(
     first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     tell(rays, state, part, first + wp.tid(), 0.0)
 
@@ -65,7 +64,6 @@ def speak(
 @wp.kernel
 def speak_wrongly(
     first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     tell(rays, state, part, first + wp.tid(), 0.5)
 
@@ -73,7 +71,6 @@ def speak_wrongly(
 @wp.kernel
 def stop_as_ever(
     first: int, part: int, sweep: int, turn: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
 ):  # fmt: skip
     """Beams cross one cell: those with a reading stop there, the others pass."""
     b = first + wp.tid()

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.rays import Lines, beam_lines, put_lines, stop_distances
+from bayesmap.kernels.rays import Lines, beam_lines, lines_to_device, stop_distances
 from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -60,7 +60,7 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[n
     threads = devices.available_cores()
     bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
     counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
-    inputs = [put_lines(*beam_lines(scans, grid), grid, device), devices.to_device(reach_m, wp.float64, device)]
+    inputs = [lines_to_device(*beam_lines(scans, grid), grid, device), devices.to_device(reach_m, wp.float64, device)]
     inputs.append(devices.to_device(hit, wp.uint8, device))
     devices.launch(
         count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device

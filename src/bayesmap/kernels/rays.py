@@ -35,6 +35,15 @@ class Lines:
 
 
 @wp.struct
+class RayArrays:
+    """`Rays` on a device: beam b crosses ``cells[offsets[b]:offsets[b + 1]]``."""
+
+    lines: Lines
+    offsets: wp.array(dtype=wp.int32)
+    cells: wp.array(dtype=wp.int32)
+
+
+@wp.struct
 class Slab:
     """One axis of a beam's line, in units of cells."""
 
@@ -183,34 +192,34 @@ def fill_cells(
 @wp.kernel
 def fill_distances(
     first: int,
-    lines: Lines,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
+    rays: RayArrays,
     depth: wp.float64,
     distance_m: wp.array(dtype=wp.float32),
 ):
     """One thread a beam: where it would stop in each of its cells."""
     b = first + wp.tid()
-    line = line_of(lines, b)
-    for k in range(offsets[b], offsets[b + 1]):
-        distance_m[k] = wp.float32(distance_at(line, cells[k], depth))
+    line = line_of(rays.lines, b)
+    for k in range(rays.offsets[b], rays.offsets[b + 1]):
+        distance_m[k] = wp.float32(distance_at(line, rays.cells[k], depth))
 
 
 def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> NDArray[np.float32]:
     """As `Rays.distance_m`, compiled: metres, shape (K,)."""
     distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
-    inputs = [*put_rays(rays, device), wp.float64(hit_depth), distance_m]
+    inputs = [rays_to_device(rays, device), wp.float64(hit_depth), distance_m]
     devices.launch(fill_distances, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return np.asarray(distance_m.numpy())
 
 
-def put_rays(rays: Rays, device: str) -> list[Any]:
-    """Rays where kernels read them: lines, offsets, and cells."""
-    lines = put_lines(rays.start_m, rays.direction, rays.grid, device)
-    return [lines, *(devices.to_device(a, wp.int32, device) for a in (rays.offsets, rays.cells))]
+def rays_to_device(rays: Rays, device: str) -> Any:
+    """Put rays where kernels read them."""
+    on_device = RayArrays()
+    on_device.lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
+    on_device.offsets, on_device.cells = (devices.to_device(a, wp.int32, device) for a in (rays.offsets, rays.cells))
+    return on_device
 
 
-def put_lines(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
+def lines_to_device(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
     """Beams where kernels read them, starts in metres from the grid's lower left corner."""
     lines = Lines()
     for name, array in (("start_m", start_m), ("direction", direction)):
@@ -259,7 +268,7 @@ def trace_rays(
     reach = np.minimum(np.inf if reach_m is None else reach_m, scans.max_range_m)
     reach = np.where(np.isnan(ranges), -1.0, reach)
     start_m, direction = beam_lines(scans, grid)
-    lines = put_lines(start_m, direction, grid, device)
+    lines = lines_to_device(start_m, direction, grid, device)
     reach_there = devices.to_device(reach, wp.float64, device)
     near_there = devices.to_device(np.zeros(beams) if near_m is None else near_m, wp.float64, device)
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.match.scan_refinement import refine_scans
+from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.motion_noise import MotionNoise, fit_noise
 from bayesmap.poses.odometry_motion import inverse_slope
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -197,10 +197,9 @@ def angle_step_ratio(
         # Turning a scan about its first beam turns its pose; the middle beam shall stay where it was.
         start = place.copy()
         start[:, 2] -= 0.5 * (factor - 1.0) * some.sweep_rad
-        _, _, totals = refine_scans(
-            geometry, None, one, each, other, start[other], start[one], start[one], weak, 0.02, 10,
-            geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7, threads=threads,
-        )  # fmt: skip
+        jobs = Refinement(one, each, other, start[other], start[one], start[one], weak)
+        convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7)
+        _, _, totals = refine_scans(geometry, jobs, convergence, threads)
         return 1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)
 
     factors = 1.0 + np.linspace(-0.0125, 0.0125, 11)

@@ -87,7 +87,7 @@ def match(
     Raises:
         BadInput: arrays that do not fit, or a window or step that is not positive.
     """
-    from bayesmap.kernels.match.branch_and_bound import search
+    from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search
 
     jobs = len(points)
     centres = np.asarray(centres, np.float64).reshape(-1, 3)
@@ -121,12 +121,19 @@ def match(
     offsets = np.concatenate([[0], np.cumsum([len(p) for p in points])]).astype(np.int32)
     cells = int(apart_m / grids.resolution + 1e-9)
     apart = (int(apart_rad / step_rad + 1e-9), cells, cells)
-    scores, nodes = search(
-        grids.pyramid, grids.origins, grids.resolution, flat, offsets, np.asarray(grid_of, np.int32),
-        np.ascontiguousarray(centres[:, :2]), np.round(half / grids.resolution).astype(np.int32), angles, costs, rows,
-        np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))), np.full(jobs, across), modes, share, apart,
-        strands, grids.device, threads,
-    )  # fmt: skip
+    windows = Windows(
+        points=flat,
+        point_offsets=offsets,
+        grid=np.asarray(grid_of, np.int32),
+        centres=np.ascontiguousarray(centres[:, :2]),
+        half_cells=np.round(half / grids.resolution).astype(np.int32),
+        angles_rad=angles,
+        angle_costs=costs,
+        row_offsets=rows,
+        least=np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))),
+        across=np.full(jobs, across),
+    )
+    scores, nodes = search(grids, windows, Modes(modes, share, apart), strands, threads)
     poses = np.full((jobs, modes, 3), np.nan)
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.match.scan_refinement import refine_scans
+from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.likelihood_grid import LikelihoodGrids
 from bayesmap.poses.matcher import Pull, match
@@ -218,11 +218,12 @@ def _refined(
     certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
     turn = rotation(predicted[:, 2])
     prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)
-    placed, laser_information, _ = refine_scans(
-        geometry, None, scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys),
-        np.tile(keys, jobs).astype(np.int32), np.tile(poses, (jobs, 1)), start, predicted, prior_information,
-        max(POINT_SIGMA_M, geometry.noise_m), STEPS, geometry.reach_m(*REACH_M),
-        geometry.scale_m(*SCALE_M), ALIKE, threads=threads,
+    refinement = Refinement(
+        scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys), np.tile(keys, jobs).astype(np.int32),
+        np.tile(poses, (jobs, 1)), start, predicted, prior_information,
     )  # fmt: skip
+    sigma_m = max(POINT_SIGMA_M, geometry.noise_m)
+    convergence = Convergence(sigma_m, STEPS, geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M), ALIKE)
+    placed, laser_information, _ = refine_scans(geometry, refinement, convergence, threads)
     own = rotation(placed[:, 2])
     return placed, np.swapaxes(own, 1, 2) @ laser_information @ own

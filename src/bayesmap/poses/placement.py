@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
-from bayesmap.kernels.match.scan_refinement import refine_scans
+from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.alignment import ALIKE, Pairs, without_slack
 from bayesmap.poses.point_errors import PointError
 from bayesmap.poses.scan_geometry import ScanGeometry
@@ -94,11 +94,12 @@ def place_scans(
     prior = np.diag(1.0 / PRIOR_SIGMA**2)
     turn = rotation(poses[scans, 2])
     reach, scale = geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M)
-    found, _, totals = refine_scans(
-        geometry, None, scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans],
-        poses[scans], turn @ prior @ np.swapaxes(turn, 1, 2), CAUTION * max(sigma_m, LEAST_SIGMA_M), 10,
-        reach, scale, ALIKE, threads=threads,
+    refinement = Refinement(
+        scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans], poses[scans],
+        turn @ prior @ np.swapaxes(turn, 1, 2),
     )  # fmt: skip
+    convergence = Convergence(CAUTION * max(sigma_m, LEAST_SIGMA_M), 10, reach, scale, ALIKE)
+    found, _, totals = refine_scans(geometry, refinement, convergence, threads)
     result[scans] = found
     source = np.repeat(scans, np.diff(offsets)).astype(np.int32)
     per_pair = _information(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.match.scan_refinement import refine_scans
+from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.key_path import KeyPath
@@ -155,10 +155,9 @@ def _refined(
     anchor = np.repeat(first, np.diff(offsets))
     other_poses = between(path.poses[anchor], path.poses[np.concatenate(members)])
     weak = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
-    found, laser_information, _ = refine_scans(
-        path.geometry, None, path.scans(second), offsets, others, other_poses, start, start, weak,
-        0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE, threads=threads,
-    )  # fmt: skip
+    refinement = Refinement(path.scans(second), offsets, others, other_poses, start, start, weak)
+    convergence = Convergence(0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE)
+    found, laser_information, _ = refine_scans(path.geometry, refinement, convergence, threads)
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
     information = np.linalg.inv(covariance)
     # Refining that ends far from where the search began has slid into something else.

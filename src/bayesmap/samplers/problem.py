@@ -105,11 +105,6 @@ class WallProblem:
 
         return put_prior(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
-    @cached_property
-    def log_all_free(self) -> float:
-        """Log prior of the map in which only cells that are fixed as walls are walls."""
-        return float(np.log1p(-self.p_wall[self.p_wall < 1.0]).sum())
-
     def log_joint(self, walls: NDArray[np.bool_]) -> float:
         """Log p(walls, readings): the plain reference for what the samplers report."""
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)

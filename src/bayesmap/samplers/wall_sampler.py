@@ -108,12 +108,11 @@ class WallSampler(ABC):
         log_likelihood, log_prior, draws = run_sweeps(
             *state.kernel,
             problem.device_prior,
-            problem.log_all_free,
             state.sites,
             self.order == "random",
             state.chains,
             first=state.sweep,
-            sweeps=sweeps,
+            count=sweeps,
             kept=keep.sweeps(state.sweep, state.sweep + sweeps) if keep.wants("walls") else range(0),
             beta=beta,
             threads=problem.threads,

@@ -6,6 +6,7 @@ it returns is what looking at every translation and every angle would, and the f
 x, y, whatever the number of threads.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 
 wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
 
 
 @wp.struct
@@ -28,26 +31,64 @@ class Jobs:
     half_y: wp.array(dtype=wp.int32)
     least: wp.array(dtype=wp.float64)  # scores must exceed this
     across: wp.array(dtype=wp.float64)  # cost of a squared cell off the centre, in units of the score
+    row_cost: wp.array(dtype=wp.float64)  # of each angle
+    cells: wp.array2d(dtype=wp.vec2i)  # of each row, those of its points with the sensor at the window's centre
+
+
+@wp.struct
+class Roots:
+    """The largest blocks of all jobs: those of job j are ``order[begin[j]:begin[j + 1]]``, best bound first."""
+
+    begin: wp.array(dtype=wp.int32)
+    order: wp.array(dtype=wp.int32)
+    bound: wp.array(dtype=wp.float64)
+    node: wp.array(dtype=wp.vec3i)  # row, dx, dy
+
+
+@wp.struct
+class Taken:
+    """The poses that were found before, (J, modes), as (row, dx, dy), and how far from them a block must reach."""
+
+    node: wp.array2d(dtype=wp.vec3i)
+    apart: wp.vec3i
+    count: int
+
+
+@wp.struct
+class Stack:
+    """Blocks that each strand has still to look into, the best on top."""
+
+    bound: wp.array2d(dtype=wp.float64)
+    node: wp.array2d(dtype=wp.vec4i)  # level, dx, dy
+
+
+@wp.struct
+class Best:
+    """The best of each strand, and the score of the best of each job so far."""
+
+    incumbent: wp.array(dtype=wp.float64)
+    score: wp.array(dtype=wp.float64)
+    node: wp.array(dtype=wp.vec3i)
 
 
 @wp.func
 def block_score(
+    jobs: Jobs,
     pyramid: wp.array4d(dtype=wp.uint8),
-    cells: wp.array2d(dtype=wp.vec2i),
+    j: int,
     row: int,
-    points: int,
-    grid: int,
     level: int,
     dx: int,
     dy: int,
 ) -> int:
-    """The sum over points of the largest value in the block of shifts (dx, dy) .. + 2^level - 1."""
+    """Sum over a job's points the largest value in the block of shifts (dx, dy) .. + 2^level - 1."""
+    grid = jobs.grid[j]
     nx = pyramid.shape[2]
     ny = pyramid.shape[3]
     width = 1 << level
     total = int(0)
-    for k in range(points):
-        c = cells[row, k]
+    for k in range(jobs.point_end[j] - jobs.point_begin[j]):
+        c = jobs.cells[row, k]
         x = c[0] + dx
         y = c[1] + dy
         if x < nx and y < ny and x > -width and y > -width:
@@ -75,7 +116,6 @@ def turn_points(
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
     points: wp.array(dtype=wp.vec2d),
-    cells: wp.array2d(dtype=wp.vec2i),
 ):
     """One thread an angle of a job: the cells of its points with the sensor at the window's centre."""
     row = first + wp.tid()
@@ -89,7 +129,7 @@ def turn_points(
         p = points[jobs.point_begin[j] + k]
         x = int(wp.floor((x0 + cosine * p[0] - sine * p[1]) / resolution))
         y = int(wp.floor((y0 + sine * p[0] + cosine * p[1]) / resolution))
-        cells[row, k] = wp.vec2i(x, y)
+        jobs.cells[row, k] = wp.vec2i(x, y)
 
 
 @wp.kernel
@@ -97,17 +137,14 @@ def bound_blocks(
     first: int,
     jobs: Jobs,
     job_of_row: wp.array(dtype=wp.int32),
-    row_cost: wp.array(dtype=wp.float64),
     node_begin: wp.array(dtype=wp.int32),
-    level: int,
-    cells: wp.array2d(dtype=wp.vec2i),
     pyramid: wp.array4d(dtype=wp.uint8),
-    bound: wp.array(dtype=wp.float64),
-    node: wp.array(dtype=wp.vec3i),
+    roots: Roots,
 ):
     """One thread an angle of a job: bounds of the largest blocks."""
     row = first + wp.tid()
     j = job_of_row[row]
+    level = pyramid.shape[1] - 1
     width = 1 << level
     points = jobs.point_end[j] - jobs.point_begin[j]
     scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
@@ -116,27 +153,26 @@ def bound_blocks(
     while dx <= jobs.half_x[j]:
         dy = -jobs.half_y[j]
         while dy <= jobs.half_y[j]:
-            total = block_score(pyramid, cells, row, points, jobs.grid[j], level, dx, dy)
-            cost = row_cost[row] + jobs.across[j] * (off_centre(dx, width) + off_centre(dy, width))
-            bound[n] = wp.float64(total) * scale - cost
-            node[n] = wp.vec3i(row, dx, dy)
+            total = block_score(jobs, pyramid, j, row, level, dx, dy)
+            cost = jobs.row_cost[row] + jobs.across[j] * (off_centre(dx, width) + off_centre(dy, width))
+            roots.bound[n] = wp.float64(total) * scale - cost
+            roots.node[n] = wp.vec3i(row, dx, dy)
             n += 1
             dy += width
         dx += width
 
 
 @wp.func
-def is_taken(
-    row: int, dx: int, dy: int, width: int, taken: wp.array(dtype=wp.vec3i), apart: wp.vec3i, modes: int
-) -> int:
+def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bool:
     """Whether a whole block lies within the surroundings of a pose that was found before."""
-    for m in range(modes):
-        t = taken[m]
+    apart = taken.apart
+    for m in range(taken.count):
+        t = taken.node[j, m]
         if wp.abs(row - t[0]) <= apart[0]:
             if dx >= t[1] - apart[1] and dx + width - 1 <= t[1] + apart[1]:
                 if dy >= t[2] - apart[2] and dy + width - 1 <= t[2] + apart[2]:
-                    return 1
-    return 0
+                    return True
+    return False
 
 
 @wp.kernel
@@ -144,22 +180,11 @@ def search_blocks(
     first: int,
     strands: int,
     jobs: Jobs,
-    row_cost: wp.array(dtype=wp.float64),
-    job_nodes: wp.array(dtype=wp.int32),
-    order: wp.array(dtype=wp.int32),
-    bound: wp.array(dtype=wp.float64),
-    node: wp.array(dtype=wp.vec3i),
-    top: int,
-    cells: wp.array2d(dtype=wp.vec2i),
+    roots: Roots,
     pyramid: wp.array4d(dtype=wp.uint8),
-    taken: wp.array2d(dtype=wp.vec3i),
-    apart: wp.vec3i,
-    modes: int,
-    stack_bound: wp.array2d(dtype=wp.float64),
-    stack_node: wp.array2d(dtype=wp.vec4i),
-    incumbent: wp.array(dtype=wp.float64),
-    best: wp.array(dtype=wp.float64),
-    best_node: wp.array(dtype=wp.vec3i),
+    taken: Taken,
+    stack: Stack,
+    best: Best,
 ):
     """One thread a strand of a job: depth first through every ``strands``-th of its largest blocks, best bound first.
 
@@ -171,25 +196,25 @@ def search_blocks(
     scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
     mine = wp.float64(jobs.least[j])
     found = wp.vec3i(-1, 0, 0)
-    q = job_nodes[j] + t - j * strands
-    while q < job_nodes[j + 1]:
-        start = order[q]
+    q = roots.begin[j] + t - j * strands
+    while q < roots.begin[j + 1]:
+        start = roots.order[q]
         q += strands
-        if bound[start] < wp.max(mine, incumbent[j]) or bound[start] <= jobs.least[j]:
+        if roots.bound[start] < wp.max(mine, best.incumbent[j]) or roots.bound[start] <= jobs.least[j]:
             break
-        row = node[start][0]
-        stack_bound[t, 0] = bound[start]
-        stack_node[t, 0] = wp.vec4i(top, node[start][1], node[start][2], 0)
+        row = roots.node[start][0]
+        stack.bound[t, 0] = roots.bound[start]
+        stack.node[t, 0] = wp.vec4i(pyramid.shape[1] - 1, roots.node[start][1], roots.node[start][2], 0)
         depth = int(1)
         while depth > 0:
             depth -= 1
-            limit = wp.max(mine, incumbent[j])
-            value = stack_bound[t, depth]
+            limit = wp.max(mine, best.incumbent[j])
+            value = stack.bound[t, depth]
             if value < limit or value <= jobs.least[j]:
                 continue
-            level = stack_node[t, depth][0]
-            x0 = stack_node[t, depth][1]
-            y0 = stack_node[t, depth][2]
+            level = stack.node[t, depth][0]
+            x0 = stack.node[t, depth][1]
+            y0 = stack.node[t, depth][2]
             if level == 0:
                 better = value > mine
                 if value == mine and found[0] >= 0:
@@ -200,8 +225,8 @@ def search_blocks(
                 if better:
                     mine = value
                     found = wp.vec3i(row, x0, y0)
-                    if value > incumbent[j]:
-                        incumbent[j] = value
+                    if value > best.incumbent[j]:
+                        best.incumbent[j] = value
                 continue
             half = 1 << (level - 1)
             base = depth
@@ -210,140 +235,157 @@ def search_blocks(
                 dy = y0 + half * (child % 2)
                 if dx > jobs.half_x[j] or dy > jobs.half_y[j]:
                     continue
-                if modes > 0:
-                    if is_taken(row, dx, dy, half, taken[j], apart, modes) == 1:
-                        continue
-                total = block_score(pyramid, cells, row, points, jobs.grid[j], level - 1, dx, dy)
-                cost = row_cost[row] + jobs.across[j] * (off_centre(dx, half) + off_centre(dy, half))
+                if is_taken(taken, j, row, dx, dy, half):
+                    continue
+                total = block_score(jobs, pyramid, j, row, level - 1, dx, dy)
+                cost = jobs.row_cost[row] + jobs.across[j] * (off_centre(dx, half) + off_centre(dy, half))
                 score = wp.float64(total) * scale - cost
                 if score < limit or score <= jobs.least[j]:
                     continue
                 z = depth  # children in ascending order, so that the best is on top
-                while z > base and stack_bound[t, wp.max(z - 1, 0)] > score:
-                    stack_bound[t, z] = stack_bound[t, z - 1]
-                    stack_node[t, z] = stack_node[t, z - 1]
+                while z > base and stack.bound[t, wp.max(z - 1, 0)] > score:
+                    stack.bound[t, z] = stack.bound[t, z - 1]
+                    stack.node[t, z] = stack.node[t, z - 1]
                     z -= 1
-                stack_bound[t, z] = score
-                stack_node[t, z] = wp.vec4i(level - 1, dx, dy, 0)
+                stack.bound[t, z] = score
+                stack.node[t, z] = wp.vec4i(level - 1, dx, dy, 0)
                 depth += 1
-    best[t] = mine
-    best_node[t] = found
+    best.score[t] = mine
+    best.node[t] = found
 
 
-def search(
-    pyramid: Any,
-    origins: NDArray[np.float64],
-    resolution: float,
-    points: NDArray[np.float64],
-    point_offsets: NDArray[np.int32],
-    grid_of_job: NDArray[np.int32],
-    centres: NDArray[np.float64],
-    half_cells: NDArray[np.int32],
-    angles_rad: NDArray[np.float64],
-    angle_costs: NDArray[np.float64],
-    row_offsets: NDArray[np.int32],
-    least: NDArray[np.float64],
-    across: NDArray[np.float64],
-    modes: int,
-    share: float,
-    apart: tuple[int, int, int],
-    strands: int,
-    device: str,
-    threads: int | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """What J jobs search: their points, and the translations and angles at which these are tried.
 
-    Args:
-        pyramid: of the grids, on the device.
-        origins: of the grids, shape (grids, 2).
-        resolution: of the grids, metres a cell.
-        points: all jobs' points one after the other, in the sensor's frame, shape (N, 2).
+    Attributes:
+        points: all jobs' points one after the other, in the sensor's frame, (N, 2).
         point_offsets: job j has the points from point_offsets[j] to point_offsets[j + 1].
-        grid_of_job: shape (J,).
-        centres: x and y of the middle of each window, shape (J, 2).
-        half_cells: half the windows' widths, shape (J, 2).
+        grid: the grid that each job searches, (J,).
+        centres: x and y of the middle of each window, (J, 2).
+        half_cells: half the widths of the windows, (J, 2).
         angles_rad: of all rows.
         angle_costs: what each angle costs, in units of the score.
         row_offsets: job j has the rows from row_offsets[j] to row_offsets[j + 1].
-        least: scores must exceed this, shape (J,).
-        across: what a squared cell off the centre costs, shape (J,).
-        modes: poses a job.
+        least: scores must exceed this, (J,).
+        across: what a squared cell off the centre costs, (J,).
+    """
+
+    points: Floats
+    point_offsets: NDArray[np.int32]
+    grid: NDArray[np.int32]
+    centres: Floats
+    half_cells: NDArray[np.int32]
+    angles_rad: Floats
+    angle_costs: Floats
+    row_offsets: NDArray[np.int32]
+    least: Floats
+    across: Floats
+
+
+@dataclass(frozen=True)
+class Modes:
+    """How many poses are searched for in each job, and what makes a further one another mode.
+
+    Attributes:
+        count: poses a job.
         share: of the first one's score that those of further ones must exceed.
-        apart: each further mode is more than so many rows, cells and cells away from those before, in one of the three.
+        apart: a further one differs by more than so many rows, cells in x or cells in y from those before.
+    """
+
+    count: int
+    share: float
+    apart: tuple[int, int, int]
+
+
+def search(
+    grids: Any, windows: Windows, modes: Modes, strands: int, threads: int | None = None
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
+
+    Args:
+        grids: `bayesmap.poses.likelihood_grid.LikelihoodGrids`.
+        windows: what to search.
+        modes: how many poses of each job.
         strands: threads that share a job.
-        device: where the pyramid is.
         threads: to compute with; by default all cores.
     """
-    count = len(grid_of_job)
-    top = pyramid.shape[1] - 1
-    width = 1 << top
-    jobs = Jobs()
-    jobs.point_begin = devices.to_device(point_offsets[:-1], wp.int32, device)
-    jobs.point_end = devices.to_device(point_offsets[1:], wp.int32, device)
-    jobs.grid = devices.to_device(grid_of_job, wp.int32, device)
-    jobs.half_x, jobs.half_y = (devices.to_device(h, wp.int32, device) for h in np.ascontiguousarray(half_cells.T))
-    jobs.across = devices.to_device(across, wp.float64, device)
-    rows = len(angles_rad)
-    rows_of_job = np.diff(row_offsets)
-    job_of_row = np.repeat(np.arange(count, dtype=np.int32), rows_of_job)
-    blocks = np.prod(2 * half_cells // width + 1, axis=1)
+    pyramid, device = grids.pyramid, grids.device
+    count, strands_of_all = len(windows.grid), len(windows.grid) * strands
+    jobs, roots = _prepared(grids, windows, threads)
+    taken, stack, best = Taken(), Stack(), Best()
+    deepest = 4 * pyramid.shape[1] + 4  # four children a level
+    stack.bound = wp.empty((strands_of_all, deepest), dtype=wp.float64, device=device)
+    stack.node = wp.empty((strands_of_all, deepest), dtype=wp.vec4i, device=device)
+    best.score = wp.empty(strands_of_all, dtype=wp.float64, device=device)
+    best.node = wp.empty(strands_of_all, dtype=wp.vec3i, device=device)
+    taken.apart = wp.vec3i(*modes.apart)
+    least = windows.least
+    scores = np.full((count, modes.count), -np.inf)
+    nodes = np.zeros((count, modes.count, 3), dtype=np.int64)
+    nodes[..., 0] = -1
+    for mode in range(modes.count):
+        if mode > 0:  # where there is no first one there is no further one
+            least = np.where(np.isfinite(scores[:, 0]), np.maximum(least, modes.share * scores[:, 0]), np.inf)
+        jobs.least = devices.to_device(least, wp.float64, device)
+        known = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
+        taken.node, taken.count = devices.to_device(known, wp.vec3i, device), mode
+        best.incumbent = devices.to_device(least.copy(), wp.float64, device)
+        inputs = [strands, jobs, roots, pyramid, taken, stack, best]
+        devices.launch(search_blocks, strands_of_all, inputs, device, threads)
+        of_strands = best.score.numpy().reshape(count, strands), best.node.numpy().reshape(count, strands, 3)
+        _first_of_best(*of_strands, scores, nodes, mode)
+    return scores, nodes
+
+
+def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, Any]:
+    """Jobs and their largest blocks with their bounds, on the device."""
+    pyramid, device = grids.pyramid, grids.device
+    count, rows = len(windows.grid), len(windows.angles_rad)
+    width = 1 << (pyramid.shape[1] - 1)
+    jobs, roots = Jobs(), Roots()
+    jobs.point_begin = devices.to_device(windows.point_offsets[:-1], wp.int32, device)
+    jobs.point_end = devices.to_device(windows.point_offsets[1:], wp.int32, device)
+    jobs.grid = devices.to_device(windows.grid, wp.int32, device)
+    jobs.half_x, jobs.half_y = (
+        devices.to_device(half, wp.int32, device) for half in np.ascontiguousarray(windows.half_cells.T)
+    )
+    jobs.across = devices.to_device(windows.across, wp.float64, device)
+    jobs.row_cost = devices.to_device(windows.angle_costs, wp.float64, device)
+    most = int(np.diff(windows.point_offsets).max(initial=1))
+    jobs.cells = wp.empty((rows, max(most, 1)), dtype=wp.vec2i, device=device)
+
+    job_of_row = np.repeat(np.arange(count, dtype=np.int32), np.diff(windows.row_offsets))
+    blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
     node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
-    job_nodes = node_begin[row_offsets].astype(np.int32)
-    job_of_row_dev = devices.to_device(job_of_row, wp.int32, device)
-    row_cost = devices.to_device(angle_costs, wp.float64, device)
-    most = int(np.diff(point_offsets).max(initial=1))
-    cells = wp.empty((rows, max(most, 1)), dtype=wp.vec2i, device=device)
-    inputs = [jobs, job_of_row_dev, devices.to_device(angles_rad, wp.float64, device)]
-    inputs += [devices.to_device(centres, wp.vec2d, device), devices.to_device(origins, wp.vec2d, device)]
-    inputs += [wp.float64(resolution), devices.to_device(points, wp.vec2d, device), cells]
+    job_nodes = node_begin[windows.row_offsets].astype(np.int32)
+    job_of_row_there = devices.to_device(job_of_row, wp.int32, device)
+    inputs = [jobs, job_of_row_there, devices.to_device(windows.angles_rad, wp.float64, device)]
+    inputs += [devices.to_device(a, wp.vec2d, device) for a in (windows.centres, grids.origins)]
+    inputs += [wp.float64(grids.resolution), devices.to_device(windows.points, wp.vec2d, device)]
     devices.launch(turn_points, rows, inputs, device, threads)
-    bound = wp.empty(int(node_begin[-1]), dtype=wp.float64, device=device)
-    node = wp.empty(int(node_begin[-1]), dtype=wp.vec3i, device=device)
-    begin = devices.to_device(node_begin[:-1], wp.int32, device)
-    inputs = [jobs, job_of_row_dev, row_cost, begin, top, cells, pyramid, bound, node]
+
+    roots.bound = wp.empty(int(node_begin[-1]), dtype=wp.float64, device=device)
+    roots.node = wp.empty(int(node_begin[-1]), dtype=wp.vec3i, device=device)
+    inputs = [jobs, job_of_row_there, devices.to_device(node_begin[:-1], wp.int32, device), pyramid, roots]
     devices.launch(bound_blocks, rows, inputs, device, threads)
-    bounds = bound.numpy()
+    bounds = roots.bound.numpy()
     if count == 1:
         order = np.argsort(-bounds, kind="stable")
     else:
         order = np.lexsort((-bounds, np.repeat(np.arange(count), np.diff(job_nodes))))
-    order_dev, nodes_dev = (devices.to_device(a, wp.int32, device) for a in (order, job_nodes))
-    threads_of_all = count * strands
-    stack_bound = wp.empty((threads_of_all, 4 * top + 8), dtype=wp.float64, device=device)
-    stack_node = wp.empty((threads_of_all, 4 * top + 8), dtype=wp.vec4i, device=device)
-    scores = np.full((count, modes), -np.inf)
-    found = np.zeros((count, modes, 3), dtype=np.int64)
-    found[..., 0] = -1
-    for mode in range(modes):
-        if mode > 0:  # where there is no first one there is no further one
-            least = np.where(np.isfinite(scores[:, 0]), np.maximum(least, share * scores[:, 0]), np.inf)
-        jobs.least = devices.to_device(least, wp.float64, device)
-        taken = np.where(found[..., :1] >= 0, found, -(1 << 28)).astype(np.int32)
-        incumbent = devices.to_device(least.copy(), wp.float64, device)
-        best = wp.empty(threads_of_all, dtype=wp.float64, device=device)
-        best_node = wp.empty(threads_of_all, dtype=wp.vec3i, device=device)
-        inputs = [strands, jobs, row_cost, nodes_dev, order_dev, bound, node, top, cells, pyramid]
-        inputs += [devices.to_device(taken, wp.vec3i, device), wp.vec3i(*apart), mode, stack_bound, stack_node]
-        inputs += [incumbent, best, best_node]
-        devices.launch(search_blocks, threads_of_all, inputs, device, threads)
-        _first_of_best(
-            best.numpy().reshape(count, strands), best_node.numpy().reshape(count, strands, 3), scores, found, mode
-        )
-    return scores, found
+    roots.order, roots.begin = (devices.to_device(a, wp.int32, device) for a in (order, job_nodes))
+    return jobs, roots
 
 
 def _first_of_best(
-    best: NDArray[np.float64],
-    nodes: NDArray[np.int32],
-    scores: NDArray[np.float64],
-    found: NDArray[np.int64],
-    mode: int,
+    best: Floats, best_nodes: NDArray[np.int32], scores: Floats, nodes: NDArray[np.int64], mode: int
 ) -> None:
-    """The best of a job's strands; of equals, the first by angle, x, y."""
-    valid = nodes[..., 0] >= 0
+    """Write down the best of each job's strands as its next mode; of equals, the first by angle, x, y."""
+    valid = best_nodes[..., 0] >= 0
     value = np.where(valid, best, -np.inf)
     for j in np.nonzero(valid.any(axis=1))[0]:
         top = np.nonzero(value[j] == value[j].max())[0]
-        winner = min((tuple(nodes[j, t]), t) for t in top)[1]
+        winner = min((tuple(best_nodes[j, t]), t) for t in top)[1]
         scores[j, mode] = value[j, winner]
-        found[j, mode] = nodes[j, winner]
+        nodes[j, mode] = best_nodes[j, winner]

@@ -7,7 +7,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.scan_geometry import neighbour, put_fans, widest_gap
+from bayesmap.kernels.match.scan_geometry import Scene, neighbour, scene_of, widest_gap
 
 wp.set_module_options({"enable_backward": False})
 
@@ -19,11 +19,7 @@ def draw_points(
     offsets: wp.array(dtype=wp.int32),
     scan: wp.array(dtype=wp.int32),
     pose: wp.array(dtype=wp.vec3d),
-    points: wp.array2d(dtype=wp.vec2f),
-    kind: wp.array2d(dtype=wp.uint8),
-    beams_of: wp.array(dtype=wp.int32),
-    step_of: wp.array(dtype=wp.float32),
-    circle_of: wp.array(dtype=wp.int32),
+    scene: Scene,
     spacing: wp.float32,
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
@@ -48,19 +44,19 @@ def draw_points(
         p = pose[e]
         cosine = wp.cos(p[2])
         sine = wp.sin(p[2])
-        for b in range(points.shape[1]):
-            if kind[s, b] == wp.uint8(0):
+        for b in range(scene.points.shape[1]):
+            if scene.kind[s, b] == wp.uint8(0):
                 continue
-            here = points[s, b]
+            here = scene.points[s, b]
             to_next = wp.vec2f()
             stamps = int(1)
-            c = neighbour(b, 1, beams_of[s], circle_of[s])
+            c = neighbour(b, 1, scene.beams[s], scene.full_circle[s])
             if c >= 0:
-                if kind[s, c] != wp.uint8(0):
-                    apart = wp.length(points[s, c] - here)
-                    if apart > spacing and apart < widest_gap(step_of[s], wp.length(here)):
+                if scene.kind[s, c] != wp.uint8(0):
+                    apart = wp.length(scene.points[s, c] - here)
+                    if apart > spacing and apart < widest_gap(scene.step[s], wp.length(here)):
                         stamps = 1 + int(apart / spacing)
-                        to_next = (points[s, c] - here) / wp.float32(stamps)
+                        to_next = (scene.points[s, c] - here) / wp.float32(stamps)
             for k in range(stamps):
                 px = wp.float64(here[0] + wp.float32(k) * to_next[0])
                 py = wp.float64(here[1] + wp.float32(k) * to_next[1])
@@ -129,8 +125,7 @@ def draw_grids(
     if device == "cpu" and threads == 1:
         bands = 1
     inputs = [bands, devices.to_device(offsets, wp.int32, device), devices.to_device(scan, wp.int32, device)]
-    inputs += [devices.to_device(poses_world, wp.vec3d, device), geometry.points, geometry.kind]
-    inputs += [*put_fans(geometry.fans, device), wp.float32(spacing_m)]
+    inputs += [devices.to_device(poses_world, wp.vec3d, device), scene_of(geometry), wp.float32(spacing_m)]
     inputs += [devices.to_device(origins, wp.vec2d, device), wp.float64(resolution)]
     inputs += [devices.to_device(stamp, wp.uint8, device), pyramid]
     if device == "cpu":

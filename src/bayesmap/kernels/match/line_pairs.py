@@ -21,28 +21,12 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.scan_geometry import put_fans
+from bayesmap.kernels.match.scan_geometry import Scene, scene_of
 
 wp.set_module_options({"enable_backward": False})
 
 MOST_BEAMS = wp.constant(25)  # looked at to either side
 DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, fix no pose
-
-
-@wp.struct
-class Scene:
-    """Points and normals of all scans, see `bayesmap.poses.scan_geometry.ScanGeometry`."""
-
-    points: wp.array2d(dtype=wp.vec2f)
-    normals: wp.array2d(dtype=wp.vec2f)
-    kind: wp.array2d(dtype=wp.uint8)
-    spread: wp.array2d(dtype=wp.float32)
-    beam_of_angle: wp.array2d(dtype=wp.int32)
-    layout: wp.array(dtype=wp.int32)  # of each scan, its row of beam_of_angle
-    beams: wp.array(dtype=wp.int32)
-    step: wp.array(dtype=wp.float32)
-    full_circle: wp.array(dtype=wp.int32)
-    stride: int  # every so many-th point is paired
 
 
 @wp.struct
@@ -268,6 +252,16 @@ def pair_scans(
     return sums
 
 
+@wp.struct
+class PairSums:
+    """The `Sums` of all pairs of scans, see `pair_sums`."""
+
+    second: wp.array(dtype=wp.mat33d)
+    slack: wp.array(dtype=wp.mat33d)
+    gradient: wp.array(dtype=wp.vec3d)
+    totals: wp.array2d(dtype=wp.float64)
+
+
 @wp.kernel
 def sum_pairs(
     first: int,
@@ -279,35 +273,19 @@ def sum_pairs(
     reach: float,
     scale: float,
     alike: float,
-    second: wp.array(dtype=wp.mat33d),
-    slack: wp.array(dtype=wp.mat33d),
-    gradient: wp.array(dtype=wp.vec3d),
-    totals: wp.array2d(dtype=wp.float64),
+    out: PairSums,
 ):
     """One thread a pair of scans."""
     p = first + wp.tid()
     sums = pair_scans(scene, weights, source[p], target[p], relative[p], reach, scale, alike, scene.stride)
-    second[p] = sums.second
-    slack[p] = sums.slack
-    gradient[p] = sums.first
-    totals[p, 0] = sums.cost
-    totals[p, 1] = sums.weight
-    totals[p, 2] = wp.float64(sums.matched)
-    totals[p, 3] = wp.float64(sums.seen)
-    totals[p, 4] = sums.force_sq
-
-
-def scene_of(geometry: Any, stride: int = 1) -> Any:
-    """The kernels' view of a `bayesmap.poses.scan_geometry.ScanGeometry`."""
-    scene = Scene()
-    scene.points, scene.normals = geometry.points, geometry.normals
-    scene.kind, scene.spread = geometry.kind, geometry.spread
-    fans = geometry.fans
-    scene.beam_of_angle = devices.to_device(fans.beam_of_angle, wp.int32, geometry.device)
-    scene.layout = devices.to_device(fans.layout, wp.int32, geometry.device)
-    scene.beams, scene.step, scene.full_circle = put_fans(fans, geometry.device)
-    scene.stride = stride
-    return scene
+    out.second[p] = sums.second
+    out.slack[p] = sums.slack
+    out.gradient[p] = sums.first
+    out.totals[p, 0] = sums.cost
+    out.totals[p, 1] = sums.weight
+    out.totals[p, 2] = wp.float64(sums.matched)
+    out.totals[p, 3] = wp.float64(sums.seen)
+    out.totals[p, 4] = sums.force_sq
 
 
 def pair_sums(
@@ -329,14 +307,15 @@ def pair_sums(
     device, count = geometry.device, len(source)
     if weights is None:
         weights = np.ones((len(geometry), geometry.beams), np.float32)
-    second, slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
-    gradient = wp.empty(count, dtype=wp.vec3d, device=device)
-    totals = wp.empty((count, 5), dtype=wp.float64, device=device)
+    out = PairSums()
+    out.second, out.slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
+    out.gradient = wp.empty(count, dtype=wp.vec3d, device=device)
+    out.totals = wp.empty((count, 5), dtype=wp.float64, device=device)
     inputs = [scene_of(geometry, stride), devices.to_device(weights, wp.float32, device)]
     inputs += [devices.to_device(source, wp.int32, device), devices.to_device(target, wp.int32, device)]
-    inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, second, slack, gradient, totals]
+    inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
-    return second.numpy(), slack.numpy(), gradient.numpy(), totals.numpy()
+    return out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy()
 
 
 @wp.kernel

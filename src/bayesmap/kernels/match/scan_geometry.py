@@ -12,10 +12,24 @@ wp.set_module_options({"enable_backward": False})
 
 POINT = wp.constant(wp.uint8(1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
-NOWHERE_M = wp.constant(
-    wp.float32(1.0e6)
-)  # where beams without a point end: whoever seeks the nearest passes them over
+NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be anybody's nearest
 REACHES = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
+
+
+@wp.struct
+class Scene:
+    """Points and normals of all scans, see `bayesmap.poses.scan_geometry.ScanGeometry`."""
+
+    points: wp.array2d(dtype=wp.vec2f)
+    normals: wp.array2d(dtype=wp.vec2f)
+    kind: wp.array2d(dtype=wp.uint8)
+    spread: wp.array2d(dtype=wp.float32)
+    beam_of_angle: wp.array2d(dtype=wp.int32)
+    layout: wp.array(dtype=wp.int32)  # of each scan, its row of beam_of_angle
+    beams: wp.array(dtype=wp.int32)
+    step: wp.array(dtype=wp.float32)
+    full_circle: wp.array(dtype=wp.int32)
+    stride: int  # every so many-th point is paired
 
 
 @wp.func
@@ -188,18 +202,31 @@ def points_and_normals(
     spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
     span = [wp.float64(nearest_m), wp.float64(farthest_m)]
     devices.launch(scan_points, scans, [readings, angles, *span, points, kind], device, threads)
-    geometry = [*put_fans(fans, device), wp.float32(reach_m), wp.float32(noise_m)]
+    geometry = [*fans_to_device(fans, device), wp.float32(reach_m), wp.float32(noise_m)]
     devices.launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
     return points, normals, kind, spread
 
 
-def put_fans(fans: Any, device: str) -> tuple[Any, Any, Any]:
+def fans_to_device(fans: Any, device: str) -> tuple[Any, Any, Any]:
     """Beams, steps and whether the circle is full of each scan, (S,), where kernels read them."""
     return (
         devices.to_device(fans.beams, wp.int32, device),
         devices.to_device(fans.step_rad, wp.float32, device),
         devices.to_device(fans.full_circle, wp.int32, device),
     )
+
+
+def scene_of(geometry: Any, stride: int = 1) -> Any:
+    """The kernels' view of a `bayesmap.poses.scan_geometry.ScanGeometry`."""
+    scene = Scene()
+    scene.points, scene.normals = geometry.points, geometry.normals
+    scene.kind, scene.spread = geometry.kind, geometry.spread
+    fans = geometry.fans
+    scene.beam_of_angle = devices.to_device(fans.beam_of_angle, wp.int32, geometry.device)
+    scene.layout = devices.to_device(fans.layout, wp.int32, geometry.device)
+    scene.beams, scene.step, scene.full_circle = fans_to_device(fans, geometry.device)
+    scene.stride = stride
+    return scene
 
 
 def selected(array: Any, scans: NDArray[np.intp]) -> Any:

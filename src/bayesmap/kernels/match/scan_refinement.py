@@ -1,5 +1,6 @@
 """Refining the poses of scans against other scans that stay where they are: Gauss-Newton, one thread a scan."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -7,9 +8,12 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.line_pairs import Scene, pair_scans, scene_of
+from bayesmap.kernels.match.line_pairs import pair_scans
+from bayesmap.kernels.match.scan_geometry import Scene, scene_of
 
 wp.set_module_options({"enable_backward": False})
+
+Floats = NDArray[np.float64]
 
 STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
 
@@ -39,26 +43,47 @@ def wrapped(angle: wp.float64) -> wp.float64:
     return wp.atan2(wp.sin(angle), wp.cos(angle))
 
 
+@wp.struct
+class Jobs:
+    """A `Refinement` on a device."""
+
+    scan: wp.array(dtype=wp.int32)
+    offsets: wp.array(dtype=wp.int32)
+    other: wp.array(dtype=wp.int32)
+    other_pose: wp.array(dtype=wp.vec3d)
+    start: wp.array(dtype=wp.vec3d)
+    prior: wp.array(dtype=wp.vec3d)
+    prior_information: wp.array(dtype=wp.mat33d)
+
+
+@wp.struct
+class Schedule:
+    """A `Convergence` on a device."""
+
+    sigma: wp.float64
+    steps: int
+    reach: wp.vec2f
+    scale: wp.vec2f
+    alike: float
+
+
+@wp.struct
+class Refined:
+    """Results of all jobs."""
+
+    pose: wp.array(dtype=wp.vec3d)
+    information: wp.array(dtype=wp.mat33d)
+    totals: wp.array2d(dtype=wp.float64)
+
+
 @wp.kernel
 def refine(
     first: int,
     scene: Scene,
     weights: wp.array2d(dtype=wp.float32),
-    job_scan: wp.array(dtype=wp.int32),
-    offsets: wp.array(dtype=wp.int32),
-    other: wp.array(dtype=wp.int32),
-    other_pose: wp.array(dtype=wp.vec3d),
-    start: wp.array(dtype=wp.vec3d),
-    prior: wp.array(dtype=wp.vec3d),
-    prior_information: wp.array(dtype=wp.mat33d),
-    sigma: wp.float64,
-    steps: int,
-    reach: wp.vec2f,
-    scale: wp.vec2f,
-    alike: float,
-    pose: wp.array(dtype=wp.vec3d),
-    information: wp.array(dtype=wp.mat33d),
-    totals: wp.array2d(dtype=wp.float64),
+    jobs: Jobs,
+    schedule: Schedule,
+    out: Refined,
 ):
     """One thread a job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
@@ -66,19 +91,19 @@ def refine(
     of the pairs alone, less slack.
     """
     k = first + wp.tid()
-    i = job_scan[k]
-    x = start[k]
-    count = wp.float64(offsets[k + 1] - offsets[k])
+    i = jobs.scan[k]
+    x = jobs.start[k]
+    count = wp.float64(jobs.offsets[k + 1] - jobs.offsets[k])
     converged = int(0)
     found = wp.mat33d()
-    for step in range(steps):
+    for step in range(schedule.steps):
         if converged >= 1:
             continue
-        share = wp.min(1.0, 1.5 * float(step) / float(wp.max(steps - 1, 1)))
-        r = reach[0] * wp.pow(reach[1] / reach[0], share)
-        c = scale[0] * wp.pow(scale[1] / scale[0], share)
+        share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
+        r = schedule.reach[0] * wp.pow(schedule.reach[1] / schedule.reach[0], share)
+        c = schedule.scale[0] * wp.pow(schedule.scale[1] / schedule.scale[0], share)
         sparse = wp.where(share < 1.0, 2, 1)
-        gain = wp.float64(sparse) / (sigma * sigma * (count + wp.float64(1.0)))
+        gain = wp.float64(sparse) / (schedule.sigma * schedule.sigma * (count + wp.float64(1.0)))
         second = wp.mat33d()
         slack = wp.mat33d()
         gradient = wp.vec3d()
@@ -86,9 +111,11 @@ def refine(
         weight = wp.float64(0.0)
         matched = int(0)
         seen = int(0)
-        for q in range(offsets[k], offsets[k + 1]):
-            frame = other_pose[q]
-            sums = pair_scans(scene, weights, i, other[q], pose_between(frame, x), r, c, alike, sparse * scene.stride)
+        for q in range(jobs.offsets[k], jobs.offsets[k + 1]):
+            frame = jobs.other_pose[q]
+            sums = pair_scans(
+                scene, weights, i, jobs.other[q], pose_between(frame, x), r, c, schedule.alike, sparse * scene.stride
+            )
             turn = turn_of(frame[2])
             second += turn * sums.second * wp.transpose(turn)
             slack += turn * sums.slack * wp.transpose(turn)
@@ -97,15 +124,15 @@ def refine(
             weight += sums.weight
             matched += sums.matched
             seen += sums.seen
-        off = x - prior[k]
+        off = x - jobs.prior[k]
         off = wp.vec3d(off[0], off[1], wrapped(off[2]))
         # H (H + s^2 S)^-1 H: H where slack is small against it, and never negative where it is not.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
-        trusted = second * wp.inverse(second + slack * (sigma * sigma) + ridge)
+        trusted = second * wp.inverse(second + slack * (schedule.sigma * schedule.sigma) + ridge)
         laser_information = trusted * second * gain
         pull = trusted * gradient * gain
-        whole = laser_information + prior_information[k]
-        move = wp.inverse(whole) * (pull + prior_information[k] * off)
+        whole = laser_information + jobs.prior_information[k]
+        move = wp.inverse(whole) * (pull + jobs.prior_information[k] * off)
         length = wp.abs(move[0]) + wp.abs(move[1]) + wp.abs(move[2])
         if not wp.isfinite(length):
             move = wp.vec3d()
@@ -114,52 +141,82 @@ def refine(
             move = move * (wp.float64(0.5) / length)
         x = x - move
         found = laser_information
-        totals[k, 0] = cost
-        totals[k, 1] = weight
-        totals[k, 2] = wp.float64(matched)
-        totals[k, 3] = wp.float64(seen)
+        out.totals[k, 0] = cost
+        out.totals[k, 1] = weight
+        out.totals[k, 2] = wp.float64(matched)
+        out.totals[k, 3] = wp.float64(seen)
         if share >= 1.0 and length < STILL:
             converged = 1
-    pose[k] = wp.vec3d(x[0], x[1], wrapped(x[2]))
-    information[k] = found
+    out.pose[k] = wp.vec3d(x[0], x[1], wrapped(x[2]))
+    out.information[k] = found
+
+
+@dataclass(frozen=True, eq=False)
+class Refinement:
+    """Scans that are to be moved, each against others that stay where they are, under a Gaussian prior.
+
+    Attributes:
+        scans: the scan that job k moves, (J,).
+        offsets: job k has the others from offsets[k] to offsets[k + 1], (J + 1,).
+        others: the scans that stay, (N,).
+        other_poses: their poses, (N, 3).
+        starts: where the moving scans start, (J, 3).
+        priors: means of their priors, (J, 3).
+        prior_information: of the priors, in the world's axes, (J, 3, 3).
+    """
+
+    scans: NDArray[np.int32]
+    offsets: NDArray[np.int32]
+    others: NDArray[np.int32]
+    other_poses: Floats
+    starts: Floats
+    priors: Floats
+    prior_information: Floats
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """How pairs are made and weighted from the first step of a refinement to the last.
+
+    Attributes:
+        sigma_m: standard deviation of a point.
+        steps: of Gauss and Newton, at most.
+        reach_m: furthest that paired points may lie apart, in the first step and in the last.
+        scale_m: c of Geman and McClure's weight, likewise.
+        alike: least cosine between the normals of a pair.
+    """
+
+    sigma_m: float
+    steps: int
+    reach_m: tuple[float, float]
+    scale_m: tuple[float, float]
+    alike: float
 
 
 def refine_scans(
-    geometry: Any,
-    weights: NDArray[np.float32] | None,
-    scans: NDArray[np.int32],
-    offsets: NDArray[np.int32],
-    others: NDArray[np.int32],
-    other_poses: NDArray[np.float64],
-    starts: NDArray[np.float64],
-    priors: NDArray[np.float64],
-    prior_information: NDArray[np.float64],
-    sigma_m: float,
-    steps: int,
-    reach_m: tuple[float, float],
-    scale_m: tuple[float, float],
-    alike: float,
-    stride: int = 1,
-    threads: int | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Poses (J, 3), information of the pairs (J, 3, 3) and totals (J, 4) as those of `line_pairs.pair_sums`.
+    geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """Refine poses: (J, 3), information of the pairs (J, 3, 3), totals (J, 4) as those of `line_pairs.pair_sums`.
 
-    Job k moves scan ``scans[k]`` against ``others[offsets[k]:offsets[k + 1]]``, which stay at ``other_poses``, and
-    under a Gaussian prior. Information is in the world's axes.
+    Information is in the world's axes.
     """
-    device, jobs = geometry.device, len(scans)
-    if weights is None:
-        weights = _ones(len(geometry), geometry.beams, device)
-    pose = wp.empty(jobs, dtype=wp.vec3d, device=device)
-    information = wp.empty(jobs, dtype=wp.mat33d, device=device)
-    totals = wp.zeros((jobs, 4), dtype=wp.float64, device=device)
-    ints = [devices.to_device(a, wp.int32, device) for a in (scans, offsets, others)]
-    vectors = [devices.to_device(a, wp.vec3d, device) for a in (other_poses, starts, priors)]
-    inputs = [scene_of(geometry, stride), weights, *ints, *vectors]
-    inputs += [devices.to_device(prior_information, wp.mat33d, device), wp.float64(sigma_m), steps]
-    inputs += [wp.vec2f(*reach_m), wp.vec2f(*scale_m), alike, pose, information, totals]
-    devices.launch(refine, jobs, inputs, device, threads)
-    return pose.numpy(), information.numpy(), totals.numpy()
+    device, count = geometry.device, len(refinement.scans)
+    jobs, schedule, out = Jobs(), Schedule(), Refined()
+    jobs.scan, jobs.offsets, jobs.other = (
+        devices.to_device(a, wp.int32, device) for a in (refinement.scans, refinement.offsets, refinement.others)
+    )
+    jobs.other_pose, jobs.start, jobs.prior = (
+        devices.to_device(a, wp.vec3d, device) for a in (refinement.other_poses, refinement.starts, refinement.priors)
+    )
+    jobs.prior_information = devices.to_device(refinement.prior_information, wp.mat33d, device)
+    schedule.sigma, schedule.steps, schedule.alike = convergence.sigma_m, convergence.steps, convergence.alike
+    schedule.reach, schedule.scale = wp.vec2f(*convergence.reach_m), wp.vec2f(*convergence.scale_m)
+    out.pose = wp.empty(count, dtype=wp.vec3d, device=device)
+    out.information = wp.empty(count, dtype=wp.mat33d, device=device)
+    out.totals = wp.zeros((count, 4), dtype=wp.float64, device=device)
+    weights = _ones(len(geometry), geometry.beams, device)
+    devices.launch(refine, count, [scene_of(geometry), weights, jobs, schedule, out], device, threads)
+    return out.pose.numpy(), out.information.numpy(), out.totals.numpy()
 
 
 _ONES: dict[tuple[int, int, str], Any] = {}

@@ -8,8 +8,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.line_pairs import Scene, beam_towards, nearest_point, scene_of
-from bayesmap.kernels.match.scan_geometry import neighbour, widest_gap
+from bayesmap.kernels.match.line_pairs import beam_towards, nearest_point
+from bayesmap.kernels.match.scan_geometry import Scene, neighbour, scene_of, widest_gap
 from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})

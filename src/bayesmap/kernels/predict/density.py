@@ -7,7 +7,7 @@ probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to 
 
 under one draw of the map; the predictive law is its mean over draws. Binary walls are maps of 0 and 1.
 
-`stop_in` is all that a prediction needs to know of a kind of cells; `put_maps` fills in what it reads.
+`stop_in` is all that a prediction needs to know of a kind of cells; `maps_to_device` fills in what it reads.
 """
 
 from collections.abc import Iterable
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.rays import Line, Lines, distance_at, first_past, line_of, put_rays
+from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_of, rays_to_device
 from bayesmap.kernels.sensor_law import (
     MIXTURE,
     NOISE,
@@ -32,7 +32,7 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
     stop_log_density,
 )
-from bayesmap.kernels.surfaces.crossing import Cell, cross_surface, put_cells, ray_from
+from bayesmap.kernels.surfaces.crossing import Cell, cells_to_device, cross_surface, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 
@@ -75,13 +75,13 @@ def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3
     return wp.vec3d(chance, distance_at(line, cell, maps.depth), wp.float64(0.0))
 
 
-def put_maps(states: StopStates, hit_depth: float, device: str) -> Any:
+def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
     """Some maps on a device; their number of dimensions says which kind of cells they have."""
     maps = Maps()
     maps.surfaces = int(states.ndim == 3)
     maps.depth = hit_depth
     if states.ndim == 3:
-        maps.surface = put_cells(states, device)
+        maps.surface = cells_to_device(states, device)
     else:
         maps.stop = devices.to_device(states, wp.float32, device)
     return maps
@@ -109,7 +109,7 @@ class HeldMaps:
             return self
         rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
         states = (self.maps.surface if self.maps.surfaces else self.maps.stop).numpy()[rows]
-        return HeldMaps(put_maps(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
+        return HeldMaps(maps_to_device(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
 
 
 def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> HeldMaps:
@@ -123,7 +123,7 @@ def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = 
     if not sum(map(len, found)):
         raise BadInput("score: there is no draw to predict from")
     states = np.concatenate(found)
-    return HeldMaps(put_maps(states, hit_depth, device), len(states), hit_depth, device)
+    return HeldMaps(maps_to_device(states, hit_depth, device), len(states), hit_depth, device)
 
 
 Floats = NDArray[np.float64]
@@ -168,24 +168,29 @@ def weight_of_nothing(law: SensorLaw64) -> wp.float64:
     return wp.where(law.kind == MIXTURE, GONE_ROBUST, GONE)
 
 
+@wp.struct
+class ForecastSums:
+    """Running sums over draws, of each beam: of densities, see `no_sum`, and of cumulative probabilities."""
+
+    most: wp.array(dtype=wp.float64)
+    total: wp.array(dtype=wp.float64)
+    below: wp.array(dtype=wp.float64)  # of readings below the beam's own
+    below_max: wp.array(dtype=wp.float64)  # below the largest range
+    below_min: wp.array(dtype=wp.float64)  # below the smallest
+
+
 @wp.kernel
 def add_forecasts(
     first: int,
     law: SensorLaw64,
-    lines: Lines,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
+    rays: RayArrays,
     columns: wp.array(dtype=wp.int32),
     maps: Maps,
     draws: int,
     range_m: wp.array(dtype=wp.float64),
     reach_m: wp.array(dtype=wp.float64),
     with_cumulative: int,
-    most: wp.array(dtype=wp.float64),
-    total: wp.array(dtype=wp.float64),
-    below: wp.array(dtype=wp.float64),
-    below_max: wp.array(dtype=wp.float64),
-    below_min: wp.array(dtype=wp.float64),
+    out: ForecastSums,
 ):
     """One thread a beam: add the law of its reading under each draw of a batch to running sums.
 
@@ -196,41 +201,41 @@ def add_forecasts(
     if wp.isnan(z):
         return
     one = wp.float64(1.0)
-    line = line_of(lines, b)
+    line = line_of(rays.lines, b)
     nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
-    sums = wp.vec2d(most[b], total[b])
+    sums = wp.vec2d(out.most[b], out.total[b])
     at = z
     if wp.isinf(z):
         at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
     gone = weight_of_nothing(law)
     decay = object_decay(law, z)
-    past = first_past(line, cells, offsets[b], offsets[b + 1], reach_m[b], wp.float64(0.0))
+    past = first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], reach_m[b], wp.float64(0.0))
     for d in range(draws):
         survive = wp.float64(1.0)
-        for i in range(offsets[b + 1] - offsets[b] + 1):
-            k = offsets[b] + i
+        for i in range(rays.offsets[b + 1] - rays.offsets[b] + 1):
+            k = rays.offsets[b] + i
             if k == past:
                 sums = add_stop(law, sums, survive, z, decay, nowhere)
                 if with_cumulative == 0:
                     break
             weight = survive
             stop = nowhere
-            if k < offsets[b + 1]:
-                stop = stop_in(maps, d, columns[k], line, cells[k])
+            if k < rays.offsets[b + 1]:
+                stop = stop_in(maps, d, columns[k], line, rays.cells[k])
                 weight = survive * stop[0]
                 survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
                 if k < past:
                     sums = add_stop(law, sums, weight, z, decay, stop)
                 if with_cumulative != 0:
-                    below[b] = below[b] + weight * cumulative(law, at, stop[1], stop[2])
+                    out.below[b] = out.below[b] + weight * cumulative(law, at, stop[1], stop[2])
                     if law.kind != NOISE:
-                        below_max[b] = below_max[b] + weight * cumulative(law, law.max_m, stop[1], stop[2])
-                        below_min[b] = below_min[b] + weight * cumulative(law, law.min_m, stop[1], stop[2])
+                        out.below_max[b] = out.below_max[b] + weight * cumulative(law, law.max_m, stop[1], stop[2])
+                        out.below_min[b] = out.below_min[b] + weight * cumulative(law, law.min_m, stop[1], stop[2])
                 if survive < gone:
                     break
-    most[b] = sums[0]
-    total[b] = sums[1]
+    out.most[b] = sums[0]
+    out.total[b] = sums[1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,25 +301,24 @@ def _sums(
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
     beams = rays.n_beams
-    most: Any = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
-    total = wp.zeros(beams, dtype=wp.float64, device=device)
-    cumulatives = [wp.zeros(beams if with_cumulative else 1, dtype=wp.float64, device=device) for _ in range(3)]
-    fixed = [*put_rays(rays, device), devices.to_device(columns, wp.int32, device)]
+    sums, asked = ForecastSums(), beams if with_cumulative else 1
+    sums.most = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
+    sums.total = wp.zeros(beams, dtype=wp.float64, device=device)
+    sums.below, sums.below_max, sums.below_min = (wp.zeros(asked, dtype=wp.float64, device=device) for _ in range(3))
+    fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
     readings = [devices.to_device(a, wp.float64, device) for a in (rays.range_m, reach_m)]
     draws = 0
     for batch in batches:
         draws += len(batch)
-        inputs = [law, *fixed, put_maps(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
-        devices.launch(
-            add_forecasts, beams, [*inputs, most, total, *cumulatives], device, 1 if beams < FEW_BEAMS else None
-        )
+        inputs = [law, *fixed, maps_to_device(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
+        devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < FEW_BEAMS else None)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     with np.errstate(divide="ignore"):
-        log_density = most.numpy() + np.log(total.numpy() / draws)
+        log_density = sums.most.numpy() + np.log(sums.total.numpy() / draws)
     log_density[np.isnan(rays.range_m)] = np.nan
-    return log_density, [c.numpy() / draws for c in cumulatives]
+    return log_density, [a.numpy() / draws for a in (sums.below, sums.below_max, sums.below_min)]
 
 
 def log_densities(

@@ -15,7 +15,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.scan_likelihood import Cells, Frame, put_cells
+from bayesmap.kernels.predict.density import Maps, maps_to_device
+from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame
 from bayesmap.kernels.sensor_law import (
     SensorLaw32,
     no_stop_density,
@@ -63,7 +64,7 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 def reading_log_density(
     law: SensorLaw32,
     frame: Frame,
-    cells: Cells,
+    maps: Maps,
     empty: wp.array2d(dtype=wp.uint8),
     draw: int,
     x: wp.float32,
@@ -77,7 +78,7 @@ def reading_log_density(
     are met with probability 0. The cell of the sensor itself is touched where the beam leaves it, as there.
     """
     resolution = wp.float32(frame.resolution)
-    depth = wp.float32(frame.depth)
+    depth = wp.float32(maps.depth)
     ux = wp.cos(angle)
     uy = wp.sin(angle)
     px = x / resolution
@@ -110,25 +111,25 @@ def reading_log_density(
                 chance = ZERO
                 distance = (entered + depth * (left - entered)) * resolution
                 variance = ZERO
-                if cells.surfaces != 0:
-                    state = cells.surface[draw, cell]
+                if maps.surfaces != 0:
+                    state = maps.surface[draw, cell]
                     chance = state[0] * crossing_probability(state, ray)
                     if chance > UNLIKELY:
                         met = cross_surface(state, ray)
                         distance = met.distance_m
                         variance = met.variance
                 else:
-                    chance = cells.stop[draw, cell]
+                    chance = maps.stop[draw, cell]
                 if chance > UNLIKELY:
                     total += survive * chance * stop_density(law, z, decay, distance, variance)
                     survive = survive * (ONE - chance)
             elif empty[draw, cell] == wp.uint8(0):
                 chance = ZERO
-                if cells.surfaces != 0:
-                    state = cells.surface[draw, cell]
+                if maps.surfaces != 0:
+                    state = maps.surface[draw, cell]
                     chance = state[0] * crossing_probability(state, ray)
                 else:
-                    chance = cells.stop[draw, cell]
+                    chance = maps.stop[draw, cell]
                 density = law.uniform
                 if not wp.isfinite(z):
                     distance = (entered + depth * (left - entered)) * resolution
@@ -154,7 +155,7 @@ def scan_log_likelihoods(
     first: int,
     law: SensorLaw32,
     frame: Frame,
-    cells: Cells,
+    maps: Maps,
     empty: wp.array2d(dtype=wp.uint8),
     draws: int,
     in_turn: int,
@@ -186,7 +187,7 @@ def scan_log_likelihoods(
         z = range_m[scan[p], b]
         if not wp.isnan(z):
             angle = wp.float32(poses[p, 2] + angle_rad[b])
-            total += wp.float64(reading_log_density(law, frame, cells, empty, d, x, y, angle, wp.float32(z)))
+            total += wp.float64(reading_log_density(law, frame, maps, empty, d, x, y, angle, wp.float32(z)))
     out[p, column] = total
 
 
@@ -195,14 +196,14 @@ class PackedMap:
     """Draws of a map where kernels read them.
 
     Attributes:
-        cells: the draws.
+        maps: the draws.
         empty: 1 where a cell stops fewer beams than `LEAST_CHANCE`, a row a draw.
         draws: how many.
         frame: the grid.
         device: where they are.
     """
 
-    cells: Any
+    maps: Any
     empty: Any
     draws: int
     frame: Any
@@ -219,18 +220,15 @@ def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: 
         device: where to.
     """
     device = devices.resolve(device)
-    frame = Frame()
-    frame.nx, frame.ny = grid.shape
-    frame.origin_x, frame.origin_y = grid.origin
-    frame.resolution, frame.depth = grid.resolution, hit_depth
     chances = states[..., 0] if states.ndim == 3 else states
     empty = devices.to_device((chances < LEAST_CHANCE).astype(np.uint8), wp.uint8, device)
-    return PackedMap(put_cells(np.ascontiguousarray(states), device), empty, len(states), frame, device)
+    maps = maps_to_device(np.ascontiguousarray(states), hit_depth, device)
+    return PackedMap(maps, empty, len(states), grid_frame(grid), device)
 
 
 def unpacked(packed: PackedMap) -> NDArray[np.float32]:
     """The draws as `pack_map` was given them; surfaces with two flags more."""
-    held = packed.cells.surface if packed.cells.surfaces != 0 else packed.cells.stop
+    held = packed.maps.surface if packed.maps.surfaces != 0 else packed.maps.stop
     return np.asarray(held.numpy())
 
 
@@ -278,7 +276,7 @@ def scan_log_likelihood(
     inputs = [
         _law(sensor, limits, device),
         packed.frame,
-        packed.cells,
+        packed.maps,
         packed.empty,
         draws,
         cycle,

@@ -14,9 +14,9 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.density import add_stop, no_sum, weight_of_nothing
+from bayesmap.kernels.predict.density import HeldMaps, Maps, add_stop, maps_to_device, no_sum, weight_of_nothing
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
-from bayesmap.kernels.surfaces.crossing import Cell, cross_surface, ray_from
+from bayesmap.kernels.surfaces.crossing import cross_surface, ray_from
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -28,38 +28,28 @@ Floats = NDArray[np.float64]
 
 
 @wp.struct
-class Cells:
-    """One map a chain: stop probabilities, or surfaces; rows are chains, columns the flat cells of the grid."""
-
-    stop: wp.array2d(dtype=wp.float32)
-    surface: wp.array2d(dtype=Cell)
-    surfaces: int
-
-
-@wp.struct
 class Frame:
-    """The grid that beams walk, and where in a cell without a surface they stop, as a part of their chord."""
+    """The grid that beams walk."""
 
     nx: int
     ny: int
     origin_x: wp.float64
     origin_y: wp.float64
     resolution: wp.float64
-    depth: wp.float64
 
 
 @wp.func
-def stop_in(cells: Cells, chain: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64) -> wp.vec3d:
+def stop_on_walk(maps: Maps, row: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64) -> wp.vec3d:
     """Chance that a beam stops in a cell that it has reached, and distance and spread in metres if it does."""
-    if cells.surfaces != 0:
-        state = cells.surface[chain, cell]
+    if maps.surfaces != 0:
+        state = maps.surface[row, cell]
         met = cross_surface(state, ray_from(start, direction))
         return wp.vec3d(
             wp.float64(state[0]) * wp.float64(met.chance),
             wp.float64(met.distance_m),
             wp.sqrt(wp.float64(met.variance)),
         )
-    return wp.vec3d(wp.float64(cells.stop[chain, cell]), distance, wp.float64(0.0))
+    return wp.vec3d(wp.float64(maps.stop[row, cell]), distance, wp.float64(0.0))
 
 
 @wp.kernel
@@ -67,7 +57,7 @@ def beam_log_likelihoods(
     first: int,
     law: SensorLaw64,
     frame: Frame,
-    cells: Cells,
+    maps: Maps,
     poses: wp.array2d(dtype=wp.float64),
     scan: wp.array(dtype=wp.int32),
     chain: wp.array(dtype=wp.int32),
@@ -109,8 +99,8 @@ def beam_log_likelihoods(
             chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
             if w.cell_x != w.x or w.cell_y != w.y:
                 chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
-            distance = wp.float64(wp.float32((w.distance + frame.depth * chord) * frame.resolution))
-            stop = stop_in(cells, chain[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
+            distance = wp.float64(wp.float32((w.distance + maps.depth * chord) * frame.resolution))
+            stop = stop_on_walk(maps, chain[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
             weight = survive * stop[0]
             survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
@@ -141,14 +131,14 @@ class ScanLikelihood:
     device: str = "cpu"
 
     def beams(
-        self, cells: "NDArray[np.float32] | Cells", poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+        self, cells: NDArray[np.float32] | HeldMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
         """Log density of each reading, invalid ones 0, in nats, (P, A).
 
         Args:
             cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
-                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. Or these, already put where
-                kernels read them, if they are weighed by often.
+                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. Or `HeldMaps` of them, which
+                are not copied again.
             poses: P poses in the world frame, (P, 3).
             scan: which scan is weighed there, (P,).
             chain: under which chain's cells, (P,).
@@ -159,8 +149,8 @@ class ScanLikelihood:
         mounts, readings = self._on_device
         inputs = [
             sensor_law(self.sensor, limits, device),
-            grid_frame(self.grid, self.hit_depth),
-            put_cells(cells, device),
+            grid_frame(self.grid),
+            cells.maps if isinstance(cells, HeldMaps) else maps_to_device(cells, self.hit_depth, device),
             devices.to_device(poses, wp.float64, device),
             devices.to_device(scan, wp.int32, device),
             devices.to_device(chain, wp.int32, device),
@@ -196,25 +186,10 @@ class ScanLikelihood:
         return devices.to_device(mounts, wp.float64, self.device), readings
 
 
-def grid_frame(grid: Grid, hit_depth: float) -> Frame:
+def grid_frame(grid: Grid) -> Frame:
     """A grid as kernels take it."""
     frame = Frame()
     frame.nx, frame.ny = grid.shape
     frame.origin_x, frame.origin_y = grid.origin
-    frame.resolution, frame.depth = grid.resolution, hit_depth
+    frame.resolution = grid.resolution
     return frame
-
-
-def put_cells(cells: "NDArray[np.float32] | Cells", device: str) -> Cells:
-    """Maps of some chains where kernels read them: (C, N) stop probabilities, or (C, N, 6) surfaces."""
-    if not isinstance(cells, np.ndarray):
-        return cells
-    packed = Cells()
-    packed.surfaces = int(cells.ndim == 3)
-    if cells.ndim == 3:
-        padded = np.zeros((*cells.shape[:2], 8), dtype=np.float32)
-        padded[..., : cells.shape[2]] = cells
-        packed.surface = wp.array(padded, dtype=Cell, device=device)
-    else:
-        packed.stop = devices.to_device(cells, wp.float32, device)
-    return packed

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.density import HeldMaps, Maps, StopStates, law_with_cumulative, put_maps, stop_in
-from bayesmap.kernels.rays import Lines, distance_at, line_of, put_rays, stop_distances, stretch
+from bayesmap.kernels.predict.density import HeldMaps, Maps, StopStates, law_with_cumulative, maps_to_device, stop_in
+from bayesmap.kernels.rays import RayArrays, distance_at, line_of, rays_to_device, stop_distances, stretch
 from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
 from bayesmap.sensors.model import SensorModel
 
@@ -32,9 +32,7 @@ MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can
 @wp.kernel
 def add_stops(
     first: int,
-    lines: Lines,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
+    rays: RayArrays,
     columns: wp.array(dtype=wp.int32),
     maps: Maps,
     draws: int,
@@ -48,17 +46,17 @@ def add_stops(
     the cell's stretch. A beam less likely than ``gone`` to get so far is at its end.
     """
     b = first + wp.tid()
-    line = line_of(lines, b)
+    line = line_of(rays.lines, b)
     for d in range(draws):
         survive = wp.float64(1.0)
-        for k in range(offsets[b], offsets[b + 1]):
-            stop = stop_in(maps, d, columns[k], line, cells[k])
+        for k in range(rays.offsets[b], rays.offsets[b + 1]):
+            stop = stop_in(maps, d, columns[k], line, rays.cells[k])
             w = survive * stop[0]
             survive = survive * (wp.float64(1.0) - stop[0])
             if w > wp.float64(0.0):
                 weight[k] = weight[k] + wp.float32(w)
                 if maps.surfaces != 0:
-                    away = stop[1] - distance_at(line, cells[k], maps.depth)
+                    away = stop[1] - distance_at(line, rays.cells[k], maps.depth)
                     shift[k] = shift[k] + wp.float32(w * away)
                     square[k] = square[k] + wp.float32(w * (away * away + stop[2]))
                 if survive < gone:
@@ -91,7 +89,7 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
         BadInput: no draws.
     """
     device = devices.resolve(device)
-    there = ((put_maps(batch, hit_depth, device), len(batch)) for batch in batches)
+    there = ((maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
     return _mixed(rays, rays.columns, there, hit_depth, device, float(LEAST_CHANCE))
 
 
@@ -118,7 +116,7 @@ def _mixed(
     """Some maps and their number at a time; ``columns`` says where they have each entry's cell."""
     sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
     no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
-    fixed = [*put_rays(rays, device), devices.to_device(columns, wp.int32, device)]
+    fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
     for maps, count in batches:
         draws += count
@@ -161,9 +159,7 @@ def find_events(
     first: int,
     law: SensorLaw64,
     stops: Stops,
-    lines: Lines,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
+    rays: RayArrays,
     range_m: wp.array(dtype=wp.float64),
     chance: wp.array(dtype=wp.float32),
     stopped: wp.array(dtype=wp.int8),
@@ -177,14 +173,14 @@ def find_events(
     one = wp.float64(1.0)
     if wp.isnan(z):
         return
-    line = line_of(lines, b)
+    line = line_of(rays.lines, b)
     before = wp.float64(-1.0)
-    for k in range(offsets[b], offsets[b + 1]):
-        own = stretch(line, cells[k])
+    for k in range(rays.offsets[b], rays.offsets[b + 1]):
+        own = stretch(line, rays.cells[k])
         enter = own[0]
         leave = own[1]
-        if k + 1 < offsets[b + 1]:
-            leave = stretch(line, cells[k + 1])[0]
+        if k + 1 < rays.offsets[b + 1]:
+            leave = stretch(line, rays.cells[k + 1])[0]
         leave = wp.min(leave, law.max_m)
         if enter > z:
             break
@@ -198,7 +194,7 @@ def find_events(
             before = after
 
 
-def put_stops(stops: StopMixture, device: str) -> Any:
+def stops_to_device(stops: StopMixture, device: str) -> Any:
     """A mixture where kernels read it."""
     packed = Stops()
     packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
@@ -229,7 +225,11 @@ def first_hit_events(
     rays, size = stops.rays, len(stops.weight)
     chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
-    inputs = [law_with_cumulative(sensor, rays.limits, device), put_stops(stops, device), *put_rays(rays, device)]
+    inputs = [
+        law_with_cumulative(sensor, rays.limits, device),
+        stops_to_device(stops, device),
+        rays_to_device(rays, device),
+    ]
     inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
     devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.predict.density import are_typed, law_with_cumulative
-from bayesmap.kernels.predict.stop_mixture import LEAST_WEIGHT, StopMixture, Stops, mixture_below, put_stops
+from bayesmap.kernels.predict.stop_mixture import LEAST_WEIGHT, StopMixture, Stops, mixture_below, stops_to_device
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, is_before, is_behind, met_or_returned, random_below
 from bayesmap.sensors.model import SensorModel
 
@@ -154,6 +154,6 @@ def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, dev
     low, high = (limits.min_m, limits.max_m) if are_typed(sensor, limits) else (-limits.max_m, 2.0 * limits.max_m)
     beams = stops.rays.n_beams
     out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
-    inputs = [law, put_stops(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
+    inputs = [law, stops_to_device(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
     devices.launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
     return np.asarray(out.numpy())

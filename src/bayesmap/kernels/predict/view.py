@@ -10,7 +10,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.scan_likelihood import Cells, Frame, grid_frame, put_cells, stop_in
+from bayesmap.kernels.predict.density import HeldMaps, Maps
+from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.space.grid import Grid
@@ -29,9 +30,9 @@ NEGLIGIBLE = wp.constant(wp.float64(4.0))
 def draw_stops(
     first: int,
     frame: Frame,
-    cells: Cells,
+    maps: Maps,
     poses: wp.array2d(dtype=wp.float64),
-    chain: wp.array(dtype=wp.int32),
+    draw: wp.array(dtype=wp.int32),
     angles: wp.array(dtype=wp.float64),
     longest_m: wp.float64,
     key: wp.uint64,
@@ -59,8 +60,8 @@ def draw_stops(
             chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
             if w.cell_x != w.x or w.cell_y != w.y:
                 chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
-            distance = (w.distance + frame.depth * chord) * frame.resolution
-            stop = stop_in(cells, chain[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
+            distance = (w.distance + maps.depth * chord) * frame.resolution
+            stop = stop_on_walk(maps, draw[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
             survive = survive * (wp.float64(1.0) - stop[0])
             if survive < left:
                 distance_m[b] = stop[1]
@@ -70,41 +71,36 @@ def draw_stops(
 
 
 def drawn_stops(
-    cells: "NDArray[np.float32] | Cells",
+    held: HeldMaps,
     grid: Grid,
     poses: Floats,
-    chain: NDArray[np.intp],
+    draw: NDArray[np.intp],
     angles_rad: Floats,
     longest_m: float,
-    hit_depth: float,
     key: int,
-    device: str = "cpu",
 ) -> tuple[Floats, Floats]:
     """Draw where the beams of a scan at each pose stop.
 
     Args:
-        cells: maps, (C, N) stop probabilities or (C, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`; or
-            these, already put where kernels read them.
+        held: draws of all cells of the grid.
         grid: of the maps.
         poses: in the world frame, (P, 3).
-        chain: which map each pose is in, (P,).
+        draw: the map of each pose, (P,).
         angles_rad: of the beams in the sensor's frame, (A,).
-        longest_m: how far a beam goes.
-        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
+        longest_m: the distance to which a beam is followed.
         key: of the random numbers.
-        device: where to compute.
 
     Returns:
         distance in metres, infinite for a beam that meets nothing, and its standard deviation, (P, A) each.
     """
-    device = devices.resolve(device)
+    device = held.device
     beams = len(poses) * len(angles_rad)
     out = [wp.zeros(beams, dtype=wp.float64, device=device) for _ in range(2)]
     inputs = [
-        grid_frame(grid, hit_depth),
-        put_cells(cells, device),
+        grid_frame(grid),
+        held.maps,
         devices.to_device(poses, wp.float64, device),
-        devices.to_device(chain, wp.int32, device),
+        devices.to_device(draw, wp.int32, device),
         devices.to_device(angles_rad, wp.float64, device),
         wp.float64(longest_m),
         wp.uint64(key),
@@ -243,7 +239,7 @@ def independent_information(
     out: Any = wp.zeros(len(poses) * len(angles_rad), dtype=wp.float64, device=device)
     odds = occupied / (1.0 - occupied)
     inputs = [
-        grid_frame(grid, 0.5),
+        grid_frame(grid),
         devices.to_device(occupied, wp.float64, device),
         devices.to_device(surprise(hit_factor, odds), wp.float64, device),
         devices.to_device(surprise(pass_factor, odds), wp.float64, device),

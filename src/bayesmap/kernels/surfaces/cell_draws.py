@@ -94,7 +94,6 @@ def begin_sweep(
     prior_moved: int,
     active: ActiveCells,
     state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
     log_prior: wp.array(dtype=wp.float32),
 ):
     """One thread a chain's cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
@@ -131,7 +130,7 @@ def begin_sweep(
             learns = cell[REFLECTIVITY] > CLEAR
             if learns:
                 trying = FRESH
-                key = sweep_key(keys[chain], sweep, CELLS)
+                key = sweep_key(state.keys[chain], sweep, CELLS)
                 at = wp.uint64(c) * PER_CELL + AT_FRESH
                 state.candidates[here] = fresh_surface(prior, centre, cell, key, at)
     if learns:
@@ -154,14 +153,9 @@ def update_free_cells(
     prior: CellPrior,
     active: ActiveCells,
     state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
-    hits: wp.array(dtype=wp.int32),
-    met: wp.array(dtype=wp.int32),
 ):
     """One thread a chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
     neither; and where next to no beam would stop perhaps take another surface.
-
-    ``hits`` and ``met`` keep the counts behind the cell's last reflectivity.
     """
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
@@ -174,7 +168,7 @@ def update_free_cells(
     if not learns and (without_surfaces != 0 or not is_silent(sweep, every, c, held_m, state.stopped_in[here])):
         return
     cell = state.cells[here]
-    key = sweep_key(keys[chain], sweep, CELLS)
+    key = sweep_key(state.keys[chain], sweep, CELLS)
     at = wp.uint64(c) * PER_CELL
     centre = centre_of(c, active.ny, active.edge_m)
     if learns:
@@ -191,8 +185,8 @@ def update_free_cells(
             a = counts[0] + wp.float64(n_hits)
             b = counts[1] + wp.float64(n_met)
             cell[REFLECTIVITY] = wp.float32(beta_or_nothing(a, b, key, at + AT_BETA))
-            hits[here] = n_hits
-            met[here] = n_met
+            state.last_hits[here] = n_hits
+            state.last_met[here] = n_met
         else:
             candidate = state.candidates[here]
             log_ratio = wp.float64(gain) * FROM_UNITS
@@ -207,17 +201,11 @@ def update_free_cells(
 
 
 @wp.kernel
-def count_observed(
-    first: int,
-    active: ActiveCells,
-    n_cells: int,
-    hits: wp.array(dtype=wp.int32),
-    met: wp.array(dtype=wp.int32),
-    observed_counts: wp.array(dtype=wp.vec2i),
-):
+def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     """One thread a chain's cell, after a sweep: has it counted beams yet, and did any beam come into the count?"""
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
-    here = chain * n_cells + active.cell[i - chain * active.cell.shape[0]]
-    if met[here] >= 0:
-        observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(hits[here] + met[here] > 0, 1, 0), 1)
+    here = chain * state.n_cells + active.cell[i - chain * active.cell.shape[0]]
+    if state.last_met[here] >= 0:
+        some = wp.where(state.last_hits[here] + state.last_met[here] > 0, 1, 0)
+        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(some, 1)

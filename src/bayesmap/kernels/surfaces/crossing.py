@@ -34,7 +34,7 @@ whether a candidate for its surface is being tried, and a number that is not use
 REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
 
 
-def put_cells(states: NDArray[np.float32], device: str) -> Any:
+def cells_to_device(states: NDArray[np.float32], device: str) -> Any:
     """States alone, (..., 6), or without a surface, (..., 1), as an array of `Cell` on a device."""
     padded = np.zeros((*states.shape[:-1], 8), dtype=np.float32)
     padded[..., : states.shape[-1]] = states

@@ -80,20 +80,33 @@ def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, ce
     return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
+@wp.struct
+class Listed:
+    """The incidences of a cell, in a list of its chain: those of beams that pass it, and those of beams that it stops.
+
+    ``entries[passing_begin:passing_end]`` and ``entries[stopped_begin:stopped_end]``, as numbers of incidences in
+    `EndpointCells`.
+    """
+
+    entries: wp.array(dtype=wp.int32)
+    passing_begin: int
+    passing_end: int
+    stopped_begin: int
+    stopped_end: int
+
+
 @wp.func
 def log_stops(
     law: SensorLaw32,
     beta: wp.float32,
     rays: TracedRays,
     endpoints: EndpointCells,
-    listed: wp.array(dtype=wp.int32),
-    span: wp.vec4i,
+    listed: Listed,
     centre: wp.vec2,
     cell: Cell,
     least: wp.float64,
 ) -> wp.float64:
-    """The formula at the top, for one surface: passing beams' incidences are listed[span[0]:span[1]], those of stopped
-    beams listed[span[2]:span[3]].
+    """The formula at the top, for one surface and the beams that are listed.
 
     A sum that comes out under ``least`` need not be finished: what is returned then is under ``least``, too. Stopped
     beams come first, for after them every further beam makes the sum smaller.
@@ -104,8 +117,8 @@ def log_stops(
     m = cell[REFLECTIVITY]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
-    for i in range(span[2], span[3]):
-        e = listed[i]
+    for i in range(listed.stopped_begin, listed.stopped_end):
+        e = listed.entries[i]
         b = endpoints.beam[e]
         way = endpoints.passing[e]
         offset = way[0] + way[1] * dy - way[2] * dx
@@ -122,8 +135,9 @@ def log_stops(
 
     product = one
     floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
-    for i in range(span[0], span[1]):
-        product = product * wp.max(one - m * crossing_probability_of(endpoints.passing[listed[i]], dx, dy, cell), LEAST)
+    for i in range(listed.passing_begin, listed.passing_end):
+        g = crossing_probability_of(endpoints.passing[listed.entries[i]], dx, dy, cell)
+        product = product * wp.max(one - m * g, LEAST)
         if product < floor:
             total += wp.log(wp.float64(product))
             if total < least:

@@ -38,7 +38,7 @@ from bayesmap.kernels.surfaces.cell_prior import (
     pseudo_counts,
 )
 from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
-from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, crossing_probability_of, log_stops
+from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, Listed, crossing_probability_of, log_stops
 from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 
@@ -132,6 +132,42 @@ def log_cell_prior(prior: CellPrior, solid: wp.uint8, cell: Cell) -> wp.float64:
     return surface + wp.float64(log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
 
 
+@wp.struct
+class BeamLists:
+    """Room for each chain's lists of incidences, a row a chain.
+
+    The list of a cell begins with the incidences of the beams that pass it, ``passes[chain, u]`` of them, and ends with
+    those of the beams that it stops.
+    """
+
+    entries: wp.array2d(dtype=wp.int32)
+    passes: wp.array2d(dtype=wp.int32)
+
+
+@wp.func
+def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: int) -> Listed:
+    """The listed incidences of a cell, which has the incidences from ``begin`` to ``end`` and stops ``hits`` beams."""
+    listed = Listed()
+    listed.entries = lists.entries[chain]
+    listed.passing_begin = begin
+    listed.passing_end = begin + lists.passes[chain, u]
+    listed.stopped_begin = end - hits
+    listed.stopped_end = end
+    return listed
+
+
+@wp.func
+def listed_until(listed: Listed, passing_end: int, stopped_end: int) -> Listed:
+    """The first of some listed incidences."""
+    rest = Listed()
+    rest.entries = listed.entries
+    rest.passing_begin = listed.passing_begin
+    rest.passing_end = passing_end
+    rest.stopped_begin = listed.stopped_begin
+    rest.stopped_end = stopped_end
+    return rest
+
+
 @wp.func
 def log_beams(
     law: SensorLaw32,
@@ -141,25 +177,27 @@ def log_beams(
     blocks: Blocks,
     row: int,
     u: int,
-    listed: wp.array(dtype=wp.int32),
-    span: wp.vec4i,
+    listed: Listed,
     others: int,
     centre: wp.vec2,
     cell: Cell,
     least: wp.float64,
 ) -> wp.float64:
     """`log_stops`, of beams in blocks and ``others`` at the head of those that stopped; -1 if there are no blocks."""
-    rest = span
+    passing_end = listed.passing_end
+    stopped_end = listed.stopped_end
     total = wp.float64(0.0)
     if others >= 0:
-        beams = wp.vec2i(span[1] - span[0], span[3] - span[2] - others)
+        beams = wp.vec2i(passing_end - listed.passing_begin, stopped_end - listed.stopped_begin - others)
         total = log_stops_in_lanes(law, blocks, row, u, beams, centre, cell, wp.where(others == 0, least, NO_LEAST))
         if total == UNKNOWN:
             total = wp.float64(0.0)
         else:
-            rest = wp.vec4i(span[0], span[0], span[2], span[2] + others)
-    if rest[0] < rest[1] or rest[2] < rest[3]:
-        total += log_stops(law, beta, rays, endpoints, listed, rest, centre, cell, least - total)
+            passing_end = listed.passing_begin
+            stopped_end = listed.stopped_begin + others
+    if listed.passing_begin < passing_end or listed.stopped_begin < stopped_end:
+        rest = listed_until(listed, passing_end, stopped_end)
+        total += log_stops(law, beta, rays, endpoints, rest, centre, cell, least - total)
     return total
 
 
@@ -170,17 +208,11 @@ def count_endpoint_cells(
     endpoints: EndpointCells,
     active: ActiveCells,
     state: ChainArrays,
-    lists: wp.array2d(dtype=wp.int32),
-    passes: wp.array2d(dtype=wp.int32),
-    keys: wp.array(dtype=wp.uint64),
-    hits: wp.array(dtype=wp.int32),
-    met: wp.array(dtype=wp.int32),
+    lists: BeamLists,
 ):
     """One thread a chain's cell in which readings end: list its incidences, and count its beams.
 
-    ``lists`` is room for a chain's incidences, a row each: of each cell those of passing beams, from its first on, and
-    at its end those of stopped ones. ``passes`` counts the former, ``hits`` the latter, ``met`` the passing beams that
-    met the surface.
+    ``last_hits`` counts the beams that stopped, ``last_met`` the passing beams that met the surface.
     """
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]
@@ -188,9 +220,9 @@ def count_endpoint_cells(
     c = endpoints.cell[u]
     here = chain * state.n_cells + c
     beam_0 = chain * state.n_beams
-    listed = lists[chain]
+    entries = lists.entries[chain]
     one = wp.float32(1.0)
-    key = sweep_key(keys[chain], sweep, MEETINGS)
+    key = sweep_key(state.keys[chain], sweep, MEETINGS)
     cell = state.cells[here]
     centre = centre_of(c, active.ny, active.edge_m)
     m = cell[REFLECTIVITY]
@@ -204,20 +236,20 @@ def count_endpoint_cells(
         k = endpoints.entry[e]
         stop = state.stop[beam_0 + endpoints.beam[e]]
         if k < stop:
-            listed[passed] = e
+            entries[passed] = e
             passed = passed + 1
         elif k == stop:
             stopped = stopped - 1
-            listed[stopped] = e
+            entries[stopped] = e
     n_met = int(0)
     for i in range(begin, passed):
-        e = listed[i]
+        e = entries[i]
         g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
         x = wp.float32(to_uniform(random_bits(key, wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
-    passes[chain, u] = passed - begin
-    hits[here] = end - stopped
-    met[here] = n_met
+    lists.passes[chain, u] = passed - begin
+    state.last_hits[here] = end - stopped
+    state.last_met[here] = n_met
 
 
 @wp.kernel
@@ -232,12 +264,8 @@ def update_endpoint_cells(
     endpoints: EndpointCells,
     active: ActiveCells,
     state: ChainArrays,
-    lists: wp.array2d(dtype=wp.int32),
-    passes: wp.array2d(dtype=wp.int32),
+    lists: BeamLists,
     blocks: Blocks,
-    keys: wp.array(dtype=wp.uint64),
-    hits: wp.array(dtype=wp.int32),
-    met: wp.array(dtype=wp.int32),
 ):
     """One thread a chain's cell in which readings end: its reflectivity, then steps of both, given lists and counts."""
     i_cell = first + wp.tid()
@@ -245,26 +273,25 @@ def update_endpoint_cells(
     u = i_cell - chain * endpoints.cell.shape[0]
     c = endpoints.cell[u]
     here = chain * state.n_cells + c
-    listed = lists[chain]
-    key = sweep_key(keys[chain], sweep, SURFACES)
+    key = sweep_key(state.keys[chain], sweep, SURFACES)
     at = wp.uint64(c) * PER_CELL
     cell = state.cells[here]
     solid = state.solid[here]
     centre = centre_of(c, active.ny, active.edge_m)
     begin = endpoints.offsets[u]
     end = endpoints.offsets[u + 1]
-    span = wp.vec4i(begin, begin + passes[chain, u], end - hits[here], end)
+    listed = listed_of(lists, chain, u, begin, end, state.last_hits[here])
     counts = pseudo_counts(prior, solid)
-    a = counts[0] + wp.float64(hits[here])
-    b = counts[1] + wp.float64(met[here])
-    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at + AT_BETA))
+    a = counts[0] + wp.float64(state.last_hits[here])
+    b = counts[1] + wp.float64(state.last_met[here])
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(state.keys[chain], sweep, CELLS), at + AT_BETA))
 
     step = endpoints.step[u]
     framed = into_frame(cell, step, centre)
     row = chain * state.parts + part
     others = int(-1)
     if takes_lanes(law, state.beta):
-        others = put_in_blocks(blocks, row, u, rays, endpoints, listed, span)
+        others = put_in_blocks(blocks, row, u, rays, endpoints, listed)
     present = wp.float64(0.0)
     candidate = framed
     moved = cell
@@ -278,7 +305,7 @@ def update_endpoint_cells(
         if i == 0 or is_own(prior, centre, moved):
             value = log_cell_prior(prior, solid, candidate)
             value += log_beams(
-                law, state.beta, rays, endpoints, blocks, row, u, listed, span, others, centre, moved, least - value
+                law, state.beta, rays, endpoints, blocks, row, u, listed, others, centre, moved, least - value
             )  # fmt: skip
             if value > least:
                 framed = candidate

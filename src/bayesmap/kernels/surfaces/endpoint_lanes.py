@@ -26,7 +26,7 @@ from bayesmap.kernels.surfaces.crossing import (
     REFLECTIVITY,
     Cell,
 )
-from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells
+from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, Listed
 from bayesmap.kernels.surfaces.stops import LEAST, TracedRays
 
 WIDTH = 8
@@ -198,32 +198,32 @@ def put_in_blocks(
     u: int,
     rays: TracedRays,
     endpoints: EndpointCells,
-    listed: wp.array(dtype=wp.int32),
-    span: wp.vec4i,
+    listed: Listed,
 ) -> int:
     """Put a cell's listed beams into its blocks, all that pass it and of those it stops the ones with a lane.
 
     The others, with typed readings or with ends that are not near, go to the head of the list of stopped beams. How
     many these are.
     """
-    passing = span[1] - span[0]
-    for i in range(span[0], span[1]):
-        put_passing(blocks, row, u, i - span[0], endpoints.passing[listed[i]])
+    passing = listed.passing_end - listed.passing_begin
+    for i in range(passing):
+        put_passing(blocks, row, u, i, endpoints.passing[listed.entries[listed.passing_begin + i]])
     for i in range(passing, WIDTH * blocks_of(passing)):
         put_passing(blocks, row, u, i, wp.vec3(AWAY, wp.float32(0.0), wp.float32(1.0)))
     at = blocks.begin[u] + stopped_blocks_at(passing)
     others = int(0)
     put = int(0)
-    for i in range(span[2], span[3]):
-        e = listed[i]
+    for i in range(listed.stopped_begin, listed.stopped_end):
+        e = listed.entries[i]
         b = endpoints.beam[e]
         reading = endpoints.reading[e]
         if endpoints.entry[e] >= rays.near[b] and wp.isfinite(reading[1]):
             put_stopped(blocks, row, at, put, endpoints.passing[e], reading, rays.decay[b], wp.float32(1.0))
             put = put + 1
         else:
-            listed[i] = listed[span[2] + others]
-            listed[span[2] + others] = e
+            head = listed.stopped_begin + others
+            listed.entries[i] = listed.entries[head]
+            listed.entries[head] = e
             others = others + 1
     none = wp.vec3(wp.float32(0.0), wp.float32(0.0), wp.float32(1.0))
     for i in range(put, WIDTH * blocks_of(put)):

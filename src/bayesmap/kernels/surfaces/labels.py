@@ -100,14 +100,8 @@ def draw_labels(
     prior: CellPrior,
     known: wp.array(dtype=wp.uint8),
     state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
-    hits: wp.array(dtype=wp.int32),
-    met: wp.array(dtype=wp.int32),
 ):
-    """One thread a chain's cell: its label, if the cell has the colour, and learns in this sweep or is untouched.
-
-    ``hits`` and ``met`` are the counts of cells that are `COUNTED`.
-    """
+    """One thread a chain's cell: its label, if the cell has the colour, and learns in this sweep or is untouched."""
     here = first + wp.tid()
     chain = here // state.n_cells
     cell_0 = chain * state.n_cells
@@ -122,8 +116,8 @@ def draw_labels(
         n_hits = int(0)
         n_met = int(0)
         if what == COUNTED:
-            n_hits = hits[here]
-            n_met = met[here]
+            n_hits = state.last_hits[here]
+            n_met = state.last_met[here]
         else:
             if state.fixed_m[here] != LEARNS or state.cells[here][TRYING] != wp.float32(0.0):
                 return
@@ -135,7 +129,7 @@ def draw_labels(
         n = wp.float64(n_met)
         log_odds += log_beta(prior.a_solid + h, prior.b_solid + n) - prior.log_beta_solid
         log_odds -= log_beta(prior.a + h, prior.b + n) - prior.log_beta
-    key = sweep_key(keys[chain], sweep, CELLS)
+    key = sweep_key(state.keys[chain], sweep, CELLS)
     is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(c) * PER_CELL + AT_LABEL)))
     state.solid[here] = wp.uint8(wp.where(is_solid, 1, 0))
 
@@ -147,7 +141,6 @@ def draw_untouched(
     prior: CellPrior,
     known: wp.array(dtype=wp.uint8),
     state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
 ):
     """One thread a chain's cell: the reflectivity of one that no beam touches, given its label."""
     here = first + wp.tid()
@@ -160,5 +153,5 @@ def draw_untouched(
     a = wp.where(solid, prior.a_solid, prior.a)
     b = wp.where(solid, prior.b_solid, prior.b)
     cell = state.cells[here]
-    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(keys[chain], sweep, CELLS), at))
+    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(state.keys[chain], sweep, CELLS), at))
     state.cells[here] = cell

@@ -36,7 +36,7 @@ from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.law_table import readings_scale_m, table_log_density
 from bayesmap.kernels.random import BEAMS, CELLS, beta_or_nothing, normal, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.rays import Lines, line_of, put_lines, stretch
+from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
 from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
 from bayesmap.kernels.surfaces.cell_prior import CellPrior, pseudo_counts
@@ -148,6 +148,18 @@ AT_SQUARE = wp.constant(wp.uint64(640))  # of the counters of a cell in a sweep
 STREAM_POINT = wp.constant(wp.uint64(5 << 32))
 
 
+@wp.struct
+class SquareArrays:
+    """The squares of the grid: counts of one chain's beams for each, and what is drawn of each touched one."""
+
+    touched: wp.array(dtype=wp.int32)  # their cells, flat
+    crossings: wp.array(dtype=wp.int32)  # beams that cross the square
+    stopped: wp.array(dtype=wp.int32)  # beams stopped inside it
+    behind: wp.array(dtype=wp.int32)  # beams stopped before it
+    drawn: wp.array(dtype=wp.float32)
+    expected: wp.array(dtype=wp.float32)
+
+
 @wp.kernel
 def count_in_squares(
     chain: int,
@@ -156,9 +168,7 @@ def count_in_squares(
     lines: Lines,
     rays: TracedRays,
     state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
-    stopped: wp.array(dtype=wp.int32),
-    behind: wp.array(dtype=wp.int32),
+    squares: SquareArrays,
 ):
     """One thread a beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
     b = wp.tid()
@@ -170,7 +180,7 @@ def count_in_squares(
         return
     counter = STREAM_POINT + wp.uint64(b) * wp.uint64(4)
     where = state.where[i]
-    key = sweep_key(keys[chain], sweep, BEAMS)
+    key = sweep_key(state.keys[chain], sweep, BEAMS)
     point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
     line = line_of(lines, b)
     k = end - 1
@@ -178,10 +188,10 @@ def count_in_squares(
     if point > crossed[1]:  # further than the beam is followed
         return
     while k > begin and crossed[0] > point:
-        wp.atomic_add(behind, rays.cells[k], 1)
+        wp.atomic_add(squares.behind, rays.cells[k], 1)
         k -= 1
         crossed = stretch(line, rays.cells[k])
-    wp.atomic_add(stopped, rays.cells[k], 1)
+    wp.atomic_add(squares.stopped, rays.cells[k], 1)
 
 
 @wp.kernel
@@ -189,33 +199,27 @@ def draw_stop_chances(
     chain: int,
     sweep: int,
     prior: CellPrior,
-    touched: wp.array(dtype=wp.int32),
-    keys: wp.array(dtype=wp.uint64),
-    crossings: wp.array(dtype=wp.int32),
-    stopped: wp.array(dtype=wp.int32),
-    behind: wp.array(dtype=wp.int32),
-    drawn: wp.array(dtype=wp.float32),
-    expected: wp.array(dtype=wp.float32),
-    kept: int,
-    n_cells: int,
+    state: ChainArrays,
+    squares: SquareArrays,
     solid: wp.array(dtype=wp.uint8),
-    observed_counts: wp.array(dtype=wp.vec2i),
+    kept: int,
 ):
     """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P). ``solid`` are the labels.
 
     If the draw is kept, ``observed_counts`` counts it, and whether some beam comes to the square in it.
     """
     i = wp.tid()
-    c = touched[i]
-    here = chain * n_cells + c
+    c = squares.touched[i]
+    here = chain * state.n_cells + c
     counts = pseudo_counts(prior, solid[c])
-    a = counts[0] + wp.float64(stopped[c])
-    b = counts[1] + wp.float64(crossings[c] - stopped[c] - behind[c])
-    key = sweep_key(keys[chain], sweep, CELLS)
-    drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
-    expected[i] = wp.float32(a / (a + b))
+    a = counts[0] + wp.float64(squares.stopped[c])
+    b = counts[1] + wp.float64(squares.crossings[c] - squares.stopped[c] - squares.behind[c])
+    key = sweep_key(state.keys[chain], sweep, CELLS)
+    squares.drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
+    squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
-        observed_counts[here] = observed_counts[here] + wp.vec2i(wp.where(crossings[c] > behind[c], 1, 0), 1)
+        some = wp.where(squares.crossings[c] > squares.behind[c], 1, 0)
+        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(some, 1)
 
 
 class InSquares(NamedTuple):
@@ -234,13 +238,17 @@ class Squares:
 
     def __init__(self, rays: Rays, chains: int, device: str) -> None:
         self._rays, self._device = rays, device
-        cells, touched = rays.grid.n_cells, rays.touched
+        cells, touched = rays.grid.n_cells, len(rays.touched)
         self._crossings = np.bincount(rays.cells, minlength=cells).astype(np.int32)
-        self._lines = put_lines(rays.start_m, rays.direction, rays.grid, device)
-        self._crossings_there = devices.to_device(self._crossings, wp.int32, device)
-        self._touched = devices.to_device(touched, wp.int32, device)
-        sizes = ((cells, wp.int32), (cells, wp.int32), (len(touched), wp.float32), (len(touched), wp.float32))
-        self._room = [[wp.zeros(n, dtype=dtype, device=device) for n, dtype in sizes] for _ in range(chains)]
+        self._lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
+        shared = [devices.to_device(a, wp.int32, device) for a in (rays.touched, self._crossings)]
+        self._squares = []
+        for _ in range(chains):
+            squares = SquareArrays()
+            squares.touched, squares.crossings = shared
+            squares.stopped, squares.behind = (wp.zeros(cells, dtype=wp.int32, device=device) for _ in range(2))
+            squares.drawn, squares.expected = (wp.zeros(touched, dtype=wp.float32, device=device) for _ in range(2))
+            self._squares.append(squares)
 
     def of_chain(
         self,
@@ -250,8 +258,6 @@ class Squares:
         prior: CellPrior,
         rays: TracedRays,
         state: ChainArrays,
-        keys: wp.array,
-        observed_counts: wp.array,
         kept: bool,
         solid: NDArray[np.bool_] | None = None,
     ) -> InSquares:
@@ -264,26 +270,20 @@ class Squares:
             prior: of the cells.
             rays: the beams where kernels read them.
             state: of all chains.
-            keys: of all chains' random numbers.
-            observed_counts: draws in which a beam says something of each square, and draws, of all chains so far.
-            kept: whether this draw counts there.
+            kept: whether ``state.observed_counts`` counts this draw.
             solid: labels of all cells when the sweep began, (N,); those that the chain has now if None.
         """
-        stopped, behind, drawn, expected = self._room[chain]
-        for counts in (stopped, behind):
-            counts.zero_()
-        inputs = [chain, sweep, law, self._lines, rays, state, keys, stopped, behind]
+        squares = self._squares[chain]
+        squares.stopped.zero_()
+        squares.behind.zero_()
+        inputs = [chain, sweep, law, self._lines, rays, state, squares]
         wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
-        cells = self._rays.grid.n_cells
+        cells, touched = self._rays.grid.n_cells, self._rays.touched
         labels = state.solid[chain * cells : (chain + 1) * cells]
         if solid is not None:
             labels = devices.to_device(solid, wp.uint8, self._device)
-        inputs = [
-            chain, sweep, prior, self._touched, keys, self._crossings_there, stopped, behind, drawn, expected,
-            int(kept), cells, labels, observed_counts,
-        ]  # fmt: skip
-        wp.launch(draw_stop_chances, dim=len(self._rays.touched), inputs=inputs, device=self._device)
-        touched = self._rays.touched
-        ends, unseen = (np.asarray(counts.numpy())[touched] for counts in (stopped, behind))
-        passed = self._crossings[touched] - ends - unseen
-        return InSquares(ends, passed, np.array(drawn.numpy()), np.array(expected.numpy()))
+        inputs = [chain, sweep, prior, state, squares, labels, int(kept)]
+        wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self._device)
+        stopped, behind = (np.asarray(counts.numpy())[touched] for counts in (squares.stopped, squares.behind))
+        passed = self._crossings[touched] - stopped - behind
+        return InSquares(stopped, passed, np.array(squares.drawn.numpy()), np.array(squares.expected.numpy()))

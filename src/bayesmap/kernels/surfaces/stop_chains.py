@@ -23,9 +23,9 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
 from bayesmap.kernels.surfaces.cell_prior import put_prior
-from bayesmap.kernels.surfaces.crossing import Cell, put_cells
+from bayesmap.kernels.surfaces.crossing import Cell, cells_to_device
 from bayesmap.kernels.surfaces.endpoint_beams import put_endpoint_cells
-from bayesmap.kernels.surfaces.endpoint_cells import STEPS, count_endpoint_cells, update_endpoint_cells
+from bayesmap.kernels.surfaces.endpoint_cells import STEPS, BeamLists, count_endpoint_cells, update_endpoint_cells
 from bayesmap.kernels.surfaces.endpoint_lanes import room_for_blocks
 from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, put_known
 from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
@@ -114,7 +114,6 @@ class StopChains:
         active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
         self._active = active
         self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)
-        self._keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
         self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
@@ -123,6 +122,7 @@ class StopChains:
         parts = max(1, -(-self.threads // chains))
         state = ChainArrays()
         state.n_cells, state.n_beams, state.parts, state.beta = cells, beams, parts, 1.0
+        state.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         state.cells = empty(chains * cells, dtype=Cell)
         labels = np.zeros(chains * cells) if solid is None else solid.ravel()
         state.solid = wp.array(labels.astype(np.uint8), dtype=wp.uint8, device=device)
@@ -134,18 +134,21 @@ class StopChains:
         state.where = empty(chains * beams, dtype=wp.vec2)
         state.stopped_in = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
         state.log_likelihood, state.held_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
+        if counts is None:
+            state.last_hits = empty(chains * cells, dtype=wp.int32)
+            state.last_met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
+        else:
+            state.last_hits, state.last_met = (
+                wp.array(counts[:, i].ravel(), dtype=wp.int32, device=device) for i in (0, 1)
+            )
+        observed = np.zeros((chains * cells, 2)) if observed_counts is None else observed_counts.reshape(-1, 2)
+        state.observed_counts = wp.array(observed.astype(np.int32), dtype=wp.vec2i, device=device)
         self._state = state
         for chain in range(chains):
             self.put_cells(chain, states(chain))
-        if counts is None:
-            self._hits = empty(chains * cells, dtype=wp.int32)
-            self._met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
-        else:
-            self._hits, self._met = (wp.array(counts[:, i].ravel(), dtype=wp.int32, device=device) for i in (0, 1))
-        there = np.zeros((chains * cells, 2), np.int32) if observed_counts is None else observed_counts.reshape(-1, 2)
-        self._observed_counts = wp.array(there, dtype=wp.vec2i, device=device)
-        self._lists = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
-        self._passes = empty((chains, len(plan.endpoints)), dtype=wp.int32)
+        self._lists = BeamLists()
+        self._lists.entries = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
+        self._lists.passes = empty((chains, len(plan.endpoints)), dtype=wp.int32)
         self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
         slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # of labels zero where there are none
@@ -192,37 +195,35 @@ class StopChains:
         likelihood, log_prior = zeros(), zeros()
         beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
-        state, keys, counts = self._state, self._keys, [self._hits, self._met]
+        state = self._state
         shape, cells = self.plan.rays.grid.shape, state.n_cells
-        drawn = [state, keys, *counts]
-        at_ends = [self._endpoints, self._active, state, self._lists, self._passes]
+        at_ends = [self._endpoints, self._active, state, self._lists]
         beam_sums, cell_sums, label_sums = self._slices
 
         def of_cells(number: int) -> list[tuple[Any, int, list[Any]]]:
             """Those of the cells' half, given the stops."""
-            out = [(count_endpoint_cells, endpoints, [number, *at_ends, keys, *counts])]
+            out = [(count_endpoint_cells, endpoints, [number, *at_ends])]
             if prior.coupling > 0:
                 out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
-                labelled = [number, *shape, packed, self._known, *drawn]
+                labelled = [number, *shape, packed, self._known, state]
                 out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
             out += [
-                (update_free_cells, touched, [number, self.without_surfaces, packed, self._active, *drawn]),
-                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, *at_ends, self._blocks,
-                                                    keys, *counts]),
+                (update_free_cells, touched, [number, self.without_surfaces, packed, self._active, state]),
+                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, *at_ends, self._blocks]),
             ]  # fmt: skip
             if self.without_surfaces and observing_after is not None and number >= observing_after:
-                out.append((count_observed, touched, [self._active, state.n_cells, *counts, self._observed_counts]))
+                out.append((count_observed, touched, [self._active, state]))
             return out
 
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
             """Kernels of a sweep in their order, with the elements of a chain."""
             number, changed = first + i, int(moved and i == 0)
             turn, after_turn = (int(self._held.have_turn(sweep)) for sweep in (number, number - 1))
-            begin = [number, self.without_surfaces, packed, changed, self._active, state, keys, self._log_priors]
+            begin = [number, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
             out = [(begin_sweep, touched, begin)]
             if not turn and (after_turn or (starts and i == 0)):
                 out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
-            out.append((draw_stops, beams, [number, turn, law, self._rays, state, keys]))
+            out.append((draw_stops, beams, [number, turn, law, self._rays, state]))
             if steps > 0:
                 out += of_cells(number)
             out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
@@ -290,7 +291,7 @@ class StopChains:
     def put_cells(self, chain: int, states: NDArray[np.float32], solid: NDArray[np.bool_] | None = None) -> None:
         """Let a chain go on from other cells, (N, 6), and labels, (N,), if it has any."""
         here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
-        wp.copy(self._state.cells[here], put_cells(states, self.device))
+        wp.copy(self._state.cells[here], cells_to_device(states, self.device))
         if solid is not None:
             wp.copy(self._state.solid[here], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
         self._law, self._packed = (), None  # what was worked out of the cells before them is worthless
@@ -306,14 +307,14 @@ class StopChains:
         """
         assert self._packed is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state, self._keys])
+        self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
     def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """How many beams stopped in each cell of a chain, and how many met its surface and passed, (N,) each, likewise.
 
         They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
         """
-        return self._of(self._hits, chain), self._of(self._met, chain)
+        return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
     @property
     def swept(self) -> bool:
@@ -328,15 +329,14 @@ class StopChains:
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
         law, prior = self._packed
-        there = (self._rays, self._state, self._keys, self._observed_counts)
-        return self._squares.of_chain(chain, sweep, law, prior, *there, kept, solid)
+        return self._squares.of_chain(chain, sweep, law, prior, self._rays, self._state, kept, solid)
 
     def observed_counts(self, chain: int) -> NDArray[np.int32]:
         """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.
 
         Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
         """
-        return self._of(self._observed_counts, chain)
+        return self._of(self._state.observed_counts, chain)
 
     def log_likelihood(self, chain: int) -> NDArray[np.float32]:
         """Of every beam of a chain before its last sweep, summed over all stops, (B,), likewise."""

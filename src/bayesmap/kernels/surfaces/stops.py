@@ -124,6 +124,7 @@ class ChainArrays:
     n_beams: int
     parts: int  # of the beams, each counted by itself
     beta: wp.float32  # inverse temperature
+    keys: wp.array(dtype=wp.uint64)  # of each chain's random numbers
     cells: wp.array(dtype=Cell)
     solid: wp.array(dtype=wp.uint8)  # labels; all zero where cells have none
     fixed_m: wp.array(dtype=wp.float32)  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
@@ -136,6 +137,9 @@ class ChainArrays:
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
     stopped_in: wp.array(dtype=wp.int32)  # the last sweep in which a cell stopped a beam
     log_likelihood: wp.array(dtype=wp.float32)  # of the beam's reading, summed over all stops
+    last_hits: wp.array(dtype=wp.int32)  # beams that stopped in a cell when it last drew its reflectivity
+    last_met: wp.array(dtype=wp.int32)  # beams that met its surface then and passed; -1 before the first draw
+    observed_counts: wp.array(dtype=wp.vec2i)  # draws in which some beam observes a cell, and draws inspected
 
 
 @wp.func
@@ -215,7 +219,6 @@ def draw_stops(
     law: SensorLaw32,
     rays: TracedRays,
     state: ChainArrays,
-    keys: wp.array(dtype=wp.uint64),
 ):
     """One thread a chain's beam: draw where it stops, and count it in the cells.
 
@@ -225,7 +228,7 @@ def draw_stops(
     chain = i // state.n_beams
     b = i - chain * state.n_beams
     cell_0 = chain * state.n_cells
-    key = sweep_key(keys[chain], sweep, BEAMS)
+    key = sweep_key(state.keys[chain], sweep, BEAMS)
     one = wp.float32(1.0)
     reading = rays.range_m[b]
     begin = rays.offsets[b]

@@ -19,17 +19,19 @@ from bayesmap.beams.rays import MAX_INCIDENCES
 from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.random import random_bits, shuffled, to_uniform
+from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walls.chains import (
     Chain,
     Chains,
+    Kept,
+    Sweeps,
     Table,
     chain_of,
     entry_loglik,
-    keep_walls,
-    log_likelihood,
+    keep,
     put_wall,
     remove_wall,
+    site_of,
 )
 from bayesmap.kernels.walls.wall_prior import CERTAIN_LEVEL, Prior, draw_from_prior, log_prior
 
@@ -300,52 +302,32 @@ def coupling_weights(blocks: Blocks, prior: Prior, walls: wp.array(dtype=wp.uint
 
 
 @wp.kernel
-def block_sweeps(
-    chain_0: int,
-    t: Table,
-    blocks: Blocks,
-    prior: Prior,
-    log_all_free: wp.float64,
-    beta: wp.float64,
-    keys: wp.array(dtype=wp.uint64),
-    order: wp.array(dtype=wp.int32),
-    shuffle_bits: wp.uint32,
-    sweep_0: int,
-    sweeps: int,
-    chains: Chains,
-    first_kept: int,
-    every: int,
-    draws: wp.array3d(dtype=wp.uint8),
-    log_likelihoods: wp.array2d(dtype=wp.float64),
-    log_priors: wp.array2d(dtype=wp.float64),
-):
-    """One thread a chain: several sweeps, each over all block positions; as `gibbs.gibbs_sweeps` otherwise."""
+def block_sweeps(chain_0: int, t: Table, blocks: Blocks, prior: Prior, sweeps: Sweeps, chains: Chains, kept: Kept):
+    """One thread a chain: several sweeps, each over all positions of a block."""
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
-    size = order.shape[0]
-    for s in range(sweeps):
-        sweep = sweep_0 + s
-        base = wp.uint64(sweep) * wp.uint64(size) * wp.uint64(4)
-        shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
+    key = chains.keys[n]
+    size = sweeps.order.shape[0]
+    for s in range(sweeps.count):
+        sweep = wp.uint64(sweeps.first + s)
+        base = sweep * wp.uint64(size) * wp.uint64(4)
+        shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
-            place = i
-            if shuffle_bits > wp.uint32(0):
-                place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
-            block = order[place]
+            block = site_of(sweeps, i, shuffle_key)
             x = block // blocks.rows
             y = block % blocks.rows
             counter = base + wp.uint64(4 * block)
             reaching = beams_reaching(blocks, chain.reached, x, y)
             if reaching == 0 and prior.coupling == ZERO:
-                draw_block_from_prior(blocks, prior, chain.walls, x, y, keys[n], counter)
+                draw_block_from_prior(blocks, prior, chain.walls, x, y, key, counter)
             else:
                 weights = Weights()
                 if reaching > 0:
-                    weights = beta * block_weights(t, blocks, chain, block, x, y)
+                    weights = sweeps.beta * block_weights(t, blocks, chain, block, x, y)
                 weights = weights + prior_weights(blocks, prior, x, y)
                 if prior.coupling != ZERO:
                     weights = weights + coupling_weights(blocks, prior, chain.walls, x, y)
-                state = draw_state(weights, to_uniform(random_bits(keys[n], counter)))
+                state = draw_state(weights, to_uniform(random_bits(key, counter)))
                 for j in range(4):
                     c = cell_of_block(blocks, x, y, j)
                     if c >= 0:
@@ -353,8 +335,4 @@ def block_sweeps(
                             put_wall(t, chain, c)
                         if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
                             remove_wall(t, chain, c)
-        log_likelihoods[n, s] = beta * log_likelihood(chain.current)
-        log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
-        past = sweep + 1 - first_kept
-        if draws.shape[1] > 0 and past >= 0 and past % every == 0:
-            keep_walls(chain.walls, draws[n, past // every])
+        keep(kept, sweeps, n, s, chain, log_prior(prior, chain.walls))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.random import cipher_bits
+from bayesmap.kernels.random import cipher_bits, shuffled
 
 wp.set_module_options({"enable_backward": False})
 
@@ -56,14 +56,53 @@ class Chain:
 
 @wp.struct
 class Chains:
-    """The states of several chains, one a row."""
+    """The states of several chains, one a row, and their keys of random numbers."""
 
+    keys: wp.array(dtype=wp.uint64)
     walls: wp.array2d(dtype=wp.uint8)
     first: wp.array2d(dtype=wp.int32)
     current: wp.array2d(dtype=wp.float32)
     reached: wp.array2d(dtype=wp.int32)
     gain: wp.array2d(dtype=wp.float32)
     known: wp.array2d(dtype=wp.uint8)
+
+
+@wp.struct
+class Sweeps:
+    """Sweeps to make: the number of the first, from 0, their count, and the order of the sites in each.
+
+    With ``shuffle_bits`` positive every sweep shuffles the order afresh. ``beta`` is the inverse temperature.
+    """
+
+    first: int
+    count: int
+    order: wp.array(dtype=wp.int32)
+    shuffle_bits: wp.uint32
+    beta: wp.float64
+
+
+@wp.struct
+class Kept:
+    """What sweeps leave behind: the log densities after each, (chains, sweeps), and packed maps after some.
+
+    Maps are kept after the sweeps of numbers ``first``, ``first + every``, ..., counted from 1, as far as ``draws`` has
+    room.
+    """
+
+    first: int
+    every: int
+    draws: wp.array3d(dtype=wp.uint8)
+    log_likelihoods: wp.array2d(dtype=wp.float64)
+    log_priors: wp.array2d(dtype=wp.float64)
+
+
+@wp.func
+def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
+    """The i-th site of a sweep."""
+    place = i
+    if sweeps.shuffle_bits > wp.uint32(0):
+        place = int(shuffled(wp.uint32(i), wp.uint32(sweeps.order.shape[0]), sweeps.shuffle_bits, shuffle_key))
+    return sweeps.order[place]
 
 
 @wp.func
@@ -173,6 +212,16 @@ def log_likelihood(current: wp.array(dtype=wp.float32)) -> wp.float64:
     return total
 
 
+@wp.func
+def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
+    """Write down what chain n is after sweep ``sweeps.first + s``."""
+    kept.log_likelihoods[n, s] = sweeps.beta * log_likelihood(chain.current)
+    kept.log_priors[n, s] = log_prior
+    past = sweeps.first + s + 1 - kept.first
+    if kept.draws.shape[1] > 0 and past >= 0 and past % kept.every == 0:
+        keep_walls(chain.walls, kept.draws[n, past // kept.every])
+
+
 def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
     """Table and index on a device; on the CPU they share the arrays' memory."""
     on = Table()
@@ -194,7 +243,8 @@ class WallChains:
 
     Attributes:
         states: the arrays, one row a chain.
-        keys: (chains,), one key of random numbers each.
+        device: where they are.
+        shape: number of chains and of cells.
     """
 
     def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
@@ -208,8 +258,8 @@ class WallChains:
         states.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
         states.gain = wp.empty((chains, cells), dtype=wp.float32, device=device)
         states.known = wp.empty((chains, cells), dtype=wp.uint8, device=device)
+        states.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         self.states = states
-        self.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         devices.launch(derive_state, chains, [table, states], device)
 
     def host_walls(self) -> NDArray[np.uint8]:
@@ -221,13 +271,12 @@ def run_sweeps(
     kernel: Any,
     tables: Sequence[Any],
     prior: Any,
-    log_all_free: float,
     order: NDArray[np.int32],
     shuffle: bool,
     chains: WallChains,
     *,
     first: int,
-    sweeps: int,
+    count: int,
     kept: range,
     beta: float = 1.0,
     threads: int | None = None,
@@ -238,12 +287,11 @@ def run_sweeps(
         kernel: of the sweep.
         tables: that it takes first.
         prior: of the walls, on the device.
-        log_all_free: log prior of the map with no wall but those that the prior fixes.
         order: of the sites.
         shuffle: whether it is shuffled in each sweep.
         chains: to advance.
         first: number of the first sweep, from 0.
-        sweeps: how many.
+        count: how many.
         kept: numbers, from 1, of those whose maps are kept.
         beta: inverse temperature.
         threads: of the CPU; all cores if None.
@@ -254,11 +302,12 @@ def run_sweeps(
     """
     n, cells = chains.shape
     device = chains.device
-    log_likelihoods, log_priors = (wp.empty((n, sweeps), dtype=wp.float64, device=device) for _ in range(2))
-    draws = wp.empty((n, len(kept), (cells + 7) // 8), dtype=wp.uint8, device=device)
-    bits = cipher_bits(len(order)) if shuffle else 0
-    inputs = [*tables, prior, wp.float64(log_all_free), wp.float64(beta), chains.keys]
-    inputs += [devices.to_device(order, wp.int32, device), wp.uint32(bits), first, sweeps]
-    inputs += [chains.states, kept.start, kept.step, draws, log_likelihoods, log_priors]
-    devices.launch(kernel, n, inputs, device, threads=threads)
-    return log_likelihoods.numpy(), log_priors.numpy(), draws.numpy()
+    sweeps, out = Sweeps(), Kept()
+    sweeps.first, sweeps.count, sweeps.beta = first, count, beta
+    sweeps.order = devices.to_device(order, wp.int32, device)
+    sweeps.shuffle_bits = cipher_bits(len(order)) if shuffle else 0
+    out.first, out.every = kept.start, kept.step
+    out.draws = wp.empty((n, len(kept), (cells + 7) // 8), dtype=wp.uint8, device=device)
+    out.log_likelihoods, out.log_priors = (wp.empty((n, count), dtype=wp.float64, device=device) for _ in range(2))
+    devices.launch(kernel, n, [*tables, prior, sweeps, chains.states, out], device, threads=threads)
+    return out.log_likelihoods.numpy(), out.log_priors.numpy(), out.draws.numpy()

@@ -12,21 +12,23 @@ out to be smaller than that. Sums and bounds are of likelihoods alone, and so ho
 
 import warp as wp
 
-from bayesmap.kernels.random import random_bits, shuffled, to_uniform
+from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walls.chains import (
     BOUND,
     EXACT,
     UNKNOWN,
     Chain,
     Chains,
+    Kept,
+    Sweeps,
     Table,
     chain_of,
     entry_loglik,
-    keep_walls,
-    log_likelihood,
+    keep,
     next_wall,
     put_wall,
     remove_wall,
+    site_of,
 )
 from bayesmap.kernels.walls.wall_prior import Prior, draw_given_neighbours, draw_wall, log_prior, prior_log_odds
 
@@ -101,51 +103,24 @@ def draw_wall_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: in
 
 
 @wp.kernel
-def gibbs_sweeps(
-    chain_0: int,
-    t: Table,
-    prior: Prior,
-    log_all_free: wp.float64,
-    beta: wp.float64,
-    keys: wp.array(dtype=wp.uint64),
-    order: wp.array(dtype=wp.int32),
-    shuffle_bits: wp.uint32,
-    sweep_0: int,
-    sweeps: int,
-    chains: Chains,
-    first_kept: int,
-    every: int,
-    draws: wp.array3d(dtype=wp.uint8),
-    log_likelihoods: wp.array2d(dtype=wp.float64),
-    log_priors: wp.array2d(dtype=wp.float64),
-):
-    """One thread a chain: several sweeps, each over all cells in the given order, at an inverse temperature.
-
-    With ``shuffle_bits`` positive the order is shuffled afresh in every sweep. The maps after the sweeps of numbers
-    ``first_kept``, ``first_kept + every``, ..., counted from 1, are packed into ``draws`` as far as that has room.
-    """
+def gibbs_sweeps(chain_0: int, t: Table, prior: Prior, sweeps: Sweeps, chains: Chains, kept: Kept):
+    """One thread a chain: several sweeps, each over all cells."""
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
-    size = order.shape[0]
-    for s in range(sweeps):
-        sweep = sweep_0 + s
-        base = wp.uint64(sweep) * wp.uint64(size)
-        shuffle_key = random_bits(keys[n], ~wp.uint64(sweep))
+    key = chains.keys[n]
+    size = sweeps.order.shape[0]
+    for s in range(sweeps.count):
+        sweep = wp.uint64(sweeps.first + s)
+        base = sweep * wp.uint64(size)
+        shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
-            place = i
-            if shuffle_bits > wp.uint32(0):
-                place = int(shuffled(wp.uint32(i), wp.uint32(size), shuffle_bits, shuffle_key))
-            c = order[place]
-            bits = random_bits(keys[n], base + wp.uint64(c))
+            c = site_of(sweeps, i, shuffle_key)
+            bits = random_bits(key, base + wp.uint64(c))
             if chain.reached[c] == 0:
                 chain.walls[c] = wp.uint8(draw_given_neighbours(prior, chain.walls, c, bits))
             elif chain.walls[c] != wp.uint8(0):
-                if not draw_wall_cell(t, prior, chain, beta, c, to_uniform(bits)):
+                if not draw_wall_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
                     remove_wall(t, chain, c)
-            elif draw_free_cell(t, prior, chain, beta, c, to_uniform(bits)):
+            elif draw_free_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
                 put_wall(t, chain, c)
-        log_likelihoods[n, s] = beta * log_likelihood(chain.current)
-        log_priors[n, s] = log_prior(prior, chain.walls, log_all_free)
-        past = sweep + 1 - first_kept
-        if draws.shape[1] > 0 and past >= 0 and past % every == 0:
-            keep_walls(chain.walls, draws[n, past // every])
+        keep(kept, sweeps, n, s, chain, log_prior(prior, chain.walls))

@@ -11,7 +11,15 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.rays import Lines, distance_at, first_past, line_of, put_rays, stop_distances, trace_rays
+from bayesmap.kernels.rays import (
+    RayArrays,
+    distance_at,
+    first_past,
+    line_of,
+    rays_to_device,
+    stop_distances,
+    trace_rays,
+)
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, object_decay, sensor_law, stop_log_density
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -19,6 +27,8 @@ from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
+WIDTHS = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
+GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
 SLICE = 1 << 20  # entries handed to NumPy at a time, where a model has no compiled likelihood
 
 
@@ -57,7 +67,7 @@ def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device:
         loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
     else:
         filled = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
-        inputs = [sensor_law(sensor, rays.limits, device), *put_rays(rays, device), wp.float64(hit_depth)]
+        inputs = [sensor_law(sensor, rays.limits, device), rays_to_device(rays, device), wp.float64(hit_depth)]
         inputs += [devices.to_device(rays.range_m, wp.float64, device), *filled]
         devices.launch(fill_likelihood, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
         loglik, no_hit = (a.numpy() for a in filled)
@@ -77,16 +87,11 @@ def _by_model(
     return loglik, no_hit
 
 
-WIDTHS = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
-
-
 @wp.kernel
 def fill_likelihood(
     first: int,
     law: SensorLaw64,
-    lines: Lines,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
+    rays: RayArrays,
     depth: wp.float64,
     range_m: wp.array(dtype=wp.float64),
     loglik: wp.array(dtype=wp.float32),
@@ -104,34 +109,31 @@ def fill_likelihood(
         return
     one = wp.float64(1.0)
     zero = wp.float64(0.0)
-    begin = offsets[b]
-    end = offsets[b + 1]
-    line = line_of(lines, b)
+    begin = rays.offsets[b]
+    end = rays.offsets[b + 1]
+    line = line_of(rays.lines, b)
     decay = object_decay(law, z)
     no_hit[b] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
     near = begin
     behind = end
     if law.kind == MIXTURE and law.dof == zero and wp.isfinite(z):
         begins = (z - WIDTHS * law.sigma_m) / (one + WIDTHS * law.sigma_per_m)
-        near = first_past(line, cells, begin, end, begins, depth)
+        near = first_past(line, rays.cells, begin, end, begins, depth)
         if WIDTHS * law.sigma_per_m < one:
             ends = (z + WIDTHS * law.sigma_m) / (one - WIDTHS * law.sigma_per_m)
-            behind = first_past(line, cells, near, end, ends, depth)
+            behind = first_past(line, rays.cells, near, end, ends, depth)
         if near > begin:
             before = wp.float32(wp.log(law.uniform))
             for k in range(begin, near):
                 loglik[k] = before
     for k in range(near, behind):
-        loglik[k] = wp.float32(stop_log_density(law, z, decay, distance_at(line, cells[k], depth), zero))
+        loglik[k] = wp.float32(stop_log_density(law, z, decay, distance_at(line, rays.cells[k], depth), zero))
     if behind < end:
         after = no_hit[b]
         if z < law.max_m:
             after = wp.float32(wp.log(law.uniform + law.passing * decay))
         for k in range(behind, end):
             loglik[k] = after
-
-
-GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
 
 
 @wp.kernel
@@ -155,6 +157,19 @@ def beam_extremes(
     lowest[b] = least
 
 
+@wp.struct
+class IndexArrays:
+    """A `CellIndex` on a device, and how far each cell's entries are filled in."""
+
+    offsets: wp.array(dtype=wp.int32)
+    filled: wp.array(dtype=wp.int32)
+    entry: wp.array(dtype=wp.int32)
+    beam: wp.array(dtype=wp.int32)
+    loglik: wp.array(dtype=wp.float32)
+    gain_bound: wp.array(dtype=wp.float32)
+    advantage: wp.array(dtype=wp.float32)
+
+
 @wp.kernel
 def scatter_entries(
     first: int,
@@ -164,20 +179,14 @@ def scatter_entries(
     loglik: wp.array(dtype=wp.float32),
     lowest: wp.array(dtype=wp.float32),
     advantage: wp.array(dtype=wp.float32),
-    offsets: wp.array(dtype=wp.int32),
-    fill: wp.array(dtype=wp.int32),
-    entry: wp.array(dtype=wp.int32),
-    beam: wp.array(dtype=wp.int32),
-    out_loglik: wp.array(dtype=wp.float32),
-    gain_bound: wp.array(dtype=wp.float32),
-    out_advantage: wp.array(dtype=wp.float32),
+    index: IndexArrays,
 ):
     """One thread a range of cells: two passes over the table, gaining entries first, then bounds from behind."""
     t = first + wp.tid()
     low = cell_bounds[t]
     high = cell_bounds[t + 1]
     for c in range(low, high):
-        fill[c] = offsets[c]
+        index.filled[c] = index.offsets[c]
     for gaining in range(2):
         for b in range(beam_offsets.shape[0] - 1):
             least = lowest[b]
@@ -186,65 +195,50 @@ def scatter_entries(
                 if c >= low and c < high:
                     gain = loglik[k] - least
                     if (gain > GAIN) == (gaining == 0):
-                        i = fill[c]
-                        fill[c] = i + 1
-                        entry[i] = k
-                        beam[i] = b
-                        out_loglik[i] = loglik[k]
-                        gain_bound[i] = gain
-                        out_advantage[i] = advantage[k]
+                        i = index.filled[c]
+                        index.filled[c] = i + 1
+                        index.entry[i] = k
+                        index.beam[i] = b
+                        index.loglik[i] = loglik[k]
+                        index.gain_bound[i] = gain
+                        index.advantage[i] = advantage[k]
     for c in range(low, high):
         bound = wp.float32(0.0)
-        for j in range(offsets[c + 1] - offsets[c]):
-            i = offsets[c + 1] - 1 - j
-            bound += gain_bound[i]
-            gain_bound[i] = bound
+        for j in range(index.offsets[c + 1] - index.offsets[c]):
+            i = index.offsets[c + 1] - 1 - j
+            bound += index.gain_bound[i]
+            index.gain_bound[i] = bound
 
 
 def index_by_cell(table: BeamTable) -> CellIndex:
-    """Build the index; on the CPU, in a fixed order that does not depend on the number of threads."""
-    cells = table.grid.n_cells
+    """Index the table by cells, on the CPU, in an order that does not depend on the number of threads."""
+    cells, entries = table.grid.n_cells, table.n_incidences
     offsets = np.zeros(cells + 1, dtype=np.int32)
     np.cumsum(np.bincount(table.cells, minlength=cells), out=offsets[1:])
     threads = devices.available_cores()
-    shares = np.linspace(0, table.n_incidences, threads + 1)[1:-1]
+    shares = np.linspace(0, entries, threads + 1)[1:-1]
     bounds = np.concatenate([[0], np.searchsorted(offsets, shares), [cells]]).astype(np.int32)
 
-    beam_offsets = devices.to_device(table.offsets, wp.int32, "cpu")
-    loglik = devices.to_device(table.loglik, wp.float32, "cpu")
+    beam_offsets, table_cells = (devices.to_device(a, wp.int32, "cpu") for a in (table.offsets, table.cells))
+    loglik, no_hit = (devices.to_device(a, wp.float32, "cpu") for a in (table.loglik, table.no_hit))
     lowest = wp.empty(table.n_beams, dtype=wp.float32, device="cpu")
-    advantage = wp.empty(table.n_incidences, dtype=wp.float32, device="cpu")
-    no_hit = devices.to_device(table.no_hit, wp.float32, "cpu")
+    advantage = wp.empty(entries, dtype=wp.float32, device="cpu")
     devices.launch(beam_extremes, table.n_beams, [beam_offsets, loglik, no_hit, lowest, advantage], "cpu")
-    entry, beam = (wp.empty(table.n_incidences, dtype=wp.int32, device="cpu") for _ in range(2))
-    values, gain_bound, cell_advantage = (
-        wp.empty(table.n_incidences, dtype=wp.float32, device="cpu") for _ in range(3)
+
+    index = IndexArrays()
+    index.offsets = devices.to_device(offsets, wp.int32, "cpu")
+    index.filled = wp.empty(cells, dtype=wp.int32, device="cpu")
+    index.entry, index.beam = (wp.empty(entries, dtype=wp.int32, device="cpu") for _ in range(2))
+    index.loglik, index.gain_bound, index.advantage = (
+        wp.empty(entries, dtype=wp.float32, device="cpu") for _ in range(3)
     )
-    devices.launch(
-        scatter_entries,
-        threads,
-        [
-            devices.to_device(bounds, wp.int32, "cpu"),
-            beam_offsets,
-            devices.to_device(table.cells, wp.int32, "cpu"),
-            loglik,
-            lowest,
-            advantage,
-            devices.to_device(offsets, wp.int32, "cpu"),
-            wp.empty(cells, dtype=wp.int32, device="cpu"),
-            entry,
-            beam,
-            values,
-            gain_bound,
-            cell_advantage,
-        ],
-        "cpu",
-    )
+    inputs = [devices.to_device(bounds, wp.int32, "cpu"), beam_offsets, table_cells, loglik, lowest, advantage, index]
+    devices.launch(scatter_entries, threads, inputs, "cpu")
     return CellIndex(
         offsets=offsets,
-        entry=entry.numpy(),
-        beam=beam.numpy(),
-        loglik=values.numpy(),
-        gain_bound=gain_bound.numpy(),
-        advantage=cell_advantage.numpy(),
+        entry=index.entry.numpy(),
+        beam=index.beam.numpy(),
+        loglik=index.loglik.numpy(),
+        gain_bound=index.gain_bound.numpy(),
+        advantage=index.advantage.numpy(),
     )

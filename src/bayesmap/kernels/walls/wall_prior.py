@@ -24,13 +24,15 @@ NONE = wp.constant(wp.float64(0.0))
 class Prior:
     """Wall probabilities, cell by cell, their log-odds, and the coupling of neighbours.
 
-    ``level`` is the probability in units of 2^-53, for draws without floating point; ``gain`` is what a wall adds to
-    the log prior without its pairs: the log-odds, but 0 in cells that the prior fixes.
+    ``level`` is the probability in units of 2^-53, for draws without floating point. Pairs left out, ``log_all_free``
+    is the log prior of the map in which only the fixed walls are walls, and ``gain`` is what a wall adds to it: the
+    log-odds, but 0 in cells that the prior fixes.
     """
 
     level: wp.array(dtype=wp.uint64)
     logit: wp.array(dtype=wp.float64)
     gain: wp.array(dtype=wp.float64)
+    log_all_free: wp.float64
     uniform: int
     coupling: wp.float64
     nx: int
@@ -100,9 +102,9 @@ def pairs_alike(prior: Prior, walls: wp.array(dtype=wp.uint8)) -> int:
 
 
 @wp.func
-def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8), log_all_free: wp.float64) -> wp.float64:
+def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8)) -> wp.float64:
     """Log p(walls), where neighbours are coupled up to a constant."""
-    total = wp.float64(log_all_free)
+    total = wp.float64(prior.log_all_free)
     if prior.coupling != NONE:
         total += prior.coupling * wp.float64(pairs_alike(prior, walls))
     if prior.uniform != 0:
@@ -127,5 +129,6 @@ def put_prior(
     on.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
     on.uniform = int((p_wall == p_wall[0]).all())
     on.coupling = coupling
+    on.log_all_free = float(np.log1p(-p_wall[p_wall < 1.0]).sum())
     on.nx, on.ny = shape
     return on
