@@ -33,7 +33,7 @@ from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from bayesmap.io.text.g2o_writer import Edges
+    from bayesmap.io.text.g2o import Edges
     from bayesmap.poses.trajectory import Trajectory as Approximation
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
@@ -164,7 +164,7 @@ def _graph_of(run: object, trajectory: Trajectory) -> Edges | None:
     """What ties the scans of a run together, if it is the approximation that tells where they are."""
     if trajectory.relative is None:
         return None
-    from bayesmap.io.text.slam_edges import slam_edges
+    from bayesmap.io.text.g2o import slam_edges
 
     return slam_edges(run.trajectory)  # type: ignore[attr-defined]
 
@@ -183,7 +183,7 @@ def export_trajectory(
         path: .tum, .g2o, or a recording (.bag, .mcap, .db3 or a folder).
         trajectory: of a map's scans, of `bayesmap.localize`, or of anything else.
         format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
-        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.text.g2o_writer.chain_edges`).
+        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.text.g2o.chain_edges`).
         frame: of a recording.
 
     Returns:
@@ -196,7 +196,7 @@ def export_trajectory(
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
     if chosen == "g2o":
-        from bayesmap.io.text.g2o_writer import chain_edges, write_g2o
+        from bayesmap.io.text.g2o import chain_edges, write_g2o
 
         return (write_g2o(path, trajectory.poses, chain_edges(trajectory) if edges is None else edges),)
     if chosen == "tum":
