@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 import bayesmap as bm
-from bayesmap.io.ros.map_server import read_map, write_map
+from bayesmap.io.ros.maps import read_map, write_map
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.external_map import ASSUMED, MapLaw, external_map, fit_law
 from bayesmap.localization.known_map import KnownMap, Trust

@@ -26,7 +26,7 @@ LEVELS = (
     {"run"},
     {"posterior"},
     {"io", "viz", "localization"},
-    {"result"},
+    {"result", "worlds"},
     {"api"},
     {"from_odometry"},
     {"app"},
@@ -113,7 +113,7 @@ def test_an_import_that_points_up_is_noticed():
 
 
 FAMILIES: dict[str, tuple[set[str], ...]] = {
-    "io": ({"io.layers", "io.returns"}, {"io.log_reading"}, {"io.text", "io.ros"}, {"io"}),
+    "io": ({"io.image", "io.returns"}, {"io.log_reading"}, {"io.text", "io.ros"}, {"io"}),
 }
 """Families of a room (folders, or single modules), by level, the lowest first. A family imports lower levels only."""
 

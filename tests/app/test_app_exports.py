@@ -17,7 +17,7 @@ from bayesmap.app.opened import open_file
 from bayesmap.app.recording import run_to_html
 from bayesmap.app.tasks import Export, ShowScan, View
 from bayesmap.app.worlds import tutorial_document
-from bayesmap.io.ros.map_server import read_map
+from bayesmap.io.ros.maps import read_map
 
 
 @pytest.fixture(scope="module")
