@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 import bayesmap as bm
-from bayesmap.io.ros.map_server import read_map, write_map
+from bayesmap.io.ros.maps import read_map, write_map
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.external_map import ASSUMED, MapLaw, external_map, fit_law
 from bayesmap.localization.known_map import KnownMap, Trust
@@ -167,7 +167,7 @@ def simulated(case: Case, most: int) -> tuple[Floats, bm.Grid, bm.Scans, Floats]
     scans = bm.simulate(truth.walls, truth.grid, route, angles, sensor=laser, max_range_m=case.reach_m, typed=True,
                         seed=case.seed, opacity=truth.opacity)  # fmt: skip
     scans = with_people(scans, ~truth.walls, truth.grid, case, rng)
-    moved = scans.moved_to(bm.simulate_odometry(route, seed=case.seed))
+    moved = scans.at(bm.simulate_odometry(route, seed=case.seed))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "map.yaml"
         write_map(path, wrong_map(bare.walls, case, rng), truth.grid, mode=case.mode)

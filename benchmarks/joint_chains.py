@@ -64,7 +64,7 @@ def world(seed: int, sensor: bm.SensorModel) -> bm.Scans:
     stands = np.floor(GRID.to_cells(truth[:, :2])).astype(int).clip(0, 2)
     walls[stands[:, 0], stands[:, 1]] = False
     made = bm.simulate(walls, GRID, truth, ANGLES, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
-    return made.moved_to(said)
+    return made.at(said)
 
 
 def enumerated(scans: bm.Scans, sensor: bm.SensorModel) -> Posterior:
@@ -124,7 +124,7 @@ def loop() -> None:
     angles = np.radians(np.linspace(-90, 90, 91))
     seen = bm.simulate(made.walls, made.grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.01)), max_range_m=12.0,
                        seed=1, typed=True)  # fmt: skip
-    log = seen.moved_to(bm.simulate_odometry(truth, bm.OdometryNoise(), seed=1))
+    log = seen.at(bm.simulate_odometry(truth, bm.OdometryNoise(), seed=1))
     run = bm.slam(log, resolution=0.1, chains=4, warmup=30, draws=50, seed=1)
     found = run.trajectory
     assert found is not None

@@ -48,7 +48,7 @@ def located(known: KnownMap, scans: Scans, raw: Scans, place: int) -> dict[str, 
         where = localize(known, scans.select([scan])).last
         found["one"].append(judged(where, scans.poses[scan], time.process_time() - begin))
     some = np.arange(place, place + 10)
-    moved = scans.select(some).moved_to(raw.poses[some])
+    moved = scans.select(some).at(raw.poses[some])
     begin = time.process_time()
     last = list(follow(known, moved))[-1]
     found["ten"] = judged(last, scans.poses[some[-1]], time.process_time() - begin)

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
+from bayesmap.io.text.relations import read_relations
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.pipeline import infer_trajectory
-from bayesmap.poses.relations import read_relations, relation_errors
+from bayesmap.poses.relations import relation_errors
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.score import beam_log_scores
@@ -220,7 +221,7 @@ def localization(with_peers: bool = True, places: tuple[int, ...] = PLACES) -> I
             some = np.arange(place, place + 10)
             with TemporaryDirectory() as folder:
                 peer = mrpt.locate(made.occupancy, made.observed, made.grid,
-                                   scans.select(some).moved_to(raw.poses[some]), Path(folder))  # fmt: skip
+                                   scans.select(some).at(raw.poses[some]), Path(folder))  # fmt: skip
             peers.append((peer.poses[-1], scans.poses[some[-1]], float(peer.seconds.sum())))
     one, ten = [answer for found in answers for answer in found["one"]], [found["ten"] for found in answers]
     at = f"{len(places)} places, maps without the 35 scans about each"

@@ -40,7 +40,7 @@ angles_rad = np.radians(np.linspace(-90, 90, 180))
 laser = {"sensor": bm.BeamMixture(bm.Gaussian(0.01), p_random=0.002), "max_range_m": 12.0}
 seen = bm.simulate(office.walls, office.grid, true_poses, angles_rad, seed=1, typed=True, **laser)
 raw_poses = bm.simulate_odometry(true_poses, bm.OdometryNoise(), seed=1)
-log = seen.moved_to(raw_poses)
+log = seen.at(raw_poses)
 way_m = np.hypot(*np.diff(true_poses[:, :2], axis=0).T).sum()
 print(f"{len(log)} scans on a way of {way_m:.0f} m through {len(office.rooms)} rooms and corridors")
 
@@ -259,7 +259,7 @@ for mode in alone[least].modes[:3]:
 # %%
 way = np.arange(100, 112)
 drive = bm.simulate(office.walls, office.grid, true_poses[way], angles_rad, seed=9, typed=True, **laser)
-drive = drive.moved_to(bm.simulate_odometry(true_poses[way], bm.OdometryNoise(), seed=9))
+drive = drive.at(bm.simulate_odometry(true_poses[way], bm.OdometryNoise(), seed=9))
 tracked = bm.localize(known, drive)
 off = [1e3 * np.hypot(*(belief.mean - pose)[:2]) for belief, pose in zip(tracked.beliefs, true_poses[way], strict=True)]
 print("off by", ", ".join(f"{value:.0f}" for value in off), "mm")

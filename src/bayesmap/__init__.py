@@ -14,6 +14,7 @@ TYPE_CHECKING = False  # typing's own would load typing, in the first moments of
 if TYPE_CHECKING:
     from typing import Any
 
+    from bayesmap import worlds as worlds
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
     from bayesmap.cells.binary import Independent as Independent
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from bayesmap.sensors.model import SensorModel as SensorModel
     from bayesmap.sensors.noise import Gaussian as Gaussian
     from bayesmap.sensors.noise import StudentT as StudentT
-    from bayesmap.sim import worlds as worlds
     from bayesmap.sim.forward import ranges as ranges
     from bayesmap.sim.forward import simulate as simulate
     from bayesmap.sim.odometry import OdometryNoise as OdometryNoise
@@ -87,7 +87,7 @@ _HOME = {
     "Uncertain": "bayesmap.poses.prior",
     "Odometry": "bayesmap.poses.prior",
     "simulate_odometry": "bayesmap.sim.odometry",
-    "worlds": "bayesmap.sim.worlds",
+    "worlds": "bayesmap.worlds",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 -- the strings are in _HOME

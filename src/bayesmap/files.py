@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import gzip
 import os
 import secrets
 import shutil
 import sqlite3
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from bayesmap.errors import BadInput
@@ -46,6 +47,19 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
             _flush(target.parent)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def write_text(path: str | os.PathLike[str], lines: Iterable[str]) -> Path:
+    """Write lines of ASCII text, whole or not at all; gzipped if the name ends in .gz. Returns the path.
+
+    Raises:
+        BadInput: the folder does not exist, or cannot be written to.
+    """
+    target, content = Path(path), "".join(f"{line}\n" for line in lines).encode("ascii")
+    with write_whole(target) as partial:
+        # No time stamp and no name in the header: the same lines give the same bytes.
+        partial.write_bytes(gzip.compress(content, mtime=0) if target.suffix == ".gz" else content)
+    return target
 
 
 @contextlib.contextmanager

@@ -62,7 +62,7 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
     keys = found.keys
     poses = found.poses[keys]
     in_time = log.select(found.order)
-    scans = calibrated(in_time, found.calibration.angle_step_ratio).select(keys).moved_to(poses)
+    scans = calibrated(in_time, found.calibration.angle_step_ratio).select(keys).at(poses)
     # All trajectories share the first pose: it is the frame of the map.
     drawn = found.draw(chains, seed)[:, keys]
     starts = compose(poses[0], between(drawn[:, :1], drawn))

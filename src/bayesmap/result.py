@@ -259,12 +259,12 @@ class Run(Deciding):
         Raises:
             BadInput: a run that was stopped before its first draw, an unknown ending, or a file that cannot be written.
         """
-        from bayesmap.io.exports import export_run, format_of
+        from bayesmap.io.exports import export_format, export_run
 
         self._need_marginals()
         thresholds, mode = self.posterior.prior.thresholds, options.get("mode")
         if thresholds is not None:
-            if mode is None and format_of(path, options.get("format")) == "map-server":
+            if mode is None and export_format(path, options.get("format")) == "map-server":
                 mode = "trinary"
             if mode == "trinary":
                 for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):

@@ -26,7 +26,7 @@ def room_run(prior, draws=20, thin=1):
 
 def write_room_log(path, count=12):
     """The scans as a CARMEN log."""
-    from bayesmap.io.text.carmen_writer import write_carmen
+    from bayesmap.io.text.carmen import write_carmen
 
     write_carmen(path, room_scans(count))
     return path

@@ -69,7 +69,7 @@ def test_maps_are_averaged_over_the_posterior_of_the_pose():
     rng = np.random.default_rng(5)
     evidence, maps = [], []
     for there in scene.scans.poses[0] + 0.3 * rng.standard_normal((2000, 3)):
-        table = trace(scene.scans.moved_to(there[None]), document.grid, scene.sensor)
+        table = trace(scene.scans.at(there[None]), document.grid, scene.sensor)
         found = enumerate_maps(WallProblem(table, scene.problem.prior, there[None]))
         evidence.append(found.log_evidence)
         maps.append(found.marginals())

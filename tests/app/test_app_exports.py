@@ -17,7 +17,7 @@ from bayesmap.app.opened import open_file
 from bayesmap.app.recording import run_to_html
 from bayesmap.app.tasks import Export, ShowScan, View
 from bayesmap.app.worlds import tutorial_document
-from bayesmap.io.ros.map_server import read_map
+from bayesmap.io.ros.maps import read_map
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +151,7 @@ def small_log(path):
     poses = poses[[not world.walls[world.grid.cell_at(x, y)] for x, y, _ in poses]]
     angles = np.radians(np.arange(-90, 90, 3.0))
     scans = bm.simulate(world.walls, world.grid, poses, angles, sensor=bm.Gaussian(0.03), max_range_m=20.0)
-    from bayesmap.io.text.carmen_writer import write_carmen
+    from bayesmap.io.text.carmen import write_carmen
 
     write_carmen(path, scans)
     return len(scans)

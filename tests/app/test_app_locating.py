@@ -56,7 +56,7 @@ def found():
 
 def test_poses_are_taken_for_what_they_look_like():
     assert raw_log().document.poses == "odometry"
-    assert opened_log(raw_scans().moved_to(true_poses()), "true.log").document.poses == "logged"
+    assert opened_log(raw_scans().at(true_poses()), "true.log").document.poses == "logged"
 
 
 def test_before_run_the_log_is_shown_as_it_is():
@@ -227,7 +227,7 @@ def test_scans_stay_in_the_order_of_the_log():
 def test_the_map_only_grows_and_on_the_same_lattice():
     grid = raw_log().document.grid
     assert grown(grid, raw_scans()) == grid
-    away = raw_scans().moved_to(raw_scans().poses + np.array([-3.33, 0.0, 0.0]))
+    away = raw_scans().at(raw_scans().poses + np.array([-3.33, 0.0, 0.0]))
     larger = grown(grid, away)
     x0, x1, y0, y1 = larger.extent_m
     assert x0 < grid.extent_m[0]

@@ -11,7 +11,7 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
 from bayesmap.io.logs import read_log
-from bayesmap.io.ros.map_server import read_map
+from bayesmap.io.ros.maps import read_map
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.sensors.describe import describe
 from bayesmap.space.planar import compose, inverse

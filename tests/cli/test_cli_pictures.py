@@ -9,7 +9,7 @@ from shell import call
 
 import bayesmap as bm
 from bayesmap.cli.simulate import fan
-from bayesmap.io.ros.map_server import read_map
+from bayesmap.io.ros.maps import read_map
 
 
 def test_demo(tmp_path):

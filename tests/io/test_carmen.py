@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bayesmap.errors import BadInput
+from bayesmap.io.log_reading import LogOptions
 from bayesmap.io.text.carmen import read_carmen
 
 numbers = st.floats(-1e4, 1e4).map(lambda v: round(v, 6))
@@ -30,7 +31,7 @@ def read(tmp_path_factory):
 
     def write_and_read(text, **options):
         path.write_text(text)
-        return read_carmen(path, **options)
+        return read_carmen(path, LogOptions(**options))
 
     return write_and_read
 
@@ -146,11 +147,11 @@ def test_gzip_is_recognised_by_content_whatever_the_name(tmp_path):
     text = "".join(flaser([1.0, 2.0], t=t) for t in range(3)).encode()
     for name in ("a.log", "b.gz", "c"):
         (tmp_path / name).write_bytes(gzip.compress(text))
-        assert len(read_carmen(tmp_path / name).scans) == 3
+        assert len(read_carmen(tmp_path / name, LogOptions()).scans) == 3
     (tmp_path / "plain.gz").write_bytes(text)
-    assert len(read_carmen(tmp_path / "plain.gz").scans) == 3
+    assert len(read_carmen(tmp_path / "plain.gz", LogOptions()).scans) == 3
     (tmp_path / "joined.gz").write_bytes(gzip.compress(text) + gzip.compress(text))
-    assert len(read_carmen(tmp_path / "joined.gz").scans) == 6
+    assert len(read_carmen(tmp_path / "joined.gz", LogOptions()).scans) == 6
 
 
 def test_ros_codes_keep_their_meaning(read):

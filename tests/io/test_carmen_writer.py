@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from bayesmap.errors import BadInput
 from bayesmap.io.logs import describe_log
-from bayesmap.io.text.carmen_writer import write_carmen
+from bayesmap.io.text.carmen import write_carmen
 from bayesmap.space.scans import Scans
 
 

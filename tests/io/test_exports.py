@@ -8,7 +8,7 @@ from recorded import READERS
 
 from bayesmap.cli.keys import EXPORTS
 from bayesmap.errors import BadInput
-from bayesmap.io.exports import FORMATS, existing, export_run, format_of, layers_of
+from bayesmap.io.exports import FORMATS, existing, export_format, export_run, layers_of
 
 NEEDS = {"geotiff": "rasterio", "rerun": "rerun"}
 
@@ -23,29 +23,29 @@ NEEDS = {"geotiff": "rasterio", "rerun": "rerun"}
     ],
 )  # fmt: skip
 def test_the_ending_chooses_the_format(path, format):
-    assert format_of(path) == format
+    assert export_format(path) == format
 
 
 def test_a_named_format_wins_and_the_command_line_knows_the_same():
-    assert format_of("map.mcap", "gridmap") == "gridmap"
-    assert format_of("poses.txt", "tum") == "tum"
+    assert export_format("map.mcap", "gridmap") == "gridmap"
+    assert export_format("poses.txt", "tum") == "tum"
     assert ("auto", *FORMATS) == EXPORTS
 
 
 @pytest.mark.parametrize("path", ["map.txt", "map.pgm", "map.2024"])
 def test_an_unknown_ending_is_told_the_known_ones(path):
     with pytest.raises(BadInput) as refusal:
-        format_of(path)
+        export_format(path)
     for ending in (".yaml", ".yml", ".bag", ".mcap", ".db3", ".rrd", ".tum", ".tif", ".tiff", "without ending"):
         assert ending in str(refusal.value)
     with pytest.raises(BadInput, match="use one of map-server, occupancy-grid, gridmap"):
-        format_of("map.yaml", "png")
+        export_format("map.yaml", "png")
 
 
 @pytest.mark.parametrize("name", ["m.yaml", "m.bag", "m.mcap", "m.db3", "m", "m.rrd", "m.tum", "m.tif"])
 def test_every_ending_writes_whole_files_and_replaces_old_ones(tmp_path, name):
-    if format_of(name) in NEEDS:
-        pytest.importorskip(NEEDS[format_of(name)])
+    if export_format(name) in NEEDS:
+        pytest.importorskip(NEEDS[export_format(name)])
     target = tmp_path / name
     assert existing(target) is None
     outputs = export_run(target, BinaryRun(), scans())
@@ -99,8 +99,8 @@ def test_formats_that_keep_the_numbers_take_no_thresholds(tmp_path, path, format
 
 @pytest.mark.parametrize("name", ["m.yaml", "m.bag", "m.mcap", "m.db3", "m", "m.rrd", "m.tum", "m.tif"])
 def test_a_folder_that_is_none_is_named(tmp_path, name):
-    if format_of(name) in NEEDS:
-        pytest.importorskip(NEEDS[format_of(name)])
+    if export_format(name) in NEEDS:
+        pytest.importorskip(NEEDS[export_format(name)])
     (tmp_path / "file").write_text("no folder")
     for folder in (tmp_path / "file", tmp_path / "nowhere"):
         with pytest.raises(BadInput, match="cannot be written"):
@@ -111,8 +111,8 @@ def test_a_folder_that_is_none_is_named(tmp_path, name):
 @pytest.mark.skipif(sys.platform == "win32" or os.geteuid() == 0, reason="nothing is forbidden to root")
 @pytest.mark.parametrize("name", ["m.yaml", "m.bag", "m.mcap", "m.db3", "m", "m.rrd", "m.tum", "m.tif"])
 def test_a_folder_without_permission_is_named(tmp_path, name):
-    if format_of(name) in NEEDS:
-        pytest.importorskip(NEEDS[format_of(name)])
+    if export_format(name) in NEEDS:
+        pytest.importorskip(NEEDS[export_format(name)])
     tmp_path.chmod(0o500)
     try:
         with pytest.raises(BadInput, match="cannot be written"):
@@ -123,8 +123,7 @@ def test_a_folder_without_permission_is_named(tmp_path, name):
 
 
 def test_a_grid_of_one_cell(tmp_path):
-    from bayesmap.io.ros.grid_map import write_grid_map
-    from bayesmap.io.ros.occupancy_grid import write_occupancy_grid
+    from bayesmap.io.ros.run_messages import write_grid_map, write_occupancy_grid
     from bayesmap.space.grid import Grid
 
     for path in (tmp_path / "one.bag", tmp_path / "one.mcap"):

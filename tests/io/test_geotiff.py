@@ -7,7 +7,7 @@ from map_case import GRID, observed, occupancy
 from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.io.geotiff import write_geotiff
+from bayesmap.io.layers import write_geotiff
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}
 

@@ -4,7 +4,7 @@ from map_case import GRID, observed, occupancy
 from recorded import READERS
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros.grid_map import write_grid_map
+from bayesmap.io.ros.run_messages import write_grid_map
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy(), "lower": occupancy() / 2}
 
@@ -62,7 +62,7 @@ def test_ros_1_knows_the_message_by_its_checksum(tmp_path):
         ({}, "no layer to write"),
         ({"": occupancy()}, "needs a name"),
         ({"mean": occupancy().T}, r"layer 'mean' has shape \(3, 5\)"),
-        ({"mean": np.full(GRID.shape, np.inf)}, r"infinite in cell \(0, 0\)"),
+        ({"mean": np.full(GRID.shape, np.inf)}, r"layer 'mean'\[0, 0\] is inf"),
     ],
 )
 def test_layers_that_do_not_fit_are_named(tmp_path, layers, says):

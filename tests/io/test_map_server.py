@@ -7,8 +7,7 @@ from hypothesis.extra import numpy as hnp
 from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros.map_server import read_map, write_map
-from bayesmap.io.ros.percent import MODES
+from bayesmap.io.ros.maps import MODES, read_map, write_map
 from bayesmap.space.grid import Grid
 
 shapes = hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=8)
@@ -196,7 +195,7 @@ def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"occupancy": np.full((2, 3), 1.5)}, r"cell \(0, 0\) is 1.5"),
+        ({"occupancy": np.full((2, 3), 1.5)}, r"occupancy\[0, 0\] is 1.5"),
         ({"occupancy": np.zeros((3, 2))}, "occupancy has shape"),
         ({"observed": np.ones((3, 2))}, "observed has shape"),
         ({"mode": "fuzzy"}, "mode 'fuzzy' is not known"),

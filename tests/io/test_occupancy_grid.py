@@ -4,8 +4,8 @@ from map_case import GRID, observed, occupancy
 from recorded import READERS
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros.occupancy_grid import write_occupancy_grid
-from bayesmap.io.ros.percent import in_percent
+from bayesmap.io.ros.maps import in_percent
+from bayesmap.io.ros.run_messages import write_occupancy_grid
 from bayesmap.space.grid import Grid
 
 
@@ -67,7 +67,7 @@ def test_nan_is_unknown():
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"occupancy": np.full((5, 3), -0.1)}, r"cell \(0, 0\) is -0.1"),
+        ({"occupancy": np.full((5, 3), -0.1)}, r"occupancy\[0, 0\] is -0.1"),
         ({"occupancy": np.zeros((3, 5))}, r"occupancy has shape \(3, 5\), but the grid has \(5, 3\)"),
         ({"mode": "fuzzy"}, "use one of trinary, scale, raw"),
         ({"path": "floor.txt"}, r"\.bag \(ROS 1\), \.mcap or \.db3 \(ROS 2\)"),

@@ -11,7 +11,7 @@ from recordings import ANGLES, on, path_of, simulated
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log, read_log
-from bayesmap.io.text.carmen_writer import write_carmen
+from bayesmap.io.text.carmen import write_carmen
 
 TIMES = np.arange(6.0)
 
@@ -293,7 +293,7 @@ def test_scans_as_rostopic_echo_writes_them(tmp_path):
     assert "bayesmap slam --no-odometry" in refused(path)
     reading = describe_log(path, without_poses=True)
     assert not reading.posed
-    equal(reading.scans, scans.moved_to(np.zeros((len(TIMES), 3))))
+    equal(reading.scans, scans.at(np.zeros((len(TIMES), 3))))
     assert reading.scans.own_angles_rad is None
     unstamped = written(tmp_path / "received.csv", echoed(scans, stamp="field.header.none"))
     np.testing.assert_allclose(read_log(unstamped, without_poses=True).stamps_s, scans.stamps_s + 0.01)
@@ -323,7 +323,7 @@ def test_a_laser_that_sits_elsewhere_on_the_robot_than_the_log_says(tmp_path, ki
         np.savez(path, poses=robot, angles_rad=ANGLES, ranges_m=scans.ranges_m)
     elif kind == "carmen":
         path = tmp_path / "log"
-        write_carmen(path, scans.moved_to(on(robot, (9.0, 9.0, 0.0))), robot)
+        write_carmen(path, scans.at(on(robot, (9.0, 9.0, 0.0))), robot)
     else:
         path = written(tmp_path / "log", csv(scans) if kind == "csv" else g2o(scans))
         robot = robot if kind == "csv" else path_of(TIMES)

@@ -7,9 +7,9 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
-from bayesmap.io.live_scans import live_scans
+from bayesmap.io.live import live_scans
 from bayesmap.io.logs import describe_log
-from bayesmap.io.text.carmen_writer import write_carmen
+from bayesmap.io.text.carmen import write_carmen
 
 FANS = {
     "counts": [(0.0, 2 * math.pi / (n - 1), n) for n in (40, 44, 41, 40, 38, 43)],

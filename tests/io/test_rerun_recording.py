@@ -7,7 +7,7 @@ import pytest
 from map_case import GRID, observed, occupancy, scans
 
 from bayesmap.errors import BadInput
-from bayesmap.io.rerun_recording import UNKNOWN_COLOR, to_pixels, write_rerun
+from bayesmap.io.layers import UNKNOWN_COLOR, to_pixels, write_rerun
 from bayesmap.space.trajectory import Trajectory
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}

@@ -370,7 +370,7 @@ def test_scans_alone_are_read_where_no_poses_are_needed(tmp_path, writer):
     with pytest.raises(bm.BadInput, match="bayesmap slam --no-odometry needs no poses"):
         describe_log(path)
     reading = describe_log(path, without_poses=True)
-    same(reading.scans, scans.moved_to(np.zeros((len(scans), 3))))
+    same(reading.scans, scans.at(np.zeros((len(scans), 3))))
     assert (reading.posed, reading.pose_source, reading.notes) == (False, None, ())
 
 

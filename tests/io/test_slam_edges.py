@@ -7,7 +7,7 @@ import pytest
 from oracle.trajectories import round_way
 
 from bayesmap.io.exports import export_run
-from bayesmap.io.text.slam_edges import slam_edges
+from bayesmap.io.text.g2o import slam_edges
 from bayesmap.poses.graph import Factors, normal_equations, quadratic, solve_step
 from bayesmap.poses.precision import Precision, relative_covariances
 

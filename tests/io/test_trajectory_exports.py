@@ -6,7 +6,7 @@ from recorded import READERS
 
 from bayesmap.errors import BadInput
 from bayesmap.io.exports import export_trajectory, trajectory_of
-from bayesmap.io.text.g2o_writer import Edges, chain_edges, write_g2o
+from bayesmap.io.text.g2o import Edges, chain_edges, write_g2o
 from bayesmap.io.text.tum import read_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans

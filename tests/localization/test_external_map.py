@@ -39,7 +39,7 @@ def room():
     occupancy[-2:] = occupancy[:2] = 1.0
     occupancy[:, :25] = np.roll(occupancy[:, :25], 1, axis=0)
     occupancy[2:4, 30:34] = np.nan
-    return occupancy, grid, scans.moved_to(bm.simulate_odometry(truth, seed=1)), truth
+    return occupancy, grid, scans.at(bm.simulate_odometry(truth, seed=1)), truth
 
 
 @pytest.fixture(scope="module")

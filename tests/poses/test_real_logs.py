@@ -5,8 +5,9 @@ import pytest
 from data import intel_log
 
 from bayesmap.io.logs import read_log
+from bayesmap.io.text.relations import read_relations
 from bayesmap.poses.pipeline import infer_trajectory
-from bayesmap.poses.relations import read_relations, relation_errors
+from bayesmap.poses.relations import relation_errors
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.relations import Relations, read_relations, relation_errors
+from bayesmap.io.text.relations import read_relations
+from bayesmap.poses.relations import Relations, relation_errors
 from bayesmap.space.planar import between, compose
 
 STAMPS = np.arange(10.0)

@@ -138,7 +138,7 @@ def test_reflectivities_and_surfaces_have_poses_too(prior):
     scans = bm.simulate(walls, grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.05)), max_range_m=30.0, seed=0)
     said = truth + rng.normal(0, [0.2, 0.2, 0.05], truth.shape)
     run = bm.infer(
-        scans.moved_to(said), grid, prior=prior, sensor=bm.BeamMixture(bm.Gaussian(0.05)), poses=Uncertain(0.2, 0.05),
+        scans.at(said), grid, prior=prior, sensor=bm.BeamMixture(bm.Gaussian(0.05)), poses=Uncertain(0.2, 0.05),
         start_poses=said[None], chains=2, warmup=60, draws=30, hit_depth=0.0 if prior == bm.Beta() else 0.5,
     )  # fmt: skip
     found = run.pose_summary().mean

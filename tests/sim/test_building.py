@@ -3,7 +3,7 @@ import pytest
 import scipy
 
 from bayesmap.errors import BadInput
-from bayesmap.sim.worlds import building
+from bayesmap.worlds import building
 
 CASES = [
     (0, (30.0, 20.0), 0.1),

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.sim.worlds import building, patrol
+from bayesmap.worlds import building, patrol
 
 CASES = [(0, (30.0, 20.0), 0.1), (1, (20.0, 34.0), 0.25), (2, (14.0, 9.0), 0.05)]
 

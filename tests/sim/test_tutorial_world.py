@@ -1,6 +1,6 @@
 import numpy as np
 
-from bayesmap.sim import worlds
+from bayesmap import worlds
 from bayesmap.sim.tutorial import DRAWING, TUTORIAL_GRID
 
 

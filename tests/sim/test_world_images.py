@@ -5,7 +5,7 @@ from hypothesis.extra import numpy as hnp
 from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.sim.image import from_image, from_map_image, from_occupancy
+from bayesmap.worlds import from_image, from_map_image, from_occupancy
 
 pictures = hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=9))
 

@@ -61,7 +61,7 @@ def test_the_beams_are_those_of_the_windows(log):
         np.testing.assert_array_equal(own.select([i]).beams_of(0), own.beams_of(i))
     train, held = own.holdout(4)
     np.testing.assert_array_equal(held.beams_of(1), own.beams_of(6))
-    moved = own.moved_to(own.poses + 1.0).limited(2.0)
+    moved = own.at(own.poses + 1.0).limited(2.0)
     np.testing.assert_array_equal(moved.own_angles_rad, own.own_angles_rad)
     assert len(train) + len(held) == SCANS
 

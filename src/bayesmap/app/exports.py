@@ -91,7 +91,7 @@ def _saved(run: Run) -> bytes:
 
 def _map(result: Result) -> bytes:
     """YAML and image, as `bayesmap export` writes them, in one archive."""
-    from bayesmap.io.ros.map_server import write_map
+    from bayesmap.io.ros.maps import write_map
 
     packed = io.BytesIO()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:

@@ -64,7 +64,7 @@ class Locating:
 
     def remember(self, known: Remember) -> None:
         """Take over what was inferred before."""
-        self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
+        self._place(replace(self.log.scans.at(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
 
     def steps(self, document: Document, mode: Mode) -> Generator[Step | Said | None, None, None]:
         """What there is to show and to say until the log can be mapped; None while there is nothing new.

@@ -24,8 +24,7 @@ RECORDED = ("scan_topic", "pose_topic", "fixed_frame")
 
 def can_follow(console: Console, log: str) -> bool:
     """Whether a log can be followed; if not, the user is told that it ends where it ends now."""
-    from bayesmap.io.live_lines import STANDARD_INPUT
-    from bayesmap.io.live_scans import can_be_followed
+    from bayesmap.io.live import STANDARD_INPUT, can_be_followed
 
     if log not in STANDARD_INPUT:
         need_file(log, "the log whose scans are to be located", runs=False, pipes=True)
@@ -62,7 +61,7 @@ def scans_to_come(
     Raises:
         BadInput: a setting that only recordings have.
     """
-    from bayesmap.io.live_scans import live_scans
+    from bayesmap.io.live import live_scans
 
     for name in RECORDED:
         if values[name] is not None:

@@ -128,7 +128,7 @@ def sample(
         on_event: called with how far it is, as the bar is.
     """
     from bayesmap.api import Event, infer
-    from bayesmap.io.ros.map_server import read_map
+    from bayesmap.io.ros.maps import read_map
     from bayesmap.space.grid import Grid
 
     if saved is not None and values["grid"] is not None and not os.path.exists(values["grid"]):

@@ -161,7 +161,7 @@ class _Map:
     def of(cls, file: str, values: dict[str, Any]) -> _Map:
         """Read it, by the ending of its name."""
         if is_map(file):
-            from bayesmap.io.ros.map_server import read_map
+            from bayesmap.io.ros.maps import read_map
 
             need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
             return cls(values, external=read_map(file))

@@ -47,7 +47,7 @@ def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
 
 def truth_on(grid: Grid, path: str) -> Walls:
     """The walls of a map_server map at the centres of another grid's cells; none outside of that map."""
-    from bayesmap.io.ros.map_server import read_map
+    from bayesmap.io.ros.maps import read_map
 
     occupancy, there = read_map(path)
     x, y = grid.centers_m()

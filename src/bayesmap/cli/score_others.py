@@ -92,7 +92,7 @@ def score_map(call: Call, path: str, placed: Placed, how: dict[str, Any]) -> tup
         placed: the scans.
         how: seed and device of the score.
     """
-    from bayesmap.io.ros.map_server import read_map
+    from bayesmap.io.ros.maps import read_map
     from bayesmap.posterior.others_maps import fit_map
     from bayesmap.posterior.scoring import score_prediction
 

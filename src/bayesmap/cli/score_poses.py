@@ -79,7 +79,7 @@ def score_poses(
     trajectory: Trajectory, path: str, base_in_laser: NDArray[np.float64] | None, *, exact: bool
 ) -> TrajectoryScore:
     """Hold a laser's trajectory against a file of relations."""
-    from bayesmap.poses.relations import read_relations
+    from bayesmap.io.text.relations import read_relations
     from bayesmap.posterior.trajectory_scoring import score_trajectory
 
     return score_trajectory(trajectory, read_relations(path), base_in_laser, exact=exact)

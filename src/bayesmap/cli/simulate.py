@@ -72,8 +72,8 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
 
     import numpy as np
 
-    from bayesmap.io.ros.map_server import write_map
-    from bayesmap.io.text.carmen_writer import write_carmen
+    from bayesmap.io.ros.maps import write_map
+    from bayesmap.io.text.carmen import write_carmen
     from bayesmap.sim.forward import simulate
     from bayesmap.space.planar import compose
 

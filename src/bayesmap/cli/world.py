@@ -107,12 +107,12 @@ def _building(values: dict[str, Any], given: list[tuple[float, float, float]]) -
 
 
 def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
+    from bayesmap.io.image import from_image
     from bayesmap.sim.drawing import from_text
-    from bayesmap.sim.image import from_image
     from bayesmap.space.grid import Grid
 
     if path.suffix.lower() in MAPS:
-        from bayesmap.io.ros.map_server import read_map
+        from bayesmap.io.ros.maps import read_map
 
         occupancy, grid = read_map(path)
         return occupancy > 0.5, grid if resolution is None else Grid(grid.shape, resolution, grid.origin)

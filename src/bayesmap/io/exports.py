@@ -1,4 +1,4 @@
-"""A posterior as a file that other programs read: which writer an ending, or a format's name, calls.
+"""Write a posterior as a file that other programs read: which writer an ending, or a format's name, calls.
 
     format           endings                           what
     map-server       .yaml, .yml                       YAML and image, for nav2's map_server
@@ -33,7 +33,7 @@ from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from bayesmap.io.text.g2o_writer import Edges
+    from bayesmap.io.text.g2o import Edges
     from bayesmap.poses.trajectory import Trajectory as Approximation
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
@@ -79,8 +79,8 @@ class Mapped(Protocol):
         """Cells that some beam reached, (nx, ny)."""
 
 
-def format_of(path: str | os.PathLike[str], format: str | None = None) -> str:
-    """The format that a path's ending calls for, unless one is named.
+def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
+    """Return the format that a path's ending calls for, unless one is named.
 
     Raises:
         BadInput: an unknown ending or format; the message lists the known.
@@ -103,22 +103,22 @@ def format_of(path: str | os.PathLike[str], format: str | None = None) -> str:
 
 
 def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
-    """A file or folder that an export to this path would replace, if there is one.
+    """Return a file or folder that an export to this path would replace, if there is one.
 
     Raises:
         BadInput: an unknown ending or format.
     """
     target = Path(path)
-    images = [target.with_suffix(e) for e in (".pgm", ".png")] if format_of(path, format) == "map-server" else []
-    there = [place for place in (target, *images) if os.path.lexists(place)]
+    images = [target.with_suffix(e) for e in (".pgm", ".png")] if export_format(path, format) == "map-server" else []
+    places = [place for place in (target, *images) if os.path.lexists(place)]
     # An empty folder was made for this; only what is in it can be lost.
-    if there == [target] and target.is_dir() and not any(target.iterdir()):
+    if places == [target] and target.is_dir() and not any(target.iterdir()):
         return None
-    return there[0] if there else None
+    return places[0] if places else None
 
 
 def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
-    """The layers of a run, each (nx, ny): mean, entropy, and lower and upper where a cell's state has an interval."""
+    """Return the layers of a run, each (nx, ny): mean, entropy, and lower and upper where a cell has an interval."""
     layers = {"mean": run.occupancy, "entropy": run.entropy}
     # Not part of the protocol: runs on binary walls need not have it, or may refuse.
     interval = getattr(run, "interval", None)
@@ -129,10 +129,10 @@ def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
 
 
 def trajectory_of(run: object, scans: Scans) -> Trajectory:
-    """Where a run says that the sensor was, and how sure that is.
+    """Return where a run says that the sensor was, and how sure that is.
 
-    Of a run of `bayesmap.slam` all scans, as its approximation has them, unless its chains over the poses of the key
-    scans have mixed: then those. Of other runs their draws of poses, or else the poses of their scans.
+    A run of `bayesmap.slam` gives the poses of all scans by its approximation, unless its chains over the poses of the
+    key scans have mixed: then those. Other runs give their draws of poses, or else the poses of their scans.
     """
     approximate = getattr(run, "trajectory", None)
     draws = getattr(run, "poses", None)
@@ -160,15 +160,6 @@ def _approximated(found: Approximation, known_by: str) -> Trajectory:
     return Trajectory(found.poses, found.stamps_s, found.covariances(), relative=law, known_by=known_by)
 
 
-def _graph_of(run: object, trajectory: Trajectory) -> Edges | None:
-    """What ties the scans of a run together, if it is the approximation that tells where they are."""
-    if trajectory.relative is None:
-        return None
-    from bayesmap.io.text.slam_edges import slam_edges
-
-    return slam_edges(run.trajectory)  # type: ignore[attr-defined]
-
-
 def export_trajectory(
     path: str | os.PathLike[str],
     trajectory: Trajectory,
@@ -183,7 +174,7 @@ def export_trajectory(
         path: .tum, .g2o, or a recording (.bag, .mcap, .db3 or a folder).
         trajectory: of a map's scans, of `bayesmap.localize`, or of anything else.
         format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
-        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.text.g2o_writer.chain_edges`).
+        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.text.g2o.chain_edges`).
         frame: of a recording.
 
     Returns:
@@ -196,7 +187,7 @@ def export_trajectory(
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
     if chosen == "g2o":
-        from bayesmap.io.text.g2o_writer import chain_edges, write_g2o
+        from bayesmap.io.text.g2o import chain_edges, write_g2o
 
         return (write_g2o(path, trajectory.poses, chain_edges(trajectory) if edges is None else edges),)
     if chosen == "tum":
@@ -209,7 +200,7 @@ def export_trajectory(
         return (*written, write_covariances(beside, trajectory.covariances, trajectory.stamps_s))
     if chosen != "trajectory":
         raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
-    from bayesmap.io.ros.trajectory_recording import write_trajectory_recording
+    from bayesmap.io.ros.run_messages import write_trajectory_recording
 
     return (write_trajectory_recording(path, trajectory, frame=frame),)
 
@@ -231,7 +222,7 @@ def export_run(
         run: the posterior.
         scans: what it was inferred from: their poses are the trajectory, and the stamp of the last is the map's.
         format: one of `FORMATS`; by the path's ending if None.
-        mode: trinary, scale or raw, see `bayesmap.io.ros.percent`; if None, trinary for map-server and scale, which is
+        mode: trinary, scale or raw, see `bayesmap.io.ros.maps`; if None, trinary for map-server and scale, which is
             the probability in per cent, for occupancy-grid. Other formats keep the numbers and take no mode.
         occupied_thresh: above it a cell is occupied; 0.65 in trinary, 1 in scale.
         free_thresh: below it a cell is free; 0.25 in trinary, 0 in scale.
@@ -243,7 +234,7 @@ def export_run(
         BadInput: an unknown ending, format or mode, a mode or threshold that the format does not take, an optional
             package that is not installed, or a file that cannot be written; the message says what would be right.
     """
-    chosen = format_of(path, format)
+    chosen = export_format(path, format)
     given = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if options and chosen not in THRESHOLDED:
@@ -254,25 +245,29 @@ def export_run(
     grid, observed = run.grid, run.observed
     stamp_s = float(scans.stamps_s[-1]) if scans.stamps_s is not None and len(scans) else None
     if chosen == "map-server":
-        from bayesmap.io.ros.map_server import write_map
+        from bayesmap.io.ros.maps import write_map
 
         return write_map(path, run.occupancy, grid, observed, **options)
     if chosen == "occupancy-grid":
-        from bayesmap.io.ros.occupancy_grid import write_occupancy_grid
+        from bayesmap.io.ros.run_messages import write_occupancy_grid
 
         return (write_occupancy_grid(path, run.occupancy, grid, observed, stamp_s=stamp_s, **options),)
     if chosen == "gridmap":
-        from bayesmap.io.ros.grid_map import write_grid_map
+        from bayesmap.io.ros.run_messages import write_grid_map
 
         return (write_grid_map(path, layers_of(run), grid, observed, stamp_s=stamp_s),)
+    if chosen == "geotiff":
+        from bayesmap.io.layers import write_geotiff
+
+        return (write_geotiff(path, layers_of(run), grid, observed),)
+    trajectory = trajectory_of(run, scans)
     if chosen == "rerun":
-        from bayesmap.io.rerun_recording import write_rerun
+        from bayesmap.io.layers import write_rerun
 
-        there = trajectory_of(run, scans)
-        return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=there),)
-    if chosen in TRAJECTORIES:
-        there = trajectory_of(run, scans)
-        return export_trajectory(path, there, format=chosen, edges=_graph_of(run, there) if chosen == "g2o" else None)
-    from bayesmap.io.geotiff import write_geotiff
+        return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
+    edges = None
+    if chosen == "g2o" and trajectory.relative is not None:  # the approximation tells where the scans are
+        from bayesmap.io.text.g2o import slam_edges
 
-    return (write_geotiff(path, layers_of(run), grid, observed),)
+        edges = slam_edges(run.trajectory)  # type: ignore[attr-defined]
+    return export_trajectory(path, trajectory, format=chosen, edges=edges)

@@ -2,19 +2,45 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.returns import NoReturn
+from bayesmap.io.returns import NoReturn, Readings, Views, classify
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import time_order
 
+Floats = NDArray[np.float64]
 Pose = tuple[float, float, float]
 """x and y in metres, yaw in radians."""
 
+STEEPEST, LEVEL = math.cos(math.radians(45.0)), math.cos(math.radians(5.0))
+"""A sensor that is tilted more does not scan the plane, and one that is tilted less is taken as level."""
 
 WITHOUT_POSES = "bayesmap slam --no-odometry needs no poses, if scans come at 5 Hz or so"
 """The remedy for scans alone."""
+
+
+@dataclass(frozen=True)
+class LogOptions:
+    """What a user says of a log beside its path. `bayesmap.io.logs.read_log` explains each option."""
+
+    no_return: float | None = None
+    skip_bad_lines: bool = False
+    max_range_m: float | None = None
+    scan_topic: str | None = None
+    pose_topic: str | None = None
+    fixed_frame: str | None = None
+    deskew: bool = False
+    thin_m: float = 0.0
+    laser: Pose | None = None
+    without_poses: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,11 +118,12 @@ class LogReading:
         return self.no_return.code_m
 
     def summary(self) -> dict[str, object]:
-        """The account as plain data, ready for JSON."""
-        return {
-            "path": self.path,
-            "format": self.format,
-            "message": self.message,
+        """Return the account as plain data, ready for JSON."""
+        same = (
+            "path", "format", "message", "max_range_origin", "reordered", "scan_topic", "pose_source", "fixed_frame",
+            "sensor_frame", "deskewed", "thin_m", "posed",
+        )  # fmt: skip
+        return {name: getattr(self, name) for name in same} | {
             "scans": len(self.scans),
             "beams": self.scans.n_beams,
             "readings": self.scans.counts(),
@@ -107,21 +134,129 @@ class LogReading:
             "no_return_origin": self.no_return.origin,
             "no_return_values_m": list(self.no_return.values_m),
             "max_range_m": self.scans.max_range_m,
-            "max_range_origin": self.max_range_origin,
             "laser_offset": list(self.laser_offset),
-            "reordered": self.reordered,
             "notes": list(self.notes),
-            "scan_topic": self.scan_topic,
-            "pose_source": self.pose_source,
-            "fixed_frame": self.fixed_frame,
-            "sensor_frame": self.sensor_frame,
-            "deskewed": self.deskewed,
-            "thin_m": self.thin_m,
             "scans_read": len(self.scans) if self.scans_read is None else self.scans_read,
-            "posed": self.posed,
         }
 
 
-def no_poses(name: str, reason: str) -> BadInput:
-    """Return the error for a log whose scans have no poses, and what can be done with it all the same."""
-    return BadInput(f"{name}: nothing says where the scans were taken: {reason}; {WITHOUT_POSES}")
+@dataclass
+class Account:
+    """The account of a log while it is read.
+
+    Attributes:
+        name: the path.
+        format: as `LogReading` calls it.
+        options: what the user says.
+        counts: how many lines, objects or messages of each kind there are.
+        skipped: what was left out.
+        notes: what a user should know.
+        stamps_s: of the scans, in the order of time; None if they have none.
+        reordered: scans that the file holds before an earlier one.
+    """
+
+    name: str
+    format: str
+    options: LogOptions
+    counts: Counter[str] = field(default_factory=Counter)
+    skipped: list[SkippedLine] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    stamps_s: Floats | None = None
+    reordered: int = 0
+
+    def bad(self, line: int, reason: str) -> None:
+        """Leave a malformed line out.
+
+        Raises:
+            BadInput: the user did not ask for that.
+        """
+        if not self.options.skip_bad_lines:
+            raise BadInput(f"{self.name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
+        self.skipped.append(SkippedLine(line, reason))
+
+    def no_poses(self, reason: str) -> BadInput:
+        """Return the error for scans that have no poses, with what can be done with them all the same."""
+        return BadInput(f"{self.name}: nothing says where the scans were taken: {reason}; {WITHOUT_POSES}")
+
+    def in_time_order(self, stamps_s: Floats | None, count: int) -> NDArray[np.intp]:
+        """Return the order of time of some scans, as indices, and keep their stamps; their own order without stamps."""
+        if stamps_s is None:
+            return np.arange(count)
+        timed = time_order(stamps_s)
+        self.stamps_s, self.reordered = timed.stamps_s, timed.reordered
+        self.notes += timed.notes(stamps_s)
+        return timed.order
+
+    def which_way_up(self, heights: Floats, sensor: str, remedy: str = "") -> float:
+        """Return 1 for an upright sensor, -1 for one upside down, and note a tilt.
+
+        Args:
+            heights: the vertical component of the sensor's z axis in each scan, (S,).
+            sensor: its name, for messages.
+            remedy: what to do if it does not scan the plane.
+
+        Raises:
+            BadInput: a sensor that does not scan the plane, or that is turned over on the way.
+        """
+        steep = np.abs(heights) < STEEPEST
+        if steep.any():
+            scan = int(np.argmax(steep))
+            raise BadInput(
+                f"{self.name}: in scan {scan} {sensor} is tilted by {_tilt_deg(heights[scan]):.0f} degrees: it does "
+                f"not scan the plane of the map{remedy}"
+            )
+        if (heights > 0).any() and (heights < 0).any():
+            raise BadInput(f"{self.name}: {sensor} is upright in some scans and upside down in others")
+        if (tilted := float(np.abs(heights).min())) < LEVEL:
+            self.notes.append(
+                f"{sensor} is tilted by up to {_tilt_deg(tilted):.0f} degrees; its beams were taken as level"
+            )
+        if heights[0] < 0:
+            self.notes.append(f"{sensor} is mounted upside down; its beams sweep the other way")
+        return -1.0 if heights[0] < 0 else 1.0
+
+    def classify(self, readings_m: Floats, limits_m: tuple[float, float], poses: Floats, angles: Floats) -> Readings:
+        """Tell hits, no returns, too close and invalid readings apart, given the sensor's limits by the log."""
+        return classify(
+            self.name, readings_m, *limits_m, no_return=self.options.no_return, max_range_m=self.options.max_range_m,
+            views=Views.of(poses, angles),
+        )  # fmt: skip
+
+    def reading(
+        self,
+        message: str,
+        poses: Floats,
+        angles_rad: Floats,
+        readings: Readings,
+        *,
+        beam_poses: Floats | None = None,
+        mount: Pose = (0.0, 0.0, 0.0),
+        **about: Any,
+    ) -> LogReading:
+        """Return the reading of the log.
+
+        Args:
+            message: the kind of message that the scans come from.
+            poses: of the laser, in the order of time, (S, 3).
+            angles_rad: of the beams, (A,) or (S, A).
+            readings: what the beams read, (S, A).
+            beam_poses: of each beam, (S, A, 3).
+            mount: where the laser is on the robot by the log.
+            about: other attributes of `LogReading`.
+        """
+        limit_m = readings.max_range_m
+        scans = Scans(
+            poses, angles_rad, readings.ranges_m, limit_m, readings.min_range_m, stamps_s=self.stamps_s,
+            beam_poses=beam_poses,
+        )  # fmt: skip
+        return LogReading(
+            path=self.name, format=self.format, message=message, scans=scans.limited(limit_m),
+            messages=dict(self.counts), skipped=tuple(sorted(self.skipped, key=lambda skip: skip.line)),
+            no_return=readings.no_return, max_range_origin=readings.max_range_origin,
+            laser_offset=self.options.laser or mount, reordered=self.reordered,
+            notes=(*self.notes, *readings.notes), deskewed=beam_poses is not None, **about,
+        )  # fmt: skip
+
+
+def _tilt_deg(height: float) -> float:
+    return math.degrees(math.acos(min(abs(float(height)), 1.0)))

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogReading, Pose
+from bayesmap.io.log_reading import LogOptions, LogReading, Pose
 from bayesmap.io.ros.compression import compression_of, first_bytes
 from bayesmap.io.text.carmen import KNOWN, read_carmen
 from bayesmap.io.text.csv import is_header, read_csv
@@ -44,11 +44,10 @@ SAVED_RUNS = (b"\x89HDF", b"CDF")
 """How netCDF files begin."""
 LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
 """No robot turns so far from scan to scan in so many scans; and where degrees wrap, they leap by 360, or nearly so."""
-TEXT_FORMATS = ("carmen", "g2o", "csv")
+READERS = {"carmen": read_carmen, "csv": read_csv, "g2o": read_g2o, "npz": read_npz, "rawlog": read_rawlog}
 GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")
 """Messages of GMapping's own logs of its particles (.gfs)."""
-RECORDED = ("rosbag1", "rosbag2-sqlite3", "mcap")
-RECORDINGS = (*RECORDED, "folder")
+RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
 
 def read_log(
@@ -65,7 +64,7 @@ def read_log(
     laser: Pose | None = None,
     without_poses: bool = False,
 ) -> Scans:
-    """The scans of a log, in order of time, with poses of the laser in the world frame.
+    """Read the scans of a log, in order of time, with poses of the laser in the world frame.
 
     Args:
         path: the log, a file or the folder of a ROS 2 bag; its format is recognised by its content.
@@ -88,77 +87,54 @@ def read_log(
         BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, or a topic or
             frame that is not there or must be chosen; the message lists what there is.
     """
-    return describe_log(
-        path,
-        no_return=no_return,
-        skip_bad_lines=skip_bad_lines,
-        max_range_m=max_range_m,
-        scan_topic=scan_topic,
-        pose_topic=pose_topic,
-        fixed_frame=fixed_frame,
-        deskew=deskew,
-        thin_m=thin_m,
-        laser=laser,
-        without_poses=without_poses,
-    ).scans
+    options = LogOptions(
+        no_return,
+        skip_bad_lines,
+        max_range_m,
+        scan_topic,
+        pose_topic,
+        fixed_frame,
+        deskew,
+        thin_m,
+        laser,
+        without_poses,
+    )
+    return _read(path, options).scans
 
 
-def describe_log(
-    path: str | os.PathLike[str],
-    *,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    max_range_m: float | None = None,
-    scan_topic: str | None = None,
-    pose_topic: str | None = None,
-    fixed_frame: str | None = None,
-    deskew: bool = False,
-    thin_m: float = 0.0,
-    laser: Pose | None = None,
-    without_poses: bool = False,
-) -> LogReading:
-    """As `read_log`, with an account of how the scans were read: skipped lines, no-return code, notes."""
+def describe_log(path: str | os.PathLike[str], **options: Any) -> LogReading:
+    """Read a log as `read_log` does. Returns the scans with an account: skipped lines, no-return code, notes."""
+    return _read(path, LogOptions(**options))
+
+
+def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+    laser = options.laser
     if laser is not None and not (len(laser) == 3 and all(map(math.isfinite, laser))):
         raise BadInput(f"laser: give x and y in metres and yaw in radians, got {laser!r}")
     kind = format_of(path)
-    chosen = {"scan_topic": scan_topic, "pose_topic": pose_topic, "fixed_frame": fixed_frame}
     if kind in RECORDINGS:
         from bayesmap.io.ros.log import read_recording  # loads rosbags
 
-        reading = read_recording(
-            path,
-            no_return=no_return,
-            skip_bad_lines=skip_bad_lines,
-            max_range_m=max_range_m,
-            deskew=deskew,
-            laser=laser,
-            without_poses=without_poses,
-            **chosen,
-        )
+        reading = read_recording(path, options)
     else:
-        named = next((name for name, value in chosen.items() if value is not None), None)
-        if named is not None:
-            flag = "--" + named.replace("_", "-")
-            raise BadInput(f"{os.fspath(path)}: {flag} {chosen[named]}: a {kind} file has no topics and no frames")
-        how: dict[str, Any] = {"no_return": no_return, "max_range_m": max_range_m, "laser": laser}
-        lines = {**how, "skip_bad_lines": skip_bad_lines}
-        if kind == "npz":
-            reading = read_npz(path, **how, without_poses=without_poses)
-        elif kind == "rawlog":
-            reading = read_rawlog(path, **lines, without_poses=without_poses)
-        elif kind == "g2o":
-            reading = read_g2o(path, **lines)
-        else:
-            reading = (read_carmen if kind == "carmen" else read_csv)(path, **lines, without_poses=without_poses)
-        if deskew and not reading.deskewed:
-            note = f"nothing to de-skew: a {kind} file does not say when each beam was sent"
-            reading = replace(reading, notes=(*reading.notes, note))
-    reading = _with_beams(_with_jumps(_with_coarse_stamps(reading)))
-    return _thinned(reading if kind in RECORDINGS else _with_degrees(reading), thin_m)
+        for name in ("scan_topic", "pose_topic", "fixed_frame"):
+            if (value := getattr(options, name)) is not None:
+                flag = "--" + name.replace("_", "-")
+                raise BadInput(f"{os.fspath(path)}: {flag} {value}: a {kind} file has no topics and no frames")
+        reading = READERS[kind](path, options)
+        if options.deskew and not reading.deskewed:
+            reading = _noted(reading, f"nothing to de-skew: a {kind} file does not say when each beam was sent")
+    findings = (_coarse_stamps, _jumps, _own_beams, *(() if kind in RECORDINGS else (_degrees,)))
+    for finding in findings:
+        reading = _noted(reading, finding(reading))
+    if options.thin_m == 0:
+        return reading
+    kept = thinned(reading.scans, options.thin_m)
+    return replace(reading, scans=kept, thin_m=options.thin_m, scans_read=len(reading.scans))
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """What a log is, by what is in it: one of `TEXT_FORMATS`, ``"npz"``, ``"rawlog"`` or of `RECORDINGS`.
+    """Return the format of a log, by what is in it: one of `READERS` or of `RECORDINGS`.
 
     Raises:
         BadInput: a file that cannot be read, is empty, or is of no known format.
@@ -231,59 +207,54 @@ def _text_format(name: str) -> str:
     )
 
 
-def _with_coarse_stamps(reading: LogReading) -> LogReading:
-    stamps = reading.scans.stamps_s
-    note = None if stamps is None else coarse_stamps_note(stamps)
-    if note is not None and reading.pose_source is not None and reading.format in RECORDED:
-        note += "; nor do they tell exactly where the robot was: poses are those of the stamps"
+def _noted(reading: LogReading, note: str | None) -> LogReading:
     return reading if note is None else replace(reading, notes=(*reading.notes, note))
 
 
-def _with_jumps(reading: LogReading) -> LogReading:
-    found = jumps(reading.scans)
+def _coarse_stamps(reading: LogReading) -> str | None:
+    stamps = reading.scans.stamps_s
+    note = None if stamps is None else coarse_stamps_note(stamps)
+    if note is not None and reading.pose_source is not None and reading.format not in READERS:
+        note += "; nor do they tell exactly where the robot was: poses are those of the stamps"
+    return note
+
+
+def _jumps(reading: LogReading) -> str | None:
+    scans, found = reading.scans, jumps(reading.scans)
     if not len(found):
-        return reading
-    scan, scans = int(found[0]), reading.scans
+        return None
+    scan = int(found[0])
     step = float(steps_m(scans.poses)[scan - 1])
     gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
     when = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
     where = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
-    note = (
+    return (
         f"{len(found):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
         "walls will appear twice if the poses are wrong"
     )
-    return replace(reading, notes=(*reading.notes, note))
 
 
-def _with_beams(reading: LogReading) -> LogReading:
-    """The reading with a note if its beams differ from scan to scan."""
+def _own_beams(reading: LogReading) -> str | None:
+    """Return a note if the beams differ from scan to scan."""
     own = reading.scans.own_angles_rad
     if own is None:
-        return reading
+        return None
     counts = np.isfinite(own).sum(axis=1)
     low, high = int(counts.min()), int(counts.max())
     number = f"{low} to {high} beams" if low < high else f"{low} beams at angles that differ from scan to scan"
-    return replace(reading, notes=(*reading.notes, f"the scans have {number}; each keeps its own"))
+    return f"the scans have {number}; each keeps its own"
 
 
-def _with_degrees(reading: LogReading) -> LogReading:
-    """The reading with a note if its yaw looks like degrees: beyond a turn, in steps that are large for radians."""
+def _degrees(reading: LogReading) -> str | None:
+    """Return a note if yaw looks like degrees: beyond a turn, in steps that are large for radians."""
     yaw = reading.scans.poses[:, 2]
     steps = np.abs(np.diff(yaw))
     large = steps > LARGE_TURN_RAD
     wraps = np.abs(steps - 360.0) < NEAR_A_TURN_DEG
     if not len(steps) or np.abs(yaw).max() <= math.tau or not (wraps.any() or large.mean() > LARGE_TURNS):
-        return reading
+        return None
     scan = int(steps.argmax()) + 1
-    note = (
+    return (
         f"the robot's yaw turns by {steps.max():.3g} from scan {scan - 1} to scan {scan}, and reaches "
         f"{np.abs(yaw).max():.4g}: it is taken as radians; is it in degrees?"
     )
-    return replace(reading, notes=(*reading.notes, note))
-
-
-def _thinned(reading: LogReading, spacing_m: float) -> LogReading:
-    kept = thinned(reading.scans, spacing_m)
-    if spacing_m == 0:
-        return reading
-    return replace(reading, scans=kept, thin_m=spacing_m, scans_read=len(reading.scans))

@@ -1,22 +1,29 @@
-"""Which numbers in a log mean "no return".
+"""Which numbers of a log are hits, and which mean "no return", "too close" or nothing.
 
-Logs older than ROS have no infinity: a sensor that saw nothing wrote a number of its own, such as 81.83,
-81.91, 50, 51.15, 32.76, 0 or -1. Taken for ranges, they would draw walls where nothing is.
+**ROS** (https://www.ros.org/reps/rep-0117.html): +inf is no return, -inf too close, NaN an erroneous reading. Finite
+numbers within the stated limits are hits; the rest depends on the driver's age. A driver that writes infinities follows
+REP-117: a reading of exactly ``range_max`` is a hit. An older driver writes a number for "no return": ``range_max``
+itself or more, or a code that stands out (below). In both cases a finite number above ``range_max`` is no return, and
+one below ``range_min``, zero and negative numbers included, is invalid: the message definition says that it should be
+discarded, and drivers write such numbers for several reasons. ``--no-return 0`` says that zeros mean no return.
 
-**The rule at the top.** Nothing is further than nothing: a code is the largest number in the log, or nearly
-so, and it stands out by being repeated. Among the distinct readings within 20 % of the largest, take the
-smallest value v, with at most 8 different values above it, that
+**Codes.** Logs older than ROS have no infinity: a sensor that saw nothing wrote a number of its own, such as 81.83,
+81.91, 50, 51.15, 32.76, 0 or -1. Taken for ranges, these numbers would draw walls where nothing is.
+
+**The rule at the top.** A code is the largest number in the log, or nearly so, and it stands out by being repeated.
+Among the distinct readings within 20 % of the largest, take the smallest value v, with at most 8 different values above
+it, that
 
 - was reported at least 10 times, and 10 times as often as an average value of those in [0.8 v, v); or
 - was reported (or exceeded) at least 3 times, and is at least twice any smaller reading (for short logs);
 
-in both cases by at least 3 different beams, and from 3 places or in 3 separate directions, so that a robot that stands
-before one distant wall, or turns on the spot, makes no code: a number that is reported again from one place in one
-direction counts once. Readings of v *and above* are no return: sensors have several codes (a SICK in centimetres:
-8183, 8187, 8191).
+in both cases by at least 3 different beams, and from 3 places or in 3 separate directions. A robot that stands before
+one distant wall, or turns on the spot, makes no code: a number that is reported again from one place in one direction
+counts once. Readings of v *and above* are no return: sensors have several codes (a SICK in centimetres: 8183, 8187,
+8191).
 
-**The rule at the bottom.** No range is zero or negative. If the log has no code at the top and at least 3
-different beams report such numbers, these are its no-return code; otherwise they are invalid.
+**The rule at the bottom.** No range is zero or negative. If the log has no code at the top and at least 3 different
+beams report zero or less, these numbers are its no-return code; otherwise they are invalid.
 """
 
 from __future__ import annotations
@@ -36,12 +43,13 @@ ISOLATION = 2.0
 MAX_CODES = 8
 MIN_VIEWS = 3
 """Places, or separate directions from one place, from which a code is reported."""
-SAME_PLACE_M = 0.05
-SAME_DIRECTION_RAD = math.radians(1.0)
+SAME_PLACE_M, SAME_DIRECTION_RAD = 0.05, math.radians(1.0)
 APART_STEPS = 2.5
-"""Beams that lie further apart than this many steps look in separate directions, as far as nothing lies between."""
+"""Neighbouring beams of a view that are more steps apart than this look in separate directions."""
 PRINT_PRECISION_M = 1e-3
 """A code given as 81.83 is also met when the log says 81.8299."""
+FURTHEST_M = 1e6
+"""A stated range above this is no limit that a sensor has."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +59,10 @@ class NoReturn:
     Attributes:
         code_m: the number, in metres; readings of it and above are no return (if it is zero or negative:
             all readings of zero and below). None if the log has no such number.
-        origin: ``"given"``, ``"found"``, ``"message"`` (the sensor's maximum range, in each line), or
-            ``"none"``.
+        origin: ``"given"``, ``"found"``, ``"message"`` (the sensor's maximum range, in each line), or ``"none"``.
         values_m: the distinct numbers that were taken for no return, ascending, at most ten.
-        doubtful_m: a number that stands out as a code does, but was reported from one place in one direction, as a wall
-            is; it was taken for a hit.
+        doubtful_m: a number that stands out as a code does, but was reported from one place in one direction, as a
+            wall is. It was taken for a hit.
     """
 
     code_m: float | None
@@ -64,7 +71,7 @@ class NoReturn:
     doubtful_m: float | None = None
 
     def notes(self) -> tuple[str, ...]:
-        """A sentence about a number that may be a code."""
+        """Return a sentence about `doubtful_m`, if there is such a number."""
         if self.doubtful_m is None:
             return ()
         return (
@@ -75,7 +82,7 @@ class NoReturn:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """From where and in which direction each reading was taken.
+    """The place and the direction in which each reading was taken.
 
     Attributes:
         place: a number for each scan, equal for consecutive scans from one place, (S,).
@@ -89,7 +96,7 @@ class Views:
 
     @classmethod
     def of(cls, poses: NDArray[np.float64], angles_rad: NDArray[np.float64]) -> Views:
-        """The views of scans at poses (S, 3), beams at angles (A,) or (S, A)."""
+        """Return the views of scans at poses (S, 3) with beams at angles (A,) or (S, A)."""
         place, first = np.zeros(len(poses), dtype=np.intp), 0
         for i in range(1, len(poses)):
             moved = math.dist(poses[i, :2], poses[first, :2]) > SAME_PLACE_M
@@ -99,11 +106,11 @@ class Views:
         step = float(np.nanmedian(steps)) if steps.size else 0.0
         return cls(place, poses[:, 2:] + angles_rad, step)
 
-    def again(self, readings_m: NDArray[np.float64], some: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Which of some readings were reported before from the same place in the same direction, (S, A)."""
+    def repeated(self, readings_m: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Select the readings under a mask that were reported before from one place in one direction, (S, A)."""
         repeated = np.zeros(readings_m.shape, dtype=np.bool_)
         stays = np.bincount(self.place)[self.place] > 1
-        scan, beam = np.nonzero(some & stays[:, None])
+        scan, beam = np.nonzero(mask & stays[:, None])
         if len(scan):
             bins = np.floor(self.direction_rad[scan, beam] % math.tau / SAME_DIRECTION_RAD)
             keys = np.stack([self.place[scan], bins, readings_m[scan, beam]])
@@ -113,7 +120,7 @@ class Views:
         return repeated
 
     def count(self, mask: NDArray[np.bool_]) -> int:
-        """Places, and separate directions from each, in which some readings were taken."""
+        """Count the places, and the separate directions from each, of the readings under a mask."""
         scan, beam = np.nonzero(mask)
         place, direction = self.place[scan], self.direction_rad[scan, beam] % math.tau
         order = np.lexsort([direction, place])
@@ -127,39 +134,37 @@ def decode(
     sensor_max_m: float | None = None,
     views: Views | None = None,
 ) -> tuple[NDArray[np.float64], NoReturn]:
-    """Readings of a log with its codes replaced by those of REP-117.
+    """Replace the codes of a log by those of REP-117.
 
     Args:
         readings_m: raw numbers, shape (S, A); NaN and infinities keep their meaning.
-        given: the no-return code, if known; infinity says that the log has none. Otherwise it is found by
-            the rule of this module.
-        sensor_max_m: the maximum range that the log itself states, or None: readings there and above are no
-            return, whether or not they are repeated.
-        views: from where and in which direction readings were taken; None if that is not known.
+        given: the no-return code, if known; infinity says that the log has none. Otherwise the code is found by the
+            rules of this module.
+        sensor_max_m: the maximum range that the log itself states, or None. Readings there and above are no return,
+            whether or not they are repeated.
+        views: the places and directions of the readings; None if they are not known.
 
     Returns:
-        The ranges, shape (S, A), +inf for no return and NaN for numbers that cannot be ranges; and what was
-        taken for no return.
+        The ranges, shape (S, A), +inf for no return and NaN for numbers that cannot be ranges; and what was taken for
+        no return.
 
     Raises:
         BadInput: ``given`` is NaN or minus infinity.
     """
     if given is not None and (math.isnan(given) or given == -math.inf):
         raise BadInput(f"--no-return {given}: give the log's number in metres, or inf if it has none")
-    origin = "given"
-    code: float | None
-    doubtful: float | None = None
-    if given is not None:
-        code = None if given == math.inf else given
-    else:
-        found, doubtful = _code_at_top(readings_m, views)
-        code, origin = found, "found"
-        if sensor_max_m is not None and (found is None or sensor_max_m <= found):
-            code, origin, doubtful = sensor_max_m, "message", None
-        if code is None and _seen_by_beams(np.isfinite(readings_m) & (readings_m <= 0)) >= MIN_BEAMS:
-            code = float(readings_m[np.isfinite(readings_m) & (readings_m <= 0)].max())
     finite = np.isfinite(readings_m)
     impossible = finite & (readings_m <= 0)
+    code, origin, doubtful = given, "given", None
+    if given == math.inf:
+        code = None
+    elif given is None:
+        code, doubtful = _code_at_top(readings_m, views)
+        origin = "found"
+        if sensor_max_m is not None and (code is None or sensor_max_m <= code):
+            code, origin, doubtful = sensor_max_m, "message", None
+        if code is None and _count_beams(impossible) >= MIN_BEAMS:
+            code = float(readings_m[impossible].max())
     if code is None:
         coded = np.zeros(readings_m.shape, dtype=bool)
     elif code > 0:
@@ -175,31 +180,31 @@ def decode(
 
 
 def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[float | None, float | None]:
-    """The smallest code, and a number that would be one had it been seen in more than one direction; None each."""
+    """Find the smallest code, and a number that would be a code if more than one direction had it; None each."""
     usable = np.isfinite(readings_m) & (readings_m > 0)
     if not usable.any():
         return None, None
     if views is None:
         once = usable
-    else:  # counts matter from 0.8 of the smallest candidate on, and that is 0.8 of the largest reading
+    else:  # The counts that matter begin at 0.8 of the smallest candidate, which is 0.8 of the largest reading.
         top = usable & (readings_m >= TOP_SHARE**2 * readings_m[usable].max())
-        once = usable & ~views.again(readings_m, top)
+        once = usable & ~views.repeated(readings_m, top)
     found = next((value for value in _standing_out(readings_m, once) if _viewed(views, readings_m >= value)), None)
     if found is not None or views is None:
         return found, None
     doubtful = next(iter(_standing_out(readings_m, usable)), None)
     if doubtful is not None and 2 * (readings_m[usable] >= doubtful).sum() > usable.sum():
-        doubtful = None  # nothing that it would stand out among
+        doubtful = None  # It stands out among nothing.
     return None, doubtful
 
 
 def _viewed(views: Views | None, mask: NDArray[np.bool_]) -> bool:
-    """Whether readings were taken in enough directions for a code."""
+    """Return whether the readings under a mask were taken in enough directions for a code."""
     return views is None or views.count(mask) >= MIN_VIEWS
 
 
 def _standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) -> list[float]:
-    """Numbers at the top that are repeated, or stand alone, among the usable readings; ascending."""
+    """Return the numbers at the top that are repeated, or stand alone, among the usable readings; ascending."""
     positive = readings_m[usable]
     values, counts = np.unique(positive, return_counts=True)
     before = np.concatenate([[0], np.cumsum(counts)])  # readings below values[i]
@@ -212,9 +217,106 @@ def _standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) ->
     return [
         float(value)
         for value in values[candidates[repeated | isolated]]
-        if _seen_by_beams(readings_m >= value) >= MIN_BEAMS
+        if _count_beams(readings_m >= value) >= MIN_BEAMS
     ]
 
 
-def _seen_by_beams(mask: NDArray[np.bool_]) -> int:
+def _count_beams(mask: NDArray[np.bool_]) -> int:
+    """Count the beams that have a reading under a mask."""
     return int(mask.any(axis=0).sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """Readings whose kinds are known.
+
+    Attributes:
+        ranges_m: shape (S, A), coded as in REP-117, with no finite number outside the limits.
+        no_return: the numbers that were taken for no return, and why.
+        min_range_m, max_range_m: the limits of the sensor.
+        max_range_origin: ``"given"``, ``"message"`` (stated in the log) or ``"readings"``.
+        notes: what a user should know.
+    """
+
+    ranges_m: NDArray[np.float64]
+    no_return: NoReturn
+    min_range_m: float
+    max_range_m: float
+    max_range_origin: str
+    notes: tuple[str, ...]
+
+
+def classify(
+    name: str,
+    readings_m: NDArray[np.float64],
+    stated_min_m: float,
+    stated_max_m: float,
+    *,
+    no_return: float | None,
+    max_range_m: float | None,
+    views: Views | None = None,
+) -> Readings:
+    """Tell hits, no returns, too close and invalid readings apart.
+
+    Args:
+        name: of the file, for messages.
+        readings_m: as they lie in the log, shape (S, A).
+        stated_min_m: the sensor's smallest range by the log; 0, NaN or nonsense if the log does not say.
+        stated_max_m: the sensor's largest range by the log.
+        no_return: what the log writes for no return, if the user says so; infinity says that it has no such number.
+        max_range_m: the largest range, if the user gives one.
+        views: the places and directions of the readings, which tell a code from a wall.
+
+    Raises:
+        BadInput: not a single reading says anything, or a given number that makes no sense.
+    """
+    notes: list[str] = []
+    largest = stated_max_m if math.isfinite(stated_max_m) and 0 < stated_max_m <= FURTHEST_M else None
+    smallest = stated_min_m if math.isfinite(stated_min_m) and stated_min_m >= 0 else 0.0
+    if largest is None and not math.isinf(stated_max_m):
+        notes.append(f"the log states a largest range of {stated_max_m:g} m, which was not used")
+    if largest is not None and smallest >= largest:
+        notes.append(f"the log states ranges from {smallest:g} to {largest:g} m: the smallest was not used")
+        smallest = 0.0
+    if no_return is None and np.isinf(readings_m).any():
+        ranges = np.where(np.isfinite(readings_m) & (readings_m <= 0), np.nan, readings_m)
+        coded = NoReturn(None, "none")
+    else:
+        ranges, coded = decode(readings_m, no_return, largest, views)
+        notes += coded.notes()
+    finite = np.isfinite(ranges)
+    zeros = int((np.isfinite(readings_m) & (readings_m <= 0) & np.isnan(ranges)).sum())
+    if zeros > 0.01 * readings_m.size:
+        notes.append(
+            f"{zeros:,} readings of {readings_m.size:,} are zero or negative, taken as invalid; "
+            "--no-return 0 takes them as no return"
+        )
+    near = finite & (ranges < smallest)
+    if near.any():
+        notes.append(f"{int(near.sum()):,} readings below the smallest range of {smallest:g} m were taken as invalid")
+    ranges[near] = np.nan
+    if largest is not None:
+        far = finite & (ranges > largest)
+        if far.any():
+            notes.append(f"{int(far.sum()):,} readings above the largest range of {largest:g} m are no return")
+        ranges[far] = np.inf
+    if np.isnan(ranges).all():
+        raise BadInput(
+            f"{name}: none of {ranges.size:,} readings in {len(ranges):,} scans is valid (all are NaN, or outside "
+            "the sensor's range); check the sensor and its range_min and range_max"
+        )
+    limit = largest if max_range_m is None else max_range_m
+    origin = "message" if max_range_m is None else "given"
+    if limit is None:
+        limit, origin = largest_hit_m(name, ranges), "readings"
+    if not (math.isfinite(limit) and limit > smallest):
+        raise BadInput(f"{name}: --max-range {limit:g}: give more than the sensor's smallest range, {smallest:g} m")
+    return Readings(ranges, coded, smallest, float(limit), origin, tuple(notes))
+
+
+def largest_hit_m(name: str, ranges_m: NDArray[np.float64]) -> float:
+    """Return the largest hit, rounded up to a whole metre: no further is the sensor known to see."""
+    hits = ranges_m[np.isfinite(ranges_m)]
+    if not hits.size or hits.max() <= 0:
+        raise BadInput(f"{name}: no reading of {ranges_m.size:,} is a range; give the sensor's --max-range")
+    return float(math.ceil(hits.max()))

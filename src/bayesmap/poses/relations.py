@@ -8,8 +8,6 @@ global frame, and bends of the map count once.
 
 from __future__ import annotations
 
-import gzip
-import os
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,35 +82,6 @@ class RelationErrors:
             for word, of in (("mean", np.mean), ("std", np.std), ("median", np.median)):
                 result[f"{name}_{word}"] = float(of(values)) if len(values) else float("nan")
         return result
-
-
-def read_relations(path: str | os.PathLike[str]) -> Relations:
-    """Read a file of relations: lines ``t1 t2 x y z roll pitch yaw``, plain or gzipped; # begins a comment.
-
-    Raises:
-        BadInput: a file that cannot be read, or a line that is not eight finite numbers; the message names the line.
-    """
-    name = os.fspath(path)
-    rows = []
-    try:
-        with (gzip.open if name.endswith(".gz") else open)(name, "rt") as file:
-            for number, line in enumerate(file, start=1):
-                words = line.split("#", 1)[0].split()
-                if not words:
-                    continue
-                try:
-                    row = [float(word) for word in words]
-                except ValueError:
-                    row = []
-                if len(row) != 8 or not np.isfinite(row).all():
-                    raise BadInput(f"{name}: line {number} is not t1 t2 x y z roll pitch yaw, eight numbers")
-                rows.append(row)
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{name}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    if not rows:
-        raise BadInput(f"{name}: no relations in it")
-    table = np.array(rows)
-    return Relations(table[:, 0], table[:, 1], table[:, [2, 3, 7]])
 
 
 def relation_errors(

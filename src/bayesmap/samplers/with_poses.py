@@ -104,7 +104,7 @@ class PoseProblem:
 
     def at(self, poses: Floats) -> Model:
         """The model as if its scans had been taken at these poses, (S, 3)."""
-        return replace(self.model, scans=self.model.scans.moved_to(poses))
+        return replace(self.model, scans=self.model.scans.at(poses))
 
     def under(self, sensor: SensorModel, prior: CellPrior) -> PoseProblem:
         """The same under another sensor and another prior of the cells."""

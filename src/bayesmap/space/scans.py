@@ -216,7 +216,7 @@ class Scans:
         return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """The same readings from other poses, (S, 3). Where the sensor moved while it turned, its path moves along.
+        """Return the readings as taken from other poses, (S, 3). Poses of single beams move along with their scan's.
 
         Raises:
             BadInput: poses of another shape, or that are not finite.
@@ -228,14 +228,6 @@ class Scans:
             return replace(self, poses=poses)
         seen_from_scan = between(self.poses[:, None], self.beam_poses)
         return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
-
-    def moved_to(self, poses: ArrayLike) -> Scans:
-        """The same scans from other poses, (S, 3); beams that left while the sensor moved go along with their scan."""
-        there = as_poses(poses)
-        if self.beam_poses is None:
-            return replace(self, poses=there)
-        within = between(self.poses[:, None], self.beam_poses)
-        return replace(self, poses=there, beam_poses=compose(there[:, None], within))
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
         """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
@@ -318,6 +310,23 @@ def _as_own_angles(
     most = each[int((~missing).sum(axis=1).argmax())] if len(each) else np.zeros(each.shape[1])
     most = most[np.isfinite(most)] if np.isfinite(most).any() else np.zeros(1)
     return np.append(most, np.full(each.shape[1] - len(most), most[-1])), each
+
+
+@dataclass(frozen=True)
+class Fan:
+    """Beams that are equally far apart: how many, the first angle in the sensor's frame, and the step."""
+
+    beams: int
+    first_rad: float
+    step_rad: float
+
+    def angles_rad(self) -> NDArray[np.float64]:
+        """Return the angle of each beam, (A,)."""
+        return np.asarray(self.first_rad + self.step_rad * np.arange(self.beams))
+
+    def __str__(self) -> str:
+        first, step = math.degrees(self.first_rad), math.degrees(self.step_rad)
+        return f"{self.beams} beams {step:.4g} degrees apart from {first:.4g}"
 
 
 def side_by_side(

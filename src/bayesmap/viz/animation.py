@@ -19,10 +19,10 @@ from PIL import Image, ImageDraw, ImageFont
 
 from bayesmap.errors import BadInput
 from bayesmap.files import need_ending, write_whole
+from bayesmap.space.cell_arrays import ROUNDING, as_mask, as_observed
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
-from bayesmap.viz.cells import ROUNDING, as_mask, as_observed
 
 LEVELS = 128
 """Steps of probability in a frame: finer ones cannot be told apart, and fewer colours pack better."""

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_observed
 from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
-from bayesmap.viz.cells import as_observed
 from bayesmap.viz.figure import FONT_PT, color_bar, letter, unobserved_legend
 from bayesmap.viz.layout import lay_out
 

@@ -10,8 +10,8 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_array
 from bayesmap.viz import palette
-from bayesmap.viz.cells import as_array
 
 MAX_POINTS = 4000
 """Longer traces are drawn by the least and greatest value in half as many stretches: no spike is lost."""

@@ -18,10 +18,10 @@ from matplotlib.patches import Patch
 from numpy.typing import ArrayLike
 
 from bayesmap.files import need_ending, write_whole
+from bayesmap.space.cell_arrays import as_observed
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
-from bayesmap.viz.cells import as_observed
 from bayesmap.viz.layout import Layout, lay_out, tick_locator
 from bayesmap.viz.surfaces import draw_surfaces
 

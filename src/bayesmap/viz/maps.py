@@ -16,9 +16,9 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.space.grid import Grid
 from bayesmap.viz import palette
-from bayesmap.viz.cells import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.viz.edges import boxes
 from bayesmap.viz.layout import tick_locator
 

@@ -12,10 +12,10 @@ from matplotlib.transforms import Affine2D
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans, as_poses
 from bayesmap.viz import palette
-from bayesmap.viz.cells import as_mask
 from bayesmap.viz.edges import boundary_segments
 
 MAX_ARROWS = 12

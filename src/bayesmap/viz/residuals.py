@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
-from bayesmap.viz.cells import as_array
 
 HEIGHT_IN, BAR_IN = 5.6, 1.3
 FAINT = 0.3

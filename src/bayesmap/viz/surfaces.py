@@ -17,9 +17,9 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
-from bayesmap.viz.cells import as_array
 
 DEVIATIONS = 2.0
 """Standard deviations from the mean to each end of a stroke."""

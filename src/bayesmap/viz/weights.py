@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_array
 from bayesmap.viz import palette
-from bayesmap.viz.cells import as_array
 
 BINS = 100
 TUTORIAL_RANGE = (-10_000.0, 0.0)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_mask
 from bayesmap.space.grid import Grid
-from bayesmap.viz.cells import as_mask
 
 Cut = tuple[slice, slice]
 

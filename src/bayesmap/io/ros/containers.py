@@ -20,17 +20,27 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros import bag_records, mcap_records, sqlite_records
 from bayesmap.io.ros.compression import compression_of, first_bytes, unpack_file
-from bayesmap.io.ros.record import Connection, OnDamage, Record, messages_of, refuse, topics_of
-from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic
+from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messages_of, topics_of
+from bayesmap.io.ros.records import (
+    BAG_MAGIC,
+    INDEX_ENTRY_BYTES,
+    MCAP_MAGIC,
+    SQLITE_MAGIC,
+    OnDamage,
+    Read,
+    bag_records,
+    mcap_records,
+    refuse,
+    sqlite_records,
+)
 
-Records = Callable[[str | os.PathLike[str], OnDamage], Iterator[Connection | Record]]
+ReadRecords = Callable[[str | os.PathLike[str], OnDamage], Read]
 
-FORMATS: dict[str, tuple[bytes, Records]] = {
-    "rosbag1": (bag_records.MAGIC, bag_records.bag_records),
-    "rosbag2-sqlite3": (sqlite_records.MAGIC, sqlite_records.sqlite_records),
-    "mcap": (mcap_records.MAGIC, mcap_records.mcap_records),
+FORMATS: dict[str, tuple[bytes, ReadRecords]] = {
+    "rosbag1": (BAG_MAGIC, bag_records),
+    "rosbag2-sqlite3": (SQLITE_MAGIC, sqlite_records),
+    "mcap": (MCAP_MAGIC, mcap_records),
 }
 """Format, how its files begin, and what reads their records one by one."""
 
@@ -40,7 +50,7 @@ REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read wh
 
 
 def container_of(path: str | os.PathLike[str]) -> str | None:
-    """The format of a recording by its first bytes; ``"folder"`` for one of rosbag2's; None for anything else."""
+    """Return the format of a recording by its first bytes, ``"folder"`` for one of rosbag2's, None for other files."""
     where = Path(path)
     if where.is_dir():
         inside = sorted(entry.name for entry in where.iterdir())
@@ -84,7 +94,7 @@ def _check_version(path: str | os.PathLike[str]) -> None:
     if Path(path).is_dir():
         return
     start = first_bytes(path, 16)
-    if not start.startswith(b"#ROSBAG V") or start.startswith(bag_records.MAGIC):
+    if not start.startswith(b"#ROSBAG V") or start.startswith(BAG_MAGIC):
         return
     version = start[len(b"#ROSBAG V") :].split(b"\n")[0].decode("ascii", "replace").strip()
     raise BadInput(
@@ -94,7 +104,7 @@ def _check_version(path: str | os.PathLike[str]) -> None:
 
 
 def _at_hand(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
-    """A file that can be read as it is: the file, or a copy of what is compressed in it, which the stack removes."""
+    """Return a file that can be read as it is: the file, or an unpacked copy, which the stack removes."""
     with path.open("rb") as file:
         packed = compression_of(file.read(4)) is not None
     if not packed:
@@ -111,6 +121,7 @@ def _at_hand(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
 
 
 def _whole(path: str | os.PathLike[str]) -> Recording:
+    """Return a recording that reads to its end."""
     container = container_of(path)
     files = [Path(path)]
     notes: tuple[str, ...] = ()
@@ -118,22 +129,16 @@ def _whole(path: str | os.PathLike[str]) -> Recording:
         if (Path(path) / METADATA).exists():
             from rosbags.rosbag2 import Reader
 
-            return _by_rosbags(path, _folder_format(path), partial(Reader, Path(path)), None)
+            return _by_rosbags(path, _folder_format(path), partial(Reader, Path(path)))
         files, container = _files_of(path)
         notes = (f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read",)
     assert container is not None
     with ExitStack() as stack:
         parts = [
-            _by_rosbags(at, container, _rosbags_reader(at, container), FORMATS[container][1])
+            _by_rosbags(at, container, _rosbags_reader(at, container), is_file=True)
             for at in (_at_hand(file, stack, refuse) for file in files)
         ]
-        return _owning(_joined(os.fspath(path), container, parts, notes), stack)
-
-
-def _owning(recording: Recording, stack: ExitStack) -> Recording:
-    """The recording, which removes its temporary files when it is no longer used."""
-    weakref.finalize(recording, stack.pop_all().close)
-    return recording
+        return _joined(os.fspath(path), container, parts, notes, stack)
 
 
 def _folder_format(path: str | os.PathLike[str]) -> str:
@@ -141,7 +146,7 @@ def _folder_format(path: str | os.PathLike[str]) -> str:
 
 
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
-    """The storage files of a folder without metadata, in the order of their names."""
+    """Return the storage files of a folder without metadata, in the order of their names, and their format."""
     files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith(ENDINGS)]
     # Somebody may have unpacked a file beside the packed one.
     names = {file.name for file in files}
@@ -180,47 +185,49 @@ def _bag_reader() -> type:
                 header = Header.read(self.bio, RecordType.IDXDATA)
                 read_uint32(self.bio)
                 connection, count = header.get_uint32("conn"), header.get_uint32("count")
-                entries = struct.iter_unpack("<III", read_bytes(self.bio, count * bag_records.INDEX_ENTRY_BYTES))
+                entries = struct.iter_unpack("<III", read_bytes(self.bio, count * INDEX_ENTRY_BYTES))
                 indexes[connection] += [IndexData(s * 10**9 + ns, pos, offset) for s, ns, offset in entries]
 
     return BagReader
 
 
 def _by_rosbags(
-    path: str | os.PathLike[str], container: str, reader: Callable[[], Any], records: Records | None
+    path: str | os.PathLike[str], container: str, reader: Callable[[], Any], *, is_file: bool = False
 ) -> Recording:
-    """A recording by rosbags; if that refuses, record by record, provided that no damage is found so."""
+    """Return a recording by rosbags; an MCAP file that it refuses is read by its records, if these are sound."""
+    by_records = container == "mcap" and is_file
     try:
         topics, start_ns, end_ns = _rosbags_topics(reader, container)
     except Damaged as problem:
-        if container != "mcap" or records is None:
+        if not by_records:
             raise
-        return _by_records(path, container, records, problem)
+        try:
+            return _by_records(path, container, refuse, refuse)
+        except Damaged as damage:
+            raise Damaged(str(damage) or str(problem)) from None
 
     def read(names: frozenset[str]) -> Iterable[Message]:
         try:
             return list(_rosbags_messages(reader, container, topics, names))
         except Damaged:
-            if container != "mcap" or records is None:
+            if not by_records:
                 raise
-            return list(messages_of(records(path, refuse), topics, names))
+            return list(messages_of(mcap_records(path, refuse), topics, names))
 
     return Recording(os.fspath(path), container, topics, read, start_ns, end_ns)
 
 
-def _by_records(path: str | os.PathLike[str], container: str, records: Records, problem: Damaged) -> Recording:
-    try:
-        topics, start_ns, end_ns = topics_of(records(path, refuse))
-    except Damaged as damage:
-        raise Damaged(str(damage) or str(problem)) from None
-    return Recording(
-        os.fspath(path),
-        container,
-        topics,
-        lambda names: list(messages_of(records(path, refuse), topics, names)),
-        start_ns,
-        end_ns,
-    )
+def _by_records(
+    path: str | os.PathLike[str], container: str, on_damage: OnDamage, on_damage_again: OnDamage
+) -> Recording:
+    """Return a recording read record by record; damage is told once when it is opened, and again at each reading."""
+    records = FORMATS[container][1]
+    topics, start_ns, end_ns = topics_of(records(path, on_damage))
+
+    def read(names: frozenset[str]) -> Iterable[Message]:
+        return list(messages_of(records(path, on_damage_again), topics, names))
+
+    return Recording(os.fspath(path), container, topics, read, start_ns, end_ns)
 
 
 def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], int | None, int | None]:
@@ -271,14 +278,13 @@ def _reason(error: Exception) -> str:
     return " ".join(str(error).split()).rstrip(".") or type(error).__name__
 
 
-def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str, ...]) -> Recording:
-    """Several files as one recording."""
+def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str, ...], stack: ExitStack) -> Recording:
+    """Return several files as one recording, which closes the stack of its temporary files when it is not used."""
     topics: dict[str, Topic] = {}
     for part in parts:
         for name, topic in part.topics.items():
-            before = topics.get(name)
-            count = topic.count + (before.count if before else 0)
-            topics[name] = replace(topic, count=count)
+            count = topics[name].count if name in topics else 0
+            topics[name] = replace(topic, count=topic.count + count)
     starts = [part.start_ns for part in parts if part.start_ns is not None]
     ends = [part.end_ns for part in parts if part.end_ns is not None]
 
@@ -287,48 +293,29 @@ def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str,
             return parts[0].read(names)
         return list(merge(*(part.read(names & part.topics.keys()) for part in parts), key=lambda m: m.received_ns))
 
-    return Recording(
-        path,
-        container,
-        dict(sorted(topics.items())),
-        read,
-        min(starts, default=None),
-        max(ends, default=None),
-        notes + tuple(note for part in parts for note in part.notes),
-    )
+    times = min(starts, default=None), max(ends, default=None)
+    recording = Recording(path, container, dict(sorted(topics.items())), read, *times, notes)
+    weakref.finalize(recording, stack.pop_all().close)
+    return recording
 
 
 def _salvaged(path: str | os.PathLike[str], problem: str) -> Recording:
-    """What can be read of a damaged recording, record by record."""
-    name = os.fspath(path)
-    container = container_of(path)
-    files = [Path(path)]
+    """Return what can be read of a damaged recording, record by record."""
+    name, container, files = os.fspath(path), container_of(path), [Path(path)]
     try:
         if container == "folder":
             files, container = _files_of(path)
     except Damaged as damage:
         raise BadInput(f"{name}: the recording cannot be read ({problem}); {damage}") from None
     assert container is not None
-    records = FORMATS[container][1]
     reasons: list[str] = []
     with ExitStack() as stack:
-        parts = [_part(_at_hand(file, stack, reasons.append), container, records) for file in files]
-        reasons += [note for part in parts for note in part.notes]
+        parts = [
+            _by_records(_at_hand(file, stack, reasons.append), container, reasons.append, lambda reason: None)
+            for file in files
+        ]
         reasons = list(dict.fromkeys(reasons)) or [problem]
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
-        joined = _joined(name, container, parts, ())
-        held = sum(topic.count for topic in joined.topics.values())
+        held = sum(topic.count for part in parts for topic in part.topics.values())
         note = f"the recording is damaged or cut short ({reasons[0]}{more}); {held:,} messages of it could be read"
-        return _owning(
-            Recording(name, container, joined.topics, joined.read, joined.start_ns, joined.end_ns, (note,)), stack
-        )
-
-
-def _part(file: Path, container: str, records: Records) -> Recording:
-    reasons: list[str] = []
-    topics, start_ns, end_ns = topics_of(records(file, reasons.append))
-
-    def read(names: frozenset[str]) -> Iterable[Message]:
-        return messages_of(records(file, lambda reason: None), topics, names)
-
-    return Recording(os.fspath(file), container, topics, read, start_ns, end_ns, tuple(reasons))
+        return _joined(name, container, parts, (note,), stack)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.space.scans import fan_fault, side_by_side
+from bayesmap.space.scans import Fan, fan_fault, side_by_side
 
 LASER_SCAN = "sensor_msgs/msg/LaserScan"
 RANGE = "sensor_msgs/msg/Range"
@@ -36,30 +36,19 @@ class Malformed(Exception):
 
 
 @dataclass(frozen=True)
-class Layout:
-    """Where the beams of a scan point."""
+class Layout(Fan):
+    """The beams of a scan, and their frame."""
 
     frame: str
-    beams: int
-    first_rad: float
-    step_rad: float
 
-    def angles_rad(self) -> NDArray[np.float64]:
-        """Shape (A,), in the sensor's frame."""
-        return np.asarray(self.first_rad + self.step_rad * np.arange(self.beams))
-
-    def same(self, other: Layout) -> bool:
-        """Whether two scans have the same beams."""
+    def equals(self, other: Layout) -> bool:
+        """Return whether two scans have the same beams."""
         span = (self.beams - 1) * (self.step_rad - other.step_rad)
         return (
             (self.frame, self.beams) == (other.frame, other.beams)
             and abs(self.first_rad - other.first_rad) <= SAME_ANGLE_RAD
             and abs(self.first_rad - other.first_rad + span) <= SAME_ANGLE_RAD
         )
-
-    def __str__(self) -> str:
-        first, step = math.degrees(self.first_rad), math.degrees(self.step_rad)
-        return f"{self.beams} beams {step:.4g} degrees apart from {first:.4g} in frame {self.frame!r}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +93,7 @@ def laser_message(type_name: str, message: Any, number: int, received_ns: int) -
         Malformed: no readings, or angles that do not fit them.
     """
     if type_name == RANGE:
-        layout, odd = Layout(frame_of(message.header.frame_id), 1, 0.0, 0.0), ""
+        layout, odd = Layout(1, 0.0, 0.0, frame_of(message.header.frame_id)), ""
         readings = np.array([message.range], dtype=np.float32)
         limits, interval = (float(message.min_range), float(message.max_range)), 0.0
     else:
@@ -123,11 +112,11 @@ def _layout(message: Any, beams: int) -> tuple[Layout, str]:
         raise Malformed(f"has {beams:,} readings; more than {MAX_BEAMS:,} are taken for damage")
     frame = frame_of(message.header.frame_id)
     if beams == 0:
-        return Layout(frame, 0, 0.0, 0.0), ""
+        return Layout(0, 0.0, 0.0, frame), ""
     if not math.isfinite(first):
         raise Malformed(f"has angle_min {first:g}")
     if beams == 1:
-        return Layout(frame, 1, first, 0.0), ""
+        return Layout(1, first, 0.0, frame), ""
     if not math.isfinite(step):
         raise Malformed(f"has angle_increment {step:g}")
     odd = ""
@@ -139,7 +128,7 @@ def _layout(message: Any, beams: int) -> tuple[Layout, str]:
     end = first + step * (beams - 1)
     if (fault := fan_fault(min(first, end), max(first, end))) is not None:
         raise Malformed(f"has {beams} readings, angle_min {first:g} and angle_increment {step:g}: {fault}")
-    return Layout(frame, beams, first, step), odd or _odd_end(first, last, step, beams)
+    return Layout(beams, first, step, frame), odd or _odd_end(first, last, step, beams)
 
 
 def _odd_end(first: float, last: float, step: float, beams: int) -> str:
@@ -190,7 +179,7 @@ def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArra
     Angles are (A,) where all scans have the same beams, else (S, A): each scan keeps its own.
     """
     first = scans[0].layout
-    if all(scan.layout is first or scan.layout.same(first) for scan in scans):
+    if all(scan.layout is first or scan.layout.equals(first) for scan in scans):
         with np.errstate(invalid="ignore"):  # NaN of the signalling kind
             return first.angles_rad(), np.array([scan.ranges_m for scan in scans], dtype=np.float64)
     return side_by_side([scan.layout.angles_rad() for scan in scans], [scan.ranges_m for scan in scans])

@@ -17,9 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
-from bayesmap.io.rep117 import judge
-from bayesmap.io.returns import Views
+from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
 from bayesmap.io.ros.clocks import ClockRun, clock_runs, joined_stamps
 from bayesmap.io.ros.containers import open_recording
 from bayesmap.io.ros.frames import Chain
@@ -42,117 +40,96 @@ from bayesmap.io.ros.poses import (
     topics_of_type,
 )
 from bayesmap.io.ros.recording import Recording, Topic
-from bayesmap.io.ros.scan_poses import in_order_of_time, left_out, poses_at_first_rays, poses_of_rays, ray_times
-from bayesmap.space.scans import Scans
+from bayesmap.space.rigid import planar, upright
+
+AT_ONCE = 1 << 18
+"""Beams whose poses are found at a time."""
+
+LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0
+LONGEST_SWEEP_S = 60.0
+"""A scan takes less; a longer time is damage."""
 
 
-def read_recording(
-    path: str | os.PathLike[str],
-    *,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    max_range_m: float | None = None,
-    scan_topic: str | None = None,
-    pose_topic: str | None = None,
-    fixed_frame: str | None = None,
-    deskew: bool = False,
-    laser: Pose | None = None,
-    without_poses: bool = False,
-) -> LogReading:
-    """The scans of one topic of a recording. The arguments are those of `bayesmap.io.logs.read_log`.
+def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+    """Read the scans of one topic of a recording, with their poses.
 
     Raises:
         BadInput: a damaged recording or message, a topic or frame that is not there, several to choose from, or no
             scan with a pose; the message lists what there is and says what to give.
     """
     name = os.fspath(path)
-    recording = open_recording(path, salvage=skip_bad_lines, types=TYPES)
-    skipped: list[SkippedLine] = []
+    recording = open_recording(path, salvage=options.skip_bad_lines, types=TYPES)
+    account = Account(name, recording.format, options, notes=list(recording.notes))
+    account.counts.update({t.name: t.count for t in recording.topics.values()})
 
     def bad(on_topic: str, number: int, reason: str) -> None:
-        if without_poses and on_topic != topic.name:
+        if options.without_poses and on_topic != topic.name:
             return
-        if not skip_bad_lines:
+        if not options.skip_bad_lines:
             raise BadInput(
                 f"{name}: message {number} on {on_topic} {reason}; leave such messages out with --skip-bad-lines"
             )
-        skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
+        account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
 
-    topic = scan_topic_of(recording, scan_topic)
-    chosen_poses = None if pose_topic is None else pose_topic_of(recording, pose_topic)
-    lasers, poses = scans_and_poses(recording, topic, chosen_poses, bad)
+    topic = scan_topic_of(recording, options.scan_topic)
+    pose_topic = None if options.pose_topic is None else pose_topic_of(recording, options.pose_topic)
+    lasers, poses = scans_and_poses(recording, topic, pose_topic, bad)
     if not lasers.scans:
-        raise BadInput(f"{name}: no message on {topic.name} can be used" + _first(skipped))
+        raise BadInput(f"{name}: no message on {topic.name} can be used{_first(account.skipped)}")
     scans = lasers.of_one_frame(lambda number, reason: bad(topic.name, number, reason))
     if not scans:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
-    sensor = scans[0].layout.frame
     only = None
-    if chosen_poses is None and fixed_frame is None and not without_poses:
-        only = _only_topic(recording, topic, sensor, laser, poses, bad)
-    wanted = _Wanted(topic, chosen_poses or only, fixed_frame, laser, deskew, without_poses)
-    notes = list(recording.notes)
+    if pose_topic is None and options.fixed_frame is None and not options.without_poses:
+        only = _only_topic(recording, topic, scans[0].layout.frame, options, poses, bad)
+    wanted = _Wanted(recording, topic, pose_topic or only, scans[0].layout.frame, bad)
     parts: list[_Placed] = []
     for run in clock_runs(scans, poses):
         try:
-            part = _placed(recording, run, sensor, wanted, bad)
+            part = _placed(run, wanted, replace(account, notes=[]))
         except BadInput as problem:
             if not parts and run.last:
                 raise
-            notes.append(f"one run of the clock was left out: {str(problem).removeprefix(f'{name}: ')}")
+            account.notes.append(f"one run of the clock was left out: {str(problem).removeprefix(f'{name}: ')}")
             continue
         if parts:
-            notes.append(_step_note(run))
+            account.notes.append(
+                f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {run.at_ns * 1e-9:.3f} s, as when a simulation "
+                "starts again: what was received later was kept apart from what came before, and stamps from there on "
+                "are later than the recording says"
+            )
         parts.append(part)
     source, sign = parts[0].source, parts[0].sign
     if any(part.sign != sign for part in parts):
-        raise BadInput(f"{name}: the frame {sensor!r} is upright in some scans and upside down in others")
-    stamps = joined_stamps([(part.stamps, part.scans) for part in parts])
+        raise BadInput(f"{name}: the frame {wanted.sensor!r} is upright in some scans and upside down in others")
     scans = [scan for part in parts for scan in part.scans]
-    at_first, beam_poses = np.concatenate([part.at_first for part in parts]), _beam_poses(parts)
     if only is not None:
-        notes.append(_only_note(recording, only, topic, sensor))
-    notes += [*dict.fromkeys(note for part in parts for note in part.notes), *_odd(scans), *_empty(lasers)]
+        account.notes.append(_only_note(wanted, only))
+    account.notes += dict.fromkeys(note for part in parts for note in part.notes)
+    account.notes += [*_odd(scans), *_empty(lasers)]
+    account.stamps_s = np.asarray(joined_stamps([(part.stamps, part.scans) for part in parts]) * 1e-9)
+    account.reordered = sum(part.reordered for part in parts)
 
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
     angles, readings = beams_of(scans)
-    views = Views.of(at_first, sign * angles)
-    judged = judge(name, readings, *limits, no_return=no_return, max_range_m=max_range_m, views=views)
-    result = Scans(
-        at_first, sign * angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
-        stamps_s=np.asarray(stamps * 1e-9), beam_poses=beam_poses,
+    angles, at_first = sign * angles, np.concatenate([part.at_first for part in parts])
+    return account.reading(
+        topic.type, at_first, angles, account.classify(readings, limits, at_first, angles),
+        beam_poses=_beam_poses(parts), mount=source.chain.sensor_on_body(), scan_topic=topic.name,
+        pose_source=source.label if source.posed else None, fixed_frame=source.fixed_frame if source.posed else None,
+        sensor_frame=wanted.sensor, posed=source.posed,
     )  # fmt: skip
-    return LogReading(
-        path=name,
-        format=recording.format,
-        message=topic.type,
-        scans=result.limited(judged.max_range_m),
-        messages={t.name: t.count for t in recording.topics.values()},
-        skipped=tuple(skipped),
-        no_return=judged.no_return,
-        max_range_origin=judged.max_range_origin,
-        laser_offset=laser or source.chain.sensor_on_body(),
-        reordered=sum(part.reordered for part in parts),
-        notes=(*notes, *judged.notes),
-        scan_topic=topic.name,
-        pose_source=source.label if source.posed else None,
-        fixed_frame=source.fixed_frame if source.posed else None,
-        sensor_frame=sensor,
-        deskewed=beam_poses is not None,
-        posed=source.posed,
-    )
 
 
 @dataclass(frozen=True, eq=False)
 class _Wanted:
-    """What to read, and by which poses: the topic of scans, that of poses, and options of `read_recording`."""
+    """What to read, and by which poses: the topics of scans and of poses, and the frame of the sensor."""
 
+    recording: Recording
     topic: Topic
     pose_topic: Topic | None
-    fixed_frame: str | None
-    laser: Pose | None
-    deskew: bool
-    without_poses: bool
+    sensor: str
+    bad: Bad
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,77 +157,163 @@ class _Placed:
     notes: tuple[str, ...]
 
 
-def _placed(recording: Recording, run: ClockRun, sensor: str, wanted: _Wanted, bad: Bad) -> _Placed:
+def _placed(run: ClockRun, wanted: _Wanted, account: Account) -> _Placed:
     """Sort the scans of a run by time and find where they were taken; leave out those that have no pose."""
     if not run.scans:
-        raise BadInput(f"{recording.path}: no scan was received in it")
-    source = _source(recording, sensor, run.poses, wanted)
-    notes = list(source.notes)
-    stamps, scans, reordered = in_order_of_time(run.scans, bad, wanted.topic.name, notes)
-    rays = ray_times(stamps, scans, wanted.deskew, notes)
+        raise BadInput(f"{account.name}: no scan was received in it")
+    source = _source(wanted, run.poses, account.options)
+    account.notes += source.notes
+    stamps, scans, reordered = _in_order_of_time(run.scans, wanted, account)
+    rays = _ray_times(stamps, scans, account)
     inside = np.asarray(source.chain.covers(rays).all(axis=1))
-    notes += left_out(recording.path, stamps, inside, source) if source.posed else []
+    if source.posed:
+        account.notes += _left_out(account.name, stamps, inside, source)
     scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
-    at_first, sign = poses_at_first_rays(recording.path, source.chain, stamps, scans[0].layout, notes)
-    if not source.posed:
-        at_first = np.zeros_like(at_first)
-    return _Placed(source, scans, stamps, rays, at_first, sign, reordered, tuple(notes))
+    motion = source.chain.at(stamps)
+    remedy = "; choose another topic with --scan-topic"
+    sign = account.which_way_up(upright(motion), f"the frame {wanted.sensor!r}", remedy)
+    at_first = planar(motion) if source.posed else np.zeros((len(stamps), 3))
+    return _Placed(source, scans, stamps, rays, at_first, sign, reordered, tuple(account.notes))
+
+
+def _in_order_of_time(
+    scans: list[LaserMessage], wanted: _Wanted, account: Account
+) -> tuple[NDArray[np.int64], list[LaserMessage], int]:
+    """Return times of the first rays, ascending, the scans in that order, and how many came before an earlier one."""
+    topic, notes = wanted.topic.name, account.notes
+    if not any(scan.stamp_ns for scan in scans):
+        notes.append(f"no message on {topic} says its time; the times of receipt were used")
+        stamps = np.array([scan.received_ns for scan in scans], dtype=np.int64)
+    else:
+        for scan in scans:
+            if not scan.stamp_ns:
+                wanted.bad(topic, scan.number, "does not say its time, as the others do")
+        scans = [scan for scan in scans if scan.stamp_ns]
+        stamps = np.array([scan.stamp_ns for scan in scans], dtype=np.int64)
+    reordered = int((stamps < np.maximum.accumulate(stamps)).sum())
+    if reordered:
+        notes.append(
+            f"{reordered:,} scans of {topic} have an earlier time than one before them; all were sorted by time"
+        )
+    order = np.argsort(stamps, kind="stable")
+    kept: list[int] = []
+    twice = repeated = 0
+    for i in order:
+        if kept and stamps[i] == stamps[kept[-1]]:
+            if scans[i].ranges_m.tobytes() == scans[kept[-1]].ranges_m.tobytes():
+                repeated += 1
+                continue
+            twice += 1
+        kept.append(int(i))
+    if repeated:
+        notes.append(f"{repeated:,} scans of {topic} are in the recording twice, with time and readings; one was kept")
+    if twice:
+        notes.append(f"{twice:,} scans of {topic} have the time of another, but other readings; all were kept")
+    return stamps[kept], [scans[i] for i in kept], reordered
+
+
+def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
+    """Return when each ray was sent, shape (S, A); shape (S, 1), the first ray, without ``deskew``.
+
+    Where a scan has fewer rays than the largest, its last ray's time stands for those that it does not have.
+    """
+    if not account.options.deskew:
+        return stamps[:, None]
+    beams = np.array([scan.layout.beams for scan in scans])
+    intervals = np.array([scan.ray_interval_s for scan in scans], dtype=np.float64)
+    intervals[~(np.abs(intervals) * beams < LONGEST_SWEEP_S)] = 0.0
+    if not intervals.any():
+        account.notes.append("time_increment is 0, or no time, in every scan: there is nothing to de-skew")
+        return stamps[:, None]
+    rays = np.minimum(np.arange(beams.max()), beams[:, None] - 1)
+    return np.asarray(stamps[:, None] + np.rint(intervals[:, None] * 1e9 * rays).astype(np.int64))
+
+
+def _left_out(name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: PoseSource) -> list[str]:
+    """Return notes about the scans that are ``inside`` the time of the poses, and those that are not.
+
+    Raises:
+        BadInput: none is.
+    """
+    span = source.chain.span_ns()
+    if span is None:
+        return [f"{source.label} does not move the sensor in the whole recording"]
+    known = f"poses by {source.label} are known from {span[0] * 1e-9:.3f} to {span[1] * 1e-9:.3f} s"
+    if not inside.any():
+        raise BadInput(
+            f"{name}: no scan has a pose: {known}, the scans are from {stamps[0] * 1e-9:.3f} to "
+            f"{stamps[-1] * 1e-9:.3f} s; are both by the same clock? Choose other poses with --pose-topic "
+            "or --fixed-frame"
+        )
+    notes = []
+    if not inside.all():
+        before = int((~inside & (stamps < span[0])).sum())
+        notes.append(
+            f"{int((~inside).sum()):,} scans were left out, {before:,} before the first pose and the others after the "
+            f"last: {known}"
+        )
+    gaps = int(source.chain.in_gaps(stamps[inside], LONGEST_GAP_S, LONGEST_GAP_M).sum())
+    if gaps:
+        notes.append(
+            f"{gaps:,} scans lie where {source.label} says nothing for over {LONGEST_GAP_S:g} s while the robot moved "
+            f"over {LONGEST_GAP_M:g} m; their poses are interpolated, and may be wrong"
+        )
+    return notes
 
 
 def _beam_poses(parts: list[_Placed]) -> NDArray[np.float64] | None:
-    """Poses of all rays, (S, A, 3); None if no time of a ray is known but the first one's."""
+    """Return the poses of all rays, (S, A, 3); None if only times of first rays are known."""
     if not parts[0].source.posed or all(part.rays.shape[1] == 1 for part in parts):
         return None
     beams = max(scan.layout.beams for part in parts for scan in part.scans)
     wide = [np.pad(part.rays, ((0, 0), (0, beams - part.rays.shape[1])), mode="edge") for part in parts]
-    return np.concatenate([poses_of_rays(part.source.chain, rays) for part, rays in zip(parts, wide, strict=True)])
+    return np.concatenate([_poses_of_rays(part.source.chain, rays) for part, rays in zip(parts, wide, strict=True)])
 
 
-def _step_note(run: ClockRun) -> str:
-    return (
-        f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {run.at_ns * 1e-9:.3f} s, as when a simulation starts "
-        "again: what was received later was kept apart from what came before, and stamps from there on are later than "
-        "the recording says"
-    )
+def _poses_of_rays(chain: Chain, rays: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the sensor's pose in the plane as each ray was sent, shape (S, A, 3)."""
+    times = rays.ravel()
+    parts = [planar(chain.at(times[i : i + AT_ONCE])) for i in range(0, len(times), AT_ONCE)]
+    return np.concatenate(parts).reshape(*rays.shape, 3)
 
 
 def _only_topic(
-    recording: Recording, scan_topic: Topic, sensor: str, laser: Pose | None, poses: PoseMessages, bad: Bad
+    recording: Recording, scan_topic: Topic, sensor: str, options: LogOptions, poses: PoseMessages, bad: Bad
 ) -> Topic | None:
-    """The only topic of poses, with its messages read, if /tf does not help."""
+    """Return the only topic of poses, with its messages read, if /tf does not help."""
     only = only_pose_topic(recording, scan_topic.name)
     if only is None:
         return None
     trees = frame_trees(poses, scan_topic.name, None)
-    body = sensor if laser is None else body_of(recording.path, trees, sensor)
+    body = sensor if options.laser is None else body_of(recording.path, trees, sensor)
     if body is not None and any(fixed_frame_of(tree, body) is not None for tree in trees):
         return None
     read_messages(recording, [only], None, poses, bad)
     return only
 
 
-def _only_note(recording: Recording, only: Topic, scan_topic: Topic, sensor: str) -> str:
+def _only_note(wanted: _Wanted, only: Topic) -> str:
     alone = "the only topic of poses"
-    if len(topics_of_type(recording, POSE_TYPES)) > 1:
-        alone += f" in the namespace of {scan_topic.name}"
-    return f"/tf connects {sensor!r} with no fixed frame; poses were taken from {only.name}, {alone}"
+    if len(topics_of_type(wanted.recording, POSE_TYPES)) > 1:
+        alone += f" in the namespace of {wanted.topic.name}"
+    return f"/tf connects {wanted.sensor!r} with no fixed frame; poses were taken from {only.name}, {alone}"
 
 
-def _source(recording: Recording, sensor: str, poses: PoseMessages, wanted: _Wanted) -> PoseSource:
-    """Where the sensor is: by the topic that was chosen, else by /tf.
+def _source(wanted: _Wanted, poses: PoseMessages, options: LogOptions) -> PoseSource:
+    """Return where the sensor is: by the topic that was chosen, else by /tf.
 
     With ``laser`` the sensor is there on the robot's body, whatever /tf says.
     """
-    pose_topic, laser = wanted.pose_topic, wanted.laser
+    recording, sensor, pose_topic, laser = wanted.recording, wanted.sensor, wanted.pose_topic, options.laser
     trees = frame_trees(poses, wanted.topic.name, None if pose_topic is None else pose_topic.name)
-    if wanted.without_poses:
+    if options.without_poses:
         return standing_still(trees, sensor)
     if pose_topic is not None and pose_topic.type in POSE_TYPES:
         return by_topic(recording, pose_topic, poses, trees, sensor, laser)
     body = sensor if laser is None else body_of(recording.path, trees, sensor)
     found = None
     if body is not None:
-        found = by_transforms(recording, trees, body, wanted.fixed_frame, chosen=pose_topic is not None)
+        found = by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)
     if found is None:
         raise no_poses(recording.path, trees[-1], sensor, topics_of_type(recording, POSE_TYPES))
     return found if laser is None else replace(found, chain=Chain((*found.chain.links, link_of(laser))))

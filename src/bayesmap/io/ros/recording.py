@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 
@@ -71,7 +71,50 @@ class Recording:
     notes: tuple[str, ...] = ()
 
 
-def spelled_as_in_ros2(name: str) -> str:
-    """``sensor_msgs/LaserScan`` becomes ``sensor_msgs/msg/LaserScan``."""
-    package, slash, message = name.partition("/")
-    return f"{package}/msg/{message}" if slash and "/" not in message else name
+class Connection(NamedTuple):
+    """A stream of messages: the id by which they name it, and its topic, without a count."""
+
+    id: int
+    topic: Topic
+
+
+class Record(NamedTuple):
+    """A message with the id of its `Connection`, which came before, and the time of receipt in nanoseconds."""
+
+    connection: int
+    received_ns: int
+    data: bytes
+
+
+Records = Iterable[Connection | Record]
+
+
+def topics_of(records: Records) -> tuple[dict[str, Topic], int | None, int | None]:
+    """Return the topics with their counts, and when the first and the last message were received."""
+    connections: dict[int, Topic] = {}
+    counts: dict[str, int] = {}
+    start_ns = end_ns = None
+    for record in records:
+        if isinstance(record, Connection):
+            connections[record.id] = record.topic
+            counts.setdefault(record.topic.name, 0)
+        elif record.connection in connections:
+            counts[connections[record.connection].name] += 1
+            time = record.received_ns
+            start_ns = time if start_ns is None else min(start_ns, time)
+            end_ns = time if end_ns is None else max(end_ns, time)
+    first = {topic.name: topic for topic in reversed(connections.values())}
+    topics = {name: replace(first[name], count=counts[name]) for name in sorted(first)}
+    return topics, start_ns, end_ns
+
+
+def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:
+    """Return the messages on some topics, without those of another type than the topic's."""
+    chosen: dict[int, str] = {}
+    for record in records:
+        if isinstance(record, Connection):
+            name = record.topic.name
+            if name in names and record.topic.type == topics[name].type:
+                chosen[record.id] = name
+        elif record.connection in chosen:
+            yield Message(chosen[record.connection], record.received_ns, record.data)

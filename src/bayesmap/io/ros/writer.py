@@ -57,7 +57,7 @@ class Channel:
 
 
 def container_of(path: str | os.PathLike[str]) -> str:
-    """Which of `ENDINGS` a path names; a trailing slash, an existing folder or no ending at all is a folder.
+    """Return which of `ENDINGS` a path names; a trailing slash, an existing folder or no ending at all is a folder.
 
     Raises:
         BadInput: another ending.
@@ -73,42 +73,13 @@ def container_of(path: str | os.PathLike[str]) -> str:
     return ending
 
 
-def write_recording(
-    path: str | os.PathLike[str],
-    topic: str,
-    type_name: str,
-    message: Message,
-    *,
-    stamp_s: float | None = None,
-    definitions: Callable[[int], dict[str, str]] | None = None,
-) -> Path:
-    """Write one message as a recording, whole or not at all.
-
-    Args:
-        path: its ending chooses the container, see above.
-        topic: such as ``/map``.
-        type_name: such as ``nav_msgs/msg/OccupancyGrid``.
-        message: makes the message, given a type store and the ROS version.
-        stamp_s: when the recording says that the message came; a nanosecond if None (ROS refuses zero).
-        definitions: message definitions, by type name, that rosbags lacks, for a ROS version.
-
-    Returns:
-        The path.
-
-    Raises:
-        BadInput: another ending, or a file or folder that cannot be written.
-    """
-    channel = Channel(topic, type_name, [(stamp_s, message)])
-    return write_channels(path, [channel], definitions=definitions)
-
-
 def write_channels(
     path: str | os.PathLike[str],
     channels: Sequence[Channel],
     *,
     definitions: Callable[[int], dict[str, str]] | None = None,
 ) -> Path:
-    """Write topics with any number of messages as a recording, whole or not at all.
+    """Write topics with any number of messages as a recording, whole or not at all. Returns the path.
 
     Args:
         path: its ending chooses the container, see above.
@@ -145,7 +116,7 @@ def write_channels(
 
 
 def is_ros2_bag(folder: Path) -> bool:
-    """Whether a folder holds a ROS 2 bag and nothing else."""
+    """Return whether a folder holds a ROS 2 bag and nothing else."""
     files = list(folder.iterdir())
     return any(file.name == "metadata.yaml" for file in files) and all(
         file.name == "metadata.yaml" or file.suffix in (".db3", ".mcap") for file in files
@@ -153,20 +124,20 @@ def is_ros2_bag(folder: Path) -> bool:
 
 
 def header_of(store: Typestore, ros: int, frame: str, stamp_s: float | None) -> Any:
-    """A std_msgs/Header: in ROS 1 with a sequence number."""
+    """Return a std_msgs/Header: in ROS 1 with a sequence number."""
     stamp = time_of(store, stamp_s)
     header = store.types["std_msgs/msg/Header"]
     return header(seq=0, stamp=stamp, frame_id=frame) if ros == 1 else header(stamp=stamp, frame_id=frame)
 
 
 def time_of(store: Typestore, stamp_s: float | None) -> Any:
-    """A builtin_interfaces/Time; zero if there is none."""
+    """Return a builtin_interfaces/Time; zero if there is none."""
     seconds, nanoseconds = divmod(round((stamp_s or 0.0) * NANOSECONDS), NANOSECONDS)
     return store.types["builtin_interfaces/msg/Time"](sec=seconds, nanosec=nanoseconds)
 
 
 def pose_of(store: Typestore, x_m: float, y_m: float, yaw_rad: float = 0.0) -> Any:
-    """A geometry_msgs/Pose in the plane."""
+    """Return a geometry_msgs/Pose in the plane."""
     types, half = store.types, 0.5 * yaw_rad
     return types["geometry_msgs/msg/Pose"](
         position=types["geometry_msgs/msg/Point"](x=x_m, y=y_m, z=0.0),
@@ -176,19 +147,19 @@ def pose_of(store: Typestore, x_m: float, y_m: float, yaw_rad: float = 0.0) -> A
 
 @contextlib.contextmanager
 def _scratch(parent: Path) -> Iterator[Path]:
-    """A folder for what the writers of bags leave, in the same file system as what it becomes."""
+    """Give a folder for what the writers of bags leave, in the same file system as what it becomes."""
     with tempfile.TemporaryDirectory(prefix=".bayesmap-", dir=parent) as folder:
         yield Path(folder)
 
 
 def _in_order(channels: Sequence[Channel]) -> list[tuple[int, int, Message]]:
-    """Time in nanoseconds, channel and message of all, in order of time."""
+    """Return the time in nanoseconds, the channel and the message of all, in order of time."""
     every = [
         (max(1, round((stamp_s or 0.0) * NANOSECONDS)), number, message)
         for number, channel in enumerate(channels)
         for stamp_s, message in channel.messages
     ]
-    return sorted(every, key=lambda one: one[:2])
+    return sorted(every, key=lambda timed: timed[:2])
 
 
 def _write_ros1(path: Path, channels: Sequence[Channel], store: Typestore) -> None:
@@ -209,28 +180,21 @@ def _write_ros2(path: Path, ending: str, channels: Sequence[Channel], store: Typ
     plugin = StoragePlugin.MCAP if ending == ".mcap" else StoragePlugin.SQLITE3
     with Writer(path, version=ROS2_BAG_VERSION, storage_plugin=plugin) as bag:
         connections = [
-            bag.add_connection(
-                c.topic, c.type_name, typestore=store, offered_qos_profiles=[_quality(latched=c.latched)]
-            )
+            bag.add_connection(c.topic, c.type_name, typestore=store, offered_qos_profiles=[_quality(c.latched)])
             for c in channels
         ]
         for when, number, message in _in_order(channels):
             bag.write(connections[number], when, store.serialize_cdr(message(store, 2), channels[number].type_name))
 
 
-def _quality(*, latched: bool) -> Qos:
-    """Latched: as nav2's map_server offers its map: the last one, reliable, transient local, without deadlines."""
+def _quality(latched: bool) -> Qos:
+    """Return the quality of service: if latched, as nav2's map_server offers its map, without deadlines."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     never = QosTime(9_223_372_036, 854_775_807)  # RMW_DURATION_INFINITE
     return Qos(
-        history=QosHistory.KEEP_LAST,
-        depth=1 if latched else 10,
-        reliability=QosReliability.RELIABLE,
-        durability=QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE,
-        deadline=never,
-        lifespan=never,
-        liveliness=QosLiveliness.AUTOMATIC,
-        liveliness_lease_duration=never,
+        history=QosHistory.KEEP_LAST, depth=1 if latched else 10, reliability=QosReliability.RELIABLE,
+        durability=QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE, deadline=never,
+        lifespan=never, liveliness=QosLiveliness.AUTOMATIC, liveliness_lease_duration=never,
         avoid_ros_namespace_conventions=False,
-    )
+    )  # fmt: skip

@@ -1,4 +1,4 @@
-"""CARMEN logs: one message a line, as the robots of the 2000s wrote them.
+"""CARMEN logs, read and written: one message a line, as the robots of the 2000s wrote them.
 
     FLASER n r_1 .. r_n  x y theta  odom_x odom_y odom_theta  ipc_timestamp host logger_timestamp
     ROBOTLASER1 type start_angle fov resolution maximum_range accuracy remission_mode
@@ -17,6 +17,9 @@ mode looked from -50 to +50.) ROBOTLASER1 lines state their first angle and the 
 
 **Maximum range.** If it is not given: the largest hit, rounded up to a whole metre; further than this the
 sensor is not known to see. For no return see `bayesmap.io.returns`.
+
+**Writing.** FLASER lines, which every tool knows, are written where these rules find both the angles and what means no
+return; ROBOTLASER1 lines everywhere else.
 """
 
 from __future__ import annotations
@@ -25,98 +28,118 @@ import math
 import os
 import re
 from collections import Counter
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import WITHOUT_POSES, LogReading, Pose, SkippedLine
-from bayesmap.io.text.laser_lines import (
-    IMPLICIT,
-    LASERS,
-    RAW,
-    STEP_DEG,
-    BeamLayout,
-    Malformed,
-    parse_floats,
-    parse_laser,
-)
-from bayesmap.io.text.laser_scans import LaserScan, reading_of
-from bayesmap.io.text.lines import DamagedFile, read_lines
-from bayesmap.space.planar import compose
+from bayesmap.files import write_text
+from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReading, Pose
+from bayesmap.io.returns import Readings, Views, decode
+from bayesmap.io.text.lines import log_lines, numbers_in
+from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import Fan, Scans, as_poses, fan_fault, side_by_side
 
-OTHERS = ("ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
-"""Other messages by which a CARMEN log is recognised."""
+Floats = NDArray[np.float64]
 
-KNOWN = LASERS + OTHERS
+IMPLICIT = ("FLASER", "RLASER")
+LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
+"""Messages that hold a scan with its pose, in order of preference where several are equally frequent."""
+RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")
+"""Messages that hold a scan without a pose."""
+KNOWN = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
+"""Messages by which a CARMEN log is recognised."""
+
+MAX_BEAMS = 100_000
+STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
+"""Degrees between beams by their number, where the message does not say."""
+
+NO_RETURN_CODE_M = 81.83
+"""The number written for no return, that of a SICK laser, unless hits come so near that it would not stand out."""
+ANGLE_TOLERANCE_RAD = 1e-6
 
 _NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
 
 
-def read_carmen(
-    path: str | os.PathLike[str],
-    *,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    max_range_m: float | None = None,
-    laser: Pose | None = None,
-    without_poses: bool = False,
-) -> LogReading:
+class Malformed(Exception):
+    """A line that does not follow its format; the text is the reason."""
+
+
+@dataclass(frozen=True)
+class LaserLine:
+    """One scan as its line says it.
+
+    Attributes:
+        fan: its beams.
+        readings_m: as they are, shape (A,).
+        numbers: laser pose, robot pose, time: shape (7,), all finite; poses are zero where the line has none.
+        max_range_m: the sensor's largest range, where the line states one.
+    """
+
+    fan: Fan
+    readings_m: Floats
+    numbers: Floats
+    max_range_m: float | None
+
+    def pose(self, mount: Pose | None) -> Floats:
+        """Return the pose of the laser, (3,), given where the laser is on the robot, or else by the line."""
+        return self.numbers[:3] if mount is None else compose(self.numbers[3:6], np.array(mount))
+
+
+@dataclass(frozen=True, eq=False)
+class LaserScan:
+    """A scan of a log: its line, and the pose of the laser in the world, (3,)."""
+
+    laser: LaserLine
+    pose_world: Floats
+
+
+def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of a CARMEN log, plain or gzipped.
 
     If the log holds several lasers or kinds of message, the one with most scans is read, and a note says so.
 
-    Args:
-        path: the log.
-        no_return: the number, in metres, that this log writes for "no return" (readings of it and above);
-            ``inf`` if it has none. Found by `bayesmap.io.returns` if not given.
-        skip_bad_lines: leave out malformed lines, and list them in the result.
-        max_range_m: the sensor's maximum range; longer readings become no return.
-        laser: where the laser is on the robot, instead of what the lines say.
-        without_poses: read lines without poses, too, if they are the most.
-
     Raises:
-        BadInput: a file that cannot be read, holds no scans, or has a malformed line (without
-            ``skip_bad_lines``); the message names the file, the line and the remedy.
+        BadInput: a file that cannot be read, holds no scans, or has a malformed line (unless the options skip it); the
+            message names the file, the line and the remedy.
     """
-    name = os.fspath(path)
-    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in (LASERS + RAW if without_poses else LASERS)}
-    messages: Counter[str] = Counter()
-    skipped: list[SkippedLine] = []
-
-    def bad(line: int, reason: str) -> None:
-        if not skip_bad_lines:
-            raise BadInput(f"{name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
-        skipped.append(SkippedLine(line, reason))
-
+    account = Account(os.fspath(path), "carmen", options)
+    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in (LASERS + RAW if options.without_poses else LASERS)}
     number = 0
-    try:
-        for number, line in read_lines(path):
-            try:
-                kind = message_name(line)
-                messages[kind] += 1
-                if kind in lasers:
-                    scan = parse_laser(kind, line.split())
-                    pose = scan.numbers[:3] if laser is None else compose(scan.numbers[3:6], np.array(laser))
-                    lasers[kind].append(LaserScan(number, scan, pose))
-                elif kind == "ODOM":
-                    _check_odometry(line.split())
-            except Malformed as problem:
-                bad(number, str(problem))
-    except DamagedFile:
-        if not skip_bad_lines:
-            raise
-        skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
-    del messages[""]
-
+    for number, line in log_lines(account):
+        try:
+            kind = message_name(line)
+            account.counts[kind] += 1
+            if kind in lasers:
+                scan = parse_laser(kind, line.split())
+                lasers[kind].append(LaserScan(scan, scan.pose(options.laser)))
+            elif kind == "ODOM":
+                _check_odometry(line.split())
+        except Malformed as problem:
+            account.bad(number, str(problem))
+    del account.counts[""]
     if not any(lasers.values()):
-        raise BadInput(f"{name}: {_why_no_scans(number, messages, skipped)}")
-    reading, layouts = reading_of(name, "carmen", lasers, skipped, messages, no_return, max_range_m, laser)
-    return replace(reading, notes=(*reading.notes, *_notes(reading.message, layouts), *_about_vertices(messages)))
+        raise BadInput(f"{account.name}: {_why_no_scans(number, account)}")
+    reading, fans = laser_reading(account, lasers)
+    vertices = [
+        f"the log also holds {account.counts[name]:,} {name} lines, which were not used: poses are those of the laser "
+        "lines"
+        for name in ("VERTEX_SE2", "VERTEX2")
+        if account.counts[name]  # so late that the file was taken for a log
+    ]
+    unsure = _unsure_angles(fans) if reading.message in IMPLICIT else []
+    return replace(reading, notes=(*reading.notes, *unsure, *vertices))
 
 
 def message_name(line: bytes) -> str:
-    """The line's first word; empty for comments and blank lines."""
+    """Return the line's first word; empty for comments and blank lines.
+
+    Raises:
+        Malformed: a word that is not the name of a message.
+    """
     if b"\0" in line:
         raise Malformed("binary data; a log is text")
     words = line.split(None, 1)
@@ -132,37 +155,146 @@ def message_name(line: bytes) -> str:
     return name
 
 
+def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
+    """Return the scan that the words of a line hold.
+
+    Raises:
+        Malformed: a line that does not follow its format.
+    """
+    count_at = 1 if kind in IMPLICIT else 8
+    beams = _count(kind, words, count_at, "readings")
+    readings_end = count_at + 1 + beams
+    if kind in IMPLICIT:
+        poses_at, total = readings_end, readings_end + 9
+    else:
+        poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions")
+        total = poses_at + (3 if kind in RAW else 14)
+    if len(words) != total:
+        raise Malformed(
+            f"{kind} with {beams} readings has {len(words)} fields where {total} are needed "
+            "(is the line cut short, or joined with another?)"
+        )
+    readings = parse_floats(kind, words[count_at + 1 : readings_end], count_at + 1)
+    # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
+    numbers = parse_floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
+    numbers = np.append(np.zeros(6) if kind in RAW else numbers[:6], numbers[-2])
+    if not np.isfinite(numbers).all():
+        raise Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
+    if kind in IMPLICIT:
+        return LaserLine(_implied_fan(kind, beams), readings, numbers, None)
+    first, _, step, max_range = (float(v) for v in parse_floats(kind, words[2:6], 2))
+    what = f"{kind} has start angle {first:g} and angular resolution {step:g}"
+    if not (math.isfinite(first) and math.isfinite(step) and step > 0):
+        raise Malformed(what)
+    if (fault := fan_fault(first, first + step * max(beams - 1, 0))) is not None:
+        raise Malformed(f"{what}: {fault}")
+    stated = max_range if math.isfinite(max_range) and max_range > 0 else None
+    return LaserLine(Fan(beams, first, step), readings, numbers, stated)
+
+
+def _implied_fan(kind: str, beams: int) -> Fan:
+    if beams == 1:
+        raise Malformed(f"{kind} with a single reading: its angle is not known")
+    step = math.radians(STEP_DEG[beams]) if beams in STEP_DEG else math.pi / max(beams - 1, 1)
+    return Fan(beams, -math.pi / 2, step if beams else 0.0)
+
+
+def _count(kind: str, words: list[bytes], at: int, what: str) -> int:
+    if at >= len(words):
+        raise Malformed(f"{kind} ends after {len(words)} fields, before its number of {what}")
+    word = words[at]
+    if not word.isdigit() or not int(word[:9]) <= MAX_BEAMS:
+        shown = word[:20].decode("ascii", "backslashreplace")
+        raise Malformed(f"{kind} says '{shown}' for its number of {what}")
+    return int(word)
+
+
+def parse_floats(kind: str, words: list[bytes], at: int) -> Floats:
+    """Return words as numbers, (N,); ``at`` is the index of the first within its line, for messages.
+
+    Raises:
+        Malformed: a word that is none.
+    """
+    numbers = numbers_in(words)
+    if isinstance(numbers, int):
+        shown = words[numbers][:20].decode("ascii", "backslashreplace")
+        raise Malformed(f"{kind} has '{shown}' for a number, in field {at + numbers + 1}")
+    return numbers
+
+
 def _check_odometry(words: list[bytes]) -> None:
     if len(words) != 10:
         raise Malformed(f"ODOM has {len(words)} fields where 10 are needed")
-    if not all(map(math.isfinite, parse_floats("ODOM", [*words[1:8], words[9]], 1))):
+    if not np.isfinite(parse_floats("ODOM", [*words[1:8], words[9]], 1)).all():
         raise Malformed("ODOM has a number that is not finite")
 
 
-def _notes(kind: str, layouts: list[BeamLayout]) -> list[str]:
-    if kind not in IMPLICIT:
-        return []
+def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
+    """Return the reading of a log by the kind of message that has most scans, and its fans, the commonest first.
+
+    Args:
+        account: of the log.
+        lasers: scans by their kind of message, in the order of the file; at least one.
+
+    Raises:
+        BadInput: no reading is a range, and the largest range is not given.
+    """
+    kind = max(lasers, key=lambda kind: len(lasers[kind]))
+    scans = [scan for scan in lasers[kind] if scan.laser.fan.beams]
+    empty = len(lasers[kind]) - len(scans)
+    if not scans:
+        raise BadInput(f"{account.name}: none of {empty:,} {kind} lines has a reading")
+    fans = [fan for fan, _ in Counter(scan.laser.fan for scan in scans).most_common()]
+    numbers = np.array([scan.laser.numbers for scan in scans])
+    poses = np.array([scan.pose_world for scan in scans])
+    order = account.in_time_order(numbers[:, 6], len(scans))
+    if empty:
+        account.notes.append(f"{empty:,} {kind} lines have no readings, and were left out")
+    account.notes += [
+        f"the log also holds {len(others)} {other} scans, which were not used: {kind} has more or as many"
+        for other, others in lasers.items()
+        if other != kind and others
+    ]
+    readings = [scan.laser.readings_m for scan in scans]
+    if len(fans) == 1:
+        angles, raw = fans[0].angles_rad(), np.array(readings)
+    else:
+        angles, raw = side_by_side([scan.laser.fan.angles_rad() for scan in scans], readings)
+        angles = angles[order]
+    stated_m = max((s.laser.max_range_m for s in scans if s.laser.max_range_m is not None), default=None)
+    typed = _typed(account, raw[order], stated_m, Views.of(poses[order], angles))
+    # Median pose of the laser in the robot's frame.
+    x, y, yaw = (float(v) for v in np.median(between(numbers[:, 3:6], numbers[:, :3]), axis=0))
+    return account.reading(kind, poses[order], angles, typed, mount=(x, y, yaw), posed=kind not in RAW), fans
+
+
+def _typed(account: Account, raw: Floats, stated_m: float | None, views: Views) -> Readings:
+    """Return typed readings; the largest range is the largest hit in whole metres, up to the no-return code."""
+    ranges, coded = decode(raw, account.options.no_return, stated_m, views)
+    limit, origin = account.options.max_range_m, "given"
+    if limit is None:
+        hits = ranges[np.isfinite(ranges)]
+        code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
+        limit, origin = min(math.ceil(hits.max()) if hits.size else math.inf, code), "readings"
+        if math.isinf(limit):
+            raise BadInput(f"{account.name}: no reading of {ranges.size} is a range; give the sensor's --max-range")
+    return Readings(ranges, coded, 0.0, float(limit), origin, coded.notes())
+
+
+def _unsure_angles(fans: list[Fan]) -> list[str]:
     unsure = [
-        f"{layout}, by CARMEN's rule" if layout.beams in STEP_DEG else f"{layout} (180 degrees in all)"
-        for layout in layouts
-        if layout.beams not in STEP_DEG or layout.beams in (400, 401)
+        f"{fan}, by CARMEN's rule" if fan.beams in STEP_DEG else f"{fan} (180 degrees in all)"
+        for fan in fans
+        if fan.beams not in STEP_DEG or fan.beams in (400, 401)
     ]
     more = f", and others in {len(unsure) - 3} more ways" if len(unsure) > 3 else ""
     return [f"the log does not say its beams' angles; taken as {'; '.join(unsure[:3])}{more}"] if unsure else []
 
 
-def _about_vertices(messages: Counter[str]) -> list[str]:
-    """A note for a graph whose vertices came so late that the file was taken for a log."""
-    return [
-        f"the log also holds {messages[name]:,} {name} lines, which were not used: poses are those of the laser lines"
-        for name in ("VERTEX_SE2", "VERTEX2")
-        if messages[name]
-    ]
-
-
-def _why_no_scans(lines: int, messages: Counter[str], skipped: list[SkippedLine]) -> str:
+def _why_no_scans(lines: int, account: Account) -> str:
     if lines == 0:
         return "the file is empty"
+    messages, skipped = account.counts, account.skipped
     held = ", ".join(f"{count} {name}" for name, count in messages.most_common(5)) or "no message at all"
     reason = f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {held}"
     if any(name.startswith("RAWLASER") for name in messages):
@@ -170,3 +302,83 @@ def _why_no_scans(lines: int, messages: Counter[str], skipped: list[SkippedLine]
     if skipped:
         reason += f"; {len(skipped)} lines were malformed, first line {skipped[0].line}: {skipped[0].reason}"
     return reason
+
+
+def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats | None = None) -> str:
+    """Write scans as a CARMEN log, whole or not at all; gzipped if the name ends in .gz.
+
+    Ranges keep a tenth of a millimetre. A reading that is too close or invalid becomes 0, which is read back as
+    invalid; hits at the sensor's maximum range and beyond become no return.
+
+    Args:
+        path: the log to write.
+        scans: with stamps, or they are taken a second apart; their poses are the laser's.
+        robot_poses: of the robot's base, shape (S, 3), in the same frame; the laser's if None.
+
+    Returns:
+        The kind of message that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
+
+    Raises:
+        BadInput: no scan, a scan of less than two beams, or beams that are not equally far apart, which neither message
+            can say.
+        OSError: the folder cannot be written.
+    """
+    if len(scans) == 0:
+        raise BadInput("log: there are no scans to write")
+    angles = [scans.beams_of(scan)[0] for scan in range(1 if scans.own_angles_rad is None else len(scans))]
+    fans = [_even_fan(own) for own in angles]
+    ranges = scans.ranges_m
+    wanted = np.where(np.isfinite(ranges) & (ranges > 0), np.round(ranges, 4), np.nan)
+    wanted[np.isposinf(ranges) | (wanted >= scans.max_range_m)] = np.inf
+    numbers = _flaser_numbers(wanted, scans) if all(_is_implied(own) for own in angles) else None
+    kind = "ROBOTLASER1" if numbers is None else "FLASER"
+    if numbers is None:
+        numbers = np.where(np.isnan(wanted), 0.0, np.minimum(wanted, scans.max_range_m))
+    stamps = np.arange(len(scans), dtype=np.float64) if scans.stamps_s is None else scans.stamps_s
+    bases = scans.poses if robot_poses is None else as_poses(robot_poses)
+    if len(bases) != len(scans):
+        raise BadInput(f"log: {len(bases)} poses of the robot for {len(scans)} scans")
+
+    lines = ["# CARMEN log, written by bayesmap"]
+    for scan, (stamp, has_beam) in enumerate(zip(stamps, scans.has_beam, strict=True)):
+        fan = fans[scan % len(fans)]
+        beams = f"{fan.beams} " + " ".join(f"{v:.4f}".rstrip("0").rstrip(".") for v in numbers[scan, has_beam])
+        poses = " ".join(f"{v:.6f}" for v in (*scans.poses[scan], *bases[scan]))
+        end = f"{stamp:.6f} bayesmap {stamp - stamps[0]:.6f}"
+        if kind == "FLASER":
+            lines.append(f"FLASER {beams} {poses} {end}")
+        else:
+            # Laser type, first angle, field of view, step, maximum range, accuracy, remission mode.
+            sweep = fan.step_rad * (fan.beams - 1)
+            head = f"0 {fan.first_rad!r} {sweep!r} {fan.step_rad!r} {scans.max_range_m!r} 0.01 0"
+            lines.append(f"ROBOTLASER1 {head} {beams} 0 {poses} 0 0 0 0 0 {end}")
+    write_text(Path(path), lines)
+    return kind
+
+
+def _even_fan(angles_rad: Floats) -> Fan:
+    """Return beams that are equally far apart, counter-clockwise."""
+    if len(angles_rad) < 2:
+        raise BadInput("log: a CARMEN log cannot say the angle of a single beam; take two or more")
+    step = float((angles_rad[-1] - angles_rad[0]) / (len(angles_rad) - 1))
+    fan = Fan(len(angles_rad), float(angles_rad[0]), step)
+    if step <= 0 or np.abs(fan.angles_rad() - angles_rad).max() > ANGLE_TOLERANCE_RAD:
+        raise BadInput("log: a CARMEN log needs beams that rise in equal steps; these do not")
+    return fan
+
+
+def _is_implied(angles_rad: Floats) -> bool:
+    """Return whether the reader finds these angles from their number alone, without a note."""
+    beams = len(angles_rad)
+    if beams not in (180, 181, 360, 361):
+        return False
+    return bool(np.abs(_implied_fan("FLASER", beams).angles_rad() - angles_rad).max() <= ANGLE_TOLERANCE_RAD)
+
+
+def _flaser_numbers(wanted: Floats, scans: Scans) -> Floats | None:
+    """Return the numbers of FLASER lines, or None if the reader would not find no return in them by itself."""
+    hits = wanted[np.isfinite(wanted)]
+    far = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
+    numbers = np.where(np.isnan(wanted), 0.0, np.where(np.isposinf(wanted), far, wanted))
+    decoded, _ = decode(numbers, views=Views.of(scans.poses, scans.angles_by_scan()))
+    return numbers if np.array_equal(decoded, wanted, equal_nan=True) else None

@@ -1,98 +1,95 @@
-"""g2o and TORO files of a graph in the plane whose vertices carry laser scans.
+"""g2o and TORO files of a graph in the plane: scans read from vertices that carry them, and graphs written.
 
-    VERTEX_SE2 id x y yaw                  (TORO: VERTEX2)
-    ROBOTLASER1 ...                        (or FLASER: CARMEN's lines, see `bayesmap.io.text.carmen`)
-    EDGE_SE2 id id dx dy dyaw ...          (TORO: EDGE2)
+    VERTEX_SE2 id x y yaw                                (TORO: VERTEX2)
+    ROBOTLASER1 ...                                      (or FLASER: CARMEN's lines, see `bayesmap.io.text.carmen`)
+    EDGE_SE2 i j dx dy dyaw  xx xy xyaw yy yyaw yawyaw   (TORO: EDGE2)
 
 A laser line belongs to the last vertex before it. The two poses in the line say where the laser is on the robot; the
 vertex, which an optimiser has moved, says where the robot is: the laser's pose is vertex * robot^-1 * laser. Edges and
 other elements are counted and left alone.
+
+g2o, GTSAM (``readG2o``), Ceres and SE-Sync read the graphs that are written. An edge is a measurement of pose j in the
+frame of pose i, with the upper triangle of its information matrix, the inverse of its covariance, in that frame. There
+is no line ``FIX 0``: g2o holds one pose by itself, GTSAM reads no edge that comes after such a line, and Ceres' reader
+refuses it.
 """
 
 from __future__ import annotations
 
-import math
 import os
-from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogReading, Pose, SkippedLine
-from bayesmap.io.text.laser_lines import LASERS, Malformed, parse_floats, parse_laser
-from bayesmap.io.text.laser_scans import LaserScan, reading_of
-from bayesmap.io.text.lines import DamagedFile, read_lines
-from bayesmap.space.planar import compose
+from bayesmap.files import write_text
+from bayesmap.io.log_reading import Account, LogOptions, LogReading
+from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
+from bayesmap.io.text.lines import log_lines
+from bayesmap.space.planar import between, compose
+from bayesmap.space.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from bayesmap.poses.pose_gaussian import PoseGaussian
+    from bayesmap.poses.trajectory import Trajectory as Approximation
+
+Floats = NDArray[np.float64]
 
 VERTICES = (b"VERTEX_SE2", b"VERTEX2")
 KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
-
-_NAMES = " or ".join(word.decode() for word in VERTICES)
 FURTHEST_M = 1e7
 
+LEAST = 1e-3
+"""Information, 1 / m^2 and 1 / rad^2, where an edge says nothing: programs want matrices that can be inverted."""
+SAMPLED, SEED = 300, 1
+"""Pairs of key scans that show how much more uncertain common errors make relative poses."""
 
-def read_g2o(
-    path: str | os.PathLike[str],
-    *,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    max_range_m: float | None = None,
-    laser: Pose | None = None,
-) -> LogReading:
-    """Read the scans of a g2o file, plain or gzipped. Arguments and errors are those of `bayesmap.io.text.carmen`."""
-    name = os.fspath(path)
+
+def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+    """Read the scans of a g2o file, plain or gzipped. The errors are those of `bayesmap.io.text.carmen.read_carmen`."""
+    account = Account(os.fspath(path), "g2o", options)
     lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
-    counts: Counter[str] = Counter()
-    skipped: list[SkippedLine] = []
-    vertex: NDArray[np.float64] | None = None
-
-    def bad(line: int, reason: str) -> None:
-        if not skip_bad_lines:
-            raise BadInput(f"{name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
-        skipped.append(SkippedLine(line, reason))
-
+    vertex: Floats | None = None
     number = 0
-    try:
-        for number, line in read_lines(path):
-            words = line.split()
-            if not words or words[0].startswith(b"#"):
-                continue
-            kind = words[0][:64].decode("ascii", "backslashreplace")
-            counts[kind] += 1
-            try:
-                if words[0] in VERTICES:
-                    vertex = None  # should this one be malformed, its scans must not go to the one before
-                    vertex = _vertex(kind, words)
-                elif kind in LASERS:
-                    scan = parse_laser(kind, words)
-                    if vertex is None:
-                        raise Malformed(
-                            f"{kind} does not follow a {_NAMES} that says where it was taken (a file without "
-                            "vertices is read by the poses in its laser lines)"
-                        )
-                    pose = _on(vertex, scan.numbers) if laser is None else compose(vertex, np.array(laser))
-                    lasers[kind].append(LaserScan(number, scan, pose))
-            except Malformed as problem:
-                bad(number, str(problem))
-    except DamagedFile:
-        if not skip_bad_lines:
-            raise
-        skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
-
+    for number, line in log_lines(account):
+        words = line.split()
+        if not words or words[0].startswith(b"#"):
+            continue
+        kind = words[0][:64].decode("ascii", "backslashreplace")
+        account.counts[kind] += 1
+        try:
+            if words[0] in VERTICES:
+                vertex = None  # if this vertex is malformed, its scans do not belong to the vertex before
+                vertex = _vertex(kind, words)
+            elif kind in LASERS:
+                scan = parse_laser(kind, words)
+                if vertex is None:
+                    raise Malformed(
+                        f"{kind} does not follow a {' or '.join(word.decode() for word in VERTICES)} that says where "
+                        "it was taken (a file without vertices is read by the poses in its laser lines)"
+                    )
+                mount = _mount(scan.numbers) if options.laser is None else np.array(options.laser)
+                pose = compose(vertex, mount)
+                pose[2] = vertex[2] + mount[2]  # not wrapped: yaw beyond a turn may be in degrees, which a note says
+                lasers[kind].append(LaserScan(scan, pose))
+        except Malformed as problem:
+            account.bad(number, str(problem))
     if not any(lasers.values()):
-        held = ", ".join(f"{count} {kind}" for kind, count in counts.most_common(5)) or "nothing"
+        held = ", ".join(f"{count} {kind}" for kind, count in account.counts.most_common(5)) or "nothing"
+        bad = account.skipped
         raise BadInput(
-            f"{name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds {held}"
-            + (f"; {len(skipped)} lines were malformed, first line {skipped[0].line}" if skipped else "")
+            f"{account.name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds "
+            f"{held}" + (f"; {len(bad)} lines were malformed, first line {bad[0].line}" if bad else "")
         )
-    reading, _ = reading_of(name, "g2o", lasers, skipped, counts, no_return, max_range_m, laser)
-    return replace(reading, pose_source=max((v.decode() for v in VERTICES), key=lambda word: counts[word]))
+    reading, _ = laser_reading(account, lasers)
+    return replace(reading, pose_source=max((v.decode() for v in VERTICES), key=lambda word: account.counts[word]))
 
 
-def _vertex(kind: str, words: list[bytes]) -> NDArray[np.float64]:
+def _vertex(kind: str, words: list[bytes]) -> Floats:
     if len(words) != 5:
         raise Malformed(f"{kind} has {len(words)} fields where 5 are needed: an id, x, y and yaw")
     pose = parse_floats(kind, words[2:5], 2)
@@ -101,12 +98,131 @@ def _vertex(kind: str, words: list[bytes]) -> NDArray[np.float64]:
     return pose
 
 
-def _on(vertex: NDArray[np.float64], numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """vertex * robot^-1 * laser, from the poses in the line."""
+def _mount(numbers: Floats) -> Floats:
+    """Return the laser on the robot, robot^-1 * laser, from the poses in a line."""
     laser, robot = numbers[:3], numbers[3:6]
     if np.abs(numbers[:6]).max() >= FURTHEST_M:
         raise Malformed(f"the laser is at {laser.tolist()} and the robot at {robot.tolist()}")
-    turn = vertex[2] - robot[2]
-    dx, dy = laser[:2] - robot[:2]
-    cos, sin = math.cos(turn), math.sin(turn)
-    return np.array([vertex[0] + cos * dx - sin * dy, vertex[1] + sin * dx + cos * dy, turn + laser[2]])
+    return between(robot, laser)
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Measured relative poses.
+
+    Attributes:
+        first, second: the poses that each relates, shape (E,).
+        relative: the second in the frame of the first, shape (E, 3).
+        information: inverse covariance of the measurement in that frame, shape (E, 3, 3).
+
+    Raises:
+        BadInput: shapes that do not fit, or an information matrix that is not positive definite.
+    """
+
+    first: NDArray[np.intp]
+    second: NDArray[np.intp]
+    relative: Floats
+    information: Floats
+
+    def __post_init__(self) -> None:
+        count = len(self.first)
+        shapes = (np.shape(self.second), np.shape(self.relative), np.shape(self.information))
+        if shapes != ((count,), (count, 3), (count, 3, 3)):
+            raise BadInput(f"graph: {count} edges need shapes ({count},), ({count}, 3), ({count}, 3, 3), got {shapes}")
+        if count and not (np.linalg.eigvalsh(self.information) > 0).all():
+            edge = int(np.argmin(np.linalg.eigvalsh(self.information).min(axis=1)))
+            raise BadInput(f"graph: the information matrix of edge {edge} is not positive definite")
+
+
+def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
+    """Write a pose graph, whole or not at all.
+
+    Raises:
+        BadInput: an edge to a pose that is not there, or a file that cannot be written.
+    """
+    count = len(poses_world)
+    ends = np.concatenate([edges.first, edges.second])
+    if len(ends) and (ends.min() < 0 or ends.max() >= count):
+        raise BadInput(f"graph: an edge names pose {ends.max()}, but there are {count}")
+    lines = [f"VERTEX_SE2 {i} {x:.9f} {y:.9f} {yaw:.9f}" for i, (x, y, yaw) in enumerate(poses_world)]
+    upper = np.triu_indices(3)
+    for i, j, relative, information in zip(edges.first, edges.second, edges.relative, edges.information, strict=True):
+        numbers = [f"{v:.9f}" for v in relative] + [f"{v:.17g}" for v in information[upper]]
+        lines.append(f"EDGE_SE2 {i} {j} " + " ".join(numbers))
+    return write_text(path, lines)
+
+
+def chain_edges(trajectory: Trajectory) -> Edges:
+    """Return the graph of a trajectory of which only poses are known: each pose as seen from the one before.
+
+    The covariance of such a step is that of relative poses where it is known, or of the draws. Otherwise it is the sum
+    of both poses' own, as if they were independent, which overstates it.
+
+    Raises:
+        BadInput: a trajectory without draws and without covariances, or of a single pose.
+    """
+    steps = len(trajectory) - 1
+    if steps < 1:
+        raise BadInput("graph: a single pose has no edge")
+    relative = between(trajectory.poses[:-1], trajectory.poses[1:])
+    if trajectory.relative is not None:
+        covariance = trajectory.relative.covariances(np.arange(steps), np.arange(1, steps + 1))
+    elif trajectory.draws is not None and len(trajectory.draws) > 3:
+        drawn = between(trajectory.draws[:, :-1], trajectory.draws[:, 1:])
+        error = between(np.broadcast_to(relative, drawn.shape), drawn)
+        covariance = np.einsum("dsi,dsj->sij", error, error) / (len(drawn) - 1)
+    elif trajectory.covariances is not None:
+        own = _in_own_frame(trajectory.covariances, trajectory.poses)
+        covariance = own[:-1] + own[1:]
+    else:
+        raise BadInput("graph: nothing is known of how sure these poses are; a graph needs covariances or draws")
+    covariance = covariance + 1e-12 * np.eye(3)
+    return Edges(np.arange(steps), np.arange(1, steps + 1), relative, np.asarray(np.linalg.inv(covariance), np.float64))
+
+
+def _in_own_frame(covariances: Floats, poses: Floats) -> Floats:
+    """Turn covariances from world axes to the axes of each pose, (S, 3, 3)."""
+    cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    turn = np.zeros((len(poses), 3, 3))
+    turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1], turn[:, 2, 2] = cos, sin, -sin, cos, 1.0
+    return np.asarray(turn @ covariances @ np.swapaxes(turn, 1, 2))
+
+
+def slam_edges(found: Approximation) -> Edges:
+    """Return the pose graph that `bayesmap.slam` found: key scans that laser or odometry tie, others with their key.
+
+    Informations are the curvatures of the cost, divided by two factors: what makes normal covariances of those of
+    Student's t, and by how much common errors of pairs enlarge covariances, on average. A graph cannot say either.
+    """
+    from bayesmap.poses.se2 import between_jacobians
+
+    gaussian, keys = found.gaussian, found.keys
+    of_student = gaussian.dof / (gaussian.dof - 2.0)
+    values, vectors = np.linalg.eigh(gaussian.curvature / (of_student * _growth(gaussian)))
+    information = (vectors * np.maximum(values, LEAST)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    others = np.setdiff1d(np.arange(len(found)), keys)
+    nearest = keys[found.nearest_key[others]]
+    beside = between(found.poses[nearest], found.poses[others])
+    _, by_other = between_jacobians(beside)
+    own = of_student * by_other @ found.own_covariance[others] @ np.swapaxes(by_other, 1, 2)
+    return Edges(
+        np.concatenate([keys[gaussian.first], nearest]),
+        np.concatenate([keys[gaussian.second], others]),
+        np.concatenate([gaussian.relative, beside]),
+        np.concatenate([information, np.linalg.inv(own + 1e-12 * np.eye(3))]),
+    )
+
+
+def _growth(gaussian: PoseGaussian) -> float:
+    """Return the geometric mean ratio of relative covariances with errors in common to those without."""
+    from bayesmap.poses.precision import relative_covariances
+
+    rng = np.random.default_rng(SEED)
+    first, second = rng.integers(0, len(gaussian.poses), (2, SAMPLED))
+    first, second = first[first != second], second[first != second]
+    if not len(first):
+        return 1.0
+    alone = relative_covariances(gaussian.precision, gaussian.poses, first, second)
+    together = gaussian.relative_covariances(first, second)
+    grown = np.linalg.slogdet(together)[1] - np.linalg.slogdet(alone)[1]
+    return float(np.exp(grown.mean() / 3.0))

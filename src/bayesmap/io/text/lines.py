@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import codecs
+import contextlib
 import os
 import zlib
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bayesmap.errors import BadInput
+from bayesmap.io.log_reading import Account, SkippedLine
 
 GZIP_MAGIC = b"\x1f\x8b"
 GZIP_FORMAT = 16 + zlib.MAX_WBITS
@@ -22,43 +27,62 @@ class DamagedFile(BadInput):
     """A compressed file that breaks off, or whose content is damaged, after the lines read so far."""
 
 
-def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes], None, None]:
-    """The lines of a file with their numbers, counted from 1, without their line ends.
+def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
+    """Return the lines of a file with their numbers, counted from 1, without their line ends.
 
-    Whether the file is gzipped is decided by its first two bytes, not by its name. A byte order mark, which
-    spreadsheets and editors write, is left out; UTF-16 behind one is turned into UTF-8.
+    The first two bytes of a file, not its name, decide whether it is gzipped. A byte order mark, which spreadsheets and
+    editors write, is left out; UTF-16 behind one is turned into UTF-8.
 
     Raises:
         DamagedFile: a damaged or truncated gzip stream, after all the whole lines that could be read.
         BadInput: no such file, no permission, or a line over `MAX_LINE_BYTES`.
     """
-    name, number, rest = os.fspath(path), 0, b""
+    name, last = os.fspath(path), 0
+    chunks = file_chunks(path, lambda: f" after line {last}")
     try:
-        with Path(path).open("rb") as file:
-            for chunk in as_utf8(_chunks(file)):
-                *lines, rest = (rest + chunk).split(b"\n")
-                for line in lines:
-                    number += 1
-                    yield number, line
-                if len(rest) > MAX_LINE_BYTES:
-                    raise BadInput(
-                        f"{name}: line {number + 1} is over {MAX_LINE_BYTES:,} bytes; this is not a text log"
-                    )
+        for number, line in split_lines(name, as_utf8(chunks)):
+            last = number
+            yield number, line
     except UnicodeDecodeError:
-        raise BadInput(f"{name}: after line {number} the text is not UTF-16, as it begins; save it as UTF-8") from None
-    except (EOFError, zlib.error) as error:
-        raise DamagedFile(
-            f"{name}: the gzip file is damaged or cut short after line {number} ({error}); copy it again, "
-            "or read what is there with --skip-bad-lines"
-        ) from None
-    except OSError as error:
-        raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
+        raise BadInput(f"{name}: after line {last} the text is not UTF-16, as it begins; save it as UTF-8") from None
+
+
+def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
+    """Return the lines of a log; those before the damage where the options ask for what is there."""
+    number = 0
+    try:
+        for number, line in read_lines(account.name):
+            yield number, line
+    except DamagedFile:
+        if not account.options.skip_bad_lines:
+            raise
+        account.skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
+
+
+def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
+    """Return the lines of a text that comes in pieces, with their numbers, each as soon as it is whole.
+
+    Raises:
+        BadInput: a line over `MAX_LINE_BYTES`.
+    """
+    number, rest = 0, b""
+    for piece in pieces:
+        *lines, rest = (rest + piece).split(b"\n")
+        for line in lines:
+            number += 1
+            yield number, line
+        if len(rest) > MAX_LINE_BYTES:
+            raise BadInput(f"{name}: line {number + 1} is over {MAX_LINE_BYTES:,} bytes; this is not a text log")
     if rest:
         yield number + 1, rest
 
 
-def file_chunks(path: str | os.PathLike[str]) -> Iterator[bytes]:
+def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) -> Iterator[bytes]:
     """Return the content of a file in pieces, decompressed if it is gzipped.
+
+    Args:
+        path: the file.
+        place: says where in the file reading is, for messages.
 
     Raises:
         DamagedFile: a damaged or truncated gzip stream, after all that could be read.
@@ -70,11 +94,32 @@ def file_chunks(path: str | os.PathLike[str]) -> Iterator[bytes]:
             yield from _chunks(file)
     except (EOFError, zlib.error) as error:
         raise DamagedFile(
-            f"{name}: the gzip file is damaged or cut short ({error}); copy it again, or read what is there with "
-            "--skip-bad-lines"
+            f"{name}: the gzip file is damaged or cut short{place()} ({error}); copy it again, or read what is there "
+            "with --skip-bad-lines"
         ) from None
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
+
+
+def _chunks(file: BinaryIO) -> Iterator[bytes]:
+    """Return the file's content in pieces of bounded size, decompressed."""
+    data = file.read(CHUNK_BYTES)
+    if not data.startswith(GZIP_MAGIC):
+        while data:
+            yield data
+            data = file.read(CHUNK_BYTES)
+        return
+    # Not the gzip module: on a damaged file it would keep back what it has already decompressed.
+    stream = zlib.decompressobj(GZIP_FORMAT)
+    while data or not stream.eof:
+        if not data:
+            raise EOFError("the end of the compressed data is missing")
+        if stream.eof:  # another member follows, as in files joined by cat
+            if not data.startswith(GZIP_MAGIC):
+                raise zlib.error("something follows the compressed data")
+            stream = zlib.decompressobj(GZIP_FORMAT)
+        yield stream.decompress(data, CHUNK_BYTES)
+        data = stream.unconsumed_tail or stream.unused_data or file.read(CHUNK_BYTES)
 
 
 def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
@@ -93,22 +138,45 @@ def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
     yield decoder.decode(b"", final=True).encode()
 
 
-def _chunks(file: BinaryIO) -> Iterator[bytes]:
-    """The file's text in pieces of bounded size, decompressed."""
-    data = file.read(CHUNK_BYTES)
-    if not data.startswith(GZIP_MAGIC):
-        while data:
-            yield data
-            data = file.read(CHUNK_BYTES)
-        return
-    # Not the gzip module: on a damaged file it would keep back what it has already decompressed.
-    stream = zlib.decompressobj(GZIP_FORMAT)
-    while data or not stream.eof:
-        if not data:
-            raise EOFError("the end of the compressed data is missing")
-        if stream.eof:  # another member follows, as in files joined by cat
-            if not data.startswith(GZIP_MAGIC):
-                raise zlib.error("something follows the compressed data")
-            stream = zlib.decompressobj(GZIP_FORMAT)
-        yield stream.decompress(data, CHUNK_BYTES)
-        data = stream.unconsumed_tail or stream.unused_data or file.read(CHUNK_BYTES)
+def numbers_in(words: list[bytes]) -> NDArray[np.float64] | int:
+    """Return words as numbers, (N,), or the index of the first word that is none."""
+    # Python would read 1_0 as ten; no logger writes that.
+    if b"_" not in b"".join(words):
+        with contextlib.suppress(ValueError):
+            return np.array(words, dtype=np.float64)
+    return next((i for i, word in enumerate(words) if not _is_number(word)), 0)
+
+
+def _is_number(word: bytes) -> bool:
+    try:
+        return b"_" not in word and float(word) is not None
+    except ValueError:
+        return False
+
+
+def read_table(path: str | os.PathLike[str], columns: int, form: str, nothing: str) -> NDArray[np.float64]:
+    """Return the numbers of a text file with a number of columns, (N, columns).
+
+    Commas are white space, and # begins a comment.
+
+    Args:
+        path: the file, plain or gzipped.
+        columns: numbers on a line.
+        form: what a line holds, for messages.
+        nothing: the message for a file without such a line.
+
+    Raises:
+        BadInput: a file that cannot be read, is empty, or has another line; the message names the line.
+    """
+    name, rows = os.fspath(path), []
+    for number, line in read_lines(path):
+        words = line.split(b"#", 1)[0].replace(b",", b" ").split()
+        if not words:
+            continue
+        row = numbers_in(words)
+        if isinstance(row, int) or len(row) != columns or not np.isfinite(row).all():
+            raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {form}")
+        rows.append(row)
+    if not rows:
+        raise BadInput(f"{name}: {nothing}")
+    return np.array(rows)

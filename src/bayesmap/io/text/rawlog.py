@@ -22,9 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogReading, Pose, SkippedLine, no_poses
-from bayesmap.io.rep117 import judge
-from bayesmap.io.returns import Views
+from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.io.text.rawlog_objects import (
     BY_ODOMETRY,
@@ -40,142 +38,88 @@ from bayesmap.io.text.rawlog_objects import (
     scan_of,
 )
 from bayesmap.space.planar import compose, interpolate
-from bayesmap.space.scans import Scans, side_by_side
-from bayesmap.space.time_order import SAME_S, time_order
+from bayesmap.space.scans import side_by_side
+from bayesmap.space.time_order import SAME_S
 
 Floats = NDArray[np.float64]
 
 SCAN, MOTION, ODOMETRY = "CObservation2DRangeScan", "CActionRobotMovement2D", "CObservationOdometry"
 COLLECTION = "CActionCollection"
-STEEPEST, LEVEL = math.cos(math.radians(45.0)), math.cos(math.radians(5.0))
 
 
-def is_rawlog(start: bytes) -> bool:
-    """Return whether a stream, decompressed, begins with an object of MRPT's."""
-    return header_at(start, 0) is not None
+def starts_as_rawlog(path: Path) -> bool:
+    """Return whether a file, gzipped or not, begins with an object of MRPT's."""
+    try:
+        return header_at(next(file_chunks(path), b"")[:200], 0) is not None
+    except BadInput:
+        return False
 
 
-def read_rawlog(
-    path: str | os.PathLike[str],
-    *,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    max_range_m: float | None = None,
-    laser: Pose | None = None,
-    without_poses: bool = False,
-) -> LogReading:
-    """Read the scans of a rawlog. The arguments are those of `bayesmap.io.logs.read_log`.
+def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+    """Read the scans of a rawlog.
 
     Raises:
-        BadInput: a file that cannot be read, no scans, no poses (without ``without_poses``), or an object of another
-            version, or a damaged one (without ``skip_bad_lines``); the message names the class.
+        BadInput: a file that cannot be read, no scans, no poses (unless the options need none), or an object of another
+            version, or a damaged one (unless the options skip these); the message names the class.
     """
-    name = os.fspath(path)
-    data, skipped = _content(path, skip_bad_lines)
-    found = _Objects(name, data, skip_bad_lines, skipped)
-    found.scans = [scan for scan in found.scans if len(scan.readings_m)]
-    if not found.scans:
-        held = ", ".join(f"{count:,} {kind}" for kind, count in found.counts.most_common(5))
-        first = f"; the first that cannot be read: {skipped[0].reason}" if skipped else ""
-        raise BadInput(f"{name}: the rawlog has no {SCAN}; it holds {held or 'nothing'}{first}")
-    label = Counter(scan.label for scan in found.scans).most_common(1)[0][0]
-    scans = [scan for scan in found.scans if scan.label == label]
-    notes = list(_about_labels(found.scans, label))
-
+    account = Account(os.fspath(path), "rawlog", options)
+    objects = _Objects(account, _content(account))
+    every = [scan for scan in objects.scans if len(scan.readings_m)]
+    if not every:
+        held = ", ".join(f"{count:,} {kind}" for kind, count in account.counts.most_common(5))
+        bad = f"; the first that cannot be read: {account.skipped[0].reason}" if account.skipped else ""
+        raise BadInput(f"{account.name}: the rawlog has no {SCAN}; it holds {held or 'nothing'}{bad}")
+    (label, _), *others = Counter(scan.label for scan in every).most_common()
+    scans = [scan for scan in every if scan.label == label]
+    account.notes += [
+        f"the log also holds {count:,} scans of the sensor {other!r}, which were not used: {label!r} has more or as "
+        "many"
+        for other, count in others
+    ]
     stamps = np.array([math.nan if scan.stamp_s is None else scan.stamp_s for scan in scans])
     stamped = bool(np.isfinite(stamps).all())
-    robot, inside = found.robot_poses(scans, stamps if stamped else None, notes)
+    robot, inside = objects.robot_poses(scans, stamps if stamped else None)
     posed = robot is not None
     if robot is None:
-        if not without_poses:
-            raise no_poses(name, f"the rawlog has neither {MOTION} nor {ODOMETRY} that can be used")
+        if not options.without_poses:
+            raise account.no_poses(f"the rawlog has neither {MOTION} nor {ODOMETRY} that can be used")
         robot = np.zeros((len(scans), 3))
     scans = [scan for scan, keep in zip(scans, inside, strict=True) if keep]
     if not scans:
-        raise BadInput(f"{name}: no scan lies within the time of {ODOMETRY}; bayesmap slam --no-odometry needs none")
+        raise BadInput(
+            f"{account.name}: no scan lies within the time of {ODOMETRY}; bayesmap slam --no-odometry needs none"
+        )
     robot, stamps = robot[inside], stamps[inside]
-
-    mounts = np.array([scan.mount for scan in scans]) if laser is None else np.array(laser)
-    sign = _which_way_up(name, scans, notes)
-    poses = compose(robot, mounts) if posed else robot
-    timed = time_order(stamps) if stamped else None
-    order = np.arange(len(scans)) if timed is None else timed.order
+    mounts = np.array([options.laser or scan.mount for scan in scans])
+    sign = account.which_way_up(np.array([scan.upright for scan in scans]), f"the sensor {label!r}")
+    order = account.in_time_order(stamps if stamped else None, len(scans))
+    poses = (compose(robot, mounts) if posed else robot)[order]
     angles, readings = side_by_side([sign * s.angles_rad for s in scans], [s.readings_m for s in scans])
     angles = angles[0] if (angles == angles[0]).all() else angles[order]
     limit = Counter(scan.max_range_m for scan in scans).most_common(1)[0][0]
-    judged = judge(
-        name, readings[order], 0.0, limit, no_return=no_return, max_range_m=max_range_m,
-        views=Views.of(poses[order], angles),
-    )  # fmt: skip
-    result = Scans(
-        poses[order], angles, judged.ranges_m, judged.max_range_m, judged.min_range_m,
-        stamps_s=None if timed is None else timed.stamps_s,
-    )  # fmt: skip
-    x, y, yaw = (float(v) for v in np.median(np.atleast_2d(mounts), axis=0))
-    return LogReading(
-        path=name,
-        format="rawlog",
-        message=SCAN,
-        scans=result.limited(judged.max_range_m),
-        messages=dict(found.counts),
-        skipped=tuple(skipped),
-        no_return=judged.no_return,
-        max_range_origin=judged.max_range_origin,
-        laser_offset=laser or (x, y, yaw),
-        reordered=0 if timed is None else timed.reordered,
-        notes=(*notes, *judged.notes, *(() if timed is None else timed.notes(stamps))),
-        pose_source=found.source if posed else None,
-        posed=posed,
-    )
+    typed = account.classify(readings[order], (0.0, limit), poses, angles)
+    x, y, yaw = (float(v) for v in np.median(mounts, axis=0))
+    source = objects.source if posed else None
+    return account.reading(SCAN, poses, angles, typed, mount=(x, y, yaw), pose_source=source, posed=posed)
 
 
-def _content(path: str | os.PathLike[str], lenient: bool) -> tuple[bytes, list[SkippedLine]]:
-    """The decompressed content, as far as it can be read."""
+def _content(account: Account) -> bytes:
+    """Return the decompressed content, as far as it can be read."""
     pieces: list[bytes] = []
-    skipped = []
     try:
-        pieces.extend(file_chunks(path))
+        pieces.extend(file_chunks(account.name))
     except BadInput as problem:
-        if not (lenient and pieces):
+        if not (account.options.skip_bad_lines and pieces):
             raise
-        skipped.append(SkippedLine(0, str(problem), "object"))
-    return b"".join(pieces), skipped
-
-
-def _about_labels(scans: list[RawScan], used: str) -> list[str]:
-    counts = Counter(scan.label for scan in scans)
-    return [
-        f"the log also holds {count:,} scans of the sensor {label!r}, which were not used: {used!r} has more or as many"
-        for label, count in counts.items()
-        if label != used
-    ]
-
-
-def _which_way_up(name: str, scans: list[RawScan], notes: list[str]) -> float:
-    """1 for an upright sensor, -1 for one upside down.
-
-    Raises:
-        BadInput: one that does not scan the plane, or that is turned over on the way.
-    """
-    heights = np.array([scan.upright for scan in scans])
-    if (np.abs(heights) < STEEPEST).any():
-        raise BadInput(
-            f"{name}: the sensor {scans[0].label!r} is tilted by over 45 degrees: it does not scan the plane"
-        )
-    if (heights > 0).any() and (heights < 0).any():
-        raise BadInput(f"{name}: the sensor {scans[0].label!r} is upright in some scans and upside down in others")
-    if np.abs(heights).min() < LEVEL:
-        notes.append(f"the sensor {scans[0].label!r} is tilted by over 5 degrees; its beams were taken as level")
-    if heights[0] < 0:
-        notes.append(f"the sensor {scans[0].label!r} is mounted upside down; its beams sweep the other way")
-    return float(np.sign(heights[0]))
+        account.skipped.append(SkippedLine(0, str(problem), "object"))
+    return b"".join(pieces)
 
 
 class _Objects:
     """The objects of a log that are read."""
 
-    def __init__(self, name: str, data: bytes, lenient: bool, skipped: list[SkippedLine]) -> None:
-        self.counts: Counter[str] = Counter()
+    def __init__(self, account: Account, data: bytes) -> None:
+        self.account = account
         self.scans: list[RawScan] = []
         self.odometry: dict[str, list[tuple[float, Floats]]] = {}
         self.source: str | None = None
@@ -186,17 +130,16 @@ class _Objects:
             header = header_of(data, match)
             if header is None or header.data <= self.read_until or header.name.startswith("CPose"):
                 continue
-            self.counts[header.name] += 1
+            account.counts[header.name] += 1
             try:
                 self._take(Reader(data, header.data), header)
             except (Unknown, struct.error) as problem:
                 reason = str(problem) if isinstance(problem, Unknown) else "is cut short"
-                told = (
-                    f"{header.name} (object {self.counts[header.name]} of its class, version {header.version}) {reason}"
-                )
-                if not lenient:
-                    raise BadInput(f"{name}: {told}; leave such objects out with --skip-bad-lines") from None
-                skipped.append(SkippedLine(self.counts[header.name], told, f"{header.name} in the log"))
+                number = account.counts[header.name]
+                told = f"{header.name} (object {number} of its class, version {header.version}) {reason}"
+                if not account.options.skip_bad_lines:
+                    raise BadInput(f"{account.name}: {told}; leave such objects out with --skip-bad-lines") from None
+                account.skipped.append(SkippedLine(number, told, f"{header.name} in the log"))
 
     def _take(self, reader: Reader, header: Header) -> None:
         if header.name == SCAN:
@@ -219,10 +162,8 @@ class _Objects:
             return
         self.read_until = reader.at
 
-    def robot_poses(
-        self, scans: list[RawScan], stamps_s: Floats | None, notes: list[str]
-    ) -> tuple[Floats | None, NDArray[np.bool_]]:
-        """Where the robot was at each scan, (S, 3), and at which that is known, (S,); None if nothing says so."""
+    def robot_poses(self, scans: list[RawScan], stamps_s: Floats | None) -> tuple[Floats | None, NDArray[np.bool_]]:
+        """Return where the robot was at each scan, (S, 3), or None, and for which scans that is known, (S,)."""
         everywhere = np.ones(len(scans), np.bool_)
         if any(self.collections):
             self.source = MOTION
@@ -239,7 +180,7 @@ class _Objects:
         times, poses = np.array([t for t, _ in told]), np.array([pose for _, pose in told])
         inside = (stamps_s >= times[0]) & (stamps_s <= times[-1])
         if not inside.all():
-            notes.append(
+            self.account.notes.append(
                 f"{int((~inside).sum()):,} scans were left out: {ODOMETRY} is known from {times[0]:.3f} to "
                 f"{times[-1]:.3f} s"
             )
@@ -248,13 +189,3 @@ class _Objects:
             if scan.odometry is not None and len(self.odometry) == 1:
                 pose[:] = scan.odometry  # stamps that repeat cannot tell which is meant; the order of the log does
         return result, inside
-
-
-def starts_as_rawlog(path: Path) -> bool:
-    """Return whether a file, gzipped or not, begins as a rawlog."""
-    try:
-        for piece in file_chunks(path):
-            return is_rawlog(piece[:200])
-    except BadInput:
-        pass
-    return False

@@ -1,4 +1,4 @@
-"""Writing true relations between poses.
+"""True relations between poses, read and written.
 
 The format is that of Kuemmerle et al. (2009), "On measuring the accuracy of SLAM algorithms": a line each,
 
@@ -10,7 +10,6 @@ are 0.
 
 from __future__ import annotations
 
-import gzip
 import os
 from pathlib import Path
 
@@ -18,7 +17,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_whole
+from bayesmap.files import write_text
+from bayesmap.io.text.lines import read_table
+from bayesmap.poses.relations import Relations
+
+
+def read_relations(path: str | os.PathLike[str]) -> Relations:
+    """Read a file of relations, plain or gzipped; # begins a comment.
+
+    Raises:
+        BadInput: a file that cannot be read, or a line that is not eight finite numbers; the message names the line.
+    """
+    table = read_table(path, 8, "t1 t2 x y z roll pitch yaw", "no relations in it")
+    return Relations(table[:, 0], table[:, 1], table[:, [2, 3, 7]])
 
 
 def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:
@@ -38,12 +49,10 @@ def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: 
         raise BadInput(
             f"relations: got stamps {starts.shape} and {ends.shape} and poses {poses.shape}, (N,) and (N, 3)"
         )
-    target = Path(path)
-    lines = [
-        f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}"
-        for i, j, (x, y, yaw) in zip(starts, ends, poses, strict=True)
-    ]
-    content = ("\n".join(lines) + "\n").encode("ascii")
-    with write_whole(target) as partial:
-        partial.write_bytes(gzip.compress(content, mtime=0) if target.suffix == ".gz" else content)
-    return target
+    return write_text(
+        path,
+        (
+            f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}"
+            for i, j, (x, y, yaw) in zip(starts, ends, poses, strict=True)
+        ),
+    )

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_whole
-from bayesmap.io.text.lines import read_lines
+from bayesmap.files import write_text
+from bayesmap.io.text.lines import read_table
 from bayesmap.space.scans import as_poses
 from bayesmap.space.trajectory import Trajectory
 
@@ -26,15 +26,12 @@ UPRIGHT = 0.1
 
 
 def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write poses as a TUM trajectory, whole or not at all.
+    """Write poses as a TUM trajectory, whole or not at all. Returns the path.
 
     Args:
         path: the file to write.
         poses_world: x, y in metres and yaw in radians, shape (S, 3).
         stamps_s: time of each pose in seconds, shape (S,); 0, 1, 2 and so on if None.
-
-    Returns:
-        The path.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, no pose, or a file that cannot be written.
@@ -42,31 +39,24 @@ def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamp
     poses = as_poses(poses_world)
     if len(poses) == 0:
         raise BadInput("trajectory: there is no pose to write")
-    stamps = np.arange(len(poses), dtype=np.float64) if stamps_s is None else np.asarray(stamps_s, dtype=np.float64)
-    if stamps.shape != (len(poses),) or not np.isfinite(stamps).all():
-        raise BadInput(f"trajectory: give one finite stamp a pose, ({len(poses)},), got shape {stamps.shape}")
-    half_yaw = poses[:, 2] / 2
+    stamps, half_yaw = _stamps(stamps_s, len(poses)), poses[:, 2] / 2
     what = "scan number (the scans have no stamps)" if stamps_s is None else "timestamp"
-    lines = [f"# {what} tx ty tz qx qy qz qw"]
     # Nine decimals: nanoseconds of a stamp, and more than any sensor knows of a pose.
-    lines += [
+    rows = (
         f"{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
         for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
-    ]
-    target = Path(path)
-    with write_whole(target) as partial:
-        partial.write_text("\n".join(lines) + "\n", encoding="ascii")
-    return target
+    )
+    return write_text(path, [f"# {what} tx ty tz qx qy qz qw", *rows])
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
-    """Where the covariances of a trajectory lie: ``walk.tum`` has ``walk-covariances.txt`` beside it."""
+    """Return where the covariances of a trajectory lie: ``walk.tum`` has ``walk-covariances.txt`` beside it."""
     target = Path(path)
     return target.with_name(f"{target.stem}-covariances.txt")
 
 
 def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write the covariances of a trajectory's poses, whole or not at all.
+    """Write the covariances of a trajectory's poses, whole or not at all. Returns the path.
 
     Args:
         path: the file to write.
@@ -79,16 +69,16 @@ def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stam
     values = np.asarray(covariances, dtype=np.float64)
     if values.ndim != 3 or values.shape[1:] != (3, 3) or len(values) == 0 or not np.isfinite(values).all():
         raise BadInput(f"trajectory: covariances must be finite, (S, 3, 3), got shape {values.shape}")
-    stamps = np.arange(len(values), dtype=np.float64) if stamps_s is None else np.asarray(stamps_s, dtype=np.float64)
-    if stamps.shape != (len(values),) or not np.isfinite(stamps).all():
-        raise BadInput(f"trajectory: give one finite stamp a pose, ({len(values)},), got shape {stamps.shape}")
-    upper = values[:, *np.triu_indices(3)]
-    lines = ["# timestamp xx xy xyaw yy yyaw yawyaw"]
-    lines += [f"{stamp:.9f} " + " ".join(f"{v:.9e}" for v in row) for stamp, row in zip(stamps, upper, strict=True)]
-    target = Path(path)
-    with write_whole(target) as partial:
-        partial.write_text("\n".join(lines) + "\n", encoding="ascii")
-    return target
+    rows = zip(_stamps(stamps_s, len(values)), values[:, *np.triu_indices(3)], strict=True)
+    lines = (f"{stamp:.9f} " + " ".join(f"{v:.9e}" for v in row) for stamp, row in rows)
+    return write_text(path, ["# timestamp xx xy xyaw yy yyaw yawyaw", *lines])
+
+
+def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
+    stamps = np.arange(count, dtype=np.float64) if stamps_s is None else np.asarray(stamps_s, dtype=np.float64)
+    if stamps.shape != (count,) or not np.isfinite(stamps).all():
+        raise BadInput(f"trajectory: give one finite stamp a pose, ({count},), got shape {stamps.shape}")
+    return stamps
 
 
 def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
@@ -98,8 +88,8 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
         BadInput: a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the plane,
             or covariances of another trajectory; the message names the line.
     """
-    name = os.fspath(path)
-    rows = _rows(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?")
+    name, nothing = os.fspath(path), "there is no pose in it"
+    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", nothing)
     quaternion = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
     tilted = np.hypot(quaternion[:, 0], quaternion[:, 1]) > UPRIGHT
     if tilted.any():
@@ -109,30 +99,8 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     order = np.argsort(rows[:, 0], kind="stable")
     covariances, beside = None, covariances_path(path)
     if beside.is_file():
-        table = _rows(os.fspath(beside), 7, "timestamp xx xy xyaw yy yyaw yawyaw")
+        table = read_table(beside, 7, "timestamp xx xy xyaw yy yyaw yawyaw", nothing)
         if len(table) != len(rows) or np.abs(table[:, 0] - rows[:, 0]).max() > 1e-6:
             raise BadInput(f"{beside}: its stamps are not those of {name}; delete it, or write both anew")
-        covariances = np.empty((len(rows), 3, 3))
-        covariances[:, *np.triu_indices(3)] = table[:, 1:]
-        covariances[:, *np.tril_indices(3)] = np.swapaxes(covariances, 1, 2)[:, *np.tril_indices(3)]
-        covariances = covariances[order]
+        covariances = table[order][:, [1, 2, 3, 2, 4, 5, 3, 5, 6]].reshape(-1, 3, 3)
     return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances)
-
-
-def _rows(name: str, columns: int, form: str) -> NDArray[np.float64]:
-    """The numbers of a text file with so many columns; comments and blank lines are left out."""
-    rows = []
-    for number, line in read_lines(name):
-        words = line.replace(b",", b" ").split()
-        if not words or words[0].startswith(b"#"):
-            continue
-        try:
-            row = [float(word) for word in words]
-        except ValueError:
-            row = []
-        if len(row) != columns or not np.isfinite(row).all():
-            raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {form}")
-        rows.append(row)
-    if not rows:
-        raise BadInput(f"{name}: there is no pose in it")
-    return np.array(rows)

@@ -1,0 +1,182 @@
+"""Scans of a log that is still being written, one after the other: CARMEN lines, or CSV with one row a scan.
+
+Some things that `bayesmap.read_log` finds by looking at the whole log have to be known beforehand: the scans come in
+the order of the lines, those of the first kind of laser message are taken, and no return is only the number that is
+given or stated, beside what exceeds the largest range.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import select
+import stat
+import time
+from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
+
+import numpy as np
+
+from bayesmap.errors import BadInput
+from bayesmap.io.log_reading import Account, LogOptions, Pose
+from bayesmap.io.logs import LINES_LOOKED_AT, format_of
+from bayesmap.io.returns import decode
+from bayesmap.io.text.carmen import KNOWN, LASERS, Malformed, message_name, parse_laser
+from bayesmap.io.text.csv import Bad, is_header, live_rows
+from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
+from bayesmap.io.text.lines import GZIP_MAGIC, as_utf8, split_lines
+from bayesmap.space.scans import Scans
+
+STANDARD_INPUT = ("-", "/dev/stdin")
+LOOK_EVERY_S = 0.05
+"""How often a file is looked at that has not grown."""
+CHUNK_BYTES = 1 << 16
+
+
+def can_be_followed(name: str) -> bool:
+    """Return whether a log's scans can be read while it is written: a text, a pipe, or standard input.
+
+    Raises:
+        BadInput: a file that cannot be read, or of no known format.
+    """
+    if name in STANDARD_INPUT:
+        return True
+    try:
+        status = os.stat(name)
+        if stat.S_ISFIFO(status.st_mode) or stat.S_ISCHR(status.st_mode):
+            return True
+        if stat.S_ISREG(status.st_mode):
+            if status.st_size == 0:
+                return True
+            with open(name, "rb") as file:
+                if file.read(len(GZIP_MAGIC)) == GZIP_MAGIC:
+                    return False
+    except OSError as error:
+        raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
+    return format_of(name) in ("carmen", "csv")
+
+
+def live_scans(
+    name: str,
+    *,
+    max_range_m: float,
+    no_return: float | None = None,
+    skip_bad_lines: bool = False,
+    idle_s: float | None = None,
+    on_skipped: Callable[[int, str], None] = lambda line, reason: None,
+    laser: Pose | None = None,
+    without_poses: bool = False,
+) -> Iterator[Scans]:
+    """Return the scans of a log as it is written, one at a time.
+
+    Args:
+        name: a text that `live_lines` reads.
+        max_range_m: the sensor's largest range; longer readings are no return.
+        no_return: what the log writes for no return, if that is less.
+        skip_bad_lines: leave out malformed lines instead of ending with an error.
+        idle_s: end when nothing has come for so long.
+        on_skipped: told of lines that are left out.
+        laser: where the laser is on the robot, instead of what the log says.
+        without_poses: take tables without poses, too.
+
+    Raises:
+        BadInput: it cannot be read, is of another format, or has a malformed line.
+    """
+    options = LogOptions(
+        no_return, skip_bad_lines, max_range_m=max_range_m, laser=laser, without_poses=without_poses
+    )  # fmt: skip
+    account = Account(name, "", options)
+
+    def bad(line: int, reason: str) -> None:
+        account.bad(line, reason)
+        on_skipped(line, reason)
+
+    lines = live_lines(name, idle_s)
+    before: list[tuple[int, bytes]] = []
+    for number, line in lines:
+        before.append((number, line))
+        words = line.split(None, 1)
+        if words and words[0] in {known.encode() for known in KNOWN}:
+            yield from _of_carmen(chain(before, lines), bad, options)
+            return
+        if is_header(line):
+            yield from live_rows(name, chain(before, lines), bad, options)
+            return
+        if number >= LINES_LOOKED_AT or b"\0" in line or (words and words[0] in KNOWN_G2O):
+            break
+    if before:
+        raise BadInput(f"{name}: only CARMEN logs and CSV tables can be followed, and these lines are of neither")
+
+
+def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
+    """Return scans of the first kind of laser message that comes, each with its own beams, if it has readings."""
+    kind, limit_m = "", options.max_range_m
+    assert limit_m is not None
+    for number, line in lines:
+        try:
+            name = message_name(line)
+            if name not in LASERS or name != (kind or name):
+                continue
+            scan = parse_laser(name, line.split())
+        except Malformed as problem:
+            bad(number, str(problem))
+            continue
+        kind = name
+        if not scan.fan.beams:
+            continue
+        stated = math.inf if scan.max_range_m is None else scan.max_range_m
+        ranges, _ = decode(scan.readings_m[None], stated if options.no_return is None else options.no_return)
+        ranges[ranges > limit_m] = np.inf
+        pose = scan.pose(options.laser)
+        yield Scans(pose[None], scan.fan.angles_rad(), ranges, limit_m, stamps_s=scan.numbers[None, 6])
+
+
+def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, bytes]]:
+    """Return the lines of a file, pipe or standard input with their numbers, from 1, as soon as each is whole.
+
+    A pipe and standard input end when nobody writes to them any more. A file never ends: what is added to it comes,
+    until the caller stops.
+
+    Args:
+        name: of the file or pipe; "-" is standard input.
+        idle_s: end, too, when nothing has come for so long; then what stands after the last line end is a line.
+
+    Raises:
+        BadInput: it cannot be read, was cut short, or has a line that is too long.
+    """
+    return split_lines(name, as_utf8(_pieces(name, idle_s)))
+
+
+def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
+    standard_input = name in STANDARD_INPUT
+    try:
+        descriptor = 0 if standard_input else os.open(name, os.O_RDONLY)
+        try:
+            grows = not standard_input and stat.S_ISREG(os.fstat(descriptor).st_mode)
+            yield from _of_file(name, descriptor, idle_s) if grows else _of_pipe(descriptor, idle_s)
+        finally:
+            if not standard_input:
+                os.close(descriptor)
+    except OSError as error:
+        raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
+
+
+def _of_pipe(descriptor: int, idle_s: float | None) -> Iterator[bytes]:
+    while select.select([descriptor], [], [], idle_s)[0] and (piece := os.read(descriptor, CHUNK_BYTES)):
+        yield piece
+
+
+def _of_file(name: str, descriptor: int, idle_s: float | None) -> Iterator[bytes]:
+    read_bytes, last = 0, time.monotonic()
+    while True:
+        piece = os.read(descriptor, CHUNK_BYTES)
+        if piece:
+            read_bytes += len(piece)
+            yield piece
+            last = time.monotonic()  # how long the caller took does not count
+            continue
+        if os.fstat(descriptor).st_size < read_bytes:
+            raise BadInput(f"{name}: was cut short while it was followed")
+        if idle_s is not None and time.monotonic() - last >= idle_s:
+            return
+        time.sleep(LOOK_EVERY_S if idle_s is None else min(LOOK_EVERY_S, idle_s))

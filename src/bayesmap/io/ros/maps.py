@@ -1,0 +1,362 @@
+"""Maps as ROS counts them: occupancy grids in per cent, and the files of map_server and nav2, read and written.
+
+Three conventions meet here; everything returned is indexed ``[x, y]`` with y up:
+
+| source                        | first index | its first entry is |
+|-------------------------------|-------------|--------------------|
+| image                         | row         | the top            |
+| map_server image (PGM)        | row         | the top            |
+| `nav_msgs/OccupancyGrid` data | row         | the *bottom*       |
+
+**Per cent.** Occupancy is 0 to 100, and -1 is unknown. The three modes of map_server, by what it publishes of a
+probability p that was saved in them:
+
+    trinary: p > occupied_thresh -> 100; p < free_thresh -> 0; otherwise -1
+    scale:   the same at both ends; between, round(100 (p - free_thresh) / (occupied_thresh - free_thresh))
+    raw:     round(100 p), whatever the thresholds
+
+**Files.** A map is a flat YAML file beside an image. nav2 decodes the image by ``occ = 1 - grey / 255`` (``grey / 255``
+if ``negate``), which it takes for p in trinary and scale; in raw the grey itself is the per cent if it is 0 to 100, and
+otherwise unknown. In scale, a pixel that is not opaque is unknown. (nav2 from 2025 on takes ``>=`` and ``<=`` in the
+first two, and a pixel that is not opaque is unknown in trinary maps too; what is written here means the same to both.)
+Two consequences, where map_saver itself loses information:
+
+- Unknown is written as grey 205, that is occ = 0.19608; a file that also says ``free_thresh: 0.25`` reads it as free.
+  Trinary files therefore say 0.196, whatever threshold made the cells free.
+- A PGM has no transparency. A scaled map with unknown cells is written as PNG; every other map as PGM.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import yaml
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.files import write_whole
+from bayesmap.io.image import ImageLike, brightness, upright
+from bayesmap.space.cell_arrays import as_observed, as_probabilities
+from bayesmap.space.grid import Grid
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+MODES = ("trinary", "scale", "raw")
+THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}
+"""Occupied and free thresholds where none are given."""
+
+OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
+RAW_UNKNOWN_GREY = 255
+TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
+"""Occupied and free thresholds by which nav2 tells the three greys apart."""
+
+
+def check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
+    """Refuse thresholds that are out of order.
+
+    Raises:
+        BadInput: not 0 <= free_thresh < occupied_thresh <= 1.
+    """
+    if not (0 <= free_thresh < occupied_thresh <= 1):
+        raise BadInput(
+            "map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, "
+            f"got free_thresh {free_thresh!r} and occupied_thresh {occupied_thresh!r}"
+        )
+
+
+def thresholds_of(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
+    """Return the thresholds that hold, those given or the mode's own.
+
+    Raises:
+        BadInput: an unknown mode, or thresholds out of order.
+    """
+    if mode not in MODES:
+        raise BadInput(f"map: mode {mode!r} is not known; use one of {', '.join(MODES)}")
+    occupied, free = THRESHOLDS[mode]
+    occupied = occupied if occupied_thresh is None else float(occupied_thresh)
+    free = free if free_thresh is None else float(free_thresh)
+    check_thresholds(occupied, free)
+    return occupied, free
+
+
+def in_percent(
+    occupancy: ArrayLike,
+    grid: Grid,
+    observed: ArrayLike | None = None,
+    *,
+    mode: str = "scale",
+    occupied_thresh: float | None = None,
+    free_thresh: float | None = None,
+) -> NDArray[np.int8]:
+    """Return the occupancy of every cell in per cent, shape (nx, ny), -1 where unknown.
+
+    Args:
+        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
+        grid: the grid of the map.
+        observed: cells that some beam reached, shape (nx, ny); all by default.
+        mode: trinary, scale or raw, as above.
+        occupied_thresh: 0.65 for trinary, 1 for scale.
+        free_thresh: 0.25 for trinary, 0 for scale.
+
+    Raises:
+        BadInput: shapes that do not fit, probabilities outside [0, 1], an unknown mode, thresholds out of order.
+    """
+    occupied, free = thresholds_of(mode, occupied_thresh, free_thresh)
+    p = as_probabilities(grid, occupancy, "occupancy", unknown=True)
+    p = np.where(as_observed(grid, observed), p, np.nan)
+    percent = np.rint(100 * p) if mode == "raw" else _by_thresholds(p, mode, occupied, free)
+    return np.where(np.isnan(percent), -1, percent).astype(np.int8)
+
+
+def _by_thresholds(p: NDArray[np.float64], mode: str, occupied: float, free: float) -> NDArray[np.float64]:
+    """Return probabilities in per cent as map_server's trinary and scale modes do, NaN where unknown."""
+    if mode == "scale":
+        return np.asarray(np.rint(100 * (np.clip(p, free, occupied) - free) / (occupied - free)))
+    return np.select([p > occupied, p < free], [100.0, 0.0], np.nan)
+
+
+def write_map(
+    path_yaml: str | os.PathLike[str],
+    occupancy: ArrayLike,
+    grid: Grid,
+    observed: ArrayLike | None = None,
+    *,
+    mode: str = "trinary",
+    occupied_thresh: float | None = None,
+    free_thresh: float | None = None,
+) -> tuple[Path, Path]:
+    """Write a map for nav2's map_server: the YAML file, and an image beside it of the same name.
+
+    Each file is written whole or not at all; the image comes first, so that a YAML file always has its image.
+
+    Args:
+        path_yaml: the YAML file to write; the image gets its name with the suffix .pgm or .png.
+        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
+        grid: the grid of the map.
+        observed: cells that some beam reached, shape (nx, ny); the others are written as unknown. All by
+            default.
+        mode: ``"trinary"``: occupied above ``occupied_thresh``, free below ``free_thresh``, unknown between;
+            ``"scale"``: nav2 reads the probability in per cent; or ``"raw"``: the same, and the greys are the
+            per cents themselves, so that no rounding of greys comes between (an image viewer shows them nearly black).
+        occupied_thresh: 0.65 for trinary. For scale 1: nav2 reads all above as 100. No effect in raw.
+        free_thresh: 0.25 for trinary. For scale 0: nav2 reads all below as 0. No effect in raw.
+
+    Returns:
+        Paths of the YAML file and of the image.
+
+    Raises:
+        BadInput: shapes that do not fit the grid, probabilities outside [0, 1], an unknown mode, thresholds
+            out of order, a path whose suffix is not .yaml or .yml.
+        OSError: the folder cannot be written.
+    """
+    from PIL import Image
+
+    target = Path(path_yaml)
+    if target.suffix not in (".yaml", ".yml"):
+        raise BadInput(f"map {target}: the name must end in .yaml; the image is named after it")
+    occupied, free = thresholds_of(mode, occupied_thresh, free_thresh)
+    percent = in_percent(occupancy, grid, observed, mode=mode, occupied_thresh=occupied, free_thresh=free)
+    known = ~np.isnan(np.asarray(occupancy, dtype=np.float64)) & as_observed(grid, observed)
+
+    if mode == "trinary":
+        cells = np.select([percent == 100, percent == 0], [OCCUPIED_GREY, FREE_GREY], UNKNOWN_GREY)
+        occupied, free = TRINARY_FILE_THRESHOLDS
+    elif mode == "raw":
+        cells = np.where(known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
+    else:
+        # Not from the per cents: 256 greys are finer, for readers that look at the greys.
+        cells = np.rint(255 * (1 - np.where(known, np.asarray(occupancy, dtype=np.float64), 0.5)))
+    rows = np.ascontiguousarray(cells.T[::-1].astype(np.uint8))
+    if mode != "scale" or known.all():
+        image, suffix = Image.fromarray(rows), ".pgm"
+    else:
+        opacity = np.where(known, 255, 0).astype(np.uint8).T[::-1]
+        image, suffix = Image.fromarray(np.dstack([rows, opacity])), ".png"
+
+    path_image = target.with_suffix(suffix)
+    with write_whole(path_image) as temporary:
+        image.save(temporary)
+    x, y = grid.origin
+    entries = {
+        "image": path_image.name, "mode": mode, "resolution": float(grid.resolution),
+        "origin": [float(x), float(y), 0], "negate": 0, "occupied_thresh": float(occupied), "free_thresh": float(free),
+    }  # fmt: skip
+    with write_whole(target) as temporary:
+        text = yaml.safe_dump(entries, sort_keys=False, default_flow_style=None, allow_unicode=True)
+        temporary.write_text(text, encoding="utf-8")
+    return target, path_image
+
+
+def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Grid]:
+    """Read a map as nav2's map_server does.
+
+    Args:
+        path_yaml: the YAML file; the image's path in it is relative to it.
+
+    Returns:
+        Occupancy, shape (nx, ny), in steps of 0.01, NaN where unknown; and the grid.
+
+    Raises:
+        BadInput: a file that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
+    """
+    path = Path(path_yaml)
+    entries = _read_entries(path)
+    resolution = _entry_number(path, entries, "resolution")
+    negate = _entry_number(path, entries, "negate", 0) != 0
+    occupied = _entry_number(path, entries, "occupied_thresh", 0.65)
+    free = _entry_number(path, entries, "free_thresh", 0.196)
+    mode = str(entries.get("mode", "trinary"))
+    check_thresholds(occupied, free)
+    grey, opaque = _read_image(path.parent / str(_entry(path, entries, "image")), with_alpha=mode == "trinary")
+    if mode not in MODES:
+        raise BadInput(f"{path}: mode {mode!r} is not known; map_server has trinary, scale and raw")
+    if mode == "raw":
+        cells = np.rint(255 * grey)
+        cells[cells > 100] = np.nan
+    else:
+        cells = _by_thresholds(grey if negate else 1 - grey, mode, occupied, free)
+        cells[~opaque & (mode == "scale")] = np.nan
+    grid = Grid(shape=(cells.shape[1], cells.shape[0]), resolution=resolution, origin=_origin(path, entries))
+    return upright(cells) / 100, grid
+
+
+def from_map_image(
+    image: ImageLike | Image,
+    resolution: float,
+    origin: tuple[float, float] = (0.0, 0.0),
+    *,
+    negate: bool = False,
+    occupied_thresh: float = 0.65,
+    free_thresh: float = 0.25,
+    unknown_is_wall: bool = False,
+) -> tuple[NDArray[np.bool_], Grid]:
+    """Return walls and grid of a map_server image, by map_server's trinary rule.
+
+    Args:
+        image: as for `bayesmap.io.image.from_image`; row 0 is the top.
+        resolution: metres per pixel.
+        origin: world position in metres of the image's lower-left corner.
+        negate: white is occupied and black is free, instead of the other way round.
+        occupied_thresh: darker than this, on a scale from 0 (white) to 1 (black), is occupied.
+        free_thresh: lighter than this is free; what lies between is unknown.
+        unknown_is_wall: what to make of unknown cells.
+
+    Returns:
+        Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
+
+    Raises:
+        BadInput: as `bayesmap.io.image.from_image`, or thresholds that are not 0 <= free_thresh < occupied_thresh <= 1.
+    """
+    check_thresholds(occupied_thresh, free_thresh)
+    shade = brightness(image)
+    cells = _by_thresholds(shade if negate else 1.0 - shade, "trinary", occupied_thresh, free_thresh)
+    cells = np.where(np.isnan(cells), -1, cells)
+    return from_occupancy(cells[::-1], resolution, origin, unknown_is_wall=unknown_is_wall)
+
+
+def from_occupancy(
+    cells: ArrayLike,
+    resolution: float,
+    origin: tuple[float, float] = (0.0, 0.0),
+    *,
+    threshold: float = 50,
+    unknown_is_wall: bool = False,
+) -> tuple[NDArray[np.bool_], Grid]:
+    """Return walls and grid of a ROS occupancy grid.
+
+    Args:
+        cells: shape (height, width), values 0 (free) to 100 (occupied), -1 unknown; row 0 is the *bottom*, as
+            in ``nav_msgs/OccupancyGrid``: ``np.reshape(msg.data, (msg.info.height, msg.info.width))``.
+        resolution: metres per cell.
+        origin: world position in metres of the lower-left corner.
+        threshold: cells above this are walls.
+        unknown_is_wall: what to make of unknown cells.
+
+    Returns:
+        Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
+
+    Raises:
+        BadInput: another shape, or a value outside -1..100; the message names the cell.
+    """
+    try:
+        array = np.asarray(cells, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"occupancy: cells must be an array of numbers: {error}") from None
+    if array.ndim != 2 or array.size == 0:
+        raise BadInput(
+            f"occupancy: cells have shape {array.shape}, expected (height, width); "
+            "reshape the data of a message by its info.height and info.width"
+        )
+    bad = ~((array == -1) | ((array >= 0) & (array <= 100)))
+    if bad.any():
+        row, column = (int(k) for k in np.argwhere(bad)[0])
+        raise BadInput(
+            f"occupancy: row {row}, column {column} is {array[row, column]:g}; "
+            "expected 0 (free) to 100 (occupied), or -1 (unknown)"
+        )
+    walls = np.where(array == -1, unknown_is_wall, array > threshold)
+    grid = Grid(shape=(array.shape[1], array.shape[0]), resolution=resolution, origin=origin)
+    return np.ascontiguousarray(walls.T), grid
+
+
+def _read_image(path: Path, with_alpha: bool) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the brightness of each pixel, and whether it is opaque, row 0 the top."""
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            if not image.has_transparency_data:
+                grey = brightness(image)
+                return grey, np.ones(grey.shape, dtype=bool)
+            rgba = np.asarray(image.convert("RGBA"), dtype=np.float64) / 255
+    except (OSError, Image.DecompressionBombError) as error:
+        raise BadInput(f"{path}: cannot be read as an image: {error}") from None
+    # In trinary mode map_server averages opacity in with the colours, as a fourth channel.
+    return rgba[..., : 4 if with_alpha else 3].mean(axis=2), rgba[..., 3] == 1
+
+
+def _read_entries(path: Path) -> dict[str, Any]:
+    try:
+        entries = yaml.safe_load(path.read_bytes())
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "context_mark", None) or getattr(error, "problem_mark", None)
+        where = f"line {mark.line + 1}: " if mark is not None else ""
+        raise BadInput(f"{path}: {where}not YAML: {getattr(error, 'problem', None) or error}") from None
+    if not isinstance(entries, dict):
+        raise BadInput(f"{path}: line 1: expected 'key: value', as in a map of map_server")
+    return entries
+
+
+def _entry(path: Path, entries: Mapping[str, Any], key: str) -> Any:
+    if entries.get(key) in (None, ""):
+        raise BadInput(f"{path}: has no '{key}:'; a map needs image, resolution and origin")
+    return entries[key]
+
+
+def _entry_number(path: Path, entries: Mapping[str, Any], key: str, default: float | None = None) -> float:
+    if default is not None and key not in entries:
+        return default
+    value = _entry(path, entries, key)
+    try:
+        return float(value)  # YAML 1.1 takes 1e-05 for a text
+    except (TypeError, ValueError):
+        raise BadInput(f"{path}: {key} must be a number, got {value!r}") from None
+
+
+def _origin(path: Path, entries: Mapping[str, Any]) -> tuple[float, float]:
+    value = _entry(path, entries, "origin")
+    try:
+        x, y, yaw = (float(part) for part in value)
+    except (TypeError, ValueError):
+        raise BadInput(f"{path}: origin must be [x, y, yaw], got {value!r}") from None
+    if not math.isclose(yaw, 0.0, abs_tol=1e-9):
+        raise BadInput(f"{path}: the map is turned by {yaw:g} rad; only maps with yaw 0 can be read")
+    return x, y
