@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import base64
+import html
+import io
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -12,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.deciding import Deciding
+from bayesmap.posterior.diagnostics import rhat
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.score import log_score
 from bayesmap.posterior.scoring import Score, score_posterior
@@ -24,15 +27,22 @@ from bayesmap.space.scans import Scans
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
 
     from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.posterior.information import Information
+    from bayesmap.posterior.passage import FreeProbability
     from bayesmap.posterior.pose_summary import PoseSummary
+    from bayesmap.posterior.route import Route
 
 Floats = NDArray[np.float64]
 
+THUMBNAIL_PIXELS = 240
+"""Longer side of the picture of a run in a notebook."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Run(Deciding):
+class Run:
     """The posterior over a map, and over poses where they were unknown, that a call of `bayesmap.infer` found.
 
     Attributes:
@@ -198,6 +208,76 @@ class Run(Deciding):
         """
         return log_score(self.posterior, heldout_scans, sensor, on_progress, device)
 
+    def free_probability(self, path: ArrayLike, radius_m: float) -> FreeProbability:
+        """The probability that a disc can go along a path without touching anything, counted over joint draws.
+
+        Args:
+            path: of the disc's centre: corners in the world frame, metres, (P, 2); one point for a place.
+            radius_m: of the disc.
+
+        Returns:
+            ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: what the product over
+            independent cells would say.
+
+        Raises:
+            BadInput: a run without draws, a path that is none or leaves the map, or a radius that is not positive.
+        """
+        from bayesmap.posterior.decisions import path_is_free
+
+        return path_is_free(self.posterior, path, radius_m)
+
+    def plan(self, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float = 0.01) -> Route:
+        """The shortest path of a disc from start to goal whose risk of touching something stays under a bound.
+
+        Args:
+            start: in the world frame, metres, (2,).
+            goal: likewise.
+            radius_m: of the disc.
+            risk: the most that the probability of touching something may be.
+
+        Returns:
+            The path with its `free_probability`; the safest that was found if none is ``.within_risk``.
+
+        Raises:
+            BadInput: a run without draws; start or goal outside the map or blocked in nearly every draw; no path.
+        """
+        from bayesmap.posterior.decisions import shortest_safe_path
+
+        return shortest_safe_path(self.posterior, start, goal, radius_m, risk)
+
+    def information_gain(
+        self,
+        poses: ArrayLike,
+        angles_rad: ArrayLike | None = None,
+        *,
+        max_range_m: float | None = None,
+        sensor: SensorModel | None = None,
+        draws: int | None = None,
+        seed: int = 0,
+    ) -> Information:
+        """How much one more scan from each pose is expected to tell about the map, in nats.
+
+        Args:
+            poses: in the world frame, (P, 3).
+            angles_rad: of the beams in the sensor's frame, (A,); those of the run's scans unless given.
+            max_range_m: of the sensor; that of the run's scans unless given.
+            sensor: the law of the new readings; the run's unless given.
+            draws: of the map that are compared: the more, the closer the bounds; the work grows with their square.
+            seed: of the simulated scans.
+
+        Returns:
+            Bounds from joint draws, ``.at_least`` and ``.at_most`` with Monte Carlo errors, and ``.independent``: the
+            formula for independent cells and beams (FSMI; Zhang et al., ICRA 2019).
+
+        Raises:
+            BadInput: fewer than two draws, or poses, angles or a range that are none.
+        """
+        from bayesmap.posterior.decisions import information_of
+
+        return information_of(
+            self.posterior, poses, angles_rad, max_range_m=max_range_m, sensor=sensor, draws=draws, seed=seed
+        )
+
     def dataset(self) -> xarray.Dataset:
         """The draws as an xarray dataset: the arrays of the kind of cells, log densities and marginals, by named
         dimensions.
@@ -208,9 +288,34 @@ class Run(Deciding):
         Raises:
             BadInput: xarray is not installed.
         """
-        from bayesmap.posterior.dataset import dataset_of
-
-        return dataset_of(self.posterior)
+        try:
+            import xarray
+        except ImportError:
+            raise BadInput("dataset: needs xarray: pip install 'bayesmap[arviz]'") from None
+        posterior = self.posterior
+        draws, ny = posterior.draws, posterior.grid.shape[1]
+        x, y = posterior.grid.centers_m()
+        variables = {
+            spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.what})
+            for spec in draws.specs
+        }
+        by_draw = {
+            "lp": posterior.log_joint,
+            "log_likelihood": posterior.log_likelihood,
+            "log_prior": posterior.log_prior,
+        }
+        variables |= {name: (("chain", "draw"), values, {"units": "nats"}) for name, values in by_draw.items()}
+        words = posterior.prior.words
+        variables["occupancy"] = (("x", "y"), posterior.occupancy, {"long_name": words.mean})
+        variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "some beam says something of the cell"})
+        coordinates = {
+            "chain": np.arange(draws.chains), "draw": np.arange(draws.count),
+            "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),
+        }  # fmt: skip
+        for dimension, cells in draws.index.items():
+            coordinates[f"{dimension}_x"] = (dimension, cells // ny)
+            coordinates[f"{dimension}_y"] = (dimension, cells % ny)
+        return xarray.Dataset(variables, coordinates, {"cells": words.kind, "method": posterior.settings["method"]})
 
     def save(
         self,
@@ -273,22 +378,69 @@ class Run(Deciding):
 
     def __repr__(self) -> str:
         """Five lines: what was inferred, from what, how, how well, and how long it took."""
-        from bayesmap.posterior.overview import overview
-
-        title, rows = overview(self.posterior)
+        title, rows = _overview(self.posterior)
         return "\n".join([title, *(f"  {name}: {value}" for name, value in rows)])
 
     def _repr_html_(self) -> str:
         """A small picture of the mean map beside the same five lines, for notebooks."""
-        from bayesmap.posterior.overview import overview
-        from bayesmap.viz.thumbnail import thumbnail_html
-
-        title, rows = overview(self.posterior)
-        return thumbnail_html(self.occupancy, self.observed, title, rows)
+        title, rows = _overview(self.posterior)
+        size, png = _thumbnail(self.occupancy, self.observed)
+        lines = "".join(
+            f"<tr><th align='left'>{html.escape(name)}</th><td align='left'>{html.escape(value)}</td></tr>"
+            for name, value in rows
+        )
+        return (
+            "<div style='display:flex;gap:1em;align-items:flex-start'>"
+            f"<img alt='mean map' width='{size[0]}' height='{size[1]}' "
+            f"src='data:image/png;base64,{base64.b64encode(png).decode()}'>"
+            f"<div><b>{html.escape(title)}</b><table>{lines}</table></div></div>"
+        )
 
     def _need_marginals(self) -> None:
         if np.isnan(self.posterior.occupancy).any():
             raise BadInput("run: stopped before its first draw, there is no posterior yet; resume it")
+
+
+def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
+    """A title, and four rows of a name and a value: what was inferred, from what, how, how well, and how long it
+    took.
+    """
+    (nx, ny), counts, joint = posterior.grid.shape, posterior.counts, posterior.log_joint
+    title = f"Run: {posterior.prior.words.states}, {nx} x {ny} cells of {posterior.grid.resolution:g} m"
+    chains, draws = joint.shape
+    work = f"{chains} chains of {posterior.sweep:,} sweeps, {draws:,} draws each"
+    if not posterior.has_chains:
+        work = f"{chains * draws:,} independent draws"
+    state = "finished" if posterior.finished else "not finished"
+    fit = "no draws yet"
+    if joint.size:
+        fit = f"{joint.mean():,.1f} on average"
+        if posterior.has_chains and draws >= 4:
+            fit += f", R-hat {rhat(joint):.3f}"
+    seen = f"{np.count_nonzero(posterior.observed):,} of {posterior.observed.size:,} cells observed"
+    return title, [
+        ("scans", f"{counts['scans']:,}, {counts['beams']:,} beams; {seen}"),
+        ("method", f"{posterior.settings['method']}, {work}, {state}"),
+        ("log joint", fit),
+        ("seconds", f"{posterior.seconds['total']:.1f}, {posterior.seconds['sampling']:.1f} of them in sweeps"),
+    ]
+
+
+def _thumbnail(occupancy: Floats, observed: NDArray[np.bool_]) -> tuple[tuple[int, int], bytes]:
+    """Draw the mean map, x to the right and y up: width and height in pixels, and the PNG file."""
+    from PIL import Image
+
+    from bayesmap.viz import palette
+
+    shown = np.ma.masked_array(np.nan_to_num(occupancy, nan=0.5), ~observed)
+    colours = palette.probability_colormap()(shown)[..., :3]
+    pixels = np.rint(255 * colours[:, ::-1].transpose(1, 0, 2)).astype(np.uint8)
+    scale = THUMBNAIL_PIXELS / max(occupancy.shape)
+    width, height = (max(1, round(side * scale)) for side in occupancy.shape)
+    how = Image.Resampling.BOX if scale < 1 else Image.Resampling.NEAREST
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).resize((width, height), how).save(buffer, format="PNG", optimize=True)
+    return (width, height), buffer.getvalue()
 
 
 def load(path: str | os.PathLike[str]) -> Run:

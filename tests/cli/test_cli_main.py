@@ -10,7 +10,7 @@ import pytest
 from shell import SOURCE, call, start
 
 import bayesmap
-from bayesmap.cli import inferring
+from bayesmap.cli import pipeline
 from bayesmap.cli.group import COMMANDS
 
 
@@ -85,7 +85,7 @@ def test_failures_are_one_line(monkeypatch, office, tmp_path, error, code, messa
     def fail(*arguments, **options):
         raise error
 
-    monkeypatch.setattr(inferring, "sample", fail)
+    monkeypatch.setattr(pipeline, "sample", fail)
     result = call("infer", office, "-o", tmp_path / "run", "-q")
     assert result.exit_code == code
     assert result.stdout == ""
@@ -97,7 +97,7 @@ def test_verbose_shows_the_traceback(monkeypatch, office, tmp_path):
     def fail(*arguments, **options):
         raise RuntimeError("a loose wire")
 
-    monkeypatch.setattr(inferring, "sample", fail)
+    monkeypatch.setattr(pipeline, "sample", fail)
     result = call("infer", office, "-o", tmp_path / "run", "-v")
     assert result.exit_code == 1
     assert "Traceback" in result.stderr

@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import cells, executors, inferring, sensors
-from bayesmap.cli.command import PROBLEMS, Call, takes
+from bayesmap.cli import executors, pipeline, sensors
+from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.console import reserve_stdout
 from bayesmap.cli.fleet import infer_fleet
-from bayesmap.cli.folder import Folder
-from bayesmap.cli.input_files import LOG, logs_of, need_file
-
-if TYPE_CHECKING:
-    from bayesmap.sensors.model import SensorModel
+from bayesmap.cli.input_files import logs_of
 
 
 @takes("infer")
@@ -53,44 +48,31 @@ def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool,
     """
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
-    found = logs_of(logs)
-    if found is not None:
-        infer_fleet(call, found, Path(output or "runs"), resume=resume, force=force)
+    # Several logs are a fleet.
+    several = logs_of(logs)
+    if several is not None:
+        infer_fleet(call, several, Path(output or "runs"), resume=resume, force=force)
         return
+    # Check what was typed.
     log = logs[0]
-    need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
-    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.console, resuming=resume)
-    values = call.values(inferring.settings_of(folder) if resume else None)
-    values = cells.with_defaults(values)
-    sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
-    folder.check(force=force)
-
-    go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder.path), "--resume"])
-    try:
-        _run(call, folder, log, values, sensor, go_on)
-    except KeyboardInterrupt:  # while setting up, or once more while the chains were being stopped
-        if (folder.begun or resume) and folder.run.exists():
-            call.console.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
-        raise
-
-
-def _run(
-    call: Call, folder: Folder, log: str, values: dict[str, Any], sensor: SensorModel | str | None, go_on: str
-) -> None:
-    executor = executors.executor_of(values["executor"])
-    reading = inferring.read(call.console, log, values)
-    train, heldout = inferring.split(reading.scans, values["holdout"])
-    saved = inferring.saved(folder) if folder.resuming else None
+    folder = Path(output) if output else Path("runs") / pipeline.stem(log)
+    task = pipeline.prepare(call, log, folder, resume=resume, force=force)
+    executor = executors.executor_of(task.values["executor"])
     if executor is not None:
         reserve_stdout()
-    run = inferring.sample(folder, reading.scans, train, values, sensor, saved, executor)
-    if not run.finished:
-        inferring.leave(folder, run, reading, go_on)
-
-    document = inferring.finish(folder, run, reading, heldout, values["holdout"])
-    inferring.report(call.console, document)
+    # Infer the log.
+    go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder), "--resume"])
+    try:
+        document = pipeline.infer_log(task, executor=executor, go_on=go_on)
+    except KeyboardInterrupt:  # while setting up, or once more while the chains were being stopped
+        if (task.folder.begun or resume) and task.folder.run.exists():
+            call.console.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
+        raise
+    # Print the result.
     call.console.result(document, document["outputs"].values())
-    if values["strict"] and document["problems"]:
+    if not document["finished"]:
+        click.get_current_context().exit(INTERRUPTED)
+    if task.values["strict"] and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import shlex
+import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import cells, inferring, sensors
-from bayesmap.cli.command import PROBLEMS, Call, takes
+from bayesmap.cli import cells, pipeline, sensors
+from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
 from bayesmap.cli.console import Console
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.input_files import LOG, need_file
+from bayesmap.cli.pipeline import Task
 from bayesmap.cli.progress import progress
 from bayesmap.cli.settings import as_toml
 from bayesmap.samplers.progress import Event
@@ -55,37 +56,39 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     """
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
-    need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
-    folder = Folder(Path(output) if output else Path("runs") / inferring.stem(log), call.console, resuming=resume)
-    values = cells.with_defaults(
-        {**inferring.DEFAULTS, **call.values(inferring.settings_of(folder, "slam") if resume else None)}
-    )
-    sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
-    folder.check(force=force)
-    go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder.path), "--resume"])
-
-    reading = inferring.read(call.console, log, values)
-    _check(call.console, reading, values)
-    saved = inferring.saved(folder) if folder.resuming else None
+    # Check what was typed.
+    folder = Path(output) if output else Path("runs") / pipeline.stem(log)
+    task = pipeline.prepare(call, log, folder, resume=resume, force=force, section="slam")
+    go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
+    # Read the log.
+    reading = pipeline.read(call.console, log, task.values)
+    _check(call.console, reading, task.values)
+    # Take up the run that is in the folder.
+    saved = pipeline.taken_up(task.folder) if task.folder.resuming else None
     if force:
-        _forget(folder)
-    found: list[Trajectory] = []
+        shutil.rmtree(_stages(task.folder), ignore_errors=True)
     try:
-        run = _slam(folder, reading, values, sensor, saved, found)
+        # Infer trajectory and map, with checkpoints.
+        run = _slam(task, reading, saved)
+        # After Ctrl-C: leave the folder so that the run can go on.
         if not run.finished:
-            inferring.leave(folder, run, reading, go_on)
-        outputs = [*folder.write_products(run), *_write_trajectory(folder, reading, run)]
+            document = pipeline.leave(task.folder, run, reading, go_on)
+            call.console.result(document, document["outputs"].values())
+            click.get_current_context().exit(INTERRUPTED)
+        # Finish: save the run, draw it, export it.
+        outputs = [*task.folder.write_products(run), *_write_trajectory(task.folder, reading, run)]
     except KeyboardInterrupt:
-        if folder.begun or resume:
+        if task.folder.begun or resume:
             call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
         raise
-    document = inferring.document_of(run, reading, None, [*outputs, folder.path / "summary.json", folder.config])
-    document["trajectory"] = summary(run)
-    folder.write_document(document)
-    inferring.report(call.console, document)
+    outputs += [folder / "summary.json", task.folder.config]
+    document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run)}
+    task.folder.write_document(document)
+    # Report.
+    pipeline.report(call.console, document)
     _report(call, document["trajectory"])
     call.console.result(document, document["outputs"].values())
-    if values["strict"] and document["problems"]:
+    if task.values["strict"] and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
@@ -106,18 +109,11 @@ def _check(console: Console, reading: LogReading, values: dict[str, Any]) -> Non
         console.warn(f"odometry stands still so in {len(found) - SHOWN:,} more stretches")
 
 
-def _forget(folder: Folder) -> None:
-    import shutil
-
-    shutil.rmtree(_stages(folder), ignore_errors=True)
-
-
-def _slam(
-    folder: Folder, reading: LogReading, values: dict[str, Any], sensor: Any, saved: Run | None, found: list[Trajectory]
-) -> Run:
+def _slam(task: Task, reading: LogReading, saved: Run | None) -> Run:
     from bayesmap.from_odometry import slam
 
-    toml = as_toml({"slam": {name: values[name] for name in inferring.names_of("slam")}})
+    folder, values = task.folder, task.values
+    toml = as_toml({"slam": {name: values[name] for name in pipeline.names_of("slam")}})
     with progress(folder.console, "matching scans") as show:
 
         def on_progress(event: Event) -> None:
@@ -136,12 +132,11 @@ def _slam(
             reading.scans,
             resolution=values["resolution"],
             prior=cells.prior_of(values),
-            sensor=cells.sensor_for(values, sensor, values["resolution"]),  # type: ignore[arg-type]
+            sensor=cells.sensor_for(values, task.sensor, values["resolution"]),  # type: ignore[arg-type]
             draws=values["draws"],
             checkpoint=_stages(folder),
             resume=saved,
             on_progress=on_progress,
-            on_trajectory=found.append,
             on_checkpoint=on_checkpoint,
             checkpoint_every_s=values["checkpoint_every"],
             **{name: values[name] for name in PASSED_ON},

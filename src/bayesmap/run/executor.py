@@ -1,9 +1,9 @@
-"""Where chains run: an executor takes the job of a posterior and gives back its chains."""
+"""Where chains run: an executor takes the job of a posterior and returns its chains."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from bayesmap.run.chains import Chains
@@ -27,7 +27,13 @@ class Executor(Protocol):
 
 @dataclass(frozen=True)
 class ThreadExecutor:
-    """All chains in this process, on its threads or its GPU."""
+    """Runs all chains in this process, on its threads or its GPU.
+
+    Attributes:
+        should_stop: asked between two steps, beside the watch of the run.
+    """
+
+    should_stop: Callable[[], bool] = lambda: False
 
     def run(
         self,
@@ -37,7 +43,8 @@ class ThreadExecutor:
         on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
     ) -> Chains:
-        """Run them here."""
+        """Run the chains here."""
+        both = replace(watch, should_stop=lambda: watch.should_stop() or self.should_stop())
         return run_chains(
-            job, resume=resume, watch=watch, on_checkpoint=on_checkpoint, checkpoint_every_s=checkpoint_every_s
+            job, resume=resume, watch=both, on_checkpoint=on_checkpoint, checkpoint_every_s=checkpoint_every_s
         )

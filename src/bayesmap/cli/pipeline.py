@@ -1,17 +1,17 @@
-"""What is done with one log, step by step: read it, infer, leave a folder behind."""
+"""One log from its file to the folder of its run: read, split, take up, sample, leave or finish, report."""
 
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
-import click
-
-from bayesmap.cli import cells
-from bayesmap.cli.command import INTERRUPTED
+from bayesmap.cli import cells, sensors
+from bayesmap.cli.command import Call
 from bayesmap.cli.console import Console, counted
 from bayesmap.cli.folder import Folder
+from bayesmap.cli.input_files import LOG, need_file
 from bayesmap.cli.keys import SECTIONS
 from bayesmap.cli.progress import SETTING_UP, progress, stage
 from bayesmap.cli.reading import options_of
@@ -33,10 +33,99 @@ PASSED_ON = (
 )  # fmt: skip
 """Settings that `bayesmap.infer` has under the same name."""
 
-FLEET_SETTINGS = "fleet.toml"
-"""In the folder of several runs' folders: what the last fleet there was started with."""
-
 DEFAULTS = {key.name: key.default for key in SECTIONS["infer"]}
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """One log that is to be inferred.
+
+    Attributes:
+        log: as typed.
+        folder: of its run.
+        values: the command's settings.
+        sensor: as `bayesmap.infer` takes it; None for the default of the cells.
+    """
+
+    log: str
+    folder: Folder
+    values: dict[str, Any]
+    sensor: SensorModel | str | None
+
+
+def prepare(
+    call: Call,
+    log: str,
+    path: Path,
+    *,
+    resume: bool,
+    force: bool,
+    section: str = "infer",
+    begun: Settings | None = None,
+) -> Task:
+    """Check what was typed for one log, before anything is read or written.
+
+    Args:
+        call: of the command.
+        log: as typed.
+        path: folder of the run.
+        resume: go on with the run in the folder.
+        force: replace it.
+        section: the command.
+        begun: settings to resume with where the folder has none.
+
+    Raises:
+        BadInput: no such log, settings that do not fit together, or a folder that may not be written.
+    """
+    need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
+    folder = Folder(path, call.console, resuming=resume)
+    under = (settings_of(folder, section) or begun) if resume else None
+    values = cells.with_defaults({**DEFAULTS, **call.values(under)})
+    sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
+    folder.check(force=force)
+    return Task(log, folder, values, sensor)
+
+
+def infer_log(
+    task: Task,
+    *,
+    reading: LogReading | None = None,
+    executor: Executor | None = None,
+    go_on: str | None = None,
+    on_saved: Callable[[], None] = lambda: None,
+    on_event: Callable[[Event], None] = lambda event: None,
+) -> dict[str, Any]:
+    """Infer one log into its folder, and say what came out.
+
+    Args:
+        task: the log, its folder and settings.
+        reading: the log, if it has been read already.
+        executor: where chains run.
+        go_on: the command that goes on with the run, to be said after Ctrl-C.
+        on_saved: called after each checkpoint.
+        on_event: called with how far the run is, as the bar is.
+
+    Returns:
+        The JSON document of the run. After Ctrl-C its "finished" is false.
+    """
+    folder, values = task.folder, task.values
+    # Read the log.
+    if reading is None:
+        reading = read(folder.console, task.log, values)
+    # Split off the scans that are held out.
+    train, heldout = reading.scans.holdout(values["holdout"]) if values["holdout"] else (reading.scans, None)
+    # Take up the run that is in the folder.
+    saved = taken_up(folder) if folder.resuming else None
+    # Sample the posterior, with checkpoints.
+    run = sample(task, reading.scans, train, saved, executor, on_saved, on_event)
+    # After Ctrl-C: leave the folder so that the run can go on.
+    if not run.finished:
+        return leave(folder, run, reading, go_on)
+    # Finish: save the run, draw it, export it, score it.
+    document = finish(folder, run, reading, heldout, values["holdout"])
+    # Report.
+    report(folder.console, document)
+    return document
 
 
 def names_of(section: str) -> list[str]:
@@ -62,7 +151,7 @@ def settings_in(config: Path, section: str = "infer") -> Settings:
     return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
 
 
-def saved(folder: Folder) -> Run | None:
+def taken_up(folder: Folder) -> Run | None:
     """The run to go on with; None if it had not come to its first checkpoint."""
     from bayesmap.result import load
 
@@ -98,39 +187,31 @@ def read(console: Console, log: str, values: dict[str, Any]) -> LogReading:
     return reading
 
 
-def split(scans: Scans, every: int) -> tuple[Scans, Scans | None]:
-    """Scans to infer from, and those that are held out."""
-    return scans.holdout(every) if every else (scans, None)
-
-
 def sample(
-    folder: Folder,
+    task: Task,
     scans: Scans,
     train: Scans,
-    values: dict[str, Any],
-    sensor: SensorModel | str | None,
     saved: Run | None,
-    executor: Executor | None = None,
-    on_saved: Callable[[], None] = lambda: None,
-    on_event: Callable[[Event], None] = lambda event: None,
+    executor: Executor | None,
+    on_saved: Callable[[], None],
+    on_event: Callable[[Event], None],
 ) -> Run:
     """Infer from the scans that are not held out, with checkpoints in the folder.
 
     Args:
-        folder: of the run.
+        task: the log, its folder and settings.
         scans: all of the log.
         train: those that are not held out.
-        values: the command's settings.
-        sensor: as `bayesmap.infer` takes it; None for the default of the cells.
         saved: the run to go on with.
         executor: where chains run.
         on_saved: called after each checkpoint.
-        on_event: called with how far it is, as the bar is.
+        on_event: called with how far the run is.
     """
     from bayesmap.api import Event, infer
     from bayesmap.io.ros.maps import read_map
     from bayesmap.space.grid import Grid
 
+    folder, values = task.folder, task.values
     if saved is not None and values["grid"] is not None and not os.path.exists(values["grid"]):
         grid = saved.grid  # the map that named the cells has gone, or the path was one from elsewhere
     elif values["grid"] is None:
@@ -159,7 +240,7 @@ def sample(
             train,
             grid,
             prior=cells.prior_of(values),
-            sensor=cells.sensor_for(values, sensor, grid.resolution),  # type: ignore[arg-type]
+            sensor=cells.sensor_for(values, task.sensor, grid.resolution),  # type: ignore[arg-type]
             resume=saved,
             on_progress=on_progress,
             on_checkpoint=on_checkpoint,
@@ -212,8 +293,8 @@ def report(console: Console, document: dict[str, Any]) -> None:
         console.warn(problem)
 
 
-def leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn:
-    """Interrupted: keep the chains so far, say how to go on, and go."""
+def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> dict[str, Any]:
+    """Keep the chains of an interrupted run, and say how to go on with them; returns the document of what is kept."""
     kept: list[Path] = []
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
     if run.posterior.sweep > 0:
@@ -221,15 +302,16 @@ def leave(folder: Folder, run: Run, reading: LogReading, go_on: str) -> NoReturn
             folder.save(run, report)
         kept = [folder.run]
         done = counted(run.posterior.sweep, "sweep")
-        folder.console.say(f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}")
+        said = f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}"
     elif folder.resuming and folder.run.exists():
-        folder.console.say(f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}")
+        said = f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}"
     elif folder.run.exists() and not folder.begun:
-        folder.console.say(f"interrupted before there was anything to save; {folder.run} is as it was")
+        said = f"interrupted before there was anything to save; {folder.run} is as it was"
     else:
-        folder.console.say(f"interrupted before there was anything to save; start again with:\n  {go_on}")
-    folder.console.result(document_of(run, reading, None, kept), kept)
-    click.get_current_context().exit(INTERRUPTED)
+        said = f"interrupted before there was anything to save; start again with:\n  {go_on}"
+    if go_on is not None:
+        folder.console.say(said)
+    return document_of(run, reading, None, kept)
 
 
 def finish(folder: Folder, run: Run, reading: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:
