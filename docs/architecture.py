@@ -41,7 +41,7 @@ STEPS = (
     Step(
         ("a reading of Scans", "ranges_m[s, a] = 3.18, angles_rad[a],", "poses[s] = (x, y, yaw)"),
         ("State the problem", "check the arguments, choose what was left open"),
-        ("api.py", "space/scans.py", "cells/defaults.py"),
+        ("api.py", "space/scans.py", "cells/kinds.py"),
         ("grid", "shape, resolution, origin", "space/grid.py"),
     ),
     Step(

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import bayesmap as bm
-from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.gibbs import Gibbs
@@ -24,7 +24,7 @@ WHOLE_RUN = r"""
 import re, sys, time
 from pathlib import Path
 import bayesmap as bm
-from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.posterior.diagnostics import rhat
 began = time.perf_counter()
 scans, _ = bm.read_log(sys.argv[1]).limited({max_range}).holdout(10)

@@ -11,7 +11,7 @@ from typing import Any
 import warp as wp
 
 import bayesmap as bm
-from bayesmap.cells.defaults import HIT_DEPTH, P_WALL, default_sensor
+from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.fit import first_sensor

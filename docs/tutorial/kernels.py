@@ -25,7 +25,7 @@ from drawing import panels, show
 
 import bayesmap as bm
 from bayesmap import gen, viz
-from bayesmap.cells.defaults import default_sensor
+from bayesmap.cells.kinds import default_sensor
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.viz.palette import CHAINS

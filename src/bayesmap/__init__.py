@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bayesmap.app.widget import MapWidget as MapWidget
     from bayesmap.cells.binary import Independent as Independent
     from bayesmap.cells.ising import Ising as Ising
-    from bayesmap.cells.pseudo_likelihood import fit_coupling as fit_coupling
+    from bayesmap.cells.ising import fit_coupling as fit_coupling
     from bayesmap.cells.reflectivity import Beta as Beta
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
@@ -73,7 +73,7 @@ _HOME = {
     "SensorModel": "bayesmap.sensors.model",
     "StudentT": "bayesmap.sensors.noise",
     "Surface": "bayesmap.cells.surface",
-    "fit_coupling": "bayesmap.cells.pseudo_likelihood",
+    "fit_coupling": "bayesmap.cells.ising",
     "infer": "bayesmap.api",
     "load": "bayesmap.result",
     "localize": "bayesmap.localization.localize",

@@ -80,8 +80,9 @@ class Model:
         """A state with these cells, the model's sensor, and the poses that the log states.
 
         Args:
-            cells: arrays over the whole grid, such as those of a run's draw (`bayesmap.cells.draws.Draws.cells`); where
-                it says nothing of a cell, the cell has a state of the prior.
+            cells: arrays over the whole grid, such as those of a run's draw
+                (`bayesmap.cells.arrays.Draws.cells`); where it says nothing of a cell, the cell has a state of the
+                prior.
         """
         return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 

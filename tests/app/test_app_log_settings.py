@@ -18,7 +18,7 @@ from bayesmap.app.parsing import parse_document
 from bayesmap.app.scanning import hits
 from bayesmap.app.tasks import MoveGhost, ShowScan, View
 from bayesmap.app.worlds import new_document
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs

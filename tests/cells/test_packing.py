@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from bayesmap.cells import packing
-from bayesmap.cells.packing import as_halves, count_walls, pack, unpack
+from bayesmap.cells import arrays as cell_arrays
+from bayesmap.cells.arrays import as_halves, count_walls, pack, unpack
 
 maps = st.tuples(st.integers(0, 3), st.integers(0, 5), st.integers(1, 9), st.integers(1, 9)).flatmap(
     lambda shape: arrays(np.bool_, shape)
@@ -38,7 +38,7 @@ def test_counting_walls_needs_no_unpacking(walls):
 
 def test_counting_in_batches_gives_the_same(monkeypatch):
     walls = np.random.default_rng(1).random((100, 5, 7)) < 0.3
-    monkeypatch.setattr(packing, "BATCH_BITS", 100)
+    monkeypatch.setattr(cell_arrays, "BATCH_BITS", 100)
     np.testing.assert_array_equal(count_walls(pack(walls), 35), walls.reshape(100, -1).sum(axis=0))
 
 

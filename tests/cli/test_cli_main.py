@@ -173,9 +173,8 @@ def test_choices_are_those_of_the_library():
     from typing import get_args
 
     from bayesmap.cells.binary import Independent
-    from bayesmap.cells.defaults import P_WALL
     from bayesmap.cells.ising import Ising
-    from bayesmap.cells.kinds import BUILT_IN
+    from bayesmap.cells.kinds import BUILT_IN, P_WALL
     from bayesmap.cells.reflectivity import FEWEST_DRAWS, MOST_DRAWS, Beta
     from bayesmap.cells.surface import Surface
     from bayesmap.cli import cells

@@ -29,7 +29,7 @@ PRIVATE = {
     "genjax.generative_functions": None,
     "genjax.generative_functions.static": "bayesmap.gen.static",
     "genjax._src": None,
-    "genjax._src.checkify": "bayesmap.gen.checks",
+    "genjax._src.checkify": "bayesmap.gen.flags",
     "genjax._src.core": None,
     "genjax._src.core.compiler": None,
     "genjax._src.core.compiler.interpreters": None,

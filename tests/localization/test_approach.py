@@ -5,10 +5,8 @@ import pytest
 import scipy
 from rooms import ANGLES, known, scan_from, walls_of
 
-from bayesmap.localization.approach import approached
-from bayesmap.localization.endpoint_field import FLOOR, endpoint_field
-from bayesmap.localization.field import TOP, likelihood_field, worth_of_unknown
-from bayesmap.localization.filter import Prior
+from bayesmap.localization.field import FLOOR, TOP, endpoint_field, likelihood_field, worth_of_unknown
+from bayesmap.localization.filter import Prior, approached
 from bayesmap.localization.localize import Near
 from bayesmap.localization.particles import (
     DOF,

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from bayesmap.poses.calibration import OdometryFit
+from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.motion_noise import USUAL, MotionNoise
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
 from bayesmap.space.planar import between, compose

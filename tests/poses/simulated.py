@@ -3,8 +3,7 @@
 import numpy as np
 
 from bayesmap.kernels.walk import cast
-from bayesmap.poses.se2 import retract
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, compose, retract
 from bayesmap.space.scans import Scans
 
 RESOLUTION = 0.02

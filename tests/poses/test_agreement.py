@@ -6,7 +6,7 @@ from data import intel_log
 
 import bayesmap as bm
 from bayesmap.io.logs import read_log
-from bayesmap.poses.agreement import agreement, look_like_odometry
+from bayesmap.poses.log_checks import agreement, look_like_odometry
 
 
 @pytest.fixture(scope="module")

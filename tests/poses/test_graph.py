@@ -3,18 +3,9 @@
 import numpy as np
 import scipy
 
-from bayesmap.poses.graph import (
-    ANCHOR,
-    RIDGE,
-    Factors,
-    normal_equations,
-    optimise,
-    quadratic,
-    solve_step,
-)
+from bayesmap.poses.graph import ANCHOR, RIDGE, Factors, normal_equations, optimise, quadratic, solve_step
 from bayesmap.poses.precision import Precision, filled_pattern, relative_covariances
-from bayesmap.poses.se2 import between_jacobians, retract
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, between_jacobians, compose, retract
 
 RNG = np.random.default_rng(8)
 COUNT = 12

@@ -5,7 +5,7 @@ import pytest
 from simulated import odometry_of, off, path_around, ring, scans_of
 
 import bayesmap as bm
-from bayesmap.poses.frozen_odometry import caught_up
+from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between

@@ -8,8 +8,7 @@ from simulated import path_around, ring, scans_of
 from bayesmap.kernels.match.line_pairs import pair_sums
 from bayesmap.poses.alignment import without_slack
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.se2 import transform
-from bayesmap.space.planar import between
+from bayesmap.space.planar import between, transform
 from bayesmap.space.scans import Scans
 
 TRUTH = path_around()

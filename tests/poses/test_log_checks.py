@@ -5,8 +5,7 @@ import pytest
 from simulated import path_around, ring, scans_of
 
 import bayesmap as bm
-from bayesmap.poses.frozen_odometry import Stretch, frozen_stretches
-from bayesmap.poses.log_checks import check_scans, doubts
+from bayesmap.poses.log_checks import Stretch, check_scans, doubts, frozen_stretches
 from bayesmap.poses.pipeline import infer_trajectory
 
 

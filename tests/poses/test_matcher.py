@@ -7,8 +7,7 @@ import pytest
 
 from bayesmap.errors import BadInput
 from bayesmap.kernels.match.view_agreement import Agreement, view_counts
-from bayesmap.poses.likelihood_grid import likelihood_grids
-from bayesmap.poses.matcher import Pull, match, score_at
+from bayesmap.poses.matcher import Pull, likelihood_grids, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans

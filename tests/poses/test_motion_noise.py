@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from bayesmap.poses.calibration import fit_odometry, stated_at
-from bayesmap.poses.motion_noise import USUAL, MotionNoise, fit_noise
+from bayesmap.poses.calibration import USUAL, MotionNoise, fit_noise, fit_odometry, stated_at
 from bayesmap.poses.odometry_motion import RunningOdometry, inverse_slope
 from bayesmap.space.planar import between, compose
 

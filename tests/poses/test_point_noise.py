@@ -7,8 +7,7 @@ from tiers import latin
 
 from bayesmap.poses import scan_geometry as geometry_module
 from bayesmap.poses.pipeline import infer_trajectory
-from bayesmap.poses.point_noise import LEAST_M, MOST_M, range_noise_m
-from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.scan_geometry import LEAST_M, MOST_M, range_noise_m, scan_geometry
 from bayesmap.space.scans import Scans
 
 POSES = path_around(laps=1.0)[::2]

@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 from bayesmap.poses.graph import Quadratic, solve_step
-from bayesmap.poses.pose_gaussian import PoseGaussian
-from bayesmap.poses.se2 import retract
-from bayesmap.poses.shared_errors import STRETCH_M, bend_covariances
-from bayesmap.space.planar import between
+from bayesmap.poses.pose_gaussian import STRETCH_M, PoseGaussian, bend_covariances
+from bayesmap.space.planar import between, retract
 
 LAPS, ON_A_LAP, NEAR_M, STEP_M = 6, 24, 2.0, 0.5
 POSES = LAPS * ON_A_LAP

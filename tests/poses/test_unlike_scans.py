@@ -10,8 +10,8 @@ from bayesmap.from_odometry import key_scans
 from bayesmap.kernels.match.line_pairs import pair_sums
 from bayesmap.kernels.match.view_agreement import Agreement, view_counts
 from bayesmap.kernels.walk import cast
-from bayesmap.poses.frozen_odometry import frozen_stretches
-from bayesmap.poses.likelihood_grid import likelihood_grids
+from bayesmap.poses.log_checks import frozen_stretches
+from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, compose

@@ -6,8 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bayesmap as bm
-from bayesmap.cells.draws import Draws
-from bayesmap.cells.packing import pack
+from bayesmap.cells.arrays import Draws, pack
 from bayesmap.posterior import diagnostics
 from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
 

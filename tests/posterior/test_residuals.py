@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
+from bayesmap.cells.arrays import Draws, pack
 from bayesmap.cells.binary import Independent
-from bayesmap.cells.draws import Draws
-from bayesmap.cells.packing import pack
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import predictor_of

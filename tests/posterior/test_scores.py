@@ -12,8 +12,7 @@ from oracle.formula import beams, distances
 from oracle.worlds import make_case
 
 import bayesmap as bm
-from bayesmap.cells.draws import Draws
-from bayesmap.cells.packing import pack
+from bayesmap.cells.arrays import Draws, pack
 from bayesmap.posterior.posterior import entropy_bits
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.score import beam_log_scores

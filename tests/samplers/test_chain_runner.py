@@ -9,7 +9,7 @@ from sampler_cases import BOTH, SAMPLERS, model_of
 from sampler_cases import chains_of as run_of
 
 import bayesmap as bm
-from bayesmap.cells.packing import unpack
+from bayesmap.cells.arrays import unpack
 from bayesmap.kernels.device import launch
 from bayesmap.kernels.walls.chains import EXACT as EXACTLY
 from bayesmap.kernels.walls.chains import WallChains, derive_state

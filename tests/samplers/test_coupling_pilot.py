@@ -10,7 +10,7 @@ import pytest
 from tiers import full_but, latin
 
 import bayesmap as bm
-from bayesmap.cells.pseudo_likelihood import LARGEST_FITTED, walls_less_free
+from bayesmap.cells.ising import LARGEST_FITTED, walls_less_free
 from bayesmap.model import Model
 from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans

@@ -13,7 +13,7 @@ from bayesmap.app.hit_counts import Counted
 from bayesmap.app.scanning import Beams, Scene
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
-from bayesmap.cells.defaults import default_sensor
+from bayesmap.cells.kinds import default_sensor
 from bayesmap.posterior.baselines import log_odds_as_usual
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bayesmap.app.document import Document
 from bayesmap.app.result import Result
 from bayesmap.app.tasks import FindPath, FindViews
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput
 from bayesmap.posterior.decisions import shortest_safe_path, typical_sigma_m

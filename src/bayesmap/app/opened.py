@@ -138,8 +138,8 @@ def opened_log(scans: Scans, name: str) -> OpenedLog:
     Raises:
         BadInput: a log without scans.
     """
-    from bayesmap.cells.defaults import P_WALL
-    from bayesmap.poses.agreement import look_like_odometry
+    from bayesmap.cells.kinds import P_WALL
+    from bayesmap.poses.log_checks import look_like_odometry
 
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > LARGEST_SIDE_OF_LOG:

@@ -84,7 +84,7 @@ class OpenedLog:
 
     def _of(self, grid: Grid) -> Traced:
         """The beams on a grid; those on the last one are kept."""
-        from bayesmap.cells.defaults import default_sensor
+        from bayesmap.cells.kinds import default_sensor
         from bayesmap.kernels.walls.table import trace
 
         if not self._traced or self._traced[0].grid != grid:

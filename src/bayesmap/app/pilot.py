@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from bayesmap.app.document import Document
 from bayesmap.app.recent import joined
 from bayesmap.app.scanning import Scene
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 
 RECENT, RECENT_BYTES = 200, 16 << 20
 """Maps of each chain that are remembered where none are kept."""

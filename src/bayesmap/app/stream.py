@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.recent import joined
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.run.chains import Chains, Record

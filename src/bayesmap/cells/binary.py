@@ -15,10 +15,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.arrays import ArraySpec
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
-from bayesmap.cells.packing import count_walls, unpack
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 

@@ -16,8 +16,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.arrays import ArraySpec
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 

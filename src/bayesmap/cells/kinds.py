@@ -1,7 +1,13 @@
-"""The kinds of cells that are built in, by the name that users say, and the prior of a description."""
+"""The kinds of cells that are built in, by the name that users say, and the prior of a description.
+
+What is assumed of a laser log of which nothing else is known stands here, too. None of this is particular to one
+building: the noise is a good laser's, widened by not knowing where in a cell the wall stands. Chosen by held-out score
+among a few round values on a public office log (docs/defaults.md has the table).
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,6 +17,8 @@ from bayesmap.cells.kind import KINDS, CellPrior
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput
+from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.noise import Gaussian
 
 BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independent, Beta, Surface)}
 
@@ -31,3 +39,19 @@ def prior_from(description: Mapping[str, Any]) -> CellPrior:
     if named is None:
         raise BadInput(f"cells of kind {kind!r} are not known here; import the module that defines them first")
     return named.from_description(description)
+
+
+P_WALL = 0.2
+"""Prior wall probability: buildings are mostly free space, and unobserved cells should look unlike both."""
+
+HIT_DEPTH = Independent.hit_depth
+"""Where in a cell a beam is expected to stop, as a fraction of its chord."""
+
+LASER_SIGMA_M = 0.02
+LASER_SIGMA_PER_M = 0.005
+CELL_SHARE = 0.35
+
+
+def default_sensor(resolution_m: float) -> BeamMixture:
+    """A robust laser model for cells of a given size."""
+    return BeamMixture(Gaussian(math.hypot(LASER_SIGMA_M, CELL_SHARE * resolution_m), LASER_SIGMA_PER_M))

@@ -13,9 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells.arrays import ArraySpec
-from bayesmap.cells.draws import Draws
-from bayesmap.cells.packing import count_walls, unpack
+from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
 from bayesmap.cells.perfect_draws import perfect_draws
 from bayesmap.space.grid import Grid
 

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells import labels
-from bayesmap.cells.arrays import ArraySpec
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells import labels
-from bayesmap.cells.arrays import ArraySpec
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
 from bayesmap.cells.reflectivity import (
     EXPECTED,

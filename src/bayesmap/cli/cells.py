@@ -63,9 +63,8 @@ def sweeps_a_draw(values: dict[str, Any]) -> int:
 def prior_of(values: dict[str, Any]) -> CellPrior:
     """The prior of these cells."""
     from bayesmap.cells.binary import Independent
-    from bayesmap.cells.defaults import P_WALL
     from bayesmap.cells.ising import Ising
-    from bayesmap.cells.kinds import BUILT_IN
+    from bayesmap.cells.kinds import BUILT_IN, P_WALL
 
     kind = BUILT_IN[values["cells"]]
     if kind.has_walls:
@@ -76,8 +75,7 @@ def prior_of(values: dict[str, Any]) -> CellPrior:
 
 def sensor_for(values: dict[str, Any], chosen: SensorModel | str | None, resolution_m: float) -> SensorModel | str:
     """The sensor that was chosen; by default one that is fitted, but for binary walls a good laser's."""
-    from bayesmap.cells.defaults import default_sensor
-    from bayesmap.cells.kinds import BUILT_IN
+    from bayesmap.cells.kinds import BUILT_IN, default_sensor
 
     if chosen is not None:
         return chosen

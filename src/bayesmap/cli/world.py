@@ -47,7 +47,7 @@ class World:
 
     def sensor(self) -> SensorModel:
         """The sensor where none is named: the tutorial's noise with typed no-returns, or a good laser's."""
-        from bayesmap.cells.defaults import LASER_SIGMA_M, LASER_SIGMA_PER_M
+        from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
         from bayesmap.sensors.mixture import BeamMixture
         from bayesmap.sensors.noise import Gaussian
 

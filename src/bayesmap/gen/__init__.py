@@ -4,9 +4,6 @@ The interface is that of GenJAX 0.10; `docs/coming-from-genjax.md` lists what di
 """
 
 from bayesmap.gen import inference
-from bayesmap.gen.checks import (
-    do_checkify,
-)
 from bayesmap.gen.choice_map import (
     ChoiceMap,
     ChoiceMapBuilder,
@@ -75,6 +72,9 @@ from bayesmap.gen.errors import (
     ShapeMismatch,
     UnknownAddress,
 )
+from bayesmap.gen.flags import (
+    do_checkify,
+)
 from bayesmap.gen.generative_function import (
     GenerativeFunction,
     Trace,
@@ -118,7 +118,7 @@ from bayesmap.gen.masking import (
     MaskCombinator,
     mask,
 )
-from bayesmap.gen.pretty import (
+from bayesmap.gen.outline import (
     pretty,
     render,
 )

@@ -7,12 +7,11 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.checks import check, in_optional_part
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dense import dense
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.errors import MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
-from bayesmap.gen.flags import is_concrete, where
+from bayesmap.gen.flags import check, in_optional_part, is_concrete, where
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.mask import Mask
 from bayesmap.gen.pytree import dataclass, static

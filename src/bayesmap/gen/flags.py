@@ -1,14 +1,18 @@
-"""Logic on flags, each a Python bool or a Boolean array.
+"""Logic on flags, each a Python bool or a Boolean array, and which checks apply to the code that runs at the moment.
 
 A Python bool is known while a program is traced, and decides what a choice map holds. An array never does, even when
 its value could be looked up: else a program would give maps of other structure inside `jax.jit` than outside.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.experimental import checkify
 
 from bayesmap.gen.typing import Flag
 
@@ -56,3 +60,41 @@ def where(flag: Any, yes: Any, no: Any) -> Any:
         return jnp.where(jnp.reshape(flag, jnp.shape(flag) + (1,) * missing), a, b)
 
     return jax.tree.map(pick, yes, no)
+
+
+_checking: ContextVar[bool] = ContextVar("checking", default=False)
+_optional: ContextVar[bool] = ContextVar("optional", default=False)
+
+
+@contextmanager
+def do_checkify() -> Iterator[None]:
+    """Check, in the code inside, that no value whose flag is False is used.
+
+    Compiled code reports through `jax.experimental.checkify.checkify`; other code raises at once.
+    """
+    token = _checking.set(True)
+    try:
+        yield
+    finally:
+        _checking.reset(token)
+
+
+def check(condition: Any, message: str) -> None:
+    """Complain where some element of `condition` is False, if within `do_checkify`."""
+    if _checking.get():
+        checkify.check(jnp.all(condition), message)
+
+
+@contextmanager
+def optional_part() -> Iterator[None]:
+    """The code inside scores a part of a model that a flag may switch off, so that its choices may be absent."""
+    token = _optional.set(True)
+    try:
+        yield
+    finally:
+        _optional.reset(token)
+
+
+def in_optional_part() -> bool:
+    """Is this code inside `optional_part`?"""
+    return _optional.get()

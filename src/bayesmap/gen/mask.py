@@ -6,9 +6,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.checks import check
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.flags import both, either, exactly_one, is_known, negation, where
+from bayesmap.gen.flags import both, check, either, exactly_one, is_known, negation, where
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.typing import Flag
 

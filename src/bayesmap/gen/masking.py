@@ -5,10 +5,10 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from bayesmap.gen.checks import optional_part
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff, NoChange
 from bayesmap.gen.errors import BadArguments, NotSupportedEditRequest
+from bayesmap.gen.flags import optional_part
 from bayesmap.gen.fluent import method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.mask import Mask

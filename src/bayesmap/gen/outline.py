@@ -1,4 +1,4 @@
-"""Values as text."""
+"""Traces, choice maps and their values as text: readable trees, in the terminal and in notebooks."""
 
 from typing import Any
 
@@ -29,3 +29,19 @@ def leaf_text(value: Any) -> str:
     except TypeError:  # not an array, or several
         return str(value)
     return str(value)
+
+
+def pretty() -> None:
+    """Show values by treescope, if it is installed and a notebook is running; their text is a tree anyhow."""
+    try:
+        import treescope
+
+        treescope.register_as_default()
+        treescope.register_autovisualize_magic()
+    except (ImportError, RuntimeError):  # the latter is what treescope raises outside IPython
+        return
+
+
+def render(value: Outlined) -> str:
+    """A trace or a choice map as a tree, one choice a line."""
+    return "\n".join(value.outline())

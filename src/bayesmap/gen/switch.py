@@ -8,13 +8,12 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.checks import optional_part
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.densities import categorical
 from bayesmap.gen.diff import Diff, NoChange
 from bayesmap.gen.dimap import contramap
 from bayesmap.gen.errors import AddressError, BadArguments, NotSupportedEditRequest, UnknownAddress
-from bayesmap.gen.flags import is_concrete, where
+from bayesmap.gen.flags import is_concrete, optional_part, where
 from bayesmap.gen.fluent import method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.pytree import dataclass

@@ -24,7 +24,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.io.saved_arrays import read_array, write_arrays
-from bayesmap.poses.calibration import OdometryFit
+from bayesmap.poses.calibration import MotionNoise, OdometryFit
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.motion_noise import MotionNoise
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory

@@ -5,17 +5,20 @@ uniform over the map's free cells, or some of both: a robot may have been carrie
 forward law, averaged over draws of the map; where nothing narrows the search, a search over the whole map says where to
 look. Beside all poses stands the chance that the robot is elsewhere, or the map outdated: then readings come as they do
 anywhere.
+
+From where a pose may be to where the scan's end points meet the map: proposals for the exact law, at little cost.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit
 
-from bayesmap.localization.approach import approached
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.particles import (
@@ -30,10 +33,61 @@ from bayesmap.localization.particles import (
     squared_distances,
     weighed,
 )
-from bayesmap.localization.search import search
+from bayesmap.localization.search import FEWEST, end_points, search
 from bayesmap.sensors.model import RangeLimits
 
+if TYPE_CHECKING:
+    from bayesmap.localization.known_map import KnownMap
+
 Floats = NDArray[np.float64]
+
+POINTS = 60
+SHARPER = 2.0
+"""How much more end points count here than beams: their field is that of all draws of the map in one, and wider. It
+decides how many rounds the exact law needs, not what it answers."""
+
+STEPS, NEARLY = 3, 0.6
+"""Rounds at most, or until weights hardly have to be tempered; one less for several places: a search found them."""
+
+DRAWS, LEAST = 240, 24
+"""Draws in a round, of all places together, and of each."""
+
+
+def approached(
+    places: PoseMixture,
+    log_prior: Callable[[Floats], Floats],
+    known: KnownMap,
+    angles_rad: Floats,
+    ranges_m: Floats,
+    rng: np.random.Generator,
+) -> PoseMixture:
+    """Places moved to where prior and end points say, and narrowed to their spread; as they are if too few beams hit.
+
+    Args:
+        places: where the pose may be.
+        log_prior: log density of poses (P, 3) before the scan, (P,).
+        known: the map.
+        angles_rad: of the beams, (A,).
+        ranges_m: readings, (A,).
+        rng: for the draws.
+    """
+    points = end_points(angles_rad, ranges_m, POINTS)
+    if len(points) < FEWEST:
+        return places
+    hits = int(np.isfinite(ranges_m).sum())
+    weight = SHARPER * known.weight_of(ranges_m) * hits / len(points)
+
+    def target(poses: Floats) -> Floats:
+        return np.asarray(log_prior(poses) + weight * known.endpoints.log_worth(points, poses))
+
+    each = max(LEAST, DRAWS // len(places.means))
+    for _ in range(STEPS if len(places.means) == 1 else STEPS - 1):
+        places, power = adapted(places, draw_population(places, target, each, rng))
+        places = places.best(len(places.means))
+        if power > NEARLY:
+            break
+    return places
+
 
 CANDIDATES = 24
 """Of the search, few: that end points fall on walls tells, too. Among more, wrong places came before the right one."""

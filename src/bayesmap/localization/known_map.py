@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.localization.endpoint_field import EndpointField, endpoint_field
-from bayesmap.localization.field import Field, likelihood_field
+from bayesmap.localization.field import EndpointField, Field, endpoint_field, likelihood_field
 from bayesmap.localization.particles import log_sum
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits, SensorModel

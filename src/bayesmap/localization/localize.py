@@ -16,9 +16,8 @@ from bayesmap.localization.filter import GETS_LOST, IS_FOUND, LOST_AT_FIRST, Pri
 from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
-from bayesmap.poses.se2 import rotation
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, rotation, wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 

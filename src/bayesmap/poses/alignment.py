@@ -21,8 +21,7 @@ from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import retract
-from bayesmap.space.planar import between
+from bayesmap.space.planar import between, retract
 
 Floats = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.likelihood_grid import likelihood_grids
+from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.next_scans import (
     Elsewhere,
     Placed,

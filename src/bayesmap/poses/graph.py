@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from bayesmap.poses.precision import Precision
-from bayesmap.poses.se2 import between_jacobians, retract
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between, between_jacobians, retract, wrapped
 
 Floats = NDArray[np.float64]
 

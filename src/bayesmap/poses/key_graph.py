@@ -12,10 +12,9 @@ from bayesmap.poses.front_end import Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
 from bayesmap.poses.key_path import KeyPath, key_path
 from bayesmap.poses.look_alikes import Weighed, weigh
-from bayesmap.poses.loops import Search, find_closures
+from bayesmap.poses.loops import Closures, Search, find_closures, no_closures
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.submap_matching import Closures, no_closures
 from bayesmap.space.planar import between, compose, wrapped
 
 Floats = NDArray[np.float64]

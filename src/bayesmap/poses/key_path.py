@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import transform
-from bayesmap.space.planar import between
+from bayesmap.space.planar import between, transform
 
 Floats = NDArray[np.float64]
 

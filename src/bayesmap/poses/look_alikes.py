@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, solve_step
 from bayesmap.poses.precision import relative_covariances
-from bayesmap.poses.se2 import retract
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, compose, retract
 
 Floats = NDArray[np.float64]
 

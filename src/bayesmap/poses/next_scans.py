@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
-from bayesmap.poses.likelihood_grid import LikelihoodGrids
-from bayesmap.poses.matcher import Pull, match
+from bayesmap.poses.matcher import LikelihoodGrids, Pull, match
 from bayesmap.poses.odometry_motion import RunningOdometry
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import rotation
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, compose, rotation
 from bayesmap.space.time_order import SAME_S
 
 Floats = NDArray[np.float64]

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from bayesmap.poses.alignment import Alignment
 from bayesmap.poses.calibration import OdometryFit, fit_odometry, stated_at
 from bayesmap.poses.front_end import UNKNOWN, Track
-from bayesmap.poses.frozen_odometry import caught_up
 from bayesmap.poses.graph import Factors
+from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_motion import stated_motions, variances
 from bayesmap.poses.precision import relative_covariances

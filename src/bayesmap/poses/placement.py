@@ -12,8 +12,7 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.alignment import ALIKE, Pairs, without_slack
 from bayesmap.poses.point_errors import PointError
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.poses.se2 import rotation
-from bayesmap.space.planar import around, between, nearest
+from bayesmap.space.planar import around, between, nearest, rotation
 
 Floats = NDArray[np.float64]
 

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from bayesmap.poses.se2 import between_jacobians
-from bayesmap.space.planar import between
+from bayesmap.space.planar import between, between_jacobians
 
 Floats = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 A scan that was aligned wrongly stays wrong, because the pairs that would move it are out of reach. So every scan is
 looked for in the likelihood grid of its partners alone; where another place explains it clearly better it is put
-there, and where none explains it well a wide window is searched.
+there, and where none explains it well a wide window is searched. Scans that stay badly explained are flagged.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.alignment import Pairs
-from bayesmap.poses.likelihood_grid import LikelihoodGrids, likelihood_grids
-from bayesmap.poses.matcher import Pull, match
+from bayesmap.poses.matcher import LikelihoodGrids, Pull, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose
 
@@ -115,3 +114,18 @@ def rematch(
         best_scores[some], best_poses[some] = best, compose(poses[some], place)
     moved = (best_scores > scores + CLEARLY_BETTER) | wide
     return Rematch(scores, best_scores, best_poses, moved)
+
+
+FAR_BELOW = 0.55
+"""Times the usual share: a scan that is explained less is flagged."""
+
+
+def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Scans that are explained far worse than usual, (S,): key scans and the others are compared among themselves."""
+    flagged = np.zeros(len(explained), np.bool_)
+    is_key = np.zeros(len(explained), np.bool_)
+    is_key[keys] = True
+    for group in (is_key, ~is_key):
+        if group.any():
+            flagged[group] = explained[group] < FAR_BELOW * np.median(explained[group])
+    return flagged

@@ -11,8 +11,7 @@ from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
-from bayesmap.poses.se2 import between_jacobians, retract
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, between_jacobians, compose, retract
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]

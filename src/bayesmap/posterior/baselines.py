@@ -18,7 +18,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.defaults import HIT_DEPTH, default_sensor
+from bayesmap.cells.kinds import HIT_DEPTH, default_sensor
 from bayesmap.posterior.folds import THIN, Fold, HeldOut, make_folds, together
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.progress_shares import OnShare, ignored, parts

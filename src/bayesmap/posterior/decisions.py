@@ -19,7 +19,7 @@ from bayesmap.posterior.progress_shares import OnShare, ignored, parts, watched
 from bayesmap.posterior.route import Route, blocked_probability, plan_route
 
 if TYPE_CHECKING:
-    from bayesmap.cells.draws import Draws
+    from bayesmap.cells.arrays import Draws
     from bayesmap.cells.kind import CellPrior
     from bayesmap.sensors.model import SensorModel
     from bayesmap.space.grid import Grid

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.run.chains import Chains

@@ -24,8 +24,7 @@ import scipy
 from numpy.typing import NDArray
 
 from bayesmap.poses.relations import RelationErrors, Relations, relation_errors
-from bayesmap.poses.se2 import between_jacobians, rotation
-from bayesmap.space.planar import around, between, compose, interpolate, inverse, wrapped
+from bayesmap.space.planar import around, between, between_jacobians, compose, interpolate, inverse, rotation, wrapped
 from bayesmap.space.relative_law import RelativeLaw
 from bayesmap.space.trajectory import Trajectory
 

@@ -5,6 +5,8 @@
 
 It describes the same joint law of walls and readings as `bayesmap.infer`, for programs of one's own. Poses may be
 unknown too: give a generative function that draws them in place of an array.
+
+An edit of several cells at once, such as a 2 x 2 block.
 """
 
 from __future__ import annotations
@@ -18,19 +20,51 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
+from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import GenerativeFunctionClosure
 from bayesmap.gen.densities import flip
-from bayesmap.gen.generative_function import GenerativeFunction
+from bayesmap.gen.diff import Diff, IndexChange
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import Pytree, dataclass, static
+from bayesmap.gen.requests import Edited, EditRequest, IndexRequest, Update
 from bayesmap.gen.static import StaticGenerativeFunction, gen
+from bayesmap.gen.typing import PRNGKey
 from bayesmap.programs.beam_geometry import beam_geometry
 from bayesmap.programs.beam_sensor import BeamSensor
 from bayesmap.programs.pose_sensor import PoseSensor
 from bayesmap.programs.reading_law import reading_law
-from bayesmap.programs.set_cells import SetCells as SetCells
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import as_angles, as_poses, check_limits
+
+
+@dataclass
+class SetCells(EditRequest):
+    """Give the cells (i[k], j[k]) of a map the values `values[k]`: a request for the address "walls".
+
+    A block is `SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)`. The work is that of
+    changing the cells one by one, beams included.
+
+    Attributes:
+        i, j: cells, integers, shape (k,); the shape is known when the program is compiled, the cells need not be.
+        values: shape (k,).
+    """
+
+    i: Any
+    j: Any
+    values: Any
+
+    def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        """Edit one cell after the other. Undone by the same request with the old values."""
+        i, j, values = jnp.broadcast_arrays(*map(jnp.atleast_1d, (self.i, self.j, self.values)))
+        old = trace.get_retval()[i, j]
+        weight = jnp.zeros(())
+        for row, column, value in zip(i.ravel(), j.ravel(), values.ravel(), strict=True):
+            request = IndexRequest(row, IndexRequest(column, Update(ChoiceMap.choice(value))))
+            trace, gain, _, _ = trace.edit(key, request, argdiffs)
+            argdiffs = Diff.no_change(Diff.tree_primal(argdiffs))
+            weight += gain
+        return trace, weight, Diff.tree(trace.get_retval(), IndexChange((i, j))), SetCells(i, j, old)
 
 
 def mapping_model(

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.run.chains import Chains, Record
 from bayesmap.run.schedule import Schedule

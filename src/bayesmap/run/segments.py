@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.run.chains import Chains, Record
 from bayesmap.run.runner import Job, no_draws, sweeps
 from bayesmap.run.schedule import Schedule

@@ -1,7 +1,7 @@
 """Fitting the coupling of an Ising prior to scans, by a pilot: stochastic expectation maximisation along a chain.
 
 After each sweep the pilot's map, in which what no beam saw is drawn, too, has a coupling of greatest
-pseudo-likelihood (`bayesmap.cells.pseudo_likelihood`), and the coupling under which the next sweep is made moves there:
+pseudo-likelihood (`bayesmap.cells.ising`), and the coupling under which the next sweep is made moves there:
 all the way in the first sweeps, and then a shrinking part of it (Delyon, Lavielle and Moulines, 1999). It comes to
 where the slope of the pseudo-likelihood is zero on the mean over the posterior, as it is over maps of the prior at the
 truth. Poses that are unknown are taken as the log states them.
@@ -16,8 +16,7 @@ from typing import cast
 
 import numpy as np
 
-from bayesmap.cells.ising import Ising
-from bayesmap.cells.pseudo_likelihood import counts, likeliest
+from bayesmap.cells.ising import Ising, counts, likeliest
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import PILOT

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells.packing import pack
+from bayesmap.cells.arrays import pack
 from bayesmap.errors import check_count
 from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import SILENT, Watch

@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.space.grid import Grid
@@ -108,7 +108,7 @@ class Problem(Protocol):
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """Of the dimensions of draws that count some cells only: which (see `bayesmap.cells.draws.Draws`)."""
+        """Of the dimensions of draws that count some cells only: which (see `bayesmap.cells.arrays.Draws`)."""
 
     def touched(self) -> NDArray[np.bool_]:
         """Cells that some beam touches, (nx, ny): the others have the prior."""

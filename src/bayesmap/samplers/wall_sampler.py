@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import unpack
+from bayesmap.cells.arrays import unpack
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.problem import WallProblem, trace_walls

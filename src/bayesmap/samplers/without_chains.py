@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.packing import pack
+from bayesmap.cells.arrays import pack
 from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.importance import Particles, sample_importance
 from bayesmap.samplers.problem import WallProblem

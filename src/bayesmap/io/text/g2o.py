@@ -194,7 +194,7 @@ def slam_edges(found: Approximation) -> Edges:
     Informations are the curvatures of the cost, divided by two factors: what makes normal covariances of those of
     Student's t, and by how much common errors of pairs enlarge covariances, on average. A graph cannot say either.
     """
-    from bayesmap.poses.se2 import between_jacobians
+    from bayesmap.space.planar import between_jacobians
 
     gaussian, keys = found.gaussian, found.keys
     of_student = gaussian.dof / (gaussian.dof - 2.0)

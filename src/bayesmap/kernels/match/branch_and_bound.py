@@ -304,7 +304,7 @@ def search(
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
 
     Args:
-        grids: `bayesmap.poses.likelihood_grid.LikelihoodGrids`.
+        grids: `bayesmap.poses.matcher.LikelihoodGrids`.
         windows: what to search.
         modes: how many poses of each job.
         strands: threads that share a job.

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from bayesmap.poses.se2 import between_jacobians, retract, transform
-from bayesmap.space.planar import between, compose, inverse, wrapped
+from bayesmap.space.planar import between, between_jacobians, compose, inverse, retract, transform, wrapped
 
 RNG = np.random.default_rng(5)
 A, B, C = RNG.normal(0.0, 2.0, (3, 20, 3))
