@@ -16,7 +16,7 @@ from bayesmap.cells.draws import Draws
 from bayesmap.cells.packing import pack
 from bayesmap.posterior.posterior import entropy_bits
 from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.score import beam_log_scores
+from bayesmap.posterior.scoring import beam_log_scores
 from bayesmap.sensors.model import RangeLimits
 
 

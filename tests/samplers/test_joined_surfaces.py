@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.samplers.joined_surfaces import (
+from bayesmap.samplers.start_search import (
     FREE,
-    LEAST_NATS,
+    MERGED_NATS,
     MOST_READINGS,
     axes_of,
     best_neighbours,
@@ -133,7 +133,7 @@ def test_the_one_becomes_free_and_the_other_longer():
     np.testing.assert_array_equal(new.cells[:, 1, 0], cells[new.where[:, 1], 0])
 
 
-@pytest.mark.parametrize(("worth", "pays"), [(2 * LEAST_NATS, True), (LEAST_NATS / 2, False), (-LEAST_NATS, False)])
+@pytest.mark.parametrize(("worth", "pays"), [(2 * MERGED_NATS, True), (MERGED_NATS / 2, False), (-MERGED_NATS, False)])
 def test_what_does_not_pay_is_taken_back(worth, pays):
     cells, owner, points = wall()
     maps = Maps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))

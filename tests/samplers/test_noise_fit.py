@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.samplers.noise_fit import SHAPES, Residuals, refit_noise
+from bayesmap.samplers.fit import SHAPES, Residuals, refit_noise
 
 COUNT = 10_000
 FIRST = bm.Gaussian(0.02, 0.002)

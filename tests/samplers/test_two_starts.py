@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bayesmap.samplers import two_starts
+from bayesmap.samplers import start_search
+from bayesmap.samplers.start_search import BETTER_NATS, HALF_WIDTHS, MARGIN, cells_of, squares, take_better
 from bayesmap.samplers.trials import Maps
-from bayesmap.samplers.two_starts import HALF_WIDTHS, LEAST_NATS, MARGIN, cells_of, squares, take_better
 
 SHAPE = (40, 30)
 GOOD = np.zeros(SHAPE)
@@ -53,7 +53,7 @@ def test_labels_come_with_their_cells():
 
 def test_too_little_is_not_looked_for():
     gain = np.zeros(SHAPE)
-    gain[10, 10], gain[25, 25] = LEAST_NATS + 0.1, LEAST_NATS - 0.1
+    gain[10, 10], gain[25, 25] = BETTER_NATS + 0.1, BETTER_NATS - 0.1
     tried = np.zeros(SHAPE, dtype=bool)
     found = squares(0, maps_of(GOOD), gain, 1, tried)
     assert len(found.middle) == 1
@@ -63,7 +63,7 @@ def test_too_little_is_not_looked_for():
 
 
 def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
-    monkeypatch.setattr(two_starts, "HALF_WIDTHS", (1,))
+    monkeypatch.setattr(start_search, "HALF_WIDTHS", (1,))
     row = np.zeros(SHAPE)
     row[3:6, 3:27:6] = 1.0  # further apart than small squares are wide, and closer than beams are asked
 
@@ -77,7 +77,7 @@ def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
 
 @pytest.mark.parametrize("half", HALF_WIDTHS)
 def test_no_beam_is_asked_about_two_squares(half):
-    gain = np.random.default_rng(half).uniform(0, 2 * LEAST_NATS, SHAPE)
+    gain = np.random.default_rng(half).uniform(0, 2 * BETTER_NATS, SHAPE)
     found = squares(0, maps_of(GOOD), gain, half, np.zeros(SHAPE, dtype=bool)).middle
     assert len(found) > 1
     asked = np.zeros(SHAPE, dtype=int)

@@ -16,7 +16,7 @@ from bayesmap.app.recording import to_html
 from bayesmap.app.result import COUNTS, HITS, Result
 from bayesmap.app.stream import CHAINS
 from bayesmap.errors import BadInput
-from bayesmap.posterior.from_chains import posterior_of_chains, posterior_of_draws
+from bayesmap.posterior.posterior import posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.run.resuming import RANDOM_STREAMS
 from bayesmap.samplers.without_chains import Asked, found_by_beliefs, found_by_importance

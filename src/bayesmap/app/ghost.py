@@ -14,8 +14,7 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, fan, hits
 from bayesmap.app.tasks import MoveGhost
 from bayesmap.errors import BadInput
-from bayesmap.posterior.predicted_scan import ScanPredictor
-from bayesmap.posterior.predictor import Maps, Predictor, fixed_maps
+from bayesmap.posterior.predictor import Maps, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
 
 MOST_DRAWS = 32

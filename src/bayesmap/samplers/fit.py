@@ -1,15 +1,17 @@
-"""Fitting the sensor and the prior, by a pilot: stochastic expectation maximisation along a chain of its own.
+"""Fit the sensor and the prior by a pilot chain: stochastic expectation maximisation.
 
-After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell; the
-expectation step splits readings into those of walls, passing objects and chance, the maximisation step is in closed
-form but for the noise (`bayesmap.samplers.noise_fit`) and the Beta. Parameters move a shrinking part of the way
-(Delyon, Lavielle and Moulines, 1999). With 10^5 beams their posterior is a point beside everything else that is
-unknown.
+After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell. The
+expectation step splits the readings into those of walls, of passing objects and of chance. The maximisation step is in
+closed form but for the noise and the Beta. Parameters move a shrinking part of the way (Delyon, Lavielle and Moulines,
+1999). With 10^5 beams their posterior is a point beside everything else that is unknown.
 
-The pilot is a short chain whose number no other chain has. It is over before the chains begin, which run under what it
-found: so what is fitted depends on the seed and on how many sweeps the pilot makes, and not on how many chains follow.
+Real readings scatter more at times than a normal law allows: poses are off by more in one scan than in another, walls
+are hit at a slant, and an edge is half wall and half what lies behind it. So the noise may be Student's t, a mixture of
+normal laws of all scales, which with many degrees of freedom is normal itself.
 
-Only the scans that the map is inferred from are looked at.
+The pilot is a short chain with a number that no other chain has. It ends before the chains begin, which run under the
+parameters that it found. So these depend on the seed and on the number of the pilot's sweeps, and not on the number of
+chains. Only the scans from which the map is inferred are used.
 """
 
 from __future__ import annotations
@@ -28,7 +30,6 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
-from bayesmap.samplers.noise_fit import Residuals, refit_noise
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
@@ -36,7 +37,71 @@ from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.sensors.describe import describe, from_description
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.noise import AdditiveNoise, Gaussian, noise_with
+
+SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
+"""Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""
+LEAST_SCALE_M = 1e-3
+LEAST_GROWTH = 1e-6
+FIRST_STEP, CLOSE = 0.1, 1e-3
+"""Of the search, in logarithms: where it looks first, and how close to the likeliest it comes."""
+LEAST_WEIGHT = 10.0
+"""Readings that it takes to change anything."""
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """Readings of beams that were stopped, (N,) each.
+
+    Attributes:
+        residual_m: reading less where the beam was stopped.
+        distance_m: where that was.
+        variance: of the surface along the beam, which adds to the noise's, square metres.
+        weight: the chance that the reading came from there.
+    """
+
+    residual_m: NDArray[np.float64]
+    distance_m: NDArray[np.float64]
+    variance: NDArray[np.float64]
+    weight: NDArray[np.float64]
+
+    def cost(self, dof: float, scale_m: float, per_m: float) -> float:
+        """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
+        scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
+        log_density = noise_with(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
+        return float(-(self.weight * log_density).sum() / self.weight.sum())
+
+    def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
+        """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
+        first = np.log([scale_m, max(per_m, 1e-5)])
+        found = scipy.optimize.minimize(
+            lambda logs: self.cost(dof, *np.exp(logs)),
+            first,
+            method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra
+            bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
+            options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
+        )
+        return float(found.fun), found.x
+
+
+def refit_noise(noise: AdditiveNoise, residuals: Residuals, step: float) -> AdditiveNoise:
+    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
+    to the next of `SHAPES`.
+    """
+    readings = residuals.weight.sum()
+    if readings < LEAST_WEIGHT:
+        return noise
+    numbers = noise.kernel_parameters()
+    assert numbers is not None
+    dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
+    place = SHAPES.index(dof)
+    tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
+    found = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
+    a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
+    best = min(tried, key=lambda shape: found[shape][0] + (a_number_more if shape < math.inf else 0.0))
+    present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
+    return noise_with(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())
+
 
 BEAMS_LOOKED_AT = 40_000
 PILOT_SWEEPS = 40

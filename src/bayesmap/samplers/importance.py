@@ -17,9 +17,9 @@ from scipy import special
 
 from bayesmap.cells.packing import pack
 from bayesmap.errors import check_count
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import STREAM_PARTICLES
+from bayesmap.samplers.wall_problem import WallProblem
 
 BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
 COUPLED_CELLS = 1 << 13  # of maps of coupled cells that are drawn together

@@ -30,11 +30,10 @@ from bayesmap.samplers.sampler import (
     Keep,
     Snapshot,
 )
-from bayesmap.samplers.start_search import join, joining_after, settle
+from bayesmap.samplers.start_search import AVERAGED, join, joining_after, settle
 from bayesmap.samplers.stop_draws import StopDraws
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.trials import evidence
-from bayesmap.samplers.two_starts import AVERAGED
 
 if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.stop_chains import Plan, StopChains
