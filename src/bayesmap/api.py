@@ -30,7 +30,7 @@ from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.wall_problem import trace_walls
 from bayesmap.samplers.walls import Order, Start, default_start
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
-from bayesmap.samplers.without_chains import Asked
+from bayesmap.samplers.without_chains import DrawRequest
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
@@ -161,7 +161,7 @@ def infer(
         raise BadInput(
             f"resume: the saved run is one over {resume.posterior.prior.words.states}, not over {prior.words.states}"
         )
-    ask = Asked(chains, schedule.draws, seed, particles, rounds)
+    ask = DrawRequest(chains, schedule.draws, seed, particles, rounds)
     first = first_sensor(prior, grid.resolution) if isinstance(sensor, str) else sensor
     model = Model(scans, grid, prior, first, Known() if poses is None else poses, float(hit_depth))
     if start_poses is not None and np.shape(start_poses)[1:] != scans.poses.shape:
@@ -184,7 +184,7 @@ class Inference:
     model: Model
     method: str
     schedule: Schedule
-    asked: Asked
+    asked: DrawRequest
     fitted: bool
     threads: int | None
     device: str

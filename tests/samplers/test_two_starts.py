@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bayesmap.samplers import start_search
-from bayesmap.samplers.start_search import BETTER_NATS, HALF_WIDTHS, MARGIN, cells_of, squares, take_better
-from bayesmap.samplers.trials import Maps
+from bayesmap.samplers.start_search import BETTER_NATS, HALF_WIDTHS, MARGIN, cells_of, squares, take_better_squares
+from bayesmap.samplers.trials import ChainMaps
 
 SHAPE = (40, 30)
 GOOD = np.zeros(SHAPE)
@@ -16,7 +16,7 @@ GOOD[5:8, 5:8] = GOOD[20:27, 10:16] = GOOD[0:2, 28:30] = 1.0
 def maps_of(m):
     cells = np.zeros((1, m.size, 6), dtype=np.float32)
     cells[0, :, 0] = m.ravel()
-    return Maps(cells, np.zeros((1, m.size), dtype=bool))
+    return ChainMaps(cells, np.zeros((1, m.size), dtype=bool))
 
 
 def look(maps):
@@ -29,7 +29,7 @@ def test_chains_take_what_is_better_and_keep_what_is_not():
     worse[30:35, 20:25] = 0.5  # of these places the first start knows more
     first, second = maps_of(np.zeros(SHAPE)), maps_of(worse)
     gain = look(second) - look(first)
-    take_better(first, second, gain, look)
+    take_better_squares(first, second, gain, look)
     np.testing.assert_array_equal(first.cells[0, :, 0].reshape(SHAPE), GOOD)
 
 
@@ -40,14 +40,14 @@ def test_a_square_that_does_not_fit_among_the_chain_s_own_is_taken_back():
         return look(maps) - 1000.0 * ((m[:, :, :] == 1) & (np.roll(m, 1, axis=1) == 0))
 
     first, second = maps_of(np.zeros(SHAPE)), maps_of(GOOD)
-    take_better(first, second, look(second) - look(first), seams)
+    take_better_squares(first, second, look(second) - look(first), seams)
     assert not first.cells.any()
 
 
 def test_labels_come_with_their_cells():
     first, second = maps_of(np.zeros(SHAPE)), maps_of(GOOD)
     second.solid[0] = GOOD.ravel() > 0
-    take_better(first, second, look(second) - look(first), look)
+    take_better_squares(first, second, look(second) - look(first), look)
     np.testing.assert_array_equal(first.solid, second.solid)
 
 
@@ -71,7 +71,7 @@ def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
         return 10.0 * (maps.cells[..., 0].reshape(-1, *SHAPE) == row)
 
     first, second = maps_of(np.zeros(SHAPE)), maps_of(row)
-    take_better(first, second, look(second) - look(first), look)
+    take_better_squares(first, second, look(second) - look(first), look)
     np.testing.assert_array_equal(first.cells[0, :, 0].reshape(SHAPE), row)
 
 

@@ -15,7 +15,7 @@ from bayesmap.model import Model
 from bayesmap.run.chains import Chains
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.sampler import Snapshot
-from bayesmap.samplers.without_chains import Found
+from bayesmap.samplers.without_chains import IndependentDraws
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -140,7 +140,7 @@ def posterior_of_chains(
 
 
 def posterior_of_draws(
-    model: Model, found: Found, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
+    model: Model, found: IndependentDraws, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
 ) -> Posterior:
     """The posterior of independent draws."""
     return Posterior(

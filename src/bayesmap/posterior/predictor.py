@@ -24,15 +24,15 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.predict.density import HeldMaps
+    from bayesmap.kernels.predict.density import DeviceMaps
 
-Maps = NDArray[np.float32]
+MapStates = NDArray[np.float32]
 
 
 class Batches(Protocol):
     """Gives the draws of a map."""
 
-    def __call__(self, cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
+    def __call__(self, cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         """The states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
 
         Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`.
@@ -61,7 +61,7 @@ class Predictor:
 def fixed_maps(stop: NDArray[np.floating]) -> Batches:
     """Maps that are all in memory, (draws, cells), one draw for a plug-in map."""
 
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         yield np.ascontiguousarray(stop if cells is None else stop[:, cells], dtype=np.float32)
 
     return batches
@@ -82,7 +82,7 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
     if posterior.draws.size == 0:
         raise BadInput("score: the run has no draws yet; let it finish its warm-up")
 
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         return posterior.prior.predictive_stops(posterior.draws, cells)
 
     hit_depth = float(posterior.settings["hit_depth"])
@@ -108,7 +108,7 @@ class ScanPredictor:
     """
 
     grid: Grid
-    held: HeldMaps
+    held: DeviceMaps
     sensor: SensorModel
     limits: RangeLimits
 
@@ -119,9 +119,9 @@ class ScanPredictor:
         Raises:
             BadInput: no draws.
         """
-        from bayesmap.kernels.predict.density import hold_maps
+        from bayesmap.kernels.predict.density import device_maps
 
-        held = hold_maps(predictor.batches(), predictor.hit_depth, device=device)
+        held = device_maps(predictor.batches(), predictor.hit_depth, device=device)
         return cls(predictor.grid, held, predictor.sensor, limits)
 
     def thinned(self, most: int) -> ScanPredictor:
@@ -146,7 +146,7 @@ class ScanPredictor:
             BadInput: levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not add up to
                 one.
         """
-        from bayesmap.kernels.predict.stop_mixture import mix_held_stops
+        from bayesmap.kernels.predict.stop_mixture import mix_device_stops
         from bayesmap.kernels.predict.stop_quantiles import range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
@@ -160,4 +160,4 @@ class ScanPredictor:
             np.reshape(pose_world, (1, 3)), angles, unread, max_range_m=self.limits.max_m, min_range_m=self.limits.min_m
         )
         rays = trace_rays(scan, self.grid, device=self.held.device)
-        return range_quantiles(mix_held_stops(rays, self.held, GONE), wanted, self.sensor, self.held.device)
+        return range_quantiles(mix_device_stops(rays, self.held, GONE), wanted, self.sensor, self.held.device)

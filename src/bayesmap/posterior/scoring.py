@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.calibration import (
-    Blocks,
     Estimate,
+    ScanBlocks,
     binary_scores,
     inside,
     pit_histogram,
@@ -212,7 +212,7 @@ def score_prediction(
     at_events(1.0)
 
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
-    blocks = Blocks.make(scan[valid], seed)
+    blocks = ScanBlocks.make(scan[valid], seed)
     nats = blocks.mean(found.log_density[valid])
     pit = randomised_pit(found.pit_low[valid], found.pit_high[valid], seed)
     distance, p_value = blocks.uniformity(pit)
@@ -227,7 +227,7 @@ def score_prediction(
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)
-    of_events = Blocks.make(np.repeat(scan, rays.lengths)[event], seed)
+    of_events = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
     none = Estimate(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])),

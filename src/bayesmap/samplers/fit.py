@@ -50,7 +50,7 @@ LEAST_WEIGHT = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Residuals:
+class StopResiduals:
     """Readings of beams that were stopped, (N,) each.
 
     Attributes:
@@ -84,7 +84,7 @@ class Residuals:
         return float(found.fun), found.x
 
 
-def refit_noise(noise: AdditiveNoise, residuals: Residuals, step: float) -> AdditiveNoise:
+def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
     """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
     to the next of `SHAPES`.
     """
@@ -140,7 +140,7 @@ class Parameters:
 
 
 @dataclass(frozen=True, eq=False)
-class Stops:
+class DrawnStops:
     """Where beams stopped, for some beams of all chains: readings, whether and where, and the surface's variance."""
 
     range_m: NDArray[np.float64]
@@ -165,7 +165,7 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
     """
     now = _first(problem)
-    for found in fitting(problem, seed, sweeps, watch):
+    for found in fits(problem, seed, sweeps, watch):
         now = found
         if watch.should_stop():
             break
@@ -178,12 +178,12 @@ def _first(problem: StopProblem) -> Parameters:
     return Parameters(problem.sensor, problem.prior)
 
 
-def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
+def fits(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
     """The same, sweep by sweep: what is found after each."""
-    return (found for found, _ in piloting(problem, seed, sweeps, watch))
+    return (found for found, _ in pilot_sweeps(problem, seed, sweeps, watch))
 
 
-def piloting(
+def pilot_sweeps(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
 ) -> Iterator[tuple[Parameters, Info]]:
     """The same with what each sweep reports: its draw, too, where ``keep`` wants it."""
@@ -225,11 +225,11 @@ def fit_sensor(
     return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
 
 
-def stops_of(state: StopState, some: slice) -> Stops:
+def stops_of(state: StopState, some: slice) -> DrawnStops:
     """Stops of the last sweep, of some of the beams, all chains together."""
     rays, chains = state.problem.rays, range(state.chains.n_chains)
     parts = [state.chains.stops(chain) for chain in chains]
-    return Stops(
+    return DrawnStops(
         range_m=np.tile(rays.range_m[some], len(parts)),
         stopped=np.concatenate([stopped[some] for stopped, _, _ in parts]),
         distance_m=np.concatenate([distance[some] for _, distance, _ in parts]).astype(np.float64),
@@ -242,7 +242,7 @@ def gain(sweep: int) -> float:
     return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
 
 
-def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: float) -> BeamMixture:
+def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, step: float) -> BeamMixture:
     """Move the sensor's parameters towards those that make the readings likeliest, given the stops."""
     z, hit = stops.range_m, np.isfinite(stops.range_m)
     wall = hit & stops.stopped
@@ -287,7 +287,7 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
     metres = (by_object * reading).sum() + (behind * (t + 1.0 / rate)).sum()
     metres += further * (too_close / rate - limits.min_m)
     rate_new = (objects + PSEUDO_BEAMS) / (metres + PSEUDO_BEAMS / rate)
-    residuals = Residuals(reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
+    residuals = StopResiduals(reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
 
     def moved(old: float, new: float) -> float:
         return float(math.exp((1 - step) * math.log(old) + step * math.log(new)))

@@ -52,11 +52,11 @@ class Particles:
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
         """The maps of the given particles, (n, nx, ny)."""
-        from bayesmap.kernels.walls.importance import draw
+        from bayesmap.kernels.walls.importance import particle_maps
 
         if self.problem.coupling != 0.0:
             return _coupled_maps(self.problem, self.key, particles)
-        walls = draw(self.problem.device_prior, self.key, particles, self.problem.device)
+        walls = particle_maps(self.problem.device_prior, self.key, particles, self.problem.device)
         return np.asarray(walls.reshape(len(particles), *self.problem.table.grid.shape) != 0)
 
     def occupancy(self) -> NDArray[np.float64]:

@@ -15,12 +15,12 @@ from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import BlockGibbs, Gibbs, Order, Start, WallSampler, default_start
-from bayesmap.samplers.without_chains import Asked, Found, belief_propagation, exact, importance
+from bayesmap.samplers.without_chains import DrawRequest, IndependentDraws, belief_propagation, exact, importance
 from bayesmap.space.grid import Grid
 
 ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": Gibbs, "wall-blocks": BlockGibbs}
 ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
-WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, Asked, Watch], Found]] = {
+WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
     "exact": exact, "importance": importance, "propagate": belief_propagation,
 }  # fmt: skip
 

@@ -29,10 +29,10 @@ from numpy.typing import NDArray
 from bayesmap.samplers.initial_estimate import ALONG_WALL, INSIDE, longer_axis
 from bayesmap.samplers.stop_problem import StopProblem
 from bayesmap.samplers.trials import (
+    ChainMaps,
     Changes,
     Floats,
     Look,
-    Maps,
     apart,
     covered,
     look_with,
@@ -46,19 +46,19 @@ if TYPE_CHECKING:
 
 SEARCH_SHARE = 0.8
 """Of the warm-up: the part that is made from two starts."""
-ALL_TURN = 1 << 24
-"""Number of a sweep that no chain makes, in which all cells have their turn."""
-JOINED_AGAIN = 2
+UPDATES_ALL = 1 << 24
+"""Number of a sweep that no chain makes, which updates all cells."""
+MERGED_AGAIN = 2
 """Times that surfaces are joined once more, after tenths of so many sweeps each: what is left of those that were joined
 has moved by then, and may take in others. With the share above all of it lies in the warm-up."""
 
 
-def joining_after(search_until: int) -> list[int]:
+def merge_sweeps(search_until: int) -> list[int]:
     """The sweeps after which surfaces are joined, of chains that have two starts for so many sweeps."""
-    return sorted({search_until + i * (search_until // 10) for i in range(1 + JOINED_AGAIN)} - {0})
+    return sorted({search_until + i * (search_until // 10) for i in range(1 + MERGED_AGAIN)} - {0})
 
 
-def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
+def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
     """Let chains take what is better of their second starts.
 
     Args:
@@ -68,23 +68,25 @@ def settle(problem: StopProblem, chains: StopChains, second: StopChains, gain: F
         gain: by how much these explain the readings better that end in each cell, averaged over some sweeps, (C, N).
         beta: inverse temperature.
     """
-    maps = Maps.of(chains)
-    take_better(maps, Maps.of(second), gain.reshape(-1, *problem.grid.shape), look_with(problem, chains, beta))
+    maps = ChainMaps.of(chains)
+    take_better_squares(
+        maps, ChainMaps.of(second), gain.reshape(-1, *problem.grid.shape), look_with(problem, chains, beta)
+    )
     maps.put(chains)
 
 
-def join(problem: StopProblem, chains: StopChains, beta: float) -> None:
+def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     """Let surfaces of chains that stop few beams give way to neighbours' where that is better."""
-    grid, rays, maps = problem.grid, problem.rays, Maps.of(chains)
+    grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
     look = look_with(problem, chains, beta)
     seen = look(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
     range_m, known = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
     # Of a sensor without parameters the surfaces' own thickness must do.
     sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
-    join_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
+    merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
     maps.put(chains)
-    chains.sweeps(ALL_TURN, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
+    chains.sweeps(UPDATES_ALL, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
     maps.put(chains)  # cells have counted beams under this map, but for those whose turn was to try a surface
 
 
@@ -103,7 +105,7 @@ MARGIN = 2
 """Cells around a square whose beams are asked, too."""
 
 
-def take_better(maps: Maps, second: Maps, gain: Floats, look: Look) -> None:
+def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: Look) -> None:
     """Let chains take from their second starts the squares in which these do better.
 
     Args:
@@ -128,7 +130,7 @@ def take_better(maps: Maps, second: Maps, gain: Floats, look: Look) -> None:
                 tried[i] |= covered(new.middle, half, shape)
 
 
-def squares(chain: int, second: Maps, gain: Floats, half: int, tried: NDArray[np.bool_]) -> Changes:
+def squares(chain: int, second: ChainMaps, gain: Floats, half: int, tried: NDArray[np.bool_]) -> Changes:
     """The squares of a chain that gain more than `BETTER_NATS`, the best first, so far apart that no two ask the same
     cell's beams; none about a cell that is in ``tried``, (nx, ny).
     """
@@ -171,7 +173,7 @@ MERGE_ROUNDS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Readings:
+class ExplainedReadings:
     """Of the readings that each cell's surface stopped: how many, mean (N, 2), second central moments xx, xy and yy
     (N, 3), and mean variance of the noise, metres, (N,).
     """
@@ -183,7 +185,7 @@ class Readings:
 
 
 @dataclass(frozen=True, eq=False)
-class Axes:
+class SurfaceAxes:
     """Of surfaces: direction of the longer axis (N, 2), and variances along and across it, (N,)."""
 
     direction: Floats
@@ -191,8 +193,8 @@ class Axes:
     across: Floats
 
 
-def join_surfaces(
-    maps: Maps,
+def merge_surfaces(
+    maps: ChainMaps,
     end_points_m: Floats,
     noise: Floats,
     owners: list[NDArray[np.int32]],
@@ -214,7 +216,7 @@ def join_surfaces(
     Returns:
         How many surfaces each chain is rid of.
     """
-    changes = [joins(*of, end_points_m, noise, grid) for of in zip(maps.cells, maps.solid, owners, strict=True)]
+    changes = [merge_moves(*of, end_points_m, noise, grid) for of in zip(maps.cells, maps.solid, owners, strict=True)]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
     gone, before = [0] * len(changes), before.copy()
     for _ in range(MERGE_ROUNDS):
@@ -234,7 +236,7 @@ def join_surfaces(
     return gone
 
 
-def joins(
+def merge_moves(
     cells: NDArray[np.float32],
     solid: NDArray[np.bool_],
     owner: NDArray[np.int32],
@@ -258,7 +260,7 @@ def joins(
 
 def readings_of(
     cells: NDArray[np.float32], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats, grid: Grid
-) -> Readings:
+) -> ExplainedReadings:
     """Moments of the readings that each surface explains."""
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
     away = end_points_m[stopped] - cells[owner[stopped], 1:3]
@@ -271,15 +273,17 @@ def readings_of(
 
     middle = np.stack([mean(points[:, 0]), mean(points[:, 1])], axis=-1)
     x, y = (points - middle[of]).T
-    return Readings(count, middle, np.stack([mean(x * x), mean(x * y), mean(y * y)], axis=-1), mean(noise[stopped]))
+    return ExplainedReadings(
+        count, middle, np.stack([mean(x * x), mean(x * y), mean(y * y)], axis=-1), mean(noise[stopped])
+    )
 
 
-def axes_of(cells: NDArray[np.float32]) -> Axes:
+def axes_of(cells: NDArray[np.float32]) -> SurfaceAxes:
     """Axes of the surfaces of cells, (N, 6)."""
     l11, l21, l22 = cells[:, 3:6].T.astype(np.float64)
     angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
     across = (l11 * l22) ** 2 / along  # |Sigma| over the larger one: no difference of large numbers
-    return Axes(np.stack([np.cos(angle), np.sin(angle)], axis=-1), along, across)
+    return SurfaceAxes(np.stack([np.cos(angle), np.sin(angle)], axis=-1), along, across)
 
 
 def variance_in(moments: Floats, direction: Floats) -> Floats:
@@ -289,7 +293,7 @@ def variance_in(moments: Floats, direction: Floats) -> Floats:
 
 
 def best_neighbours(
-    cells: NDArray[np.float32], found: Readings, axes: Axes, grid: Grid
+    cells: NDArray[np.float32], found: ExplainedReadings, axes: SurfaceAxes, grid: Grid
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Cells that stop few beams, for each the neighbour with as many or more whose axis its readings lie closest to,
     and their root mean square distance from it, (n,) each; without cells that have none within `MOST_OFF`.
@@ -315,7 +319,12 @@ def best_neighbours(
 
 
 def lengthened(
-    cells: NDArray[np.float32], found: Readings, axes: Axes, few: NDArray[np.intp], by: NDArray[np.intp], grid: Grid
+    cells: NDArray[np.float32],
+    found: ExplainedReadings,
+    axes: SurfaceAxes,
+    few: NDArray[np.intp],
+    by: NDArray[np.intp],
+    grid: Grid,
 ) -> Floats:
     """Surfaces of the cells ``by``, moved along their axes towards the middle of their own readings and those of
     ``few``, as far as their squares allow, and as long as both lie scattered about that: mean, l11, l21, l22, (n, 5).

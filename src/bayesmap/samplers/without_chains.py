@@ -123,7 +123,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Asked:
+class DrawRequest:
     """How much of what: ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
 
     chains: int
@@ -134,7 +134,7 @@ class Asked:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class IndependentDraws:
     """Independent draws, and what the method computes itself.
 
     Attributes:
@@ -161,18 +161,18 @@ class Found:
     log_evidence: float | None = None
 
 
-def exact(problem: WallProblem, asked: Asked, watch: Watch) -> Found:
+def exact(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
     """The whole posterior, with draws from it."""
     whole = enumerate_maps(problem)
     return _found(problem, asked, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
 
 
-def importance(problem: WallProblem, asked: Asked, watch: Watch) -> Found:
+def importance(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
     """Weighted maps, with draws resampled from them."""
-    return found_by_importance(problem, asked, sample_importance(problem, asked.particles, asked.seed, watch=watch))
+    return draws_by_importance(problem, asked, sample_importance(problem, asked.particles, asked.seed, watch=watch))
 
 
-def found_by_importance(problem: WallProblem, asked: Asked, found: Particles) -> Found:
+def draws_by_importance(problem: WallProblem, asked: DrawRequest, found: Particles) -> IndependentDraws:
     """The same of particles that have been weighed."""
     return _found(
         problem,
@@ -186,12 +186,12 @@ def found_by_importance(problem: WallProblem, asked: Asked, found: Particles) ->
     )
 
 
-def belief_propagation(problem: WallProblem, asked: Asked, watch: Watch) -> Found:
+def belief_propagation(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
     """Beliefs, with draws that are independent from cell to cell: marginals are all that there is."""
-    return found_by_beliefs(problem, asked, propagate(problem, rounds=asked.rounds, watch=watch))
+    return draws_by_beliefs(problem, asked, propagate(problem, rounds=asked.rounds, watch=watch))
 
 
-def found_by_beliefs(problem: WallProblem, asked: Asked, found: Marginals) -> Found:
+def draws_by_beliefs(problem: WallProblem, asked: DrawRequest, found: Marginals) -> IndependentDraws:
     """The same of beliefs that have been propagated."""
     return _found(
         problem,
@@ -206,7 +206,7 @@ def found_by_beliefs(problem: WallProblem, asked: Asked, found: Marginals) -> Fo
 
 def _found(
     problem: WallProblem,
-    asked: Asked,
+    asked: DrawRequest,
     draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
     occupancy: Floats,
     *,
@@ -215,7 +215,7 @@ def _found(
     statistics: Mapping[str, Floats] | None = None,
     seconds: float = 0.0,
     finished: bool = True,
-) -> Found:
+) -> IndependentDraws:
     from bayesmap.kernels.walls.importance import log_likelihoods
     from bayesmap.kernels.walls.reach import reach_frequency
 
@@ -225,7 +225,7 @@ def _found(
     flat = walls.reshape(-1, *problem.grid.shape)
     some = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
     maps = occupancy[None] > 0.5 if some is None else flat[some]
-    return Found(
+    return IndependentDraws(
         walls=packed,
         log_likelihood=np.stack([log_likelihoods(problem.table, chain, problem.device) for chain in packed]),
         log_prior=np.array([[problem.prior.log_prob(w, problem.grid) for w in chain] for chain in walls]),
