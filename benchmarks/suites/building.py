@@ -12,8 +12,8 @@ import bayesmap as bm
 from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import Gibbs
 from benchmarks.figure import Figure, best, timed
 from benchmarks.suites.tutorial import sweeps_of
 

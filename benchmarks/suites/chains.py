@@ -13,13 +13,12 @@ import warp as wp
 import bayesmap as bm
 from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.fit import first_sensor
-from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import BlockGibbs, Gibbs
 from benchmarks.figure import Figure, rate
 from benchmarks.suites.building import LOG, MAX_RANGE_M, RESOLUTION_M
 from benchmarks.suites.tutorial import problem

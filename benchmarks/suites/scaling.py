@@ -7,10 +7,10 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.fit import first_sensor
-from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import Gibbs
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, derived, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time, sweeps_of

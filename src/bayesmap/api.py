@@ -14,28 +14,23 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput, check_count
 from bayesmap.model import Model
 from bayesmap.poses.prior import Known, PosePrior
-from bayesmap.posterior.from_chains import chains_of, posterior_of_chains, posterior_of_draws
-from bayesmap.posterior.posterior import Posterior
+from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import Chains
-from bayesmap.run.executor import Executor, ThreadExecutor
-from bayesmap.run.interrupt import stop_on_interrupt
+from bayesmap.run.chains import Chains, Schedule
 from bayesmap.run.memory import check_memory
 from bayesmap.run.resuming import RANDOM_STREAMS, check_same, fingerprint
-from bayesmap.run.runner import Job
-from bayesmap.run.schedule import Schedule
+from bayesmap.run.runner import Executor, Job, ThreadExecutor, stop_on_interrupt
 from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_sensor
 from bayesmap.samplers.methods import WITHOUT_CHAINS, sampler_of, sampler_on_walls
-from bayesmap.samplers.problem import trace_walls
 from bayesmap.samplers.progress import Event as Event
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Sampler
-from bayesmap.samplers.start import Start, default_start
-from bayesmap.samplers.wall_sampler import Order
+from bayesmap.samplers.wall_problem import trace_walls
+from bayesmap.samplers.walls import Order, Start, default_start
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
-from bayesmap.samplers.without_chains import Asked
+from bayesmap.samplers.without_chains import DrawRequest
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
@@ -166,7 +161,7 @@ def infer(
         raise BadInput(
             f"resume: the saved run is one over {resume.posterior.prior.words.states}, not over {prior.words.states}"
         )
-    ask = Asked(chains, schedule.draws, seed, particles, rounds)
+    ask = DrawRequest(chains, schedule.draws, seed, particles, rounds)
     first = first_sensor(prior, grid.resolution) if isinstance(sensor, str) else sensor
     model = Model(scans, grid, prior, first, Known() if poses is None else poses, float(hit_depth))
     if start_poses is not None and np.shape(start_poses)[1:] != scans.poses.shape:
@@ -189,7 +184,7 @@ class Inference:
     model: Model
     method: str
     schedule: Schedule
-    asked: Asked
+    asked: DrawRequest
     fitted: bool
     threads: int | None
     device: str

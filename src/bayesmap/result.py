@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.posterior.posterior import Posterior, entropy_bits
-from bayesmap.posterior.score import log_score
-from bayesmap.posterior.scoring import Score, score_posterior
+from bayesmap.posterior.scoring import Score, log_score, score_posterior
 from bayesmap.posterior.summary import Summary, summarise
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
@@ -32,8 +31,8 @@ if TYPE_CHECKING:
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.posterior.information import Information
     from bayesmap.posterior.passage import FreeProbability
-    from bayesmap.posterior.pose_summary import PoseSummary
     from bayesmap.posterior.route import Route
+    from bayesmap.posterior.summary import PoseSummary
 
 Floats = NDArray[np.float64]
 
@@ -133,7 +132,7 @@ class Run:
         Raises:
             BadInput: a run that was stopped before its first draw.
         """
-        from bayesmap.posterior.pose_summary import summarise_poses
+        from bayesmap.posterior.summary import summarise_poses
 
         self._need_marginals()
         found = summarise_poses(self.poses)

@@ -15,8 +15,8 @@ from bayesmap.app.starting import starts
 from bayesmap.app.stream import POSE_CHAINS
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.exact import enumerate_maps
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.without_chains import enumerate_maps
 from bayesmap.space.grid import Grid
 
 TINY = Document(

@@ -12,8 +12,7 @@ from bayesmap.app.ghost import FEW_DRAWS, nearest_scan
 from bayesmap.app.opened import opened_run
 from bayesmap.app.tasks import MoveGhost
 from bayesmap.app.worlds import tutorial_document
-from bayesmap.posterior.predicted_scan import ScanPredictor
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 

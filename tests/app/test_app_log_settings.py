@@ -19,7 +19,7 @@ from bayesmap.app.scanning import hits
 from bayesmap.app.tasks import MoveGhost, ShowScan, View
 from bayesmap.app.worlds import new_document
 from bayesmap.cells.arrays import Draws
-from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.space.grid import Grid
@@ -251,7 +251,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     model = replace(log.scene(document).model(prior), sensor=first_sensor(prior, 0.2), hit_depth=prior.hit_depth)
     problem = StopGibbs().prepare(model, "cpu")
     maps = []
-    for found, info in piloting(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1)):
+    for found, info in pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1)):
         maps.append(found.prior.mean_map(Draws(model.grid, prior.arrays, info.draws, problem.coordinates)))
     touched = problem.touched()
     for k in (1, 2, 7, 40):

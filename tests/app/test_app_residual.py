@@ -8,8 +8,7 @@ from building_log import ANGLES, room_run
 import bayesmap as bm
 from bayesmap.app.opened import opened_run
 from bayesmap.app.tasks import CompareBeam
-from bayesmap.posterior.predicted_scan import ScanPredictor
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 

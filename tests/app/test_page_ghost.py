@@ -6,8 +6,7 @@ import pytest
 from building_log import ANGLES
 from page_driver import document, press_and_drag, settled, snapshot, until
 
-from bayesmap.posterior.predicted_scan import ScanPredictor
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 READ = """() => {

@@ -12,7 +12,7 @@ from shell import PATIENCE_S, Listener, start, wait_for
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.run.interrupt import stop_on_interrupt
+from bayesmap.run.runner import stop_on_interrupt
 
 IGNORE = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)"
 

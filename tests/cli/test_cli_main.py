@@ -180,8 +180,7 @@ def test_choices_are_those_of_the_library():
     from bayesmap.cli import cells
     from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
     from bayesmap.samplers.propagate import ROUNDS
-    from bayesmap.samplers.start import Start
-    from bayesmap.samplers.wall_sampler import Order
+    from bayesmap.samplers.walls import Order, Start
 
     assert set(METHODS) == {method for kind in BUILT_IN.values() for method in kind.methods}
     assert set(CELLS) == set(BUILT_IN)

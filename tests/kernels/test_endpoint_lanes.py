@@ -13,7 +13,7 @@ from bayesmap.kernels.surfaces.cell_draws import ActiveCells
 from bayesmap.kernels.surfaces.cell_prior import centre_of
 from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, log_stops
 from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed_of, log_beams
-from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
+from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, LaneBlocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.model import Model
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -31,7 +31,7 @@ SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS}
 @wp.kernel
 def both_ways(
     law: SensorLaw32, rays: TracedRays, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays,
-    lists: BeamLists, blocks: Blocks, leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
+    lists: BeamLists, blocks: LaneBlocks, leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
 ):  # fmt: skip
     """One by one; in lanes, those that have one; with the others; and with both cut short."""
     u = wp.tid()

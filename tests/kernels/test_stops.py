@@ -14,7 +14,7 @@ from oracle.verdict import ALPHA, goodness_of_fit, two_sided
 
 import bayesmap as bm
 from bayesmap.kernels.surfaces.cell_draws import TRIES_EVERY
-from bayesmap.samplers.initial_estimate import turn_every
+from bayesmap.samplers.initial_estimate import update_periods
 
 GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
@@ -94,7 +94,7 @@ def test_the_density_and_place_of_the_stop_are_kept(kind):
 
 def turn_of(worlds, sweep):
     """Cells whose turn to try a candidate a sweep is."""
-    every, cells = turn_every(worlds.problem.estimate).astype(int), worlds.problem.rays.touched
+    every, cells = update_periods(worlds.problem.estimate).astype(int), worlds.problem.rays.touched
     length = np.maximum(every, 1)
     return (every > 0) & (sweep % length == 0) & ((sweep // length + cells) % TRIES_EVERY == 0)
 

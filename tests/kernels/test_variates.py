@@ -20,7 +20,7 @@ from bayesmap.kernels.random import (
     normal,
     random_bits,
 )
-from bayesmap.kernels.surfaces.cell_prior import CellPrior, fresh_surface
+from bayesmap.kernels.surfaces.cell_prior import PriorNumbers, fresh_surface
 from bayesmap.kernels.surfaces.crossing import Cell
 
 COUNT = 100_000
@@ -51,7 +51,7 @@ def draw_beta(key: wp.uint64, a: wp.float64, b: wp.float64, out: wp.array(dtype=
 
 
 @wp.kernel
-def draw_surface(prior: CellPrior, key: wp.uint64, out: wp.array(dtype=Cell)):
+def draw_surface(prior: PriorNumbers, key: wp.uint64, out: wp.array(dtype=Cell)):
     i = wp.tid()
     out[i] = fresh_surface(prior, wp.vec2(1.5, 2.5), Cell(), key, wp.uint64(i) * wp.uint64(SPACING))
 
@@ -156,7 +156,7 @@ def surface_functions(surfaces):
 
 def by_kernel(prior):
     """Prior surfaces of the kernel, about their centre, in edges of a cell, which are 0.5 m here."""
-    packed = CellPrior()
+    packed = PriorNumbers()
     packed.a, packed.b = prior.a, prior.b
     packed.tau_m, packed.psi_m2, packed.nu = prior.mean_scale * 0.5, (prior.spread * 0.5) ** 2, prior.dof
     out = wp.zeros(COUNT, dtype=Cell, device="cpu")

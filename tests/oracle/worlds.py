@@ -9,7 +9,7 @@ from oracle.formula import beams, distances
 
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_problem import WallProblem
 
 
 @dataclass(frozen=True, eq=False)

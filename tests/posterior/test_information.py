@@ -7,7 +7,8 @@ from oracle.formula import beams, distances
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
-from bayesmap.kernels.predict.view import drawn_stops, independent_information
+from bayesmap.kernels.predict.density import device_maps
+from bayesmap.kernels.predict.view import draw_scan_stops, independent_information
 from bayesmap.posterior.information import beam_information, best_views, expected_information
 
 GRID = bm.Grid((5, 4), 0.5, (-1.0, 2.0))
@@ -21,7 +22,8 @@ def test_stops_are_drawn_with_the_chances_that_beams_have():
     stop = rng.beta(0.7, 1.0, GRID.n_cells).astype(np.float32)
     draws = 20_000
     at = np.broadcast_to(POSE[0], (draws, 3))
-    found, spread = drawn_stops(stop[None], GRID, at, np.zeros(draws, dtype=int), ANGLES, 9.0, 0.0, 3)
+    maps = device_maps([stop[None]], 0.0)
+    found, spread = draw_scan_stops(maps, GRID, at, np.zeros(draws, dtype=int), ANGLES, 9.0, 3)
     assert (spread == 0).all()
     for a, angle in enumerate(ANGLES):
         start, direction = beams(POSE, [angle], GRID)

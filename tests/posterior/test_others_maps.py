@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.posterior.baselines import Baseline, fit_baseline
-from bayesmap.posterior.others_maps import fit_map, stop_probabilities
+from bayesmap.posterior.baselines import Baseline, fit_baseline, fit_external_map, stop_probabilities
 from bayesmap.posterior.scoring import score_prediction
 
 
@@ -29,7 +28,7 @@ def seen():
 @pytest.fixture(scope="module")
 def fit(seen):
     occupancy, grid, train, _ = seen
-    return fit_map("true.yaml", occupancy, grid, train)
+    return fit_external_map("true.yaml", occupancy, grid, train)
 
 
 def test_the_true_map_is_understood_and_predicts(seen, fit):
@@ -47,7 +46,7 @@ def test_a_map_of_another_place_predicts_far_worse(seen, fit):
     occupancy, grid, train, held = seen
     found = score_prediction(fit.predictor, held).nats_per_beam
     shuffled = np.random.default_rng(1).permutation(occupancy.ravel()).reshape(grid.shape)
-    wrong = fit_map("shuffled.yaml", shuffled, grid, train)
+    wrong = fit_external_map("shuffled.yaml", shuffled, grid, train)
     assert score_prediction(wrong.predictor, held).nats_per_beam < found - 1.5
 
 
@@ -67,4 +66,4 @@ def test_a_map_of_another_number_of_cells_is_an_error(seen):
 def test_a_map_of_another_shape_is_refused(seen):
     occupancy, grid, train, _ = seen
     with pytest.raises(bm.BadInput, match="must be probabilities of shape"):
-        fit_map("turned.yaml", occupancy.T, grid, train)
+        fit_external_map("turned.yaml", occupancy.T, grid, train)

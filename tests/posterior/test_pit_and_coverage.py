@@ -13,7 +13,7 @@ from oracle.verdict import ALPHA
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.calibration import (
-    Blocks,
+    ScanBlocks,
     binary_scores,
     inside,
     pit_histogram,
@@ -124,7 +124,7 @@ def test_errors_are_those_of_means_over_scans():
     """Items of a scan are copies of one number: a bootstrap over items would be seven times too sure."""
     rng = np.random.default_rng(1)
     of_scan = rng.normal(size=200)
-    found = Blocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
+    found = ScanBlocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
     assert found.value == pytest.approx(of_scan.mean())
     assert found.error == pytest.approx(of_scan.std() / np.sqrt(200), rel=0.1)
 
@@ -132,11 +132,11 @@ def test_errors_are_those_of_means_over_scans():
 def test_errors_of_scans_of_unequal_size_count_items():
     block = np.array([0] * 9 + [1])
     values = np.array([1.0] * 9 + [0.0])
-    assert Blocks.make(block).mean(values).value == pytest.approx(0.9)
+    assert ScanBlocks.make(block).mean(values).value == pytest.approx(0.9)
 
 
 def test_a_single_scan_has_no_error():
-    blocks = Blocks.make(np.zeros(5, int))
+    blocks = ScanBlocks.make(np.zeros(5, int))
     assert np.isnan(blocks.mean(np.arange(5.0)).error)
     distance, p = blocks.uniformity(np.linspace(0.01, 0.99, 5))
     assert np.isnan(p)
@@ -150,5 +150,5 @@ def test_the_test_of_uniformity_respects_scans():
     u = np.where(rng.random(3200) < 0.5, u, u**1.15)
     block = np.repeat(rng.permutation(80), 40)
     assert scipy.stats.kstest(u, "uniform").pvalue < 0.05
-    assert Blocks.make(block).uniformity(u)[1] > 0.2
-    assert Blocks.make(block).uniformity(u**2)[1] == 0.0
+    assert ScanBlocks.make(block).uniformity(u)[1] > 0.2
+    assert ScanBlocks.make(block).uniformity(u**2)[1] == 0.0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bayesmap.posterior.pose_summary import summarise_poses
+from bayesmap.posterior.summary import summarise_poses
 
 
 def draws(seed, chains=4, count=500, yaw=3.1):

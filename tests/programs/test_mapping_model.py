@@ -17,7 +17,7 @@ import bayesmap.gen as gen
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.kernels.walls.table import trace
 from bayesmap.programs.mapping import sensor_model
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import RangeLimits
 
 ANGLES = np.arange(100) / 100 * 2 * np.pi

@@ -13,12 +13,11 @@ import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.poses.prior import Uncertain
 from bayesmap.run import ray_executor, ray_worker
-from bayesmap.run.executor import ThreadExecutor
-from bayesmap.run.runner import Job
-from bayesmap.run.schedule import Schedule
-from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.run.chains import Schedule
+from bayesmap.run.runner import Job, ThreadExecutor
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import NOTHING
+from bayesmap.samplers.walls import Gibbs
 
 pytestmark = [
     pytest.mark.xdist_group("ray"),

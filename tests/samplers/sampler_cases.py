@@ -13,9 +13,8 @@ from tiers import latin
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.run.runner import Job, run_chains
-from bayesmap.samplers.block import BlockGibbs
-from bayesmap.samplers.gibbs import Gibbs
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import BlockGibbs, Gibbs
 
 ORDERS = ("raster", "radial", "random")
 SAMPLERS = {"gibbs": (Gibbs, single_sites), "block": (BlockGibbs, block_sites)}

@@ -14,8 +14,7 @@ from bayesmap.kernels.device import launch
 from bayesmap.kernels.walls.chains import EXACT as EXACTLY
 from bayesmap.kernels.walls.chains import WallChains, derive_state
 from bayesmap.run import runner
-from bayesmap.run.chains import join
-from bayesmap.run.schedule import Schedule
+from bayesmap.run.chains import Schedule, join
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Keep
 
@@ -33,7 +32,7 @@ def problem_8x8():
     ranges = bm.ranges(walls, grid, poses, angles, 6.0) + rng.normal(0, 0.2, (2, 40))
     scans = bm.Scans(poses, angles, ranges, max_range_m=6.0)
     from bayesmap.kernels.walls.table import trace
-    from bayesmap.samplers.problem import WallProblem
+    from bayesmap.samplers.wall_problem import WallProblem
 
     return WallProblem(table=trace(scans, grid, bm.Gaussian(0.2)), prior=bm.Independent(0.2), poses=scans.poses)
 

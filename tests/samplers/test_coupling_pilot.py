@@ -12,9 +12,8 @@ from tiers import full_but, latin
 import bayesmap as bm
 from bayesmap.cells.ising import LARGEST_FITTED, walls_less_free
 from bayesmap.model import Model
-from bayesmap.samplers.block import BlockGibbs
 from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans
-from bayesmap.samplers.gibbs import Gibbs
+from bayesmap.samplers.walls import BlockGibbs, Gibbs
 
 GRID = bm.Grid((40, 40), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.03))

@@ -20,7 +20,7 @@ from bayesmap.samplers.fit import (
     FIRST_SWEEP,
     PILOT_SWEEPS,
     WHOLE_UNTIL,
-    Stops,
+    DrawnStops,
     first_sensor,
     fit,
     fit_sensor,
@@ -47,7 +47,9 @@ def fitted_to_known_stops(seed, least_m, count=12_000):
     variance = rng.uniform(0, 0.05**2, count)
     spread = np.where(np.isfinite(distance), np.sqrt(variance) * rng.standard_normal(count), 0.0)
     stopped = np.isfinite(distance)
-    stops = Stops(TRUTH.sample(rng, distance + spread, limits), stopped, np.where(stopped, distance, 0.0), variance)
+    stops = DrawnStops(
+        TRUTH.sample(rng, distance + spread, limits), stopped, np.where(stopped, distance, 0.0), variance
+    )
     sensor = bm.BeamMixture(bm.Gaussian(0.1, 0.001), p_random=0.2, p_no_return=0.2, p_short=0.2, rate_short_per_m=2.0)
     for _ in range(40):
         sensor = refit_sensor(sensor, stops, limits, 1.0)

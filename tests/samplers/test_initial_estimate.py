@@ -14,7 +14,7 @@ from bayesmap.samplers.initial_estimate import (
     initial_estimate,
     start,
     steps,
-    turn_every,
+    update_periods,
     widened,
 )
 from bayesmap.samplers.stop_problem import trace_stops
@@ -124,7 +124,7 @@ def test_turns_are_the_rarer_the_further_readings_are(problem, monkeypatch):
     ny = rays.grid.shape[1]
     where = np.stack([rays.touched // ny, rays.touched % ny], axis=-1)
     nearest = np.abs(where[:, None] - where[ended]).max(axis=-1).min(axis=1)
-    every = turn_every(problem.estimate)
+    every = update_periods(problem.estimate)
     np.testing.assert_array_equal(every == 0, nearest == 0)
     np.testing.assert_array_equal(every == 8, nearest == 1)
     np.testing.assert_array_equal(every == 16, nearest > 1)
@@ -134,7 +134,7 @@ def test_cells_that_few_beams_pass_have_their_turn_in_every_other_sweep(problem,
     estimate = problem.estimate
     middle = int(np.median(estimate.passes[~estimate.endpoint]))
     monkeypatch.setattr(module, "FEW_PASSES", middle)
-    every = turn_every(estimate)
+    every = update_periods(estimate)
     few, free = estimate.passes < middle, ~estimate.endpoint
     assert (few & free).any()
     assert (~few & free).any()

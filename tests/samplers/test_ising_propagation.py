@@ -7,9 +7,9 @@ from oracle.worlds import make_case, scorer
 
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate, propagate_to_start
-from bayesmap.samplers.start import start_maps
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import start_maps
 
 
 def row(p_wall, coupling, noise=0.5):

@@ -4,19 +4,19 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.samplers.joined_surfaces import (
+from bayesmap.samplers.start_search import (
     FREE,
-    LEAST_NATS,
+    MERGED_NATS,
     MOST_READINGS,
     axes_of,
     best_neighbours,
-    join_surfaces,
-    joins,
     lengthened,
+    merge_moves,
+    merge_surfaces,
     readings_of,
     variance_in,
 )
-from bayesmap.samplers.trials import Maps
+from bayesmap.samplers.trials import ChainMaps
 
 GRID = bm.Grid((12, 9), resolution=0.1)
 NOISE_M = 0.01
@@ -125,7 +125,7 @@ def test_a_lengthened_surface_keeps_its_line_and_its_square_and_reaches_the_read
 def test_the_one_becomes_free_and_the_other_longer():
     cells, owner, points = wall()
     solid = np.zeros(GRID.n_cells, dtype=bool)
-    new = joins(cells, solid, owner, points, noise_of(owner), GRID)
+    new = merge_moves(cells, solid, owner, points, noise_of(owner), GRID)
     assert new.where.shape == (len(new.middle), 2)
     np.testing.assert_array_equal(new.middle, np.stack(np.divmod(new.where[:, 0], GRID.shape[1]), -1))
     np.testing.assert_array_equal(new.cells[:, 0, 0], np.float32(FREE))
@@ -133,17 +133,17 @@ def test_the_one_becomes_free_and_the_other_longer():
     np.testing.assert_array_equal(new.cells[:, 1, 0], cells[new.where[:, 1], 0])
 
 
-@pytest.mark.parametrize(("worth", "pays"), [(2 * LEAST_NATS, True), (LEAST_NATS / 2, False), (-LEAST_NATS, False)])
+@pytest.mark.parametrize(("worth", "pays"), [(2 * MERGED_NATS, True), (MERGED_NATS / 2, False), (-MERGED_NATS, False)])
 def test_what_does_not_pay_is_taken_back(worth, pays):
     cells, owner, points = wall()
-    maps = Maps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+    maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
 
     def look(maps):
         """To be rid of a cell that stops beams is worth so many nats."""
         stops = (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
         return -worth * stops
 
-    gone = join_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+    gone = merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
     left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)
     if pays:
         assert gone == [3 - len(left)]
@@ -157,7 +157,7 @@ def test_what_does_not_pay_is_taken_back(worth, pays):
 def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
     """Of two short ones, far apart on the same wall, each would be taken in by the long one between them."""
     cells, owner, points = wall(((3, 3), (5, 40), (7, 3)))
-    maps = Maps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+    maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
     alone = {}
     for x, other in ((3, 7), (7, 3)):
         one = cells.copy()
@@ -169,7 +169,7 @@ def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
         stops = (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
         return -10.0 * stops
 
-    gone = join_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+    gone = merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
     assert gone == [1]
     left = [x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1]
     assert len(left) == 1
@@ -179,7 +179,7 @@ def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
 
 def lengthened_by(cells, owner, points, x):
     """What the surface in the middle becomes when it takes in that of column x."""
-    new = joins(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
+    new = merge_moves(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
     (at,) = np.flatnonzero(new.where[:, 0] == flat(x, 5))
     assert new.where[at, 1] == flat(5, 5)
     return new.cells[at, 1]
@@ -187,7 +187,7 @@ def lengthened_by(cells, owner, points, x):
 
 def test_a_map_without_surfaces_that_stop_beams_stays_what_it_is():
     cells, owner, points = wall(())
-    maps = Maps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+    maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
     look = lambda maps: np.zeros((1, *GRID.shape))  # noqa: E731
-    assert join_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps)) == [0]
+    assert merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps)) == [0]
     np.testing.assert_array_equal(maps.cells[0], cells)

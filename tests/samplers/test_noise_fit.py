@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.samplers.noise_fit import SHAPES, Residuals, refit_noise
+from bayesmap.samplers.fit import SHAPES, StopResiduals, refit_noise
 
 COUNT = 10_000
 FIRST = bm.Gaussian(0.02, 0.002)
@@ -21,7 +21,7 @@ def residuals(noise, seed, count=COUNT):
     distance = rng.uniform(1.0, 15.0, count)
     variance = rng.uniform(0.0, 0.03, count) ** 2
     scale = np.hypot(noise.scale_at(distance), np.sqrt(variance))
-    return Residuals(scale * noise.draw(rng, (count,)), distance, variance, np.ones(count))
+    return StopResiduals(scale * noise.draw(rng, (count,)), distance, variance, np.ones(count))
 
 
 def fitted(found):

@@ -15,7 +15,7 @@ from tiers import latin
 import bayesmap as bm
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.poses.prior import Odometry, Uncertain
-from bayesmap.samplers.pose_steps import PoseMetropolis, PoseState, proposal_factors
+from bayesmap.samplers.with_poses import PoseMetropolis, PoseState, proposal_factors
 
 GRID = bm.Grid((4, 4), 0.5, (-1.0, 2.0))
 SENSOR = bm.Gaussian(0.6)

@@ -12,10 +12,10 @@ from plain_propagation import plain_rounds
 import bayesmap as bm
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import propagate
-from bayesmap.samplers.start import default_start, start_maps
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import default_start, start_maps
 
 SINGLE = 2e-4  # log-odds: messages are kept in single precision, and some dozens are added
 

@@ -10,9 +10,9 @@ from bayesmap.model import Model
 from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.start_search import ALL_TURN, SEARCH_SHARE, join, joining_after, settle
+from bayesmap.samplers.start_search import SEARCH_SHARE, UPDATES_ALL, merge, merge_sweeps, select_starts
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.trials import Maps, look_with
+from bayesmap.samplers.trials import ChainMaps, look_with
 
 SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
 
@@ -35,14 +35,14 @@ def settled(request):
     for chain in (0, 1):
         state.chains.put_cells(chain, cells[chain])
     look = look_with(problem, state.chains, 1.0)
-    before = Maps.of(state.chains)
+    before = ChainMaps.of(state.chains)
     seen = look(before)
-    gain = (look(Maps.of(other.chains)) - seen).reshape(2, -1)
+    gain = (look(ChainMaps.of(other.chains)) - seen).reshape(2, -1)
     for chain in (0, 1):
         state.chains.put_cells(chain, cells[chain])
-    settle(problem, state.chains, other.chains, gain, 1.0)
-    join(problem, state.chains, 1.0)
-    return before, Maps.of(state.chains), seen, look, lost
+    select_starts(problem, state.chains, other.chains, gain, 1.0)
+    merge(problem, state.chains, 1.0)
+    return before, ChainMaps.of(state.chains), seen, look, lost
 
 
 def test_a_wall_that_a_chain_has_lost_comes_back(settled):
@@ -80,7 +80,7 @@ def test_a_search_ends_when_it_is_to_and_reports_all_its_sweeps():
 
 
 def test_surfaces_are_joined_in_the_warm_up_alone():
-    after = [joining_after(int(SEARCH_SHARE * warmup)) for warmup in range(60)]
+    after = [merge_sweeps(int(SEARCH_SHARE * warmup)) for warmup in range(60)]
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
     assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
@@ -92,7 +92,7 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
     made, joined, sweeps = {}, [], StopChains.sweeps
 
     def watched(chains, first, count, *args, **options):
-        if first < ALL_TURN:  # others are trials
+        if first < UPDATES_ALL:  # others are trials
             made[id(chains)] = first + count
         return sweeps(chains, first, count, *args, **options)
 
@@ -103,7 +103,7 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
         state, info = sampler.step(state, count)
         assert info.log_likelihood.shape == info.log_prior.shape == (2, count)
     assert state.sweep == 30
-    assert joined == joining_after(10) == [10, 11, 12]
+    assert joined == merge_sweeps(10) == [10, 11, 12]
 
 
 def test_second_starts_are_other_starts():
@@ -131,7 +131,7 @@ def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end(
     sampler, problem = prepared(PRIORS["surfaces"])
     state, _ = sampler.step(sampler.init(problem, [0], 0), 3)
     ends = np.unique(end_cells(problem.rays))[1:]
-    before, numbers = Maps.of(state.chains).cells[0], problem.prior.kernel_numbers(GRID.resolution)
+    before, numbers = ChainMaps.of(state.chains).cells[0], problem.prior.kernel_numbers(GRID.resolution)
     moved = []
     for steps in (0, 6, 24):
         state.chains.put_cells(0, before)

@@ -11,9 +11,8 @@ import bayesmap as bm
 from bayesmap.cells.labels import SOLID
 from bayesmap.model import Model
 from bayesmap.run import runner
-from bayesmap.run.chains import join
+from bayesmap.run.chains import Schedule, join
 from bayesmap.run.runner import Job, run_chains
-from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Keep

@@ -11,9 +11,9 @@ from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.trials import (
-    FEW_TURN,
+    UPDATES_FEW,
+    ChainMaps,
     Changes,
-    Maps,
     apart,
     covered,
     evidence,
@@ -64,14 +64,14 @@ def test_a_look_draws_the_stops_of_a_whole_sweep_and_moves_no_cell():
     sampler = StopGibbs()
     problem = sampler.prepare(Model(scans(), GRID, bm.Surface(), TRUTH, hit_depth=0.5), "cpu")
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 3)
-    maps, look = Maps.of(state.chains), look_with(problem, state.chains, 1.0)
+    maps, look = ChainMaps.of(state.chains), look_with(problem, state.chains, 1.0)
     seen = look(maps)
-    assert np.array_equal(Maps.of(state.chains).cells, maps.cells)
+    assert np.array_equal(ChainMaps.of(state.chains).cells, maps.cells)
     stops = state.chains.stopped_by(0)
     numbers = problem.prior.kernel_numbers(GRID.resolution)
-    state.chains.sweeps(FEW_TURN, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
+    state.chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
     assert np.array_equal(state.chains.stopped_by(0), stops)
-    assert not np.array_equal(Maps.of(state.chains).cells, maps.cells)
+    assert not np.array_equal(ChainMaps.of(state.chains).cells, maps.cells)
     found = evidence(state.chains, 0, end_cells(problem.rays), problem.prior)
     np.testing.assert_array_equal(found, seen[0].ravel())
 
@@ -84,7 +84,7 @@ def worth(truth):
 def maps_of(m):
     cells = np.zeros((len(m), SHAPE[0] * SHAPE[1], 6), dtype=np.float32)
     cells[..., 0] = m
-    return Maps(cells, np.zeros(cells.shape[:2], dtype=bool))
+    return ChainMaps(cells, np.zeros(cells.shape[:2], dtype=bool))
 
 
 def test_what_gains_stays_and_what_does_not_is_taken_back():

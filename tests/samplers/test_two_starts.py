@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bayesmap.samplers import two_starts
-from bayesmap.samplers.trials import Maps
-from bayesmap.samplers.two_starts import HALF_WIDTHS, LEAST_NATS, MARGIN, cells_of, squares, take_better
+from bayesmap.samplers import start_search
+from bayesmap.samplers.start_search import BETTER_NATS, HALF_WIDTHS, MARGIN, cells_of, squares, take_better_squares
+from bayesmap.samplers.trials import ChainMaps
 
 SHAPE = (40, 30)
 GOOD = np.zeros(SHAPE)
@@ -16,7 +16,7 @@ GOOD[5:8, 5:8] = GOOD[20:27, 10:16] = GOOD[0:2, 28:30] = 1.0
 def maps_of(m):
     cells = np.zeros((1, m.size, 6), dtype=np.float32)
     cells[0, :, 0] = m.ravel()
-    return Maps(cells, np.zeros((1, m.size), dtype=bool))
+    return ChainMaps(cells, np.zeros((1, m.size), dtype=bool))
 
 
 def look(maps):
@@ -29,7 +29,7 @@ def test_chains_take_what_is_better_and_keep_what_is_not():
     worse[30:35, 20:25] = 0.5  # of these places the first start knows more
     first, second = maps_of(np.zeros(SHAPE)), maps_of(worse)
     gain = look(second) - look(first)
-    take_better(first, second, gain, look)
+    take_better_squares(first, second, gain, look)
     np.testing.assert_array_equal(first.cells[0, :, 0].reshape(SHAPE), GOOD)
 
 
@@ -40,20 +40,20 @@ def test_a_square_that_does_not_fit_among_the_chain_s_own_is_taken_back():
         return look(maps) - 1000.0 * ((m[:, :, :] == 1) & (np.roll(m, 1, axis=1) == 0))
 
     first, second = maps_of(np.zeros(SHAPE)), maps_of(GOOD)
-    take_better(first, second, look(second) - look(first), seams)
+    take_better_squares(first, second, look(second) - look(first), seams)
     assert not first.cells.any()
 
 
 def test_labels_come_with_their_cells():
     first, second = maps_of(np.zeros(SHAPE)), maps_of(GOOD)
     second.solid[0] = GOOD.ravel() > 0
-    take_better(first, second, look(second) - look(first), look)
+    take_better_squares(first, second, look(second) - look(first), look)
     np.testing.assert_array_equal(first.solid, second.solid)
 
 
 def test_too_little_is_not_looked_for():
     gain = np.zeros(SHAPE)
-    gain[10, 10], gain[25, 25] = LEAST_NATS + 0.1, LEAST_NATS - 0.1
+    gain[10, 10], gain[25, 25] = BETTER_NATS + 0.1, BETTER_NATS - 0.1
     tried = np.zeros(SHAPE, dtype=bool)
     found = squares(0, maps_of(GOOD), gain, 1, tried)
     assert len(found.middle) == 1
@@ -63,7 +63,7 @@ def test_too_little_is_not_looked_for():
 
 
 def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
-    monkeypatch.setattr(two_starts, "HALF_WIDTHS", (1,))
+    monkeypatch.setattr(start_search, "HALF_WIDTHS", (1,))
     row = np.zeros(SHAPE)
     row[3:6, 3:27:6] = 1.0  # further apart than small squares are wide, and closer than beams are asked
 
@@ -71,13 +71,13 @@ def test_squares_side_by_side_are_tried_one_after_the_other(monkeypatch):
         return 10.0 * (maps.cells[..., 0].reshape(-1, *SHAPE) == row)
 
     first, second = maps_of(np.zeros(SHAPE)), maps_of(row)
-    take_better(first, second, look(second) - look(first), look)
+    take_better_squares(first, second, look(second) - look(first), look)
     np.testing.assert_array_equal(first.cells[0, :, 0].reshape(SHAPE), row)
 
 
 @pytest.mark.parametrize("half", HALF_WIDTHS)
 def test_no_beam_is_asked_about_two_squares(half):
-    gain = np.random.default_rng(half).uniform(0, 2 * LEAST_NATS, SHAPE)
+    gain = np.random.default_rng(half).uniform(0, 2 * BETTER_NATS, SHAPE)
     found = squares(0, maps_of(GOOD), gain, half, np.zeros(SHAPE, dtype=bool)).middle
     assert len(found) > 1
     asked = np.zeros(SHAPE, dtype=int)

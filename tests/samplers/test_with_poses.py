@@ -16,10 +16,10 @@ from oracle.verdict import ALPHA
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.poses.prior import Odometry, Uncertain
+from bayesmap.run.chains import Schedule
 from bayesmap.run.runner import Job, run_chains
-from bayesmap.run.schedule import Schedule
-from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.sampler import Keep
+from bayesmap.samplers.walls import Gibbs
 from bayesmap.samplers.with_poses import WithPoses
 from bayesmap.sensors.model import RangeLimits
 

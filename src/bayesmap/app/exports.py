@@ -16,10 +16,10 @@ from bayesmap.app.recording import to_html
 from bayesmap.app.result import COUNTS, HITS, Result
 from bayesmap.app.stream import CHAINS
 from bayesmap.errors import BadInput
-from bayesmap.posterior.from_chains import posterior_of_chains, posterior_of_draws
+from bayesmap.posterior.posterior import posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.run.resuming import RANDOM_STREAMS
-from bayesmap.samplers.without_chains import Asked, found_by_beliefs, found_by_importance
+from bayesmap.samplers.without_chains import DrawRequest, draws_by_beliefs, draws_by_importance
 from bayesmap.sensors.describe import describe
 
 SAVED_DRAWS = 500
@@ -69,15 +69,15 @@ def as_run(result: Result) -> Run:
         "poses": model.poses.describe(), "fingerprint": "made by the page",
     }  # fmt: skip
     began = time.perf_counter()
-    asked = Asked(CHAINS, count, document.seed, document.sweeps, settings["rounds"])
+    asked = DrawRequest(CHAINS, count, document.seed, document.sweeps, settings["rounds"])
     if stream is not None:
         chains = stream.chains()
         return Run(posterior_of_chains(model, chains, settings, {"total": chains.seconds["sampling"]}, None))
     if result.particles is not None:
-        found = found_by_importance(scene.problem, asked, result.particles)
+        found = draws_by_importance(scene.problem, asked, result.particles)
     else:
         assert result.preview is not None
-        found = found_by_beliefs(scene.problem, asked, replace(result.preview.marginals(), finished=True))
+        found = draws_by_beliefs(scene.problem, asked, replace(result.preview.marginals(), finished=True))
     seconds = {"trace": 0.0, "total": time.perf_counter() - began}
     return Run(posterior_of_draws(model, found, scene.problem.n_incidences, settings, seconds))
 

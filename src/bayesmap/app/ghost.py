@@ -14,8 +14,7 @@ from bayesmap.app.result import Result
 from bayesmap.app.scanning import Scene, fan, hits
 from bayesmap.app.tasks import MoveGhost
 from bayesmap.errors import BadInput
-from bayesmap.posterior.predicted_scan import ScanPredictor
-from bayesmap.posterior.predictor import Maps, Predictor, fixed_maps
+from bayesmap.posterior.predictor import MapStates, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
 
 MOST_DRAWS = 32
@@ -119,7 +118,7 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     one = grid.n_cells * (32 if maps.prior.has_surfaces else 4)
     some = maps.draws.thinned(int(np.clip(HELD_BYTES // one, maps.draws.chains, MOST_DRAWS)))
 
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[Maps]:
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         return maps.prior.predictive_stops(some, cells)
 
     return Predictor(grid, batches, sensor, depth, some.size), some.size

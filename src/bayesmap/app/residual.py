@@ -13,9 +13,8 @@ from bayesmap.app.ghost import predictor_of_result
 from bayesmap.app.result import Result
 from bayesmap.app.tasks import CompareBeam
 from bayesmap.beams.rays import Rays
-from bayesmap.posterior.predicted_scan import CENTRAL_80
-from bayesmap.posterior.predictor import Predictor
-from bayesmap.posterior.surface_offset import surface_offset
+from bayesmap.posterior.predictor import CENTRAL_80, Predictor
+from bayesmap.posterior.residuals import surface_offset
 from bayesmap.space.scans import Scans
 
 NEAR_CELLS = 2.0

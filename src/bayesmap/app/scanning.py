@@ -16,7 +16,7 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls, Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
-from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import SensorModel
 from bayesmap.sensors.noise import AdditiveNoise, Gaussian
 from bayesmap.sim.forward import ranges

@@ -9,9 +9,9 @@ from bayesmap.app.chains import pose_prior, pose_starts
 from bayesmap.app.document import Document
 from bayesmap.app.preview import Preview
 from bayesmap.app.stream import CHAINS, POSE_CHAINS
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import Marginals
-from bayesmap.samplers.start import Start, start_maps
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import Start, start_maps
 
 
 def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:

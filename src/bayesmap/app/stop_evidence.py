@@ -21,7 +21,7 @@ from bayesmap.app.evidence import BeamRatios
 from bayesmap.app.ghost import predictor_of_result
 from bayesmap.app.result import Result
 from bayesmap.beams.table import BeamTable
-from bayesmap.posterior.predictor import Maps, Predictor
+from bayesmap.posterior.predictor import MapStates, Predictor
 from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 500
@@ -72,7 +72,7 @@ def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.floa
     return np.nan_to_num(as_it_is - emptied)
 
 
-def _emptied(maps: Iterable[Maps], column: int) -> list[Maps]:
+def _emptied(maps: Iterable[MapStates], column: int) -> list[MapStates]:
     """The same maps with nothing in one of their cells."""
     found = [batch.copy() for batch in maps]
     for batch in found:

@@ -14,9 +14,8 @@ from bayesmap.app.recent import joined
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
-from bayesmap.run.chains import Chains, Record
+from bayesmap.run.chains import Chains, Record, Schedule
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
-from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.sampler import Problem, Sampler
 
 CHAINS = 2

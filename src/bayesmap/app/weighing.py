@@ -11,8 +11,8 @@ from scipy import special
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.importance import weigh
 from bayesmap.samplers.importance import Particles
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.sampler import STREAM_PARTICLES
+from bayesmap.samplers.wall_problem import WallProblem
 
 PIECE_SECONDS = 0.015
 FIRST_PIECE = 64

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from bayesmap.run.executor import Executor
+    from bayesmap.run.runner import Executor
 
 THREADS, RAY = "threads", "ray"
 

@@ -232,7 +232,7 @@ def work(task: Task, reading: LogReading, before: dict[str, bytes], mailbox: Any
     """
     import ray
 
-    from bayesmap.run.executor import ThreadExecutor
+    from bayesmap.run.runner import ThreadExecutor
 
     stopped, sent_at = False, 0.0
 
@@ -264,7 +264,7 @@ class RayFleet:
     """A fleet on a Ray cluster. Each log is read here, and inferred by a task of its own; files are written here."""
 
     def __init__(self, console: Console, address: str | None) -> None:
-        from bayesmap.run.ray_cluster import connect
+        from bayesmap.run.ray_executor import connect
 
         self.console, self.ray = console, connect(address)
         self.entries: dict[str, Entry] = {}
@@ -322,7 +322,7 @@ class RayFleet:
 
     def _take_some(self) -> None:
         """Wait a moment for what workers send, and for workers that end."""
-        from bayesmap.run.ray_cluster import failed, outcome
+        from bayesmap.run.ray_executor import failed, outcome
 
         ended, _ = self.ray.wait(list(self.running), timeout=WAIT_S) if self.running else ([], None)
         for log, sent in self.ray.get(self.mailbox.take.remote()):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from bayesmap.api import Event
     from bayesmap.io.log_reading import LogReading
     from bayesmap.result import Run
-    from bayesmap.run.executor import Executor
+    from bayesmap.run.runner import Executor
     from bayesmap.sensors.model import SensorModel
     from bayesmap.space.scans import Scans
 

@@ -93,13 +93,13 @@ def score_map(call: Call, path: str, placed: Placed, how: dict[str, Any]) -> tup
         how: seed and device of the score.
     """
     from bayesmap.io.ros.maps import read_map
-    from bayesmap.posterior.others_maps import fit_map
+    from bayesmap.posterior.baselines import fit_external_map
     from bayesmap.posterior.scoring import score_prediction
 
     occupancy, grid = read_map(path)
     name = Path(path).name
     with share(call.console, f"fitting a sensor to {name}") as report:
-        fit = fit_map(name, occupancy, grid, placed.train, report)
+        fit = fit_external_map(name, occupancy, grid, placed.train, report)
     with share(call.console, f"scoring {name}") as report:
         return fit, score_prediction(fit.predictor, placed.heldout, **how, on_progress=report)
 

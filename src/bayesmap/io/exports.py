@@ -140,7 +140,7 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
         if approximate is None:
             return Trajectory(scans.poses, scans.stamps_s)
         return _approximated(approximate, APPROXIMATION)
-    from bayesmap.posterior.pose_summary import summarise_poses
+    from bayesmap.posterior.summary import summarise_poses
 
     mixing = summarise_poses(draws)
     figures = f"R-hat up to {mixing.rhat_max:.3g}, effective sample size from {mixing.ess_min:.0f}"

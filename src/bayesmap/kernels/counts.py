@@ -24,7 +24,7 @@ def count_hits_and_passes(
     hits: wp.array2d(dtype=wp.int32),
     passes: wp.array2d(dtype=wp.int32),
 ):
-    """One thread a share of the beams, counting in rows of its own: no two threads write to the same number."""
+    """One thread per share of the beams, counting in rows of its own: no two threads write to the same number."""
     t = first + wp.tid()
     for b in range(bounds[t], bounds[t + 1]):
         p = lines.start_m[b] / lines.edge_m
@@ -47,7 +47,7 @@ def count_hits_and_passes(
 
 
 def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """How often beams stopped in each cell, and how often they passed it, both (nx * ny,).
+    """Count the beams that stopped in each cell and the beams that passed it, (nx * ny,) each.
 
     A hit beam stops in the last cell that it has touched at its range, and passes those before; if the range lies
     outside the grid it passes all. No return passes all cells up to the sensor's range. Too close and invalid count
@@ -79,7 +79,7 @@ def add_passes(
     end_cell: wp.array(dtype=wp.int32),
     passes: wp.array(dtype=wp.int32),
 ):
-    """One thread a beam: add one to every cell before the one in which its reading ends."""
+    """One thread per beam: add one to every cell before the one in which its reading ends."""
     b = first + wp.tid()
     reading = range_m[b]
     if wp.isnan(reading) or reading < wp.float32(0.0):

@@ -23,7 +23,7 @@ _STARTING = threading.Lock()
 
 
 def start() -> None:
-    """Start Warp once, quietly: its greeting and its lament about a missing GPU driver are not our output."""
+    """Start Warp once and silence its greeting and its warning about a missing GPU driver."""
     with _STARTING:
         _start()
 
@@ -37,7 +37,7 @@ def _start() -> None:
 
 @contextlib.contextmanager
 def _no_stderr() -> Iterator[None]:
-    """Send file descriptor 2 to nowhere: the driver lament is printed by native code."""
+    """Discard what is written to file descriptor 2: native code prints the warning."""
     try:
         sys.stderr.flush()
         saved = os.dup(2)
@@ -78,7 +78,7 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 
 def load_kernels(kernel: Any, device: str) -> None:
-    """Compile the kernel's module for a device, or fetch it from Warp's cache, now rather than at its first launch."""
+    """Compile the module of a kernel for a device, or fetch it from Warp's cache, before its first launch."""
     # Launches on the CPU use blocks of one; any other size would be another variant, compiled for nothing.
     kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)
 
@@ -88,7 +88,7 @@ FEW_BEAMS = 1_000
 
 
 def available_cores() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:  # macOS
@@ -96,13 +96,15 @@ def available_cores() -> int:
 
 
 def threads_for(beams: int) -> int | None:
-    """Threads for a kernel that follows each of so many beams through the grid: one, or as many as there are cores."""
+    """Return the number of threads for a kernel that follows each beam through the grid: 1 for few beams, else None
+    (all cores).
+    """
     return 1 if beams < FEW_BEAMS else None
 
 
 @cache
 def thread_pool(threads: int) -> ThreadPoolExecutor:
-    """One pool for each width, kept for the life of the process."""
+    """Return the thread pool of a width; each is kept for the life of the process."""
     return ThreadPoolExecutor(threads, thread_name_prefix="bayesmap")
 
 
@@ -113,7 +115,7 @@ if hasattr(os, "register_at_fork"):  # a forked child has the pools, but none of
 def launch(
     kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
 ) -> None:
-    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on: on the CPU in one slice a thread."""
+    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU a slice a thread."""
     if size == 0:
         return
     threads = min(threads or available_cores(), size) if device == "cpu" else 1

@@ -1,4 +1,4 @@
-"""Reading a tabulated sensor law (`bayesmap.sensors.tabulated`) by interpolation."""
+"""Interpolate a tabulated sensor law (`bayesmap.sensors.tabulated`)."""
 
 import math
 from typing import Any
@@ -31,8 +31,8 @@ class LawTable:
     log_typed_nowhere: wp.vec2
 
 
-def put_table(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
-    """A table on a device.
+def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
+    """Put a tabulated law on a device.
 
     Args:
         law: what it holds.
@@ -54,7 +54,7 @@ def put_table(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
 
 @wp.func
 def node(x: wp.float32, nodes: int) -> wp.vec2:
-    """The node below a place in [0, 1], and how far on it is towards the next."""
+    """Return the node below a place in [0, 1], and the place's share of the way to the next node."""
     at = wp.clamp(x, wp.float32(0.0), wp.float32(1.0)) * wp.float32(nodes - 1)
     low = wp.min(wp.floor(at), wp.float32(nodes - 2))
     return wp.vec2(low, at - low)
@@ -62,7 +62,7 @@ def node(x: wp.float32, nodes: int) -> wp.vec2:
 
 @wp.func
 def interpolated(values: wp.array(dtype=wp.float32), x: wp.float32) -> wp.float32:
-    """Between nodes that are equally far apart."""
+    """Interpolate linearly between evenly spaced nodes."""
     n = node(x, values.shape[0])
     i = int(n[0])
     return values[i] + n[1] * (values[i + 1] - values[i])
@@ -70,7 +70,7 @@ def interpolated(values: wp.array(dtype=wp.float32), x: wp.float32) -> wp.float3
 
 @wp.func
 def in_plane(values: wp.array2d(dtype=wp.float32), x: wp.float32, y: wp.float32) -> wp.float32:
-    """The same in two dimensions."""
+    """Interpolate bilinearly in two dimensions."""
     n = node(x, values.shape[0])
     i = int(n[0])
     low = interpolated(values[i], y)
@@ -79,7 +79,7 @@ def in_plane(values: wp.array2d(dtype=wp.float32), x: wp.float32, y: wp.float32)
 
 @wp.func
 def in_space(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
-    """The same in three dimensions."""
+    """Interpolate trilinearly in three dimensions."""
     n = node(x, values.shape[0])
     i = int(n[0])
     low = in_plane(values[i], y, z)
@@ -88,7 +88,7 @@ def in_space(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32,
 
 @wp.func
 def readings_scale_m(table: LawTable, distance_m: wp.float32, max_m: wp.float32) -> wp.float32:
-    """On what scale readings scatter about a stop at the distance."""
+    """Return the scale on which readings scatter about a stop at the distance, metres."""
     return interpolated(table.scale_m, distance_m / max_m)
 
 
@@ -109,13 +109,13 @@ def offset_node(table: LawTable, off: wp.float32) -> wp.float32:
 
 @wp.func
 def table_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """log p(reading | the beam stops at about the distance), or the least that the table allows."""
+    """Return log p(reading | the beam stops at about the distance), or the least that the table allows."""
     return wp.max(unbounded_log_density(table, reading_m, distance_m, variance, max_m), type(reading_m)(table.least))
 
 
 @wp.func
 def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """The same, however small."""
+    """Return log p(reading | the beam stops at about the distance) without a lower bound."""
     z = wp.float32(reading_m)
     d = wp.float32(distance_m)
     top = wp.float32(max_m)
@@ -138,7 +138,7 @@ def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, vari
 
 @wp.func
 def table_cumulative(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """P(reading <= range | the beam stops at about the distance)."""
+    """Return P(reading <= range | the beam stops at about the distance)."""
     z = wp.float32(reading_m)
     d = wp.float32(distance_m)
     top = wp.float32(max_m)

@@ -17,7 +17,7 @@ MOST_POWER = 16
 
 @wp.func
 def noise_log_density(law: Any, square: Any):
-    """Log density of the standard noise of a sensor's law, at a squared distance."""
+    """Return the log density of the standard noise of a sensor's law, at a squared distance."""
     half = type(square)(0.5)
     if law.dof > type(square)(0.0):
         one = type(square)(1.0)
@@ -26,13 +26,13 @@ def noise_log_density(law: Any, square: Any):
 
 
 def whole_power(power: float) -> int:
-    """(dof + 1) / 2 if that is a whole number of multiplications that is worth its while, else 0."""
+    """Return (dof + 1) / 2 where that is a whole number small enough to multiply out, else 0."""
     return int(power) if power == int(power) and power <= MOST_POWER else 0
 
 
 @wp.func
 def noise_density(law: Any, square: Any):
-    """Density of the standard noise of a sensor's law, at a squared distance.
+    """Return the density of the standard noise of a sensor's law, at a squared distance.
 
     Of Student's t with an odd number of degrees of freedom height / (1 + square / dof)^power, without logarithms.
     """
@@ -47,7 +47,7 @@ def noise_density(law: Any, square: Any):
 
 @wp.func
 def noise_below(law: Any, x: Any):
-    """P(standard noise <= x)."""
+    """Return P(standard noise <= x)."""
     if law.dof > type(x)(0.0):
         return type(x)(student_below(wp.float64(law.dof), wp.float64(law.log_height), wp.float64(x)))
     if x > type(x)(SIGMAS_TO_CERTAINTY):
@@ -59,7 +59,7 @@ def noise_below(law: Any, x: Any):
 
 @wp.func
 def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
-    """The continued fraction of the incomplete beta function (DLMF 8.17.22), by Lentz's method."""
+    """Return the continued fraction of the incomplete beta function (DLMF 8.17.22), by Lentz's method."""
     one = wp.float64(1.0)
     tiny = TINY
     c = one
@@ -96,7 +96,7 @@ def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
 
 @wp.func
 def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.float64:
-    """P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2).
+    """Return P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2).
 
     For whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
     """

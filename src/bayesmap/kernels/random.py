@@ -17,7 +17,7 @@ MASK = (1 << 64) - 1
 
 @wp.func
 def random_bits(key: wp.uint64, counter: wp.uint64) -> wp.uint64:
-    """64 random bits."""
+    """Return 64 random bits."""
     x = key + (counter + wp.uint64(1)) * GOLDEN
     x = (x ^ (x >> wp.uint64(30))) * MIX_1
     x = (x ^ (x >> wp.uint64(27))) * MIX_2
@@ -26,7 +26,7 @@ def random_bits(key: wp.uint64, counter: wp.uint64) -> wp.uint64:
 
 @wp.func
 def to_uniform(bits: wp.uint64) -> wp.float64:
-    """A number in the open interval (0, 1), in steps of 2^-53."""
+    """Return a number in the open interval (0, 1), in steps of 2^-53."""
     return (wp.float64(bits >> wp.uint64(11)) + wp.float64(0.5)) * TO_UNIT
 
 
@@ -37,12 +37,12 @@ surface of a cell in which readings end; and the steps of these cells' surfaces.
 
 @wp.func
 def sweep_key(key: wp.uint64, sweep: int, part: int) -> wp.uint64:
-    """A key of its own for each of the four parts of a chain's sweep, whose counters may then be the same numbers."""
+    """Return a key for each of the four parts of a chain's sweep, so that their counters may coincide."""
     return random_bits(key, wp.uint64(4) * wp.uint64(sweep) + wp.uint64(part))
 
 
 def mix(*words: int) -> int:
-    """A 64-bit key from whole numbers, such as (seed, chain, stream): on the host, once per chain."""
+    """Mix whole numbers, such as (seed, chain, stream), into a 64-bit key: on the host, once per chain."""
     state = 0
     for word in words:
         x = ((state ^ (word & MASK)) + 0x9E3779B97F4A7C15) & MASK
@@ -58,7 +58,7 @@ ODD_2 = wp.constant(wp.uint32(0x85EBCA6B))
 
 @wp.func
 def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
-    """A round function: it need not be invertible, only mix."""
+    """Mix a word with a key: the round function of the cipher, which need not be invertible."""
     mixed = (x + key) * ODD_1
     mixed = (mixed ^ (mixed >> wp.uint32(15))) * ODD_2
     return mixed ^ (mixed >> wp.uint32(13))
@@ -66,7 +66,7 @@ def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
 
 @wp.func
 def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
-    """Element i of a pseudo-random permutation of range(size), for a size of at most 2^bits.
+    """Return element i of a pseudo-random permutation of range(size), for a size of at most 2^bits.
 
     A Feistel cipher with four rounds permutes the numbers of that many bits; what falls outside the range is
     enciphered again until it falls inside (cycle walking; Black and Rogaway, *Ciphers with arbitrary finite domains*,
@@ -92,7 +92,7 @@ def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> 
 
 
 def cipher_bits(size: int) -> int:
-    """Width of the cipher that shuffles ``size`` elements; at least two bits, one for each half."""
+    """Return the width in bits of the cipher that shuffles ``size`` elements: at least two, one for each half."""
     return max(2, (size - 1).bit_length())
 
 
@@ -106,7 +106,7 @@ PER_GAMMA = 64  # counters set aside for a gamma variate: its rejection fails 1 
 
 @wp.func
 def normal(key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """A standard normal variate (Box and Muller, 1958); takes two counters."""
+    """Return a standard normal variate (Box and Muller, 1958); takes two counters."""
     u = to_uniform(random_bits(key, counter))
     v = to_uniform(random_bits(key, counter + wp.uint64(1)))
     return wp.sqrt(wp.float64(-2.0) * wp.log(u)) * wp.cos(TWO_PI * v)
@@ -114,8 +114,8 @@ def normal(key: wp.uint64, counter: wp.uint64) -> wp.float64:
 
 @wp.func
 def nearly_normal(bits: wp.uint64) -> wp.float32:
-    """A number of mean 0 and variance 1 whose law is symmetric and close to normal, for steps that need no more: the
-    sum of four uniform numbers, of 16 of the bits each.
+    """Return a number of mean 0 and variance 1 with a symmetric law close to normal, for random steps: the sum of four
+    uniform numbers, of 16 of the bits each.
     """
     low = wp.uint64(0xFFFF)
     total = (bits & low) + ((bits >> wp.uint64(16)) & low)
@@ -125,7 +125,7 @@ def nearly_normal(bits: wp.uint64) -> wp.float32:
 
 @wp.func
 def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """Logarithm of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `PER_GAMMA` counters.
+    """Return the logarithm of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `PER_GAMMA` counters.
 
     Shapes below one are drawn one higher and multiplied by U^(1/shape), which underflows unless kept as a logarithm.
     """
@@ -158,7 +158,7 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
 
 @wp.func
 def beta_variate(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """A beta variate; takes two times `PER_GAMMA` counters."""
+    """Return a beta variate; takes two times `PER_GAMMA` counters."""
     x = log_gamma_variate(a, key, counter)
     y = log_gamma_variate(b, key, counter + wp.uint64(PER_GAMMA))
     return wp.float64(1.0) / (wp.float64(1.0) + wp.exp(y - x))
@@ -166,7 +166,7 @@ def beta_variate(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint6
 
 @wp.func
 def beta_or_nothing(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """The same, but 0 where that would be under e^-70, mostly at the price of one logarithm.
+    """Return a beta variate, but 0 where it would be below e^-70; that mostly costs a single logarithm.
 
     A gamma variate of a shape under one is another, of a + 1, times U^(1/a): of no more than e^-100 that makes nothing
     beside a variate whose shape is over one.

@@ -1,4 +1,4 @@
-"""Tracing rays: count each beam's cells, then write them down; and where a beam crosses a cell."""
+"""Trace rays: count the cells of each beam, then list them; and compute where a beam crosses a cell."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -58,7 +58,7 @@ class Slab:
 
 @wp.func
 def slab_of(start: wp.float64, along: wp.float64) -> Slab:
-    """An axis, by its coordinates."""
+    """Return one axis of a line from its coordinates."""
     s = Slab()
     s.start = start
     if wp.abs(along) >= LEAST_COSINE:
@@ -84,7 +84,7 @@ class Line:
 
 @wp.func
 def line_of(lines: Lines, b: int) -> Line:
-    """A beam's line."""
+    """Return the line of a beam."""
     line = Line()
     start = lines.start_m[b]
     direction = lines.direction[b]
@@ -100,7 +100,9 @@ def line_of(lines: Lines, b: int) -> Line:
 
 @wp.func
 def stretch(line: Line, cell: int) -> wp.vec2d:
-    """Where a beam enters and leaves a cell that it touches, metres: `bayesmap.beams.rays.Rays.stretches`."""
+    """Return the distances at which a beam enters and leaves a cell that it touches, metres:
+    `bayesmap.beams.rays.Rays.stretches`.
+    """
     zero = wp.float64(0.0)
     x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
     y = cell - x * line.ny
@@ -125,7 +127,7 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
 
 @wp.func
 def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
-    """Where a beam stops in a cell if it is a part of its stretch inside, metres."""
+    """Return the distance at which a beam stops in a cell, metres, given as a share of its stretch inside."""
     s = stretch(line, cell)
     return s[0] + depth * (s[1] - s[0])
 
@@ -134,7 +136,7 @@ def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
 def first_past(
     line: Line, cells: wp.array(dtype=wp.int32), begin: int, end: int, distance_m: wp.float64, depth: wp.float64
 ) -> int:
-    """The first entry in [begin, end) whose stop is at a distance or past it, or end: stops are in order."""
+    """Return the first entry in [begin, end) whose stop lies at a distance or past it, or end: stops are in order."""
     low = begin
     high = end
     while low < high:
@@ -148,7 +150,7 @@ def first_past(
 
 @wp.kernel
 def count_cells(first: int, lines: Lines, reach_m: wp.array(dtype=wp.float64), counts: wp.array(dtype=wp.int32)):
-    """One thread a beam: how many cells does it touch?"""
+    """One thread per beam: count the cells that it touches."""
     b = first + wp.tid()
     p = lines.start_m[b] / lines.edge_m
     u = lines.direction[b]
@@ -171,7 +173,7 @@ def fill_cells(
     cells: wp.array(dtype=wp.int32),
     near: wp.array(dtype=wp.int32),
 ):
-    """One thread a beam: write its cells, and find the first that it enters at a distance or past it."""
+    """One thread per beam: write its cells, and find the first that it enters at a distance or past it."""
     b = first + wp.tid()
     p = lines.start_m[b] / lines.edge_m
     u = lines.direction[b]
@@ -196,7 +198,7 @@ def fill_distances(
     depth: wp.float64,
     distance_m: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: where it would stop in each of its cells."""
+    """One thread per beam: compute where it would stop in each of its cells."""
     b = first + wp.tid()
     line = line_of(rays.lines, b)
     for k in range(rays.offsets[b], rays.offsets[b + 1]):
@@ -204,7 +206,7 @@ def fill_distances(
 
 
 def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> NDArray[np.float32]:
-    """As `Rays.distance_m`, compiled: metres, shape (K,)."""
+    """Compute `Rays.distance_m` by a kernel: metres, (K,)."""
     distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
     inputs = [rays_to_device(rays, device), wp.float64(hit_depth), distance_m]
     devices.launch(fill_distances, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
@@ -220,7 +222,7 @@ def rays_to_device(rays: Rays, device: str) -> Any:
 
 
 def lines_to_device(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
-    """Beams where kernels read them, starts in metres from the grid's lower left corner."""
+    """Put beams where kernels read them, starts in metres from the grid's lower left corner."""
     lines = Lines()
     for name, array in (("start_m", start_m), ("direction", direction)):
         flat = np.ascontiguousarray(array, dtype=np.float64)
@@ -231,7 +233,7 @@ def lines_to_device(start_m: Floats, direction: Floats, grid: Grid, device: str)
 
 
 def beam_lines(scans: Scans, grid: Grid) -> tuple[Floats, Floats]:
-    """Start of every beam, metres from the grid's lower left corner, and its unit vector, (B, 2) each."""
+    """Return the start of every beam, metres from the grid's lower left corner, and its unit vector, (B, 2) each."""
     start = (scans.beam_starts_world() - np.array(grid.origin)).reshape(-1, 2)
     angle = scans.beam_angles_world().ravel()
     return start, np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -269,19 +271,19 @@ def trace_rays(
     reach = np.where(np.isnan(ranges), -1.0, reach)
     start_m, direction = beam_lines(scans, grid)
     lines = lines_to_device(start_m, direction, grid, device)
-    reach_there = devices.to_device(reach, wp.float64, device)
-    near_there = devices.to_device(np.zeros(beams) if near_m is None else near_m, wp.float64, device)
+    device_reach = devices.to_device(reach, wp.float64, device)
+    device_near = devices.to_device(np.zeros(beams) if near_m is None else near_m, wp.float64, device)
 
     counts = wp.empty(beams, dtype=wp.int32, device=device)
     for begin, size in _pieces(beams):
-        devices.launch(count_cells, size, [lines, reach_there, counts], device, devices.threads_for(size), begin)
+        devices.launch(count_cells, size, [lines, device_reach, counts], device, devices.threads_for(size), begin)
         on_progress((begin + size) // 2, beams)
     offsets = offsets_of(counts.numpy(), "beams")
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
     near = wp.empty(beams, dtype=wp.int32, device=device)
-    offsets_there = devices.to_device(offsets, wp.int32, device)
+    device_offsets = devices.to_device(offsets, wp.int32, device)
     for begin, size in _pieces(beams):
-        inputs = [lines, reach_there, near_there, offsets_there, cells, near]
+        inputs = [lines, device_reach, device_near, device_offsets, cells, near]
         devices.launch(fill_cells, size, inputs, device, devices.threads_for(size), begin)
         on_progress((beams + begin + size) // 2, beams)
     return Rays(
@@ -297,7 +299,7 @@ def trace_rays(
 
 
 def offsets_of(counts: NDArray[np.int32], what: str) -> NDArray[np.int32]:
-    """Where each beam's entries begin, and where the last one's end, (B + 1,).
+    """Return where the entries of each beam begin, and where those of the last one end, (B + 1,).
 
     Raises:
         BadInput: more entries than 32-bit indices can count.
@@ -313,6 +315,6 @@ def offsets_of(counts: NDArray[np.int32], what: str) -> NDArray[np.int32]:
 
 
 def _pieces(beams: int) -> Iterator[tuple[int, int]]:
-    """First beam and number of beams of each piece."""
+    """Yield the first beam and the number of beams of each piece."""
     for begin in range(0, beams, BEAMS_AT_ONCE):
         yield begin, min(BEAMS_AT_ONCE, beams - begin)

@@ -12,7 +12,7 @@ from typing import Any
 
 import warp as wp
 
-from bayesmap.kernels.law_table import LawTable, put_table, table_cumulative, table_log_density
+from bayesmap.kernels.law_table import LawTable, law_table_to_device, table_cumulative, table_log_density
 from bayesmap.kernels.noise_law import noise_below, noise_density, noise_log_density, whole_power
 from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
 from bayesmap.sensors.model import RangeLimits, SensorModel
@@ -27,7 +27,7 @@ THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 
 def _law(name: str, real: Any) -> Any:
-    """A struct of a sensor's numbers in a precision."""
+    """Make a struct of a sensor's numbers in a precision."""
     reals = (
         "sigma_m", "sigma_per_m", "dof", "p_random", "p_known", "p_return", "p_no_return", "p_short",
         "rate_short_per_m", "min_m", "max_m",
@@ -61,7 +61,11 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     model = sensor.kernel_parameters()
     if model is None:
         least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
-        packed.kind, packed.peak, packed.table = TABLE, math.inf, put_table(tabulated(sensor, limits), device, least)
+        packed.kind, packed.peak, packed.table = (
+            TABLE,
+            math.inf,
+            law_table_to_device(tabulated(sensor, limits), device, least),
+        )
         return packed
     packed.kind = MIXTURE if model.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002
@@ -85,19 +89,19 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
 
 @wp.func
 def blocked(law: Any, distance_m: Any):
-    """The chance that a passing object stands before the distance."""
+    """Return the chance that a passing object stands before the distance."""
     return law.p_short * (type(distance_m)(1.0) - wp.exp(-law.rate_short_per_m * distance_m))
 
 
 @wp.func
 def unblocked(law: Any, distance_m: Any):
-    """The chance that no passing object stands before the distance."""
+    """Return the chance that no passing object stands before the distance."""
     return type(distance_m)(1.0) - blocked(law, distance_m)
 
 
 @wp.func
 def object_decay(law: Any, reading_m: Any):
-    """exp(-rate z), by which passing objects are rarer at the reading than at distance 0; 0 for a typed one.
+    """Return exp(-rate z), by which passing objects are rarer at the reading than at distance 0; 0 for a typed reading.
 
     It depends on the reading alone, and the densities below are given it.
     """
@@ -109,7 +113,7 @@ def object_decay(law: Any, reading_m: Any):
 
 @wp.func
 def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
-    """As `unblocked`, without an exponential where distance and reading are close: exp(-x) by its series."""
+    """Compute `unblocked` without an exponential where distance and reading are close: exp(-x) by its series."""
     one = type(distance_m)(1.0)
     x = law.rate_short_per_m * (distance_m - reading_m)
     if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
@@ -122,14 +126,14 @@ def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
 
 @wp.func
 def variance_at(law: Any, distance_m: Any, variance: Any):
-    """Squared scale of the noise around a stop: the sensor's and the stop's."""
+    """Return the squared scale of the noise around a stop: the sensor's and the stop's."""
     scale = law.sigma_m + law.sigma_per_m * distance_m
     return scale * scale + variance
 
 
 @wp.func
 def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
-    """Density at a finite reading of what comes back from a stop at the distance, in the mixture."""
+    """Return the density, at a finite reading, of what comes back from a stop at the distance, in the mixture."""
     total = variance_at(law, distance_m, variance)
     error = reading_m - distance_m
     square = error * error
@@ -143,7 +147,9 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
 
 @wp.func
 def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returned: Any):
-    """Density at a finite reading in the mixture: what comes back, as given, with random readings and objects."""
+    """Return the density at a finite reading in the mixture: the returned density with random readings and passing
+    objects.
+    """
     density = law.uniform + returned
     if reading_m < wp.min(distance_m, law.max_m):
         density += law.passing * decay
@@ -152,7 +158,7 @@ def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returne
 
 @wp.func
 def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
-    """p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
+    """Return p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
 
     ``decay`` is `object_decay` of the reading. An infinite distance means that the beam stops nowhere.
     """
@@ -182,7 +188,9 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
 
 @wp.func
 def highest_density(law: Any, reading_m: Any):
-    """What `stop_density` of a reading is at most in the mixture, wherever the beam stops; of other laws infinite."""
+    """Return an upper bound of `stop_density` of a reading in the mixture, wherever the beam stops; infinite for other
+    laws.
+    """
     if law.kind == MIXTURE and not wp.isfinite(reading_m):
         return type(reading_m)(1.0)
     return law.peak
@@ -190,7 +198,7 @@ def highest_density(law: Any, reading_m: Any):
 
 @wp.func
 def lowest_density(law: Any, reading_m: Any):
-    """What `stop_density` of a reading is at least in the mixture, wherever the beam stops; of other laws 0."""
+    """Return a lower bound of `stop_density` of a reading in the mixture, wherever the beam stops; 0 for other laws."""
     if law.kind != MIXTURE:
         return type(reading_m)(0.0)
     if wp.isfinite(reading_m):
@@ -203,7 +211,7 @@ def lowest_density(law: Any, reading_m: Any):
 
 @wp.func
 def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, variance: Any):
-    """The logarithm of the same for noise alone, whose typed readings stand for the limits, and for a table."""
+    """Return log p(reading | stop) for noise alone, whose typed readings stand for the limits, and for a table."""
     if law.kind == TABLE:
         return table_log_density(law.table, reading_m, distance_m, variance, law.max_m)
     z = reading_m
@@ -216,7 +224,7 @@ def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, 
 
 @wp.func
 def stop_log_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
-    """Logarithm of `stop_density`, also where that is smaller than any number."""
+    """Return the logarithm of `stop_density`, also where that is smaller than any number."""
     if law.kind == MIXTURE:
         return wp.log(stop_density(law, reading_m, decay, distance_m, variance))
     return stop_log_density_without_objects(law, reading_m, distance_m, variance)
@@ -224,13 +232,13 @@ def stop_log_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
 
 @wp.func
 def no_stop_density(law: Any, reading_m: Any, decay: Any):
-    """p(reading | the beam stops nowhere)."""
+    """Return p(reading | the beam stops nowhere)."""
     return stop_density(law, reading_m, decay, type(reading_m)(wp.inf), type(reading_m)(0.0))
 
 
 @wp.func
 def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
-    """P(reading <= range | the beam stops at about the distance), for a finite range."""
+    """Return P(reading <= range | the beam stops at about the distance), for a finite range."""
     if law.kind == TABLE:
         return table_cumulative(law.table, reading_m, distance_m, variance, law.max_m)
     wall = wp.min(distance_m, law.max_m)
@@ -243,13 +251,13 @@ def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
 
 @wp.func
 def random_below(law: Any, z: Any):
-    """P(reading <= z and the reading is random) of the mixture, for a z within the limits."""
+    """Return P(reading <= z and the reading is random) of the mixture, for a z within the limits."""
     return law.p_random * (z - law.min_m) / (law.max_m - law.min_m)
 
 
 @wp.func
 def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any):
-    """P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop.
+    """Return P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop.
 
     ``decay`` is `object_decay` of z, the same for all stops: one far behind z costs no exponential of its own.
     """
@@ -269,7 +277,7 @@ def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any
 
 @wp.func
 def is_behind(law: Any, z: Any, distance_m: Any, variance: Any):
-    """Whether a stop lies so far behind z that nothing returns from it below z."""
+    """Return whether a stop lies so far behind z that nothing returns from it below z."""
     if distance_m > law.max_m:
         return True
     error = distance_m - z
@@ -280,7 +288,7 @@ def is_behind(law: Any, z: Any, distance_m: Any, variance: Any):
 
 @wp.func
 def is_before(law: Any, z: Any, distance_m: Any, variance: Any):
-    """Whether a stop lies so far before z that all that returns from it is below z."""
+    """Return whether a stop lies so far before z that all that returns from it is below z."""
     error = z - wp.min(distance_m, law.max_m)
     if error <= type(z)(0.0) or law.dof > type(z)(0.0):
         return False

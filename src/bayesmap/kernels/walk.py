@@ -54,7 +54,7 @@ class Walk:
 
 @wp.func
 def cell_before(p: wp.float64, step: int) -> int:
-    """The cell of a coordinate; on a grid line, the one that the beam is leaving."""
+    """Return the cell of a coordinate; on a grid line, the cell that the beam leaves."""
     if step > 0:
         return int(wp.ceil(p - TIE)) - 1
     return int(wp.floor(p + TIE))
@@ -112,7 +112,7 @@ def walk_begin(
 
 @wp.func
 def walk_next(w: Walk) -> Walk:
-    """The next touch: a side cell that is still due, else the cell across the next grid line."""
+    """Advance to the next touch: a side cell that is still due, else the cell across the next grid line."""
     if w.sides != 0:
         if (w.sides & SIDE_X) != 0:
             w.cell_x = w.x + w.side_x
@@ -149,7 +149,7 @@ def walk_next(w: Walk) -> Walk:
 
 @wp.func
 def is_inside(w: Walk, nx: int, ny: int) -> bool:
-    """Whether the touched cell is one of the grid's."""
+    """Return whether the touched cell is one of the grid's."""
     return w.cell_x >= 0 and w.cell_x < nx and w.cell_y >= 0 and w.cell_y < ny
 
 
@@ -163,7 +163,7 @@ def first_hit_ranges(
     distance: wp.array(dtype=wp.float64),
     visits: wp.array(dtype=wp.int32),
 ):
-    """One thread a beam: walk to the first wall."""
+    """One thread per beam: walk to the first wall."""
     b = wp.tid()
     nx = walls.shape[0]
     ny = walls.shape[1]
@@ -188,7 +188,7 @@ def cast(
     longest_cells: float,
     device: str = "cpu",
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Distance of the first wall along every beam, in cells, capped; and the cells that were looked at.
+    """Compute the distance of the first wall along every beam, in cells, capped, and the number of cells inspected.
 
     Args:
         walls: non-zero where there is a wall, shape (nx, ny).

@@ -1,7 +1,7 @@
 """Maps of other programs, to be located in: the law that such a map implies, fitted to the log that is located.
 
 A map_server map says of each cell that it is occupied, free or unknown, or how likely it is occupied. The law is that
-of `bayesmap.posterior.others_maps`: an occupied cell stops a beam by one chance, a free one by another, those between
+of `bayesmap.posterior.baselines`: an occupied cell stops a beam by one chance, a free one by another, those between
 along the logit. A reading scatters about the stop by the noise of sensor and map together. People, furniture and doors
 that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to do with the map.
 Errors that all beams of a scan share are no noise: a scan is worth few independent readings, scans along a metre and
@@ -22,7 +22,7 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.pose_weights import PackedMap, pack_map, scan_log_likelihood
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
-from bayesmap.posterior.others_maps import stop_probabilities
+from bayesmap.posterior.baselines import stop_probabilities
 from bayesmap.posterior.progress_shares import OnShare, ignored
 from bayesmap.posterior.tuning import Parameter, Values, maximise, sensor_of
 from bayesmap.sensors.model import RangeLimits

@@ -220,11 +220,11 @@ class KnownMap:
     @cached_property
     def endpoints(self) -> EndpointField:
         """Where end points of beams fall on surfaces, for proposals."""
-        from bayesmap.kernels.predict.pose_weights import unpacked
+        from bayesmap.kernels.predict.pose_weights import map_states
 
         assert isinstance(self.sensor, BeamMixture)
         scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_m)))
-        return endpoint_field(unpacked(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
+        return endpoint_field(map_states(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
 
     @cached_property
     def shared_error(self) -> Floats | None:

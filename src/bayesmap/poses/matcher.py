@@ -165,7 +165,7 @@ def match(
     Raises:
         BadInput: arrays that do not fit, or a window or step that is not positive.
     """
-    from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search
+    from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 
     jobs = len(points)
     centres = np.asarray(centres, np.float64).reshape(-1, 3)
@@ -211,7 +211,7 @@ def match(
         least=np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))),
         across=np.full(jobs, across),
     )
-    scores, nodes = search(grids, windows, Modes(modes, share, apart), strands, threads)
+    scores, nodes = search_grids(grids, windows, Modes(modes, share, apart), strands, threads)
     poses = np.full((jobs, modes, 3), np.nan)
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]

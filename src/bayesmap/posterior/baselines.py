@@ -1,12 +1,18 @@
-"""The maps that others keep, as predictions: hit-count ratios and log-odds, each with the best sensor for it.
+"""Maps of other mappers as predictions, each with the best sensor for it: hit ratios, log-odds, and external maps.
 
-All come from two counts: how often beams stopped in a cell, and how often they passed it. Each becomes a map of stop
-probabilities, and predicts readings by the same formula as a posterior (`bayesmap.kernels.predict.density`).
+Hit ratios and log-odds come from two counts: the beams that stopped in a cell, and the beams that passed it. Each
+becomes a map of stop probabilities, and predicts readings by the formula of a posterior
+(`bayesmap.kernels.predict.density`).
 
-A plug-in map has no sensor model of its own, so one is fitted to it, with where in a cell beams stop and the row's own
-parameters. Fitting on the scans that were counted would reward over-confidence, hence an inner hold-out: of the
-training scans every tenth is left out of the counts and predicted, in as many of the ten ways as it takes to have
-`BEAMS_WANTED` beams. Scans that are scored in the end are never looked at.
+A plug-in map has no sensor model of its own, so one is fitted to it, together with where in a cell beams stop and the
+row's own parameters. A fit on the scans that were counted would reward over-confidence, hence an inner hold-out: every
+tenth of the training scans is left out of the counts and predicted, in as many of the ten ways as it takes to have
+`BEAMS_WANTED` beams. Scans that are scored in the end have no part in it.
+
+An external map, made by another program, gives for each cell the probability that it is occupied, or that it is
+unknown. It does not say what that means for a beam. So the following are fitted along with the sensor: the chance that
+a beam stops in a cell called occupied (probability 1), in one called free (0), between the two along the logit, and in
+an unknown one.
 """
 
 from __future__ import annotations
@@ -19,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.kinds import HIT_DEPTH, default_sensor
-from bayesmap.posterior.folds import THIN, Fold, HeldOut, make_folds, together
+from bayesmap.errors import BadInput
+from bayesmap.posterior.folds import THIN, Fold, HeldOut, make_folds, one_fold, together
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.progress_shares import OnShare, ignored, parts
 from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
@@ -186,3 +193,57 @@ def fit_baseline(
     stop = baseline.stops(hits.astype(float), passes.astype(float), values)
     predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values, dof), values["hit_depth"])
     return Fitted(baseline.name, predictor, values, score)
+
+
+EXTERNAL = (
+    Parameter("stop_occupied", 1e-3, 1 - 1e-6, share=True),
+    Parameter("stop_free", 1e-7, 0.5, share=True),
+    Parameter("stop_unknown", 1e-7, 1 - 1e-3, share=True),
+)
+EXTERNAL_STARTS = (
+    {"stop_occupied": 0.9, "stop_free": 1e-3, "stop_unknown": 0.05},
+    {"stop_occupied": 0.5, "stop_free": 0.01, "stop_unknown": 0.01},
+)
+
+
+def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats:
+    """Chance that a beam stops in each cell, from its probability of being occupied, NaN where unknown; same shape."""
+
+    def logit(p: float) -> float:
+        return float(np.log(p) - np.log1p(-p))
+
+    low, high = logit(values["stop_free"]), logit(values["stop_occupied"])
+    known = 1.0 / (1.0 + np.exp(-(low + (high - low) * np.nan_to_num(occupancy))))
+    return np.where(np.isnan(occupancy), values["stop_unknown"], known)
+
+
+def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
+    """Fit a sensor, and what occupied, free and unknown mean, to somebody's map.
+
+    Args:
+        name: in tables.
+        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
+        grid: of the map.
+        train: scans that will not be scored, at their poses in the map's frame.
+        on_progress: called with the share that is done.
+
+    Raises:
+        BadInput: shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.
+    """
+    values = np.asarray(occupancy, dtype=np.float64)
+    if values.shape != grid.shape or (np.abs(np.nan_to_num(values, nan=0.5) - 0.5) > 0.5).any():
+        raise BadInput(f"{name}: occupancy must be probabilities of shape {grid.shape}, got shape {values.shape}")
+    x0, x1, y0, y1 = grid.extent_m
+    x, y = train.poses[:, 0], train.poses[:, 1]
+    if not ((x > x0) & (x < x1) & (y > y0) & (y < y1)).any():
+        raise BadInput(
+            f"{name}: none of the poses lies on the map, which reaches from ({x0:.6g}, {y0:.6g}) to "
+            f"({x1:.6g}, {y1:.6g}) m; are map and poses in one frame?"
+        )
+    flat = values.ravel()
+
+    def stop(hits: Floats, passes: Floats, numbers: Mapping[str, float]) -> Floats:
+        return stop_probabilities(flat, numbers)
+
+    baseline = Baseline(name, stop, EXTERNAL, EXTERNAL_STARTS)
+    return fit_baseline(baseline, train, grid, one_fold(train, grid), on_progress)

@@ -72,7 +72,7 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
+class ScanBlocks:
     """Items in blocks, and bootstrap replicates of the blocks.
 
     Attributes:
@@ -84,7 +84,7 @@ class Blocks:
     weights: Floats
 
     @classmethod
-    def make(cls, block: NDArray[np.intp], seed: int = 0, replicates: int = REPLICATES) -> Blocks:
+    def make(cls, block: NDArray[np.intp], seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:
         """Draw the replicates: of S blocks with items, S with replacement."""
         _, compact = np.unique(block, return_inverse=True)
         size = int(compact.max()) + 1 if len(compact) else 1

@@ -97,9 +97,9 @@ def expected_information(
     Raises:
         BadInput: poses or angles that are none, or fewer than two draws.
     """
-    from bayesmap.kernels.predict.density import hold_maps
+    from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
-    from bayesmap.kernels.predict.view import drawn_stops
+    from bayesmap.kernels.predict.view import draw_scan_stops
     from bayesmap.kernels.random import mix
     from bayesmap.sensors.model import RangeLimits
 
@@ -107,13 +107,13 @@ def expected_information(
     if draws < 2:
         raise BadInput(f"information: {draws} draws of the map; two are the least that can differ")
     limits = RangeLimits(min_range_m, max_range_m)
-    maps, every = hold_maps([cells], hit_depth, device=device), np.arange(draws)
+    maps, every = device_maps([cells], hit_depth, device=device), np.arange(draws)
     scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
     found = np.empty((4, len(where)))
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
         key = mix(seed, i, STREAM_VIEW)
-        distance_m, spread_m = drawn_stops(maps, grid, at, every, angles, max_range_m, key)
+        distance_m, spread_m = draw_scan_stops(maps, grid, at, every, angles, max_range_m, key)
         rng = np.random.default_rng([seed, i, STREAM_VIEW])
         met = np.isfinite(distance_m)
         distance_m[met] += spread_m[met] * rng.standard_normal(met.sum())

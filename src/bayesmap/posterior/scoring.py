@@ -1,8 +1,9 @@
-"""The score of a prediction on held-out scans: how likely, how well calibrated, how sharp."""
+"""Score predictions on held-out scans: likelihood, calibration and sharpness."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,8 +12,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.calibration import (
-    Blocks,
     Estimate,
+    ScanBlocks,
     binary_scores,
     inside,
     pit_histogram,
@@ -25,6 +26,55 @@ from bayesmap.posterior.progress_shares import OnShare, ignored, parts, watched
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.scans import Reading, Scans
+
+
+def beam_log_scores(
+    predictor: Predictor,
+    scans: Scans,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    device: str = "cpu",
+) -> NDArray[np.float64]:
+    """Log predictive density of every reading, NaN where it is invalid: log mean over draws of p(reading | draw), (B,).
+
+    Densities are per metre for hits, probabilities for typed readings, in nats. They are those of `score_prediction`,
+    digit for digit.
+
+    Args:
+        predictor: what predicts.
+        scans: held out.
+        on_progress: given how many of how many draws have been looked at.
+        device: where to compute.
+
+    Raises:
+        BadInput: no valid reading, or no draw.
+    """
+    from bayesmap.kernels.predict.density import explained_within_m, log_densities
+    from bayesmap.kernels.rays import trace_rays
+
+    if not (scans.readings != Reading.INVALID).any():
+        raise BadInput("score: none of the scans has a valid reading")
+    sensor, limits = predictor.sensor, RangeLimits(scans.min_range_m, scans.max_range_m)
+    reach_m = explained_within_m(scans.ranges_m.ravel(), sensor, limits, predictor.grid.resolution)
+    rays, draws = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device), predictor.draws
+    batches = watched(predictor.batches(rays.touched), draws, lambda share: on_progress(round(share * draws), draws))
+    return log_densities(rays, batches, sensor, predictor.hit_depth, device=device)
+
+
+def log_score(
+    posterior: Posterior,
+    scans: Scans,
+    sensor: SensorModel | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    device: str = "cpu",
+) -> float:
+    """Mean of `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
+
+    Raises:
+        BadInput: as `beam_log_scores` and `predictor_of`.
+    """
+    scores = beam_log_scores(predictor_of(posterior, sensor), scans, on_progress, device)
+    return float(scores[~np.isnan(scores)].mean())
+
 
 LEVELS = (0.5, 0.8, 0.95)
 BINS = 20
@@ -162,7 +212,7 @@ def score_prediction(
     at_events(1.0)
 
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
-    blocks = Blocks.make(scan[valid], seed)
+    blocks = ScanBlocks.make(scan[valid], seed)
     nats = blocks.mean(found.log_density[valid])
     pit = randomised_pit(found.pit_low[valid], found.pit_high[valid], seed)
     distance, p_value = blocks.uniformity(pit)
@@ -177,7 +227,7 @@ def score_prediction(
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)
-    of_events = Blocks.make(np.repeat(scan, rays.lengths)[event], seed)
+    of_events = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
     none = Estimate(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])),

@@ -1,4 +1,4 @@
-"""What chains have done so far: as it is sampled, checkpointed, resumed, and joined with that of other chains."""
+"""How long chains run, and what they have done so far: sampled, checkpointed, resumed, and joined with other chains."""
 
 from __future__ import annotations
 
@@ -10,8 +10,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
-from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """How long to run: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
+
+    warmup: int
+    draws: int
+    thin: int = 1
+
+    @property
+    def sweeps(self) -> int:
+        """All sweeps of one chain."""
+        return self.warmup + self.draws * self.thin
+
+    @property
+    def keep(self) -> Keep:
+        """Which draws are kept."""
+        return Keep(self.warmup, self.thin if self.draws else 0)
+
 
 Floats = NDArray[np.float64]
 

@@ -1,27 +1,57 @@
 """The one runner of all chains: an iterator of (state, info), and what is made of it.
 
-All chains of a process go abreast, in short steps: between two steps they have made the same number of sweeps, so a
-checkpoint is just where each stands, that number, and the draws so far. A step is about a quarter of a second of work.
+All chains of a process advance together, in short steps: between two steps they have made the same number of sweeps, so
+a checkpoint is where each stands, that number, and the draws so far. A step is about a quarter of a second of work.
 Whoever runs chains (`bayesmap.infer`, the page, a worker of a cluster) takes the states of `sweeps` as they come, or
-lets `run_chains` keep the draws.
+lets `run_chains` keep the draws. An `Executor` decides where the chains of a job run.
 """
 
 from __future__ import annotations
 
+import contextlib
+import signal
+import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from types import FrameType
+from typing import Any, Protocol
 
 import numpy as np
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
-from bayesmap.run.chains import Chains, Record
-from bayesmap.run.schedule import Schedule
+from bayesmap.run.chains import Chains, Record, Schedule
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler, to_see
+
+
+@contextlib.contextmanager
+def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
+    """While inside, the first Ctrl-C makes the yielded function return True; a second one interrupts at once.
+
+    Outside the main thread, where Python takes no signals, the function always returns False; so it does in a process
+    that was started to ignore Ctrl-C, as shells start jobs in the background of a script.
+    """
+    stopped = False
+
+    def handle(number: int, frame: FrameType | None) -> None:
+        nonlocal stopped
+        if stopped:
+            raise KeyboardInterrupt
+        stopped = True
+
+    in_main_thread = threading.current_thread() is threading.main_thread()
+    if not in_main_thread or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        yield lambda: False
+        return
+    before = signal.signal(signal.SIGINT, handle)
+    try:
+        yield lambda: stopped
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
+
 
 STEP_SECONDS = 0.25
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step
@@ -202,3 +232,42 @@ def pause_after(checkpoint_s: float, every_s: float) -> float:
     It allows for twice the time, because the next one has more draws to write.
     """
     return max(every_s, 2 * checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
+
+
+class Executor(Protocol):
+    """Runs the chains of a job, wherever."""
+
+    def run(
+        self,
+        job: Job,
+        resume: Chains | None,
+        watch: Watch,
+        on_checkpoint: Callable[[Chains], None] | None,
+        checkpoint_every_s: float,
+    ) -> Chains:
+        """All chains of the job, in the order of their numbers; see `bayesmap.run.runner.run_chains`."""
+
+
+@dataclass(frozen=True)
+class ThreadExecutor:
+    """Runs all chains in this process, on its threads or its GPU.
+
+    Attributes:
+        should_stop: asked between two steps, beside the watch of the run.
+    """
+
+    should_stop: Callable[[], bool] = lambda: False
+
+    def run(
+        self,
+        job: Job,
+        resume: Chains | None,
+        watch: Watch,
+        on_checkpoint: Callable[[Chains], None] | None,
+        checkpoint_every_s: float,
+    ) -> Chains:
+        """Run the chains here."""
+        both = replace(watch, should_stop=lambda: watch.should_stop() or self.should_stop())
+        return run_chains(
+            job, resume=resume, watch=both, on_checkpoint=on_checkpoint, checkpoint_every_s=checkpoint_every_s
+        )

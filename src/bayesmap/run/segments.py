@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
-from bayesmap.run.chains import Chains, Record
+from bayesmap.run.chains import Chains, Record, Schedule
 from bayesmap.run.runner import Job, no_draws, sweeps
-from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.sampler import ChainState, Snapshot
 
 Floats = NDArray[np.float64]

@@ -20,7 +20,7 @@ from bayesmap.cells.ising import Ising, counts, likeliest
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import PILOT
-from bayesmap.samplers.wall_sampler import WallSampler
+from bayesmap.samplers.walls import WallSampler
 
 SWEEPS = 100
 WHOLE_UNTIL = 40

@@ -1,15 +1,17 @@
-"""Fitting the sensor and the prior, by a pilot: stochastic expectation maximisation along a chain of its own.
+"""Fit the sensor and the prior by a pilot chain: stochastic expectation maximisation.
 
-After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell; the
-expectation step splits readings into those of walls, passing objects and chance, the maximisation step is in closed
-form but for the noise (`bayesmap.samplers.noise_fit`) and the Beta. Parameters move a shrinking part of the way
-(Delyon, Lavielle and Moulines, 1999). With 10^5 beams their posterior is a point beside everything else that is
-unknown.
+After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell. The
+expectation step splits the readings into those of walls, of passing objects and of chance. The maximisation step is in
+closed form but for the noise and the Beta. Parameters move a shrinking part of the way (Delyon, Lavielle and Moulines,
+1999). With 10^5 beams their posterior is a point beside everything else that is unknown.
 
-The pilot is a short chain whose number no other chain has. It is over before the chains begin, which run under what it
-found: so what is fitted depends on the seed and on how many sweeps the pilot makes, and not on how many chains follow.
+Real readings scatter more at times than a normal law allows: poses are off by more in one scan than in another, walls
+are hit at a slant, and an edge is half wall and half what lies behind it. So the noise may be Student's t, a mixture of
+normal laws of all scales, which with many degrees of freedom is normal itself.
 
-Only the scans that the map is inferred from are looked at.
+The pilot is a short chain with a number that no other chain has. It ends before the chains begin, which run under the
+parameters that it found. So these depend on the seed and on the number of the pilot's sweeps, and not on the number of
+chains. Only the scans from which the map is inferred are used.
 """
 
 from __future__ import annotations
@@ -28,7 +30,6 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
-from bayesmap.samplers.noise_fit import Residuals, refit_noise
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
@@ -36,7 +37,71 @@ from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.sensors.describe import describe, from_description
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.noise import AdditiveNoise, Gaussian, noise_with
+
+SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
+"""Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""
+LEAST_SCALE_M = 1e-3
+LEAST_GROWTH = 1e-6
+FIRST_STEP, CLOSE = 0.1, 1e-3
+"""Of the search, in logarithms: where it looks first, and how close to the likeliest it comes."""
+LEAST_WEIGHT = 10.0
+"""Readings that it takes to change anything."""
+
+
+@dataclass(frozen=True, eq=False)
+class StopResiduals:
+    """Readings of beams that were stopped, (N,) each.
+
+    Attributes:
+        residual_m: reading less where the beam was stopped.
+        distance_m: where that was.
+        variance: of the surface along the beam, which adds to the noise's, square metres.
+        weight: the chance that the reading came from there.
+    """
+
+    residual_m: NDArray[np.float64]
+    distance_m: NDArray[np.float64]
+    variance: NDArray[np.float64]
+    weight: NDArray[np.float64]
+
+    def cost(self, dof: float, scale_m: float, per_m: float) -> float:
+        """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
+        scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
+        log_density = noise_with(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
+        return float(-(self.weight * log_density).sum() / self.weight.sum())
+
+    def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
+        """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
+        first = np.log([scale_m, max(per_m, 1e-5)])
+        found = scipy.optimize.minimize(
+            lambda logs: self.cost(dof, *np.exp(logs)),
+            first,
+            method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra
+            bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
+            options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
+        )
+        return float(found.fun), found.x
+
+
+def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
+    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
+    to the next of `SHAPES`.
+    """
+    readings = residuals.weight.sum()
+    if readings < LEAST_WEIGHT:
+        return noise
+    numbers = noise.kernel_parameters()
+    assert numbers is not None
+    dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
+    place = SHAPES.index(dof)
+    tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
+    found = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
+    a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
+    best = min(tried, key=lambda shape: found[shape][0] + (a_number_more if shape < math.inf else 0.0))
+    present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
+    return noise_with(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())
+
 
 BEAMS_LOOKED_AT = 40_000
 PILOT_SWEEPS = 40
@@ -75,7 +140,7 @@ class Parameters:
 
 
 @dataclass(frozen=True, eq=False)
-class Stops:
+class DrawnStops:
     """Where beams stopped, for some beams of all chains: readings, whether and where, and the surface's variance."""
 
     range_m: NDArray[np.float64]
@@ -100,7 +165,7 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
     """
     now = _first(problem)
-    for found in fitting(problem, seed, sweeps, watch):
+    for found in fits(problem, seed, sweeps, watch):
         now = found
         if watch.should_stop():
             break
@@ -113,12 +178,12 @@ def _first(problem: StopProblem) -> Parameters:
     return Parameters(problem.sensor, problem.prior)
 
 
-def fitting(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
+def fits(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
     """The same, sweep by sweep: what is found after each."""
-    return (found for found, _ in piloting(problem, seed, sweeps, watch))
+    return (found for found, _ in pilot_sweeps(problem, seed, sweeps, watch))
 
 
-def piloting(
+def pilot_sweeps(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
 ) -> Iterator[tuple[Parameters, Info]]:
     """The same with what each sweep reports: its draw, too, where ``keep`` wants it."""
@@ -160,11 +225,11 @@ def fit_sensor(
     return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
 
 
-def stops_of(state: StopState, some: slice) -> Stops:
+def stops_of(state: StopState, some: slice) -> DrawnStops:
     """Stops of the last sweep, of some of the beams, all chains together."""
     rays, chains = state.problem.rays, range(state.chains.n_chains)
     parts = [state.chains.stops(chain) for chain in chains]
-    return Stops(
+    return DrawnStops(
         range_m=np.tile(rays.range_m[some], len(parts)),
         stopped=np.concatenate([stopped[some] for stopped, _, _ in parts]),
         distance_m=np.concatenate([distance[some] for _, distance, _ in parts]).astype(np.float64),
@@ -177,7 +242,7 @@ def gain(sweep: int) -> float:
     return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
 
 
-def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: float) -> BeamMixture:
+def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, step: float) -> BeamMixture:
     """Move the sensor's parameters towards those that make the readings likeliest, given the stops."""
     z, hit = stops.range_m, np.isfinite(stops.range_m)
     wall = hit & stops.stopped
@@ -222,7 +287,7 @@ def refit_sensor(sensor: BeamMixture, stops: Stops, limits: RangeLimits, step: f
     metres = (by_object * reading).sum() + (behind * (t + 1.0 / rate)).sum()
     metres += further * (too_close / rate - limits.min_m)
     rate_new = (objects + PSEUDO_BEAMS) / (metres + PSEUDO_BEAMS / rate)
-    residuals = Residuals(reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
+    residuals = StopResiduals(reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
 
     def moved(old: float, new: float) -> float:
         return float(math.exp((1 - step) * math.log(old) + step * math.log(new)))

@@ -17,9 +17,9 @@ from scipy import special
 
 from bayesmap.cells.arrays import pack
 from bayesmap.errors import check_count
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import STREAM_PARTICLES
+from bayesmap.samplers.wall_problem import WallProblem
 
 BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
 COUPLED_CELLS = 1 << 13  # of maps of coupled cells that are drawn together
@@ -52,11 +52,11 @@ class Particles:
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
         """The maps of the given particles, (n, nx, ny)."""
-        from bayesmap.kernels.walls.importance import draw
+        from bayesmap.kernels.walls.importance import particle_maps
 
         if self.problem.coupling != 0.0:
             return _coupled_maps(self.problem, self.key, particles)
-        walls = draw(self.problem.device_prior, self.key, particles, self.problem.device)
+        walls = particle_maps(self.problem.device_prior, self.key, particles, self.problem.device)
         return np.asarray(walls.reshape(len(particles), *self.problem.table.grid.shape) != 0)
 
     def occupancy(self) -> NDArray[np.float64]:

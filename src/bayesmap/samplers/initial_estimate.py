@@ -19,10 +19,10 @@ from bayesmap.space.grid import Grid
 Floats = NDArray[np.float64]
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
-FREE_EVERY, FAR_EVERY = 8, 16
-"""Sweeps from one turn to the next of cells in which no reading ends, and of those around which none ends, either."""
-FEW_PASSES, FEW_EVERY = 16, 2
-"""A cell that fewer beams pass has its turn in every so many sweeps."""
+FREE_PERIOD, FAR_PERIOD = 8, 16
+"""Update periods, in sweeps, of cells in which no reading ends, and of those around which none ends either."""
+FEW_PASSES, FEW_PERIOD = 16, 2
+"""A cell that fewer beams pass has this update period, in sweeps."""
 ALONG_WALL = 1.5
 """Of a surface's first standard deviation along its wall: so many of its end points' own."""
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
@@ -197,14 +197,14 @@ def start(
     return state
 
 
-def turn_every(estimate: InitialEstimate) -> NDArray[np.uint8]:
-    """In every how many sweeps it is each cell's turn, (T,): 0 for endpoint cells, whose turn is always.
+def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
+    """Return the update period of each cell, in sweeps, (T,): 0 for endpoint cells, which every sweep updates.
 
-    Of free cells, above all away from all readings, little is learnt in a sweep, and they are most of what beams cross.
-    One that few beams pass costs little, and is not known to be free: a reflectivity at which it stops them would stay
-    until its next turn.
+    A sweep tells little about free cells, above all far from all readings, and most cells that beams cross are free. A
+    cell that few beams pass costs little, and is not known to be free: a reflectivity at which it stops them would stay
+    until its next update.
     """
-    free = np.where(estimate.passes < FEW_PASSES, FEW_EVERY, np.where(estimate.far, FAR_EVERY, FREE_EVERY))
+    free = np.where(estimate.passes < FEW_PASSES, FEW_PERIOD, np.where(estimate.far, FAR_PERIOD, FREE_PERIOD))
     return np.where(estimate.endpoint, 0, free).astype(np.uint8)
 
 

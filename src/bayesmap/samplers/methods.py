@@ -8,22 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.samplers.block import BlockGibbs
-from bayesmap.samplers.gibbs import Gibbs
 from bayesmap.samplers.metropolis import Metropolis
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Sampler
-from bayesmap.samplers.start import Start, default_start
 from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.wall_sampler import Order, WallSampler
-from bayesmap.samplers.without_chains import Asked, Found, belief_propagation, exact, importance
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import BlockGibbs, Gibbs, Order, Start, WallSampler, default_start
+from bayesmap.samplers.without_chains import DrawRequest, IndependentDraws, belief_propagation, exact, importance
 from bayesmap.space.grid import Grid
 
 ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": Gibbs, "wall-blocks": BlockGibbs}
 ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
-WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, Asked, Watch], Found]] = {
+WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
     "exact": exact, "importance": importance, "propagate": belief_propagation,
 }  # fmt: skip
 

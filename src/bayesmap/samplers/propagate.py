@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput, check_count
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.wall_problem import WallProblem
 
 DAMPING = 0.5
 ROUNDS = 20

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from bayesmap.cells.labels import SOLID
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import end_cells, first_labels, start, steps, turn_every
+from bayesmap.samplers.initial_estimate import end_cells, first_labels, start, steps, update_periods
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import (
     NOTHING,
@@ -30,11 +30,10 @@ from bayesmap.samplers.sampler import (
     Keep,
     Snapshot,
 )
-from bayesmap.samplers.start_search import join, joining_after, settle
+from bayesmap.samplers.start_search import AVERAGED, merge, merge_sweeps, select_starts
 from bayesmap.samplers.stop_draws import StopDraws
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.trials import evidence
-from bayesmap.samplers.two_starts import AVERAGED
 
 if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.stop_chains import Plan, StopChains
@@ -70,7 +69,7 @@ class StopGibbs:
     Attributes:
         search_until: sweeps that surfaces make from two starts, with many steps in each, before they go on from the
             better of the two in each place: a part of the warm-up, in the rest of which they join surfaces
-            (`bayesmap.samplers.start_search.joining_after`). Without any a chain has one start.
+            (`bayesmap.samplers.start_search.merge_sweeps`). Without any a chain has one start.
     """
 
     search_until: int = 0
@@ -210,7 +209,7 @@ class StopGibbs:
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Some sweeps of all chains."""
-        end, joining = state.sweep + sweeps, joining_after(self.search_until)
+        end, joining = state.sweep + sweeps, merge_sweeps(self.search_until)
         if not state.problem.prior.has_surfaces or state.sweep >= max(joining, default=0):
             return self._sweep(state, sweeps, beta, keep)
         infos: list[Info] = []
@@ -220,7 +219,7 @@ class StopGibbs:
             state, info = advance(state, now, beta, keep)
             infos.append(info)
             if now > 0 and state.sweep in joining:
-                join(state.problem, state.chains, beta)
+                merge(state.problem, state.chains, beta)
         likelihood, log_prior = (np.concatenate([getattr(i, n) for i in infos], 1) for n in DENSITIES)
         draws = {name: np.concatenate([info.draws[name] for info in infos], axis=1) for name in infos[0].draws}
         return state, Info(likelihood, log_prior, draws)
@@ -266,7 +265,7 @@ class StopGibbs:
         self._sweep(replace(state, chains=second), sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1))
         state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, 0))
         if state.sweep == self.search_until:
-            settle(problem, chains, second, found[:, 1] - found[:, 0], beta)
+            select_starts(problem, chains, second, found[:, 1] - found[:, 0], beta)
             state = replace(state, second=None, evidence=None)
         return state, info
 
@@ -325,7 +324,7 @@ def _plan(problem: StopProblem) -> Plan:
 
     estimate = problem.estimate
     return Plan(
-        rays=problem.rays, every=turn_every(estimate), endpoints=estimate.endpoint_cells,
+        rays=problem.rays, periods=update_periods(estimate), endpoints=estimate.endpoint_cells,
         steps=steps(estimate, problem.grid.resolution),
         distance_m=None if problem.prior.has_surfaces else problem.distance_m, device=problem.device,
     )  # fmt: skip

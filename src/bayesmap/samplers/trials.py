@@ -29,23 +29,23 @@ if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.stop_chains import StopChains
 
 Floats = NDArray[np.float64]
-Look = Callable[["Maps"], Floats]
+Look = Callable[["ChainMaps"], Floats]
 
 NUMBERS = 5
 """Of a surface: mean and covariance."""
-FEW_TURN = (1 << 24) + 1
-"""Number of a sweep that no chain makes, in which few cells have their turn."""
+UPDATES_FEW = (1 << 24) + 1
+"""Number of a sweep that no chain makes, which updates few cells."""
 
 
 @dataclass(frozen=True, eq=False)
-class Maps:
+class ChainMaps:
     """Where chains stand, to be changed in place: states (C, N, 6) and labels (C, N)."""
 
     cells: NDArray[np.float32]
     solid: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, chains: StopChains) -> Maps:
+    def of(cls, chains: StopChains) -> ChainMaps:
         """Copies of where chains stand."""
         each = range(chains.n_chains)
         return cls(np.stack([chains.cells(i) for i in each]), np.stack([chains.solid(i) for i in each]))
@@ -97,9 +97,9 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
     end_cell = end_cells(problem.rays)
     numbers = problem.prior.kernel_numbers(problem.grid.resolution)
 
-    def look(maps: Maps) -> Floats:
+    def look(maps: ChainMaps) -> Floats:
         maps.put(chains)
-        chains.sweeps(FEW_TURN, 1, problem.sensor, numbers, beta, steps=0)
+        chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers, beta, steps=0)
         each = range(chains.n_chains)
         found = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
         return np.stack(found).reshape(-1, *problem.grid.shape)
@@ -108,7 +108,7 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
 
 
 def try_changes(
-    maps: Maps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
+    maps: ChainMaps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
 ) -> list[NDArray[np.bool_]]:
     """Change maps in some places, and take back what does not gain ``least`` around its place.
 

@@ -1,4 +1,7 @@
-"""Methods on binary walls that need no Markov chain: their draws are independent."""
+"""Methods on binary walls that need no Markov chain: their draws are independent.
+
+Exact enumeration is one of them: a method for tiny maps, and the oracle against which every sampler is tested.
+"""
 
 from __future__ import annotations
 
@@ -7,20 +10,120 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import special
 
 from bayesmap.cells.arrays import pack
-from bayesmap.samplers.exact import enumerate_maps
+from bayesmap.errors import BadInput
 from bayesmap.samplers.importance import Particles, sample_importance
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import Marginals, propagate
 from bayesmap.samplers.sampler import STREAM_START
+from bayesmap.samplers.wall_problem import WallProblem
+
+MAX_UNKNOWN = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Enumeration:
+    """The whole posterior.
+
+    Attributes:
+        unknown: flat indices of the cells that were enumerated, (n,): not fixed by the prior, and touched by a beam or
+            coupled to others.
+        log_posterior: normalised log-probability of each of the 2^n states; bit i of the state's number is the
+            wall in ``unknown[i]``.
+        log_evidence: log p(readings).
+        problem: what was enumerated.
+    """
+
+    unknown: NDArray[np.intp]
+    log_posterior: NDArray[np.float64]
+    log_evidence: float
+    problem: WallProblem
+
+    def states(self) -> NDArray[np.bool_]:
+        """The enumerated cells in each state, shape (2^n, n)."""
+        state = np.arange(len(self.log_posterior))[:, None]
+        return np.asarray(state >> np.arange(len(self.unknown)) & 1 == 1)
+
+    def marginals(self) -> NDArray[np.float64]:
+        """Posterior wall probability of every cell, shape (nx, ny); the prior's where no beam says anything."""
+        p = self.problem.p_wall.copy()
+        p[self.unknown] = np.exp(self.log_posterior) @ self.states()
+        return p.reshape(self.problem.table.grid.shape)
+
+    def pairs(self) -> NDArray[np.float64]:
+        """Posterior probability that both of two enumerated cells are walls, shape (n, n)."""
+        states = self.states().astype(np.float64)
+        return np.asarray((states * np.exp(self.log_posterior)[:, None]).T @ states)
+
+    def sample(self, rng: np.random.Generator, count: int) -> NDArray[np.bool_]:
+        """Independent draws of the map, shape (count, nx, ny)."""
+        shape = self.problem.table.grid.shape
+        walls = rng.random((count, shape[0] * shape[1])) < self.problem.p_wall
+        state = rng.choice(len(self.log_posterior), size=count, p=np.exp(self.log_posterior))
+        walls[:, self.unknown] = self.states()[state]
+        return walls.reshape(count, *shape)
+
+
+def enumerate_maps(problem: WallProblem) -> Enumeration:
+    """Compute p(map | readings) for every map, in plain NumPy.
+
+    Raises:
+        BadInput: more than `MAX_UNKNOWN` unknown cells.
+    """
+    table, p = problem.table, problem.p_wall
+    free_to_vary = (p > 0) & (p < 1)
+    # What coupled cells that no beam touches are, the others know.
+    matters = table.observed().ravel() | (problem.coupling != 0.0)
+    unknown = np.nonzero(matters & free_to_vary)[0]
+    if len(unknown) > MAX_UNKNOWN:
+        raise BadInput(
+            f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "
+            "use method 'gibbs' or 'block', or fix cells with a prior of 0 or 1"
+        )
+    bit_of = np.full(table.grid.n_cells, -1)
+    bit_of[unknown] = np.arange(len(unknown))
+    state = np.arange(1 << len(unknown))
+    log_p = np.zeros(len(state))
+    for i, cell in enumerate(unknown):
+        log_p += np.where(state >> i & 1, np.log(p[cell]), np.log1p(-p[cell]))
+    if problem.coupling != 0.0:
+        log_p += problem.coupling * _pairs_alike(problem, state, bit_of)
+        log_p -= special.logsumexp(log_p)
+    for b in range(table.n_beams):
+        still_free = np.ones(len(state), dtype=np.bool_)
+        term = np.full(len(state), np.float64(table.no_hit[b]))
+        for k in range(table.offsets[b], table.offsets[b + 1]):
+            cell = table.cells[k]
+            wall = (state >> bit_of[cell] & 1 == 1) if bit_of[cell] >= 0 else np.full(len(state), p[cell] == 1.0)
+            term[still_free & wall] = table.loglik[k]
+            still_free &= ~wall
+        log_p += term
+    log_evidence = float(special.logsumexp(log_p))
+    return Enumeration(unknown, log_p - log_evidence, log_evidence, problem)
+
+
+def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray[np.int64]) -> NDArray[np.int64]:
+    """In how many pairs of neighbours both are walls, or both free, in each state."""
+    cells, pairs = np.arange(problem.grid.n_cells).reshape(problem.grid.shape), np.zeros(len(state), dtype=np.int64)
+
+    def walls(cell: int) -> NDArray[np.bool_]:
+        if bit_of[cell] < 0:
+            return np.full(len(state), problem.p_wall[cell] == 1.0)
+        return np.asarray(state >> bit_of[cell] & 1 == 1)
+
+    for one, other in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1])):
+        for a, b in zip(one.ravel().tolist(), other.ravel().tolist(), strict=True):
+            pairs += walls(a) == walls(b)
+    return pairs
+
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Asked:
+class DrawRequest:
     """How much of what: ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
 
     chains: int
@@ -31,7 +134,7 @@ class Asked:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class IndependentDraws:
     """Independent draws, and what the method computes itself.
 
     Attributes:
@@ -58,18 +161,18 @@ class Found:
     log_evidence: float | None = None
 
 
-def exact(problem: WallProblem, asked: Asked, watch: Watch) -> Found:
+def exact(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
     """The whole posterior, with draws from it."""
     whole = enumerate_maps(problem)
     return _found(problem, asked, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
 
 
-def importance(problem: WallProblem, asked: Asked, watch: Watch) -> Found:
+def importance(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
     """Weighted maps, with draws resampled from them."""
-    return found_by_importance(problem, asked, sample_importance(problem, asked.particles, asked.seed, watch=watch))
+    return draws_by_importance(problem, asked, sample_importance(problem, asked.particles, asked.seed, watch=watch))
 
 
-def found_by_importance(problem: WallProblem, asked: Asked, found: Particles) -> Found:
+def draws_by_importance(problem: WallProblem, asked: DrawRequest, found: Particles) -> IndependentDraws:
     """The same of particles that have been weighed."""
     return _found(
         problem,
@@ -83,12 +186,12 @@ def found_by_importance(problem: WallProblem, asked: Asked, found: Particles) ->
     )
 
 
-def belief_propagation(problem: WallProblem, asked: Asked, watch: Watch) -> Found:
+def belief_propagation(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
     """Beliefs, with draws that are independent from cell to cell: marginals are all that there is."""
-    return found_by_beliefs(problem, asked, propagate(problem, rounds=asked.rounds, watch=watch))
+    return draws_by_beliefs(problem, asked, propagate(problem, rounds=asked.rounds, watch=watch))
 
 
-def found_by_beliefs(problem: WallProblem, asked: Asked, found: Marginals) -> Found:
+def draws_by_beliefs(problem: WallProblem, asked: DrawRequest, found: Marginals) -> IndependentDraws:
     """The same of beliefs that have been propagated."""
     return _found(
         problem,
@@ -103,7 +206,7 @@ def found_by_beliefs(problem: WallProblem, asked: Asked, found: Marginals) -> Fo
 
 def _found(
     problem: WallProblem,
-    asked: Asked,
+    asked: DrawRequest,
     draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
     occupancy: Floats,
     *,
@@ -112,7 +215,7 @@ def _found(
     statistics: Mapping[str, Floats] | None = None,
     seconds: float = 0.0,
     finished: bool = True,
-) -> Found:
+) -> IndependentDraws:
     from bayesmap.kernels.walls.importance import log_likelihoods
     from bayesmap.kernels.walls.reach import reach_frequency
 
@@ -122,7 +225,7 @@ def _found(
     flat = walls.reshape(-1, *problem.grid.shape)
     some = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
     maps = occupancy[None] > 0.5 if some is None else flat[some]
-    return Found(
+    return IndependentDraws(
         walls=packed,
         log_likelihood=np.stack([log_likelihoods(problem.table, chain, problem.device) for chain in packed]),
         log_prior=np.array([[problem.prior.log_prob(w, problem.grid) for w in chain] for chain in walls]),

@@ -1,4 +1,4 @@
-"""Correlative matching of points to likelihood grids by branch and bound.
+"""Match points to likelihood grids by branch and bound (correlative scan matching).
 
 Hess, Kohler, Rapp and Andor (2016), "Real-time loop closure in 2D LIDAR SLAM", algorithm 3: a node is a block of
 2^h x 2^h translations at one angle; level h of the pyramid bounds the score of all of them. The search is exact: what
@@ -21,8 +21,8 @@ Floats = NDArray[np.float64]
 
 
 @wp.struct
-class Jobs:
-    """What to match: job k has the points point_begin .. point_end, and rows of angles of its own."""
+class SearchJobs:
+    """Jobs on a device: job j has the points ``point_begin[j]:point_end[j]``, and rows of angles of its own."""
 
     point_begin: wp.array(dtype=wp.int32)
     point_end: wp.array(dtype=wp.int32)
@@ -47,7 +47,7 @@ class Roots:
 
 @wp.struct
 class Taken:
-    """The poses that were found before, (J, modes), as (row, dx, dy), and how far from them a block must reach."""
+    """The poses found before, (J, modes), as (row, dx, dy), and how far a further mode must lie from them."""
 
     node: wp.array2d(dtype=wp.vec3i)
     apart: wp.vec3i
@@ -56,7 +56,7 @@ class Taken:
 
 @wp.struct
 class Stack:
-    """Blocks that each strand has still to look into, the best on top."""
+    """Blocks that each strand has still to search, the best on top."""
 
     bound: wp.array2d(dtype=wp.float64)
     node: wp.array2d(dtype=wp.vec4i)  # level, dx, dy
@@ -73,7 +73,7 @@ class Best:
 
 @wp.func
 def block_score(
-    jobs: Jobs,
+    jobs: SearchJobs,
     pyramid: wp.array4d(dtype=wp.uint8),
     j: int,
     row: int,
@@ -81,7 +81,7 @@ def block_score(
     dx: int,
     dy: int,
 ) -> int:
-    """Sum over a job's points the largest value in the block of shifts (dx, dy) .. + 2^level - 1."""
+    """Sum, over the points of a job, the largest value in the block of shifts (dx, dy) .. + 2^level - 1."""
     grid = jobs.grid[j]
     nx = pyramid.shape[2]
     ny = pyramid.shape[3]
@@ -98,7 +98,7 @@ def block_score(
 
 @wp.func
 def off_centre(offset: int, width: int) -> wp.float64:
-    """The least squared distance from 0 within offset .. offset + width - 1."""
+    """Return the least squared distance from 0 within offset .. offset + width - 1."""
     last = offset + width - 1
     if offset <= 0 and last >= 0:
         return wp.float64(0.0)
@@ -109,7 +109,7 @@ def off_centre(offset: int, width: int) -> wp.float64:
 @wp.kernel
 def turn_points(
     first: int,
-    jobs: Jobs,
+    jobs: SearchJobs,
     job_of_row: wp.array(dtype=wp.int32),
     angle: wp.array(dtype=wp.float64),
     centre: wp.array(dtype=wp.vec2d),
@@ -117,7 +117,7 @@ def turn_points(
     resolution: wp.float64,
     points: wp.array(dtype=wp.vec2d),
 ):
-    """One thread an angle of a job: the cells of its points with the sensor at the window's centre."""
+    """One thread per angle of a job: compute the cells of its points with the sensor at the window's centre."""
     row = first + wp.tid()
     j = job_of_row[row]
     corner = origin[jobs.grid[j]]
@@ -135,13 +135,13 @@ def turn_points(
 @wp.kernel
 def bound_blocks(
     first: int,
-    jobs: Jobs,
+    jobs: SearchJobs,
     job_of_row: wp.array(dtype=wp.int32),
     node_begin: wp.array(dtype=wp.int32),
     pyramid: wp.array4d(dtype=wp.uint8),
     roots: Roots,
 ):
-    """One thread an angle of a job: bounds of the largest blocks."""
+    """One thread per angle of a job: bound the scores of the largest blocks."""
     row = first + wp.tid()
     j = job_of_row[row]
     level = pyramid.shape[1] - 1
@@ -164,7 +164,7 @@ def bound_blocks(
 
 @wp.func
 def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bool:
-    """Whether a whole block lies within the surroundings of a pose that was found before."""
+    """Return whether a whole block lies within the surroundings of a pose found before."""
     apart = taken.apart
     for m in range(taken.count):
         t = taken.node[j, m]
@@ -179,14 +179,14 @@ def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bo
 def search_blocks(
     first: int,
     strands: int,
-    jobs: Jobs,
+    jobs: SearchJobs,
     roots: Roots,
     pyramid: wp.array4d(dtype=wp.uint8),
     taken: Taken,
     stack: Stack,
     best: Best,
 ):
-    """One thread a strand of a job: depth first through every ``strands``-th of its largest blocks, best bound first.
+    """One thread per strand of a job: search every ``strands``-th of its largest blocks depth first, best bound first.
 
     Strands share the score of the best that any has found; a stale one costs time and changes nothing.
     """
@@ -195,7 +195,7 @@ def search_blocks(
     points = jobs.point_end[j] - jobs.point_begin[j]
     scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
     mine = wp.float64(jobs.least[j])
-    found = wp.vec3i(-1, 0, 0)
+    winner = wp.vec3i(-1, 0, 0)
     q = roots.begin[j] + t - j * strands
     while q < roots.begin[j + 1]:
         start = roots.order[q]
@@ -217,14 +217,14 @@ def search_blocks(
             y0 = stack.node[t, depth][2]
             if level == 0:
                 better = value > mine
-                if value == mine and found[0] >= 0:
-                    if row < found[0]:
+                if value == mine and winner[0] >= 0:
+                    if row < winner[0]:
                         better = True
-                    if row == found[0]:
-                        better = x0 < found[1] or (x0 == found[1] and y0 < found[2])
+                    if row == winner[0]:
+                        better = x0 < winner[1] or (x0 == winner[1] and y0 < winner[2])
                 if better:
                     mine = value
-                    found = wp.vec3i(row, x0, y0)
+                    winner = wp.vec3i(row, x0, y0)
                     if value > best.incumbent[j]:
                         best.incumbent[j] = value
                 continue
@@ -251,12 +251,12 @@ def search_blocks(
                 stack.node[t, z] = wp.vec4i(level - 1, dx, dy, 0)
                 depth += 1
     best.score[t] = mine
-    best.node[t] = found
+    best.node[t] = winner
 
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """What J jobs search: their points, and the translations and angles at which these are tried.
+    """What J jobs search: their points, and the translations and angles to try.
 
     Attributes:
         points: all jobs' points one after the other, in the sensor's frame, (N, 2).
@@ -285,7 +285,7 @@ class Windows:
 
 @dataclass(frozen=True)
 class Modes:
-    """How many poses are searched for in each job, and what makes a further one another mode.
+    """The number of poses searched in each job, and what makes a further pose another mode.
 
     Attributes:
         count: poses a job.
@@ -298,7 +298,7 @@ class Modes:
     apart: tuple[int, int, int]
 
 
-def search(
+def search_grids(
     grids: Any, windows: Windows, modes: Modes, strands: int, threads: int | None = None
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
@@ -339,11 +339,11 @@ def search(
 
 
 def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, Any]:
-    """Jobs and their largest blocks with their bounds, on the device."""
+    """Put the jobs on the device, and their largest blocks with their bounds."""
     pyramid, device = grids.pyramid, grids.device
     count, rows = len(windows.grid), len(windows.angles_rad)
     width = 1 << (pyramid.shape[1] - 1)
-    jobs, roots = Jobs(), Roots()
+    jobs, roots = SearchJobs(), Roots()
     jobs.point_begin = devices.to_device(windows.point_offsets[:-1], wp.int32, device)
     jobs.point_end = devices.to_device(windows.point_offsets[1:], wp.int32, device)
     jobs.grid = devices.to_device(windows.grid, wp.int32, device)
@@ -359,15 +359,15 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
     node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
-    job_of_row_there = devices.to_device(job_of_row, wp.int32, device)
-    inputs = [jobs, job_of_row_there, devices.to_device(windows.angles_rad, wp.float64, device)]
+    job_of_row_on_device = devices.to_device(job_of_row, wp.int32, device)
+    inputs = [jobs, job_of_row_on_device, devices.to_device(windows.angles_rad, wp.float64, device)]
     inputs += [devices.to_device(a, wp.vec2d, device) for a in (windows.centres, grids.origins)]
     inputs += [wp.float64(grids.resolution), devices.to_device(windows.points, wp.vec2d, device)]
     devices.launch(turn_points, rows, inputs, device, threads)
 
     roots.bound = wp.empty(int(node_begin[-1]), dtype=wp.float64, device=device)
     roots.node = wp.empty(int(node_begin[-1]), dtype=wp.vec3i, device=device)
-    inputs = [jobs, job_of_row_there, devices.to_device(node_begin[:-1], wp.int32, device), pyramid, roots]
+    inputs = [jobs, job_of_row_on_device, devices.to_device(node_begin[:-1], wp.int32, device), pyramid, roots]
     devices.launch(bound_blocks, rows, inputs, device, threads)
     bounds = roots.bound.numpy()
     if count == 1:

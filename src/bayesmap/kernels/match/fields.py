@@ -20,7 +20,7 @@ def sum_field(
     poses: wp.array2d(dtype=wp.float32),
     out: wp.array(dtype=wp.int32),
 ):
-    """One thread a pose, in cells from the grid's corner: the sum of the field's values where points fall."""
+    """One thread per pose, in cells from the grid's corner: sum the field's values at the points."""
     p = first + wp.tid()
     c = wp.cos(poses[p, 2])
     s = wp.sin(poses[p, 2])
@@ -36,7 +36,7 @@ def sum_field(
 
 
 def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> NDArray[np.int32]:
-    """Sums of a field's values where points fall, (P,); what falls outside counts nothing.
+    """Sum the values of a field at the points of a scan, (P,); points outside count 0.
 
     Args:
         field: (nx, ny).
@@ -69,7 +69,7 @@ def spread_surfaces(
     strength: wp.array(dtype=wp.float32),
     out: wp.array2d(dtype=wp.float32),
 ):
-    """One thread a surface, in fine cells from the grid's corner: raise the cells about it to what it makes of them."""
+    """One thread per surface, in fine cells from the grid's corner: raise the cells around it to its own density."""
     k = first + wp.tid()
     xx = covariance[k, 0]
     xy = covariance[k, 1]
@@ -90,7 +90,7 @@ def spread_surfaces(
 
 
 def spread(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> NDArray[np.float32]:
-    """The largest of s exp(-m^2 / 2) over all surfaces, m the distance in their standard deviations, (nx, ny).
+    """Return the largest of s exp(-m^2 / 2) over all surfaces, m the distance in their standard deviations, (nx, ny).
 
     Args:
         means: in cells from the grid's corner, (K, 2).

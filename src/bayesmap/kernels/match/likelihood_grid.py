@@ -1,4 +1,4 @@
-"""Likelihood grids of scans, and the pyramids of their maxima."""
+"""Draw likelihood grids of scans, and the pyramids of their maxima."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.scan_geometry import Scene, neighbour, scene_of, widest_gap
+from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
 
 wp.set_module_options({"enable_backward": False})
 
@@ -19,14 +19,14 @@ def draw_points(
     offsets: wp.array(dtype=wp.int32),
     scan: wp.array(dtype=wp.int32),
     pose: wp.array(dtype=wp.vec3d),
-    scene: Scene,
+    scene: ScanArrays,
     spacing: wp.float32,
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
     stamp: wp.array2d(dtype=wp.uint8),
     pyramid: wp.array4d(dtype=wp.uint8),
 ):
-    """One thread a band of a grid: put the largest of all stamps that cover a cell into it.
+    """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
 
     Points of neighbouring beams on one surface that lie further apart than ``spacing`` have stamps in between: a wall
     is a wall however far apart beams are.
@@ -73,7 +73,7 @@ def draw_points(
 
 @wp.kernel
 def next_level(first: int, level: int, pyramid: wp.array4d(dtype=wp.uint8)):
-    """One thread a row: maxima over blocks of 2^level cells, from those over blocks half as long."""
+    """One thread per row: maxima over blocks of 2^level cells, from those over blocks half as long."""
     t = first + wp.tid()
     nx = pyramid.shape[2]
     ny = pyramid.shape[3]
@@ -102,7 +102,7 @@ def draw_grids(
     threads: int | None = None,
     pyramid: Any = None,
 ) -> Any:
-    """Grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
+    """Draw grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
     Args:
         geometry: a `bayesmap.poses.scan_geometry.ScanGeometry` of all scans.
@@ -125,7 +125,7 @@ def draw_grids(
     if device == "cpu" and threads == 1:
         bands = 1
     inputs = [bands, devices.to_device(offsets, wp.int32, device), devices.to_device(scan, wp.int32, device)]
-    inputs += [devices.to_device(poses_world, wp.vec3d, device), scene_of(geometry), wp.float32(spacing_m)]
+    inputs += [devices.to_device(poses_world, wp.vec3d, device), scan_arrays(geometry), wp.float32(spacing_m)]
     inputs += [devices.to_device(origins, wp.vec2d, device), wp.float64(resolution)]
     inputs += [devices.to_device(stamp, wp.uint8, device), pyramid]
     if device == "cpu":
@@ -143,7 +143,7 @@ def draw_grids(
 
 
 def widen(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None:
-    """The kernel `next_level` for the CPU, ten times as fast: NumPy takes maxima of 32 bytes at once."""
+    """Do what the kernel `next_level` does, ten times as fast on the CPU: NumPy takes maxima of 32 bytes at once."""
     for grid, out in zip(narrow, wide, strict=True):
         along = np.empty_like(out)
         np.maximum(grid[:-half], grid[half:], out=along[:-half])

@@ -21,7 +21,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.scan_geometry import Scene, scene_of
+from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
 
@@ -45,7 +45,9 @@ class Sums:
 
 @wp.func
 def turns_of(x: float, y: float) -> float:
-    """The angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, several times as fast as atan2."""
+    """Return the angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: by a polynomial, several times as fast as
+    atan2.
+    """
     ax = wp.abs(x)
     ay = wp.abs(y)
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
@@ -59,16 +61,16 @@ def turns_of(x: float, y: float) -> float:
 
 
 @wp.func
-def beam_towards(scene: Scene, j: int, x: float, y: float) -> int:
-    """The beam of scan j that points towards (x, y); -1 where there is none."""
+def beam_towards(scene: ScanArrays, j: int, x: float, y: float) -> int:
+    """Return the beam of scan j that points towards (x, y); -1 where there is none."""
     bins = scene.beam_of_angle.shape[1]
     bin = int((turns_of(x, y) + 0.5) * float(bins))
     return scene.beam_of_angle[scene.layout[j], wp.clamp(bin, 0, bins - 1)]
 
 
 @wp.func
-def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int:
-    """The nearest point of scan j within reach, among beams that point towards (x, y); -1 none, -2 out of view."""
+def nearest_point(scene: ScanArrays, j: int, x: float, y: float, reach: float) -> int:
+    """Return the nearest point of scan j within reach, among beams towards (x, y); -1 for none, -2 out of view."""
     middle = beam_towards(scene, j, x, y)
     if middle < 0:
         return -2
@@ -82,7 +84,7 @@ def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int
         low = wp.max(low, 0)
         high = wp.min(high, beams - 1)
     closest = reach * reach
-    found = int(-1)
+    nearest = int(-1)
     for k in range(low, high + 1):
         c = k
         if c < 0:
@@ -95,13 +97,15 @@ def nearest_point(scene: Scene, j: int, x: float, y: float, reach: float) -> int
         d = dx * dx + dy * dy
         if d < closest:
             closest = d
-            found = c
-    return found
+            nearest = c
+    return nearest
 
 
 @wp.func
-def neighbour_distance(scene: Scene, j: int, beam: int) -> float:
-    """How far the nearer of the points of the next beams is, from 0.1 to 2 m: returns of a surface lie so far apart."""
+def neighbour_distance(scene: ScanArrays, j: int, beam: int) -> float:
+    """Return the distance of the nearer of the two neighbouring points, 0.1 to 2 m: the spacing of returns on a
+    surface.
+    """
     beams = scene.beams[j]
     nearest = float(2.0)
     here = scene.points[j, beam]
@@ -117,7 +121,7 @@ def neighbour_distance(scene: Scene, j: int, beam: int) -> float:
 
 @wp.func
 def pair_scans(
-    scene: Scene,
+    scene: ScanArrays,
     weights: wp.array2d(dtype=wp.float32),
     i: int,
     j: int,
@@ -127,7 +131,7 @@ def pair_scans(
     alike: float,
     stride: int,
 ) -> Sums:
-    """Sums over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame.
+    """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame.
 
     ``reach``: furthest that paired points may lie apart; ``scale``: Geman and McClure's c; ``alike``: least cosine
     between the normals of a pair.
@@ -265,7 +269,7 @@ class PairSums:
 @wp.kernel
 def sum_pairs(
     first: int,
-    scene: Scene,
+    scene: ScanArrays,
     weights: wp.array2d(dtype=wp.float32),
     source: wp.array(dtype=wp.int32),
     target: wp.array(dtype=wp.int32),
@@ -275,7 +279,7 @@ def sum_pairs(
     alike: float,
     out: PairSums,
 ):
-    """One thread a pair of scans."""
+    """One thread per pair of scans: sum over the pairs of their points."""
     p = first + wp.tid()
     sums = pair_scans(scene, weights, source[p], target[p], relative[p], reach, scale, alike, scene.stride)
     out.second[p] = sums.second
@@ -300,7 +304,7 @@ def pair_sums(
     stride: int = 1,
     threads: int | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
+    """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
 
     Totals are cost, weight, points matched, points within the other scan's view, and the squares of the points' forces.
     """
@@ -311,7 +315,7 @@ def pair_sums(
     out.second, out.slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
     out.gradient = wp.empty(count, dtype=wp.vec3d, device=device)
     out.totals = wp.empty((count, 5), dtype=wp.float64, device=device)
-    inputs = [scene_of(geometry, stride), devices.to_device(weights, wp.float32, device)]
+    inputs = [scan_arrays(geometry, stride), devices.to_device(weights, wp.float32, device)]
     inputs += [devices.to_device(source, wp.int32, device), devices.to_device(target, wp.int32, device)]
     inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
@@ -321,7 +325,7 @@ def pair_sums(
 @wp.kernel
 def count_matches(
     first: int,
-    scene: Scene,
+    scene: ScanArrays,
     offsets: wp.array(dtype=wp.int32),
     target: wp.array(dtype=wp.int32),
     relative: wp.array(dtype=wp.vec3d),
@@ -330,7 +334,7 @@ def count_matches(
     alike: float,
     counts: wp.array2d(dtype=wp.float32),
 ):
-    """One thread a scan: with how many others is each beam matched, weighted by how well."""
+    """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
     i = first + wp.tid()
     for b in range(scene.kind.shape[1]):
         counts[i, b] = 0.0
@@ -375,10 +379,10 @@ def match_counts(
     alike: float,
     threads: int | None = None,
 ) -> NDArray[np.float32]:
-    """With how many of its partners each beam is matched, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
+    """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
     device = geometry.device
     counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
-    inputs = [scene_of(geometry), devices.to_device(offsets, wp.int32, device)]
+    inputs = [scan_arrays(geometry), devices.to_device(offsets, wp.int32, device)]
     inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
     devices.launch(count_matches, len(geometry), [*inputs, reach_m, scale_m, alike, counts], device, threads)
     return np.asarray(counts.numpy())

@@ -1,4 +1,4 @@
-"""Points and wall normals of scans."""
+"""Points and wall normals of scans, on a device."""
 
 from typing import Any
 
@@ -17,8 +17,8 @@ REACHES = wp.constant(3)  # fits tried per beam, each twice as wide as the one b
 
 
 @wp.struct
-class Scene:
-    """Points and normals of all scans, see `bayesmap.poses.scan_geometry.ScanGeometry`."""
+class ScanArrays:
+    """Points and normals of all scans on a device, see `bayesmap.poses.scan_geometry.ScanGeometry`."""
 
     points: wp.array2d(dtype=wp.vec2f)
     normals: wp.array2d(dtype=wp.vec2f)
@@ -34,7 +34,7 @@ class Scene:
 
 @wp.func
 def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
-    """The beam so many steps on; -1 past the end of a scan that is not a full circle."""
+    """Return the beam ``steps`` further on; -1 past the end of a scan that is not a full circle."""
     other = beam + steps
     if full_circle != 0:
         return (other + beams) % beams
@@ -45,7 +45,9 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
 
 @wp.func
 def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
-    """Points of neighbouring beams, one so far from the laser, lie on one surface if they are no further apart."""
+    """Return the largest distance at which the points of neighbouring beams lie on one surface, given the distance
+    ``away`` of one of them from the laser.
+    """
     return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)
 
 
@@ -59,7 +61,7 @@ def scan_points(
     points: wp.array2d(dtype=wp.vec2f),
     kind: wp.array2d(dtype=wp.uint8),
 ):
-    """One thread a scan: where its beams ended, in the laser's frame.
+    """One thread per scan: compute where its beams ended, in the laser's frame.
 
     ``angles`` has one row for all scans, or one each.
     """
@@ -87,7 +89,7 @@ def scan_normals(
     normals: wp.array2d(dtype=wp.vec2f),
     spread: wp.array2d(dtype=wp.float32),
 ):
-    """One thread a scan: the line through each point's neighbours along the wall, by least squares.
+    """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
 
     Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side and is widened,
     twice as far each time, as long as the wall stays straight within ``noise_m``: the direction of a long wall is
@@ -125,10 +127,10 @@ def scan_normals(
                         break
                     if kind[s, c] == wp.uint8(0):
                         break
-                    there = points[s, c]
-                    if wp.length(there - last) > gap:
+                    other = points[s, c]
+                    if wp.length(other - last) > gap:
                         break
-                    d = there - here
+                    d = other - here
                     distance = wp.length(d)
                     if distance > farthest:
                         break
@@ -140,7 +142,7 @@ def scan_normals(
                     sxx += d[0] * d[0]
                     sxy += d[0] * d[1]
                     syy += d[1] * d[1]
-                    last = there
+                    last = other
             if n < 3.0:
                 break
             a = sxx - sx * sx / n
@@ -180,7 +182,7 @@ def points_and_normals(
     device: str = "cpu",
     threads: int | None = None,
 ) -> tuple[Any, Any, Any, Any]:
-    """Points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
+    """Compute points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
 
     Args:
         ranges_m: readings, shape (S, B); beams in the order of their angles, NaN past a scan's last.
@@ -208,7 +210,7 @@ def points_and_normals(
 
 
 def fans_to_device(fans: Any, device: str) -> tuple[Any, Any, Any]:
-    """Beams, steps and whether the circle is full of each scan, (S,), where kernels read them."""
+    """Put the number of beams, the angular step and whether the circle is full, of each scan, (S,), on a device."""
     return (
         devices.to_device(fans.beams, wp.int32, device),
         devices.to_device(fans.step_rad, wp.float32, device),
@@ -216,9 +218,9 @@ def fans_to_device(fans: Any, device: str) -> tuple[Any, Any, Any]:
     )
 
 
-def scene_of(geometry: Any, stride: int = 1) -> Any:
-    """The kernels' view of a `bayesmap.poses.scan_geometry.ScanGeometry`."""
-    scene = Scene()
+def scan_arrays(geometry: Any, stride: int = 1) -> Any:
+    """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it."""
+    scene = ScanArrays()
     scene.points, scene.normals = geometry.points, geometry.normals
     scene.kind, scene.spread = geometry.kind, geometry.spread
     fans = geometry.fans
@@ -230,5 +232,5 @@ def scene_of(geometry: Any, stride: int = 1) -> Any:
 
 
 def selected(array: Any, scans: NDArray[np.intp]) -> Any:
-    """Rows of an array on a device, copied."""
+    """Copy some rows of an array on a device."""
     return wp.array(np.ascontiguousarray(array.numpy()[scans]), dtype=array.dtype, device=array.device)

@@ -1,4 +1,4 @@
-"""Refining the poses of scans against other scans that stay where they are: Gauss-Newton, one thread a scan."""
+"""Refine the poses of scans against other scans that stay where they are: Gauss-Newton, one thread a scan."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.match.line_pairs import pair_scans
-from bayesmap.kernels.match.scan_geometry import Scene, scene_of
+from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
 
@@ -20,7 +20,7 @@ STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this
 
 @wp.func
 def turn_of(yaw: wp.float64) -> wp.mat33d:
-    """The matrix that turns steps (x, y, yaw) given in a frame at this yaw into the outer frame's axes."""
+    """Return the matrix that turns steps (x, y, yaw) in a frame at this yaw into the axes of the outer frame."""
     c = wp.cos(yaw)
     s = wp.sin(yaw)
     o = wp.float64(0.0)
@@ -29,7 +29,7 @@ def turn_of(yaw: wp.float64) -> wp.mat33d:
 
 @wp.func
 def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
-    """The pose b in the frame of a."""
+    """Return the pose b in the frame of a."""
     c = wp.cos(a[2])
     s = wp.sin(a[2])
     dx = b[0] - a[0]
@@ -39,12 +39,12 @@ def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
 
 @wp.func
 def wrapped(angle: wp.float64) -> wp.float64:
-    """In [-pi, pi]."""
+    """Wrap an angle to [-pi, pi]."""
     return wp.atan2(wp.sin(angle), wp.cos(angle))
 
 
 @wp.struct
-class Jobs:
+class RefinementArrays:
     """A `Refinement` on a device."""
 
     scan: wp.array(dtype=wp.int32)
@@ -57,7 +57,7 @@ class Jobs:
 
 
 @wp.struct
-class Schedule:
+class ConvergenceNumbers:
     """A `Convergence` on a device."""
 
     sigma: wp.float64
@@ -69,7 +69,7 @@ class Schedule:
 
 @wp.struct
 class Refined:
-    """Results of all jobs."""
+    """Results of all jobs, on a device."""
 
     pose: wp.array(dtype=wp.vec3d)
     information: wp.array(dtype=wp.mat33d)
@@ -79,13 +79,13 @@ class Refined:
 @wp.kernel
 def refine(
     first: int,
-    scene: Scene,
+    scene: ScanArrays,
     weights: wp.array2d(dtype=wp.float32),
-    jobs: Jobs,
-    schedule: Schedule,
+    jobs: RefinementArrays,
+    schedule: ConvergenceNumbers,
     out: Refined,
 ):
-    """One thread a job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
+    """One thread per job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
     While they shrink every other point is enough. Coordinates are x, y and yaw in the world's axes. Information is that
     of the pairs alone, less slack.
@@ -95,7 +95,7 @@ def refine(
     x = jobs.start[k]
     count = wp.float64(jobs.offsets[k + 1] - jobs.offsets[k])
     converged = int(0)
-    found = wp.mat33d()
+    information = wp.mat33d()
     for step in range(schedule.steps):
         if converged >= 1:
             continue
@@ -140,7 +140,7 @@ def refine(
         if length > wp.float64(0.5):
             move = move * (wp.float64(0.5) / length)
         x = x - move
-        found = laser_information
+        information = laser_information
         out.totals[k, 0] = cost
         out.totals[k, 1] = weight
         out.totals[k, 2] = wp.float64(matched)
@@ -148,12 +148,12 @@ def refine(
         if share >= 1.0 and length < STILL:
             converged = 1
     out.pose[k] = wp.vec3d(x[0], x[1], wrapped(x[2]))
-    out.information[k] = found
+    out.information[k] = information
 
 
 @dataclass(frozen=True, eq=False)
 class Refinement:
-    """Scans that are to be moved, each against others that stay where they are, under a Gaussian prior.
+    """Scans to move, each against others that stay where they are, under a Gaussian prior.
 
     Attributes:
         scans: the scan that job k moves, (J,).
@@ -201,7 +201,7 @@ def refine_scans(
     Information is in the world's axes.
     """
     device, count = geometry.device, len(refinement.scans)
-    jobs, schedule, out = Jobs(), Schedule(), Refined()
+    jobs, schedule, out = RefinementArrays(), ConvergenceNumbers(), Refined()
     jobs.scan, jobs.offsets, jobs.other = (
         devices.to_device(a, wp.int32, device) for a in (refinement.scans, refinement.offsets, refinement.others)
     )
@@ -215,7 +215,7 @@ def refine_scans(
     out.information = wp.empty(count, dtype=wp.mat33d, device=device)
     out.totals = wp.zeros((count, 4), dtype=wp.float64, device=device)
     weights = _ones(len(geometry), geometry.beams, device)
-    devices.launch(refine, count, [scene_of(geometry), weights, jobs, schedule, out], device, threads)
+    devices.launch(refine, count, [scan_arrays(geometry), weights, jobs, schedule, out], device, threads)
     return out.pose.numpy(), out.information.numpy(), out.totals.numpy()
 
 
@@ -223,7 +223,7 @@ _ONES: dict[tuple[int, int, str], Any] = {}
 
 
 def _ones(scans: int, beams: int, device: str) -> Any:
-    """Equal weights of all beams; kept, because front ends ask for them with every scan."""
+    """Return equal weights of all beams; they are kept, because front ends ask for them with every scan."""
     key = (scans, beams, device)
     if key not in _ONES:
         _ONES.clear()

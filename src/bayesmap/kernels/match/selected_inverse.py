@@ -1,4 +1,4 @@
-"""Entries of the inverse of a sparse symmetric matrix where its factor has entries, without the rest."""
+"""Compute the entries of the inverse of a sparse symmetric matrix where its factor has entries, without the rest."""
 
 from typing import Any
 
@@ -47,7 +47,7 @@ def invert_on_pattern(
 def selected_inverse(
     begin: NDArray[np.int32], row: NDArray[np.int32], lower: NDArray[np.float64], pivot: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Entries of (L D L^T)^-1 where L has entries, in the order of L's.
+    """Compute the entries of (L D L^T)^-1 where L has entries, in the order of L's.
 
     Takahashi, Fagan and Chin (1973), "Formation of a sparse bus impedance matrix and its application to short circuit
     study"; it takes about as many operations as the factorisation.

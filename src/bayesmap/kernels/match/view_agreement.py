@@ -1,4 +1,4 @@
-"""Do two scans agree? Points of one that the other sees, and points that stand where the other saw through."""
+"""Compare two scans: count points that the other scan sees, and points that stand where the other saw through."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.match.line_pairs import beam_towards, nearest_point
-from bayesmap.kernels.match.scan_geometry import Scene, neighbour, scene_of, widest_gap
+from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
 from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 
 
 @wp.func
-def near_wall(scene: Scene, j: int, beam: int, x: float, y: float, near: float) -> int:
-    """1 if (x, y) is so near the wall that scan j saw from one beam to the next, however far those are apart."""
+def near_wall(scene: ScanArrays, j: int, beam: int, x: float, y: float, near: float) -> int:
+    """Return 1 if (x, y) is near the wall between the points of a beam of scan j and the next beam, else 0."""
     beams = scene.beams[j]
     a = beam
     if a < 0:
@@ -42,7 +42,7 @@ def near_wall(scene: Scene, j: int, beam: int, x: float, y: float, near: float) 
 @wp.kernel
 def compare_views(
     first: int,
-    scene: Scene,
+    scene: ScanArrays,
     source: wp.array(dtype=wp.int32),
     target: wp.array(dtype=wp.int32),
     relative: wp.array(dtype=wp.vec3d),
@@ -50,7 +50,7 @@ def compare_views(
     clear: float,
     counts: wp.array2d(dtype=wp.int32),
 ):
-    """One thread a pair: points of the source on what the target saw, those that contradict it, and all of them.
+    """One thread per pair: count the points of the source on what the target saw, those that contradict it, and all.
 
     A point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
     """
@@ -123,14 +123,14 @@ def view_counts(
     agreement: Agreement,
     threads: int | None = None,
 ) -> NDArray[np.int32]:
-    """Of the points of each source: matched by the target, contradicting it, all; (P, 3).
+    """Count the points of each source: matched by the target, contradicting it, all; (P, 3).
 
     ``relative`` are the poses of sources in the frames of targets, (P, 3).
     """
     device, count = geometry.device, len(source)
     counts = wp.empty((count, 3), dtype=wp.int32, device=device)
     stride = max(1, geometry.beams // agreement.beams)
-    inputs = [scene_of(geometry, stride), devices.to_device(source, wp.int32, device)]
+    inputs = [scan_arrays(geometry, stride), devices.to_device(source, wp.int32, device)]
     inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
     devices.launch(compare_views, count, [*inputs, agreement.near_m, agreement.clear_m, counts], device, threads)
     return np.asarray(counts.numpy())
@@ -144,9 +144,9 @@ def mutual_view_counts(
     agreement: Agreement,
     threads: int | None = None,
 ) -> NDArray[np.int32]:
-    """`view_counts` of the second scans in the views of the first, and the other way round, added up, (P, 3).
+    """Sum `view_counts` of the second scans in the views of the first, and of the first in those of the second, (P, 3).
 
     ``relative`` are the poses of the second in the frames of the first, (P, 3).
     """
-    there = view_counts(geometry, second, first, relative, agreement, threads)
-    return there + view_counts(geometry, first, second, inverse(relative), agreement, threads)
+    counts = view_counts(geometry, second, first, relative, agreement, threads)
+    return counts + view_counts(geometry, first, second, inverse(relative), agreement, threads)

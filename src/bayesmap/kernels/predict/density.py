@@ -44,8 +44,8 @@ mean x and y in metres from the grid's lower left corner, and Cholesky factor l1
 
 
 @wp.struct
-class Maps:
-    """Some maps on a device, one a row; and where beams stop in cells without a surface, as a part of their stretch."""
+class MapArrays:
+    """Some maps on a device, one a row, and where beams stop in cells without a surface, as a part of their stretch."""
 
     stop: wp.array2d(dtype=wp.float32)
     surface: wp.array2d(dtype=Cell)
@@ -54,8 +54,9 @@ class Maps:
 
 
 @wp.func
-def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
-    """Chance that a beam stops in a cell once it gets there, and distance and its variance, metres, if it does.
+def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
+    """Return the chance that a beam which reaches a cell stops in it, and the distance and its variance, metres, if it
+    does.
 
     Args:
         maps: some maps.
@@ -76,8 +77,8 @@ def stop_in(maps: Maps, row: int, column: int, line: Line, cell: int) -> wp.vec3
 
 
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
-    """Some maps on a device; their number of dimensions says which kind of cells they have."""
-    maps = Maps()
+    """Put some maps on a device; their number of dimensions tells which kind of cells they have."""
+    maps = MapArrays()
     maps.surfaces = int(states.ndim == 3)
     maps.depth = hit_depth
     if states.ndim == 3:
@@ -88,11 +89,11 @@ def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class HeldMaps:
-    """Draws of whole maps that stay on a device, for many predictions.
+class DeviceMaps:
+    """Draws of whole maps on a device, for many predictions.
 
     Attributes:
-        maps: `Maps` with a column for each of the grid's cells.
+        maps: `MapArrays` with a column for each of the grid's cells.
         draws: rows of it.
         hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
         device: where they are.
@@ -103,27 +104,27 @@ class HeldMaps:
     hit_depth: float
     device: str
 
-    def thinned(self, most: int) -> "HeldMaps":
-        """At most so many of them, evenly spread."""
+    def thinned(self, most: int) -> "DeviceMaps":
+        """Return at most ``most`` of the draws, evenly spread."""
         if most >= self.draws:
             return self
         rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
         states = (self.maps.surface if self.maps.surfaces else self.maps.stop).numpy()[rows]
-        return HeldMaps(maps_to_device(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
+        return DeviceMaps(maps_to_device(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
 
 
-def hold_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> HeldMaps:
+def device_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> DeviceMaps:
     """Put draws of all cells of a grid on a device.
 
     Raises:
         BadInput: no draws.
     """
     device = devices.resolve(device)
-    found = list(batches)
-    if not sum(map(len, found)):
+    draws = list(batches)
+    if not sum(map(len, draws)):
         raise BadInput("score: there is no draw to predict from")
-    states = np.concatenate(found)
-    return HeldMaps(maps_to_device(states, hit_depth, device), len(states), hit_depth, device)
+    states = np.concatenate(draws)
+    return DeviceMaps(maps_to_device(states, hit_depth, device), len(states), hit_depth, device)
 
 
 Floats = NDArray[np.float64]
@@ -140,7 +141,7 @@ FEW_BEAMS = 5_000
 
 @wp.func
 def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
-    """A running log-sum-exp: (greatest so far, sum of exp(value - greatest))."""
+    """Add a value to a running log-sum-exp: (greatest so far, sum of exp(value - greatest))."""
     if value > sums[0]:
         return wp.vec2d(value, sums[1] * wp.exp(sums[0] - value) + wp.float64(1.0))
     return wp.vec2d(sums[0], sums[1] + wp.exp(value - sums[0]))
@@ -148,7 +149,7 @@ def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
 
 @wp.func
 def no_sum(law: SensorLaw64) -> wp.vec2d:
-    """A running sum of nothing: of densities for a mixture, whose floor keeps them from underflowing, else of logs."""
+    """Return an empty running sum: of densities for a mixture, whose floor avoids underflow, else of logarithms."""
     return wp.vec2d(wp.where(law.kind == MIXTURE, wp.float64(0.0), wp.float64(-1.0e300)), wp.float64(0.0))
 
 
@@ -156,7 +157,7 @@ def no_sum(law: SensorLaw64) -> wp.vec2d:
 def add_stop(
     law: SensorLaw64, sums: wp.vec2d, weight: wp.float64, z: wp.float64, decay: wp.float64, stop: wp.vec3d
 ) -> wp.vec2d:
-    """The sum with a stop's share of the density: its weight times p(reading | stop)."""
+    """Add a stop's share of the density to the sum: its weight times p(reading | stop)."""
     if law.kind == MIXTURE:
         return wp.vec2d(sums[0], sums[1] + weight * stop_density(law, z, decay, stop[1], stop[2]))
     return add_log(sums, wp.log(weight) + stop_log_density(law, z, decay, stop[1], stop[2]))
@@ -164,13 +165,13 @@ def add_stop(
 
 @wp.func
 def weight_of_nothing(law: SensorLaw64) -> wp.float64:
-    """A beam less likely than this to get so far is at its end."""
+    """Return the weight below which a beam is not followed further."""
     return wp.where(law.kind == MIXTURE, GONE_ROBUST, GONE)
 
 
 @wp.struct
 class ForecastSums:
-    """Running sums over draws, of each beam: of densities, see `no_sum`, and of cumulative probabilities."""
+    """Running sums over draws, for each beam: of densities, see `no_sum`, and of cumulative probabilities."""
 
     most: wp.array(dtype=wp.float64)
     total: wp.array(dtype=wp.float64)
@@ -185,14 +186,14 @@ def add_forecasts(
     law: SensorLaw64,
     rays: RayArrays,
     columns: wp.array(dtype=wp.int32),
-    maps: Maps,
+    maps: MapArrays,
     draws: int,
     range_m: wp.array(dtype=wp.float64),
     reach_m: wp.array(dtype=wp.float64),
     with_cumulative: int,
     out: ForecastSums,
 ):
-    """One thread a beam: add the law of its reading under each draw of a batch to running sums.
+    """One thread per beam: add the law of its reading under each draw of a batch to running sums.
 
     A stop in a cell that the beam enters past its reach explains the reading as well as none at all.
     """
@@ -240,7 +241,7 @@ def add_forecasts(
 
 @dataclass(frozen=True, eq=False)
 class Forecast:
-    """What was predicted of each beam's reading; NaN where the reading is invalid.
+    """The prediction of each beam's reading; NaN where the reading is invalid.
 
     Attributes:
         log_density: log predictive density of a range in nats per metre, log probability of a typed reading, (B,).
@@ -256,7 +257,7 @@ class Forecast:
 
 
 def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
-    """The sensor's law for kernels that ask how likely readings are to fall below a range.
+    """Return the sensor's law for kernels that need cumulative probabilities.
 
     Raises:
         BadInput: a model of the user's own whose probabilities do not add up to one.
@@ -271,13 +272,14 @@ def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -
 
 
 def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
-    """Whether no return and too close are outcomes of their own; else they stand for the limits."""
+    """Return whether no return and too close are outcomes of their own; else they stand for the limits."""
     parameters = sensor.kernel_parameters()
     return tabulated(sensor, limits).typed if parameters is None else parameters.robust
 
 
 def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
-    """Of each reading how far away a stop may be to make it likelier than no stop would, metres; infinite if any may.
+    """Return the largest distance at which a stop makes each reading likelier than no stop, metres; infinite if any
+    may.
 
     Args:
         range_m: readings.
@@ -297,7 +299,7 @@ def _sums(
     device: str,
     with_cumulative: bool,
 ) -> tuple[Floats, list[Floats]]:
-    """Log densities, and mean cumulative probabilities at the reading and at both limits."""
+    """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
     beams = rays.n_beams
@@ -330,7 +332,7 @@ def log_densities(
     columns: NDArray[np.int32] | None = None,
     device: str = "cpu",
 ) -> Floats:
-    """Log predictive density of every reading alone, (B,): see `forecast`.
+    """Compute the log predictive density of every reading, (B,): see `forecast`.
 
     Here, and here alone, beams may have been traced no further than their reading reaches; and each entry's cell may
     have a column of its own in the draws, ``columns``.

@@ -1,4 +1,4 @@
-"""What a pose is weighed by, fast: the log-likelihood of a scan at many poses under many draws of a map.
+"""Weigh poses fast: the log-likelihood of a scan at many poses under many draws of a map.
 
 The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precision, for mixtures. The map stays where
 kernels read it from call to call, one thread does a whole scan, and a beam's walk ends where its reading is behind it:
@@ -15,7 +15,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.density import Maps, maps_to_device
+from bayesmap.kernels.predict.density import MapArrays, maps_to_device
 from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame
 from bayesmap.kernels.sensor_law import (
     SensorLaw32,
@@ -51,7 +51,7 @@ ZERO = wp.constant(wp.float32(0.0))
 
 @wp.func
 def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
-    """Distance in cells to the next grid line across one axis."""
+    """Return the distance in cells to the next grid line across one axis."""
     if wp.abs(u) < wp.float32(1.0e-9):
         return HUGE
     cell = wp.floor(p)
@@ -64,7 +64,7 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 def reading_log_density(
     law: SensorLaw32,
     frame: Frame,
-    maps: Maps,
+    maps: MapArrays,
     empty: wp.array2d(dtype=wp.uint8),
     draw: int,
     x: wp.float32,
@@ -72,7 +72,7 @@ def reading_log_density(
     angle: wp.float32,
     z: wp.float32,
 ) -> wp.float32:
-    """Log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
+    """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
 
     The walk is that of Amanatides and Woo (1987). Corners, where `bayesmap.kernels.walk` touches all cells that meet,
     are met with probability 0. The cell of the sensor itself is touched where the beam leaves it, as there.
@@ -155,7 +155,7 @@ def scan_log_likelihoods(
     first: int,
     law: SensorLaw32,
     frame: Frame,
-    maps: Maps,
+    maps: MapArrays,
     empty: wp.array2d(dtype=wp.uint8),
     draws: int,
     in_turn: int,
@@ -165,7 +165,7 @@ def scan_log_likelihoods(
     range_m: wp.array2d(dtype=wp.float64),
     out: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a pose and draw: the sum over beams of log p(reading | map, pose).
+    """One thread per pose and draw: sum log p(reading | map, pose) over beams.
 
     ``in_turn``: pose p is weighed under draw p modulo so many alone; 0: under all.
     """
@@ -193,7 +193,7 @@ def scan_log_likelihoods(
 
 @dataclass(frozen=True, eq=False)
 class PackedMap:
-    """Draws of a map where kernels read them.
+    """Draws of a map on a device.
 
     Attributes:
         maps: the draws.
@@ -211,7 +211,7 @@ class PackedMap:
 
 
 def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
-    """Put draws of a map where kernels read them.
+    """Put draws of a map on a device.
 
     Args:
         states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells of the grid.
@@ -226,8 +226,8 @@ def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: 
     return PackedMap(maps, empty, len(states), grid_frame(grid), device)
 
 
-def unpacked(packed: PackedMap) -> NDArray[np.float32]:
-    """The draws as `pack_map` was given them; surfaces with two flags more."""
+def map_states(packed: PackedMap) -> NDArray[np.float32]:
+    """Return the draws that `pack_map` was given; surfaces with two more numbers."""
     held = packed.maps.surface if packed.maps.surfaces != 0 else packed.maps.stop
     return np.asarray(held.numpy())
 
@@ -249,7 +249,8 @@ def scan_log_likelihood(
     in_turn: bool = False,
     threads: int | None = None,
 ) -> Floats:
-    """Log-likelihood of a scan at each pose under each draw of the map, (P, D), in nats; invalid readings count 0.
+    """Compute the log-likelihood of a scan at each pose under each draw of the map, (P, D), in nats; invalid readings
+    count 0.
 
     Args:
         packed: the draws.

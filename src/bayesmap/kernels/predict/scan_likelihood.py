@@ -1,4 +1,4 @@
-"""The likelihood of whole scans at any poses, given the cells: what a pose is weighed by.
+"""Compute the likelihood of whole scans at any poses, given the cells.
 
 Beams walk the grid from the pose itself, so nothing has to be traced beforehand. A beam stops in the i-th cell that it
 meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, and its reading has the density ``sum_i w_i p(z | stop
@@ -14,7 +14,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.density import HeldMaps, Maps, add_stop, maps_to_device, no_sum, weight_of_nothing
+from bayesmap.kernels.predict.density import DeviceMaps, MapArrays, add_stop, maps_to_device, no_sum, weight_of_nothing
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
 from bayesmap.kernels.surfaces.crossing import cross_surface, ray_from
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
@@ -39,8 +39,10 @@ class Frame:
 
 
 @wp.func
-def stop_on_walk(maps: Maps, row: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64) -> wp.vec3d:
-    """Chance that a beam stops in a cell that it has reached, and distance and spread in metres if it does."""
+def stop_on_walk(
+    maps: MapArrays, row: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64
+) -> wp.vec3d:
+    """Return the chance that a beam which reaches a cell stops in it, and distance and spread, metres, if it does."""
     if maps.surfaces != 0:
         state = maps.surface[row, cell]
         met = cross_surface(state, ray_from(start, direction))
@@ -57,7 +59,7 @@ def beam_log_likelihoods(
     first: int,
     law: SensorLaw64,
     frame: Frame,
-    maps: Maps,
+    maps: MapArrays,
     poses: wp.array2d(dtype=wp.float64),
     scan: wp.array(dtype=wp.int32),
     chain: wp.array(dtype=wp.int32),
@@ -66,7 +68,7 @@ def beam_log_likelihoods(
     range_m: wp.array(dtype=wp.float64),
     out: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam of a pose: log p(reading | cells, pose).
+    """One thread per beam of a pose: log p(reading | cells, pose).
 
     A mount is a beam's start and angle in its scan's frame; ``mounts`` has one for each angle, or one for each beam.
     """
@@ -114,7 +116,7 @@ def beam_log_likelihoods(
 
 @dataclass(frozen=True, eq=False)
 class ScanLikelihood:
-    """Scans and the law of their readings, ready to be weighed at any poses under any cells.
+    """Scans and the law of their readings, to be weighed at any poses under any cells.
 
     Attributes:
         scans: S scans of A beams; their own poses are where beams that left while the sensor moved are taken from.
@@ -131,14 +133,14 @@ class ScanLikelihood:
     device: str = "cpu"
 
     def beams(
-        self, cells: NDArray[np.float32] | HeldMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+        self, cells: NDArray[np.float32] | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
-        """Log density of each reading, invalid ones 0, in nats, (P, A).
+        """Compute the log density of each reading, invalid ones 0, in nats, (P, A).
 
         Args:
             cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
-                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. Or `HeldMaps` of them, which
-                are not copied again.
+                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. `DeviceMaps` of them are
+                not copied again.
             poses: P poses in the world frame, (P, 3).
             scan: which scan is weighed there, (P,).
             chain: under which chain's cells, (P,).
@@ -150,7 +152,7 @@ class ScanLikelihood:
         inputs = [
             sensor_law(self.sensor, limits, device),
             grid_frame(self.grid),
-            cells.maps if isinstance(cells, HeldMaps) else maps_to_device(cells, self.hit_depth, device),
+            cells.maps if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device),
             devices.to_device(poses, wp.float64, device),
             devices.to_device(scan, wp.int32, device),
             devices.to_device(chain, wp.int32, device),
@@ -165,7 +167,7 @@ class ScanLikelihood:
     def __call__(
         self, cells: NDArray[np.float32], poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
-        """Log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
+        """Compute the log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
         return np.asarray(self.beams(cells, poses, scan, chain).sum(axis=1))
 
     @cached_property
@@ -187,7 +189,7 @@ class ScanLikelihood:
 
 
 def grid_frame(grid: Grid) -> Frame:
-    """A grid as kernels take it."""
+    """Return a grid as kernels read it."""
     frame = Frame()
     frame.nx, frame.ny = grid.shape
     frame.origin_x, frame.origin_y = grid.origin

@@ -1,4 +1,4 @@
-"""Where beams stop, averaged over draws, and the chances of first hits that follow from that.
+"""Compute where beams stop, averaged over draws, and the chances of first hits that follow.
 
 All that a prediction needs of many draws of a map is the mean weight of each stop, since the predictive law is linear
 in the weights. Where draws also differ in *where* a cell is hit, the places of one cell are merged into one, with their
@@ -16,7 +16,14 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.density import HeldMaps, Maps, StopStates, law_with_cumulative, maps_to_device, stop_in
+from bayesmap.kernels.predict.density import (
+    DeviceMaps,
+    MapArrays,
+    StopStates,
+    law_with_cumulative,
+    maps_to_device,
+    stop_in,
+)
 from bayesmap.kernels.rays import RayArrays, distance_at, line_of, rays_to_device, stop_distances, stretch
 from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
 from bayesmap.sensors.model import SensorModel
@@ -34,7 +41,7 @@ def add_stops(
     first: int,
     rays: RayArrays,
     columns: wp.array(dtype=wp.int32),
-    maps: Maps,
+    maps: MapArrays,
     draws: int,
     gone: wp.float64,
     weight: wp.array(dtype=wp.float32),
@@ -42,8 +49,8 @@ def add_stops(
     square: wp.array(dtype=wp.float32),
     no_stop: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam: add the weight of each stop, and the moments of where it is about the part ``maps.depth`` of
-    the cell's stretch. A beam less likely than ``gone`` to get so far is at its end.
+    """One thread per beam: add the weight of each stop, and the moments of its place about the part ``maps.depth`` of
+    the cell's stretch. A beam is followed until the chance that it gets further is below ``gone``.
     """
     b = first + wp.tid()
     line = line_of(rays.lines, b)
@@ -83,18 +90,18 @@ class StopMixture:
 
 
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
-    """Average over draws; arguments as of `bayesmap.kernels.predict.density.forecast`.
+    """Average the stops of each beam over draws; arguments as of `bayesmap.kernels.predict.density.forecast`.
 
     Raises:
         BadInput: no draws.
     """
     device = devices.resolve(device)
-    there = ((maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
-    return _mixed(rays, rays.columns, there, hit_depth, device, float(LEAST_CHANCE))
+    on_device = ((maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
+    return _mixed(rays, rays.columns, on_device, hit_depth, device, float(LEAST_CHANCE))
 
 
-def mix_held_stops(rays: Rays, held: HeldMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
-    """The same for draws of all cells that are on a device already.
+def mix_device_stops(rays: Rays, held: DeviceMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
+    """Average the stops of each beam over draws of all cells that are on a device already.
 
     Args:
         rays: the beams.
@@ -113,7 +120,7 @@ def _mixed(
     device: str,
     gone: float,
 ) -> StopMixture:
-    """Some maps and their number at a time; ``columns`` says where they have each entry's cell."""
+    """Average over batches of maps; ``columns`` are the places of the entries' cells in the maps."""
     sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
     no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
     fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
@@ -125,15 +132,15 @@ def _mixed(
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
     weight, shift, square = (a.numpy() for a in sums)
-    some = np.where(weight > 0, weight, np.float32(1.0))
-    mean = shift / some
-    spread = np.sqrt(np.maximum(square / some - mean * mean, 0.0))
+    total = np.where(weight > 0, weight, np.float32(1.0))
+    mean = shift / total
+    spread = np.sqrt(np.maximum(square / total - mean * mean, 0.0))
     distance_m = stop_distances(rays, hit_depth, device) + mean
     return StopMixture(rays, weight / np.float32(draws), distance_m, spread, no_stop.numpy() / draws)
 
 
 @wp.struct
-class Stops:
+class StopMixtureArrays:
     """A `StopMixture` on a device."""
 
     offsets: wp.array(dtype=wp.int32)
@@ -144,8 +151,8 @@ class Stops:
 
 
 @wp.func
-def mixture_below(law: SensorLaw64, stops: Stops, b: int, range_m: wp.float64) -> wp.float64:
-    """P(reading <= range) of a beam."""
+def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, b: int, range_m: wp.float64) -> wp.float64:
+    """Return P(reading <= range) of a beam."""
     p = stops.no_stop[b] * cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for k in range(stops.offsets[b], stops.offsets[b + 1]):
         weight = wp.float64(stops.weight[k])
@@ -158,13 +165,14 @@ def mixture_below(law: SensorLaw64, stops: Stops, b: int, range_m: wp.float64) -
 def find_events(
     first: int,
     law: SensorLaw64,
-    stops: Stops,
+    stops: StopMixtureArrays,
     rays: RayArrays,
     range_m: wp.array(dtype=wp.float64),
     chance: wp.array(dtype=wp.float32),
     stopped: wp.array(dtype=wp.int8),
 ):
-    """One thread a beam: for each stretch that its reading gets to, the chance that it ends there, and whether it did.
+    """One thread per beam: for each stretch that its reading reaches, compute the chance that it ends there, and
+    whether it did.
 
     ``stopped`` is -1 where the reading never gets, or where there is no stretch.
     """
@@ -195,8 +203,8 @@ def find_events(
 
 
 def stops_to_device(stops: StopMixture, device: str) -> Any:
-    """A mixture where kernels read it."""
-    packed = Stops()
+    """Put a mixture where kernels read it."""
+    packed = StopMixtureArrays()
     packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
     packed.weight = devices.to_device(stops.weight, wp.float32, device)
     packed.distance_m = devices.to_device(stops.distance_m, wp.float32, device)
@@ -208,7 +216,7 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
 def first_hit_events(
     stops: StopMixture, sensor: SensorModel, device: str = "cpu"
 ) -> tuple[NDArray[np.float32], NDArray[np.int8]]:
-    """Of each stretch of a beam in a cell that its reading gets to: does the reading end there?
+    """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
 
     With F the beam's predictive cumulative and [a, b) the stretch, the chance is ``(F(b) - F(a)) / (1 - F(a))``: the
     probability of a reading in it, if it got there. The product over a beam's events is the probability of its cell.

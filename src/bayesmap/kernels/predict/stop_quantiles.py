@@ -1,4 +1,5 @@
-"""Quantiles of the range that a beam will read, by where it may stop (`bayesmap.kernels.predict.stop_mixture`).
+"""Compute quantiles of the range that a beam will read, from the mixture of its stops
+(`bayesmap.kernels.predict.stop_mixture`).
 
 They are found by halving the span of ranges. Under the robust mixture the stops that lie far before or behind what is
 left of it need not be asked again: so a beam costs a few times its number of stops, and not that times the halvings.
@@ -10,7 +11,13 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.predict.density import are_typed, law_with_cumulative
-from bayesmap.kernels.predict.stop_mixture import LEAST_WEIGHT, StopMixture, Stops, mixture_below, stops_to_device
+from bayesmap.kernels.predict.stop_mixture import (
+    LEAST_WEIGHT,
+    StopMixture,
+    StopMixtureArrays,
+    mixture_below,
+    stops_to_device,
+)
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, is_before, is_behind, met_or_returned, random_below
 from bayesmap.sensors.model import SensorModel
 
@@ -21,8 +28,8 @@ HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at mos
 
 
 @wp.struct
-class Sought:
-    """Where a level of a mixture is being looked for, between two ranges, and which stops are still to be asked.
+class LevelSearch:
+    """The search for the range of a level, between two ranges, and the stops that are not decided yet.
 
     Of those before ``begin`` all that returns lies below, of those from ``end`` on behind.
     """
@@ -37,9 +44,9 @@ class Sought:
 
 
 @wp.func
-def begin_search(stops: Stops, b: int, low_m: wp.float64) -> Sought:
-    """Everything from a range on."""
-    s = Sought()
+def begin_search(stops: StopMixtureArrays, b: int, low_m: wp.float64) -> LevelSearch:
+    """Start a search at a range, with all stops undecided."""
+    s = LevelSearch()
     s.low = low_m
     s.begin = stops.offsets[b]
     s.total = stops.no_stop[b]
@@ -49,8 +56,8 @@ def begin_search(stops: Stops, b: int, low_m: wp.float64) -> Sought:
 
 
 @wp.func
-def search_to(s: Sought, stops: Stops, b: int, high_m: wp.float64) -> Sought:
-    """As far as a range: what was found of stops before it stays."""
+def search_to(s: LevelSearch, stops: StopMixtureArrays, b: int, high_m: wp.float64) -> LevelSearch:
+    """Extend the search up to a range; stops that lie before it stay decided."""
     s.high = high_m
     s.end = stops.offsets[b + 1]
     s.behind = stops.no_stop[b]
@@ -58,8 +65,10 @@ def search_to(s: Sought, stops: Stops, b: int, high_m: wp.float64) -> Sought:
 
 
 @wp.func
-def halved(law: SensorLaw64, stops: Stops, s: Sought, level: wp.float64) -> Sought:
-    """The half in which the level is, of the robust mixture: stops that are out of question are asked only once."""
+def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
+    """Return the half of the span that holds the level, for the robust mixture; stops that are decided are asked only
+    once.
+    """
     z = wp.float64(0.5) * (s.low + s.high)
     decay = wp.exp(-law.rate_short_per_m * z)
     p = s.below + s.behind * law.p_short * (wp.float64(1.0) - decay)
@@ -100,13 +109,13 @@ def halved(law: SensorLaw64, stops: Stops, s: Sought, level: wp.float64) -> Soug
 def find_quantiles(
     first: int,
     law: SensorLaw64,
-    stops: Stops,
+    stops: StopMixtureArrays,
     levels: wp.array(dtype=wp.float64),
     low_m: wp.float64,
     high_m: wp.float64,
     quantiles: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a beam: halve the span of ranges until each quantile is found; levels rise."""
+    """One thread per beam: halve the span of ranges until each quantile is found; levels rise."""
     b = first + wp.tid()
     at_low = mixture_below(law, stops, b, low_m)
     at_high = mixture_below(law, stops, b, high_m)
@@ -137,7 +146,7 @@ def find_quantiles(
 
 
 def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
-    """The least range below which the reading falls with each probability, metres, shape (B, levels).
+    """Compute the least range below which the reading falls with each probability, metres, (B, levels).
 
     No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
     are looked for from one range below zero to two ranges.

@@ -1,4 +1,4 @@
-"""What a sensor would see from a pose: where its beams would stop under given cells, and what that would tell.
+"""Compute what a sensor would see from a pose: where its beams would stop in given maps, and their information.
 
 Beams walk the grid from the pose, as in `bayesmap.kernels.predict.scan_likelihood`.
 """
@@ -10,7 +10,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.predict.density import HeldMaps, Maps
+from bayesmap.kernels.predict.density import DeviceMaps, MapArrays
 from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
@@ -27,10 +27,10 @@ NEGLIGIBLE = wp.constant(wp.float64(4.0))
 
 
 @wp.kernel
-def draw_stops(
+def draw_scan(
     first: int,
     frame: Frame,
-    maps: Maps,
+    maps: MapArrays,
     poses: wp.array2d(dtype=wp.float64),
     draw: wp.array(dtype=wp.int32),
     angles: wp.array(dtype=wp.float64),
@@ -39,7 +39,7 @@ def draw_stops(
     distance_m: wp.array(dtype=wp.float64),
     spread_m: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam of a pose: where it stops, drawn; infinitely far if nowhere."""
+    """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
     b = first + wp.tid()
     beams = angles.shape[0]
     row = b / beams
@@ -70,8 +70,8 @@ def draw_stops(
         w = walk_next(w)
 
 
-def drawn_stops(
-    held: HeldMaps,
+def draw_scan_stops(
+    held: DeviceMaps,
     grid: Grid,
     poses: Floats,
     draw: NDArray[np.intp],
@@ -106,14 +106,14 @@ def drawn_stops(
         wp.uint64(key),
         *out,
     ]
-    devices.launch(draw_stops, beams, inputs, device)
+    devices.launch(draw_scan, beams, inputs, device)
     distance_m, spread_m = (np.asarray(a.numpy().reshape(len(poses), -1)) for a in out)
     return distance_m, spread_m
 
 
 @wp.func
 def normal_below(x: wp.float64) -> wp.float64:
-    """P(standard normal < x)."""
+    """Return P(standard normal < x)."""
     return wp.float64(0.5) * wp.erfc(-x * wp.float64(0.7071067811865476))
 
 
@@ -130,7 +130,8 @@ def add_beam_information(
     sigma_m: wp.float64,
     out: wp.array(dtype=wp.float64),
 ):
-    """One thread a beam: FSMI's information, over pairs of a cell that the beam stops in and one that it is read in.
+    """One thread per beam: sum FSMI's information over pairs of a cell that stops the beam and a cell in which it is
+    read.
 
     For the cell k in which the reading falls, what is learnt is C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), the
     functions of the cells' odds r being ``of_hit`` and ``of_pass``; it falls
@@ -204,7 +205,7 @@ def add_beam_information(
 
 
 def surprise(update: float, odds: Floats) -> Floats:
-    """FSMI's f(delta, r): information in nats of an update of the odds r by the factor delta."""
+    """Compute FSMI's f(delta, r): information in nats of an update of the odds r by the factor delta."""
     return np.asarray(np.log((odds + 1.0) / (odds + 1.0 / update)) - np.log(update) / (odds * update + 1.0))
 
 
@@ -220,7 +221,7 @@ def independent_information(
     pass_factor: float,
     device: str = "cpu",
 ) -> Floats:
-    """Fast Shannon mutual information of every beam with a map of independent cells, in nats, (P, A).
+    """Compute the fast Shannon mutual information of every beam with a map of independent cells, in nats, (P, A).
 
     Zhang, Henderson, Sze and Karaman, *FSMI* (ICRA 2019), equation 14, with the exact integrals of the noise.
 

@@ -1,4 +1,4 @@
-r"""The other half of a sweep: the cells, given where the beams stopped.
+r"""The second half of a sweep: draw the cells, given where the beams stopped.
 
 Cells in which readings end have a kernel of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Of the others, one
 that tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met), a and b being those of its label where
@@ -11,7 +11,7 @@ import warp as wp
 
 from bayesmap.kernels.random import CELLS, beta_or_nothing, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces.cell_prior import (
-    CellPrior,
+    PriorNumbers,
     centre_of,
     fresh_surface,
     is_own,
@@ -29,11 +29,11 @@ FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
 HIDDEN = wp.constant(wp.float32(0.0))
 FRESH = wp.constant(wp.float32(1.0))
 TRIES_EVERY = wp.constant(4)
-"""In one of so many of its turns a cell in which no reading ends tries a candidate, unless it stops next to no beam; in
-the others it draws its reflectivity."""
+"""In one of so many of its updates a cell in which no reading ends tries a candidate, unless it stops next to no beam;
+in the others it draws its reflectivity."""
 
 SILENT_EVERY = wp.constant(3)
-"""In one of so many sweeps a cell of whose surface no beam says anything takes another one from the prior."""
+"""In one of so many sweeps a cell whose surface no beam observes takes another surface from the prior."""
 
 # Counters of one cell in one sweep, of the part CELLS; others follow in `square_counts` and `labels`.
 PER_CELL = wp.constant(wp.uint64(1024))
@@ -45,37 +45,37 @@ AT_SILENT = wp.constant(wp.uint64(448))
 
 @wp.struct
 class ActiveCells:
-    """The cells that a sweep visits, those that beams touch, ascending, and in every how many sweeps it is their turn.
+    """The cells that a sweep visits, those that beams touch, ascending, and their update periods, in sweeps.
 
-    That is 0 for cells in which readings end: theirs is always. ``ny`` and ``edge_m`` are the grid's.
+    The period is 0 for cells in which readings end: every sweep updates them. ``ny`` and ``edge_m`` are the grid's.
     """
 
     cell: wp.array(dtype=wp.int32)
-    every: wp.array(dtype=wp.uint8)
+    period: wp.array(dtype=wp.uint8)
     ny: int
     edge_m: wp.float64
 
 
 @wp.func
-def tries(sweep: int, every: int, c: int) -> bool:
-    """Whether a cell in which no reading ends tries a candidate at its turn in a sweep, if it has surfaces."""
-    return (sweep // every + c) % TRIES_EVERY == 0
+def tries(sweep: int, period: int, c: int) -> bool:
+    """Return whether a cell in which no reading ends tries a candidate when it is updated, if it has surfaces."""
+    return (sweep // period + c) % TRIES_EVERY == 0
 
 
 @wp.func
-def is_silent(sweep: int, every: int, c: int, m: wp.float32, stopped_in: int) -> bool:
-    """Whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
+def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -> bool:
+    """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
 
-    It does by turns, if it stopped no beam in this sweep, and its reflectivity is so small that beams which passed say
-    nothing either.
+    It does so in some sweeps, if it stopped no beam in this one, and if its reflectivity is so small that beams which
+    passed say nothing either.
     """
-    return every != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
+    return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
 
 
 @wp.func
-def renewed_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Another surface of a cell of which neither stops nor passing beams say anything, whatever its surface. So its
-    conditional is the prior, of which `fresh_surface` leaves out the penalty of size.
+def renewed_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """Draw another surface for a cell that no beam observes, whatever its surface. Its conditional is the prior, of
+    which `fresh_surface` leaves out the penalty of size.
     """
     candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
     log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
@@ -90,13 +90,14 @@ def begin_sweep(
     first: int,
     sweep: int,
     without_surfaces: int,
-    prior: CellPrior,
+    prior: PriorNumbers,
     prior_moved: int,
     active: ActiveCells,
     state: ChainArrays,
     log_prior: wp.array(dtype=wp.float32),
 ):
-    """One thread a chain's cell, at the start of a sweep: forget what the beams said, and perhaps name a candidate.
+    """One thread per chain's cell, at the start of a sweep: reset the counts of its beams, and perhaps name a
+    candidate.
 
     ``log_prior`` is that of the cells as they are, and is computed anew where the last sweep can have changed it.
     """
@@ -105,13 +106,13 @@ def begin_sweep(
     a = i - chain * active.cell.shape[0]
     c = active.cell[a]
     here = chain * state.n_cells + c
-    every = int(active.every[a])
-    held_m = state.fixed_m[here]  # in the sweep before
+    period = int(active.period[a])
+    last_m = state.fixed_m[here]  # in the sweep before
     learns = True
-    if every != 0:
-        learns = sweep % every == 0
-    renewed = without_surfaces == 0 and is_silent(sweep - 1, every, c, held_m, state.stopped_in[here])
-    moved = prior_moved != 0 or every == 0 or renewed or held_m == LEARNS
+    if period != 0:
+        learns = sweep % period == 0
+    renewed = without_surfaces == 0 and is_silent(sweep - 1, period, c, last_m, state.stopped_in[here])
+    moved = prior_moved != 0 or period == 0 or renewed or last_m == LEARNS
     if not moved and not learns:
         return
     cell = state.cells[here]
@@ -123,9 +124,9 @@ def begin_sweep(
         log_prior[i] = density
     trying = HIDDEN
     if without_surfaces == 0:
-        if every == 0:
+        if period == 0:
             learns = False  # a kernel of its own knows its beams
-        elif learns and tries(sweep, every, c):
+        elif learns and tries(sweep, period, c):
             # One of whose surface passing beams say nothing needs no candidate: it takes surfaces from the prior.
             learns = cell[REFLECTIVITY] > CLEAR
             if learns:
@@ -150,22 +151,22 @@ def update_free_cells(
     first: int,
     sweep: int,
     without_surfaces: int,
-    prior: CellPrior,
+    prior: PriorNumbers,
     active: ActiveCells,
     state: ChainArrays,
 ):
-    """One thread a chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
-    neither; and where next to no beam would stop perhaps take another surface.
+    """One thread per chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
+    neither; and where it would stop next to no beam, perhaps take another surface.
     """
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     place = i - chain * active.cell.shape[0]
     c = active.cell[place]
     here = chain * state.n_cells + c
-    every = int(active.every[place])
-    held_m = state.fixed_m[here]
-    learns = held_m == LEARNS
-    if not learns and (without_surfaces != 0 or not is_silent(sweep, every, c, held_m, state.stopped_in[here])):
+    period = int(active.period[place])
+    last_m = state.fixed_m[here]
+    learns = last_m == LEARNS
+    if not learns and (without_surfaces != 0 or not is_silent(sweep, period, c, last_m, state.stopped_in[here])):
         return
     cell = state.cells[here]
     key = sweep_key(state.keys[chain], sweep, CELLS)
@@ -194,7 +195,7 @@ def update_free_cells(
             accepted = wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio
             if accepted and is_own(prior, centre, candidate):
                 cell = candidate
-    if without_surfaces == 0 and is_silent(sweep, every, c, cell[REFLECTIVITY], state.stopped_in[here]):
+    if without_surfaces == 0 and is_silent(sweep, period, c, cell[REFLECTIVITY], state.stopped_in[here]):
         cell = renewed_surface(prior, centre, cell, key, at)
     cell[TRYING] = HIDDEN
     state.cells[here] = cell
@@ -202,10 +203,12 @@ def update_free_cells(
 
 @wp.kernel
 def count_observed(first: int, active: ActiveCells, state: ChainArrays):
-    """One thread a chain's cell, after a sweep: has it counted beams yet, and did any beam come into the count?"""
+    """One thread per chain's cell, after a sweep: count it as inspected if it has counted beams, and as observed if any
+    beam came into the count.
+    """
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     here = chain * state.n_cells + active.cell[i - chain * active.cell.shape[0]]
     if state.last_met[here] >= 0:
-        some = wp.where(state.last_hits[here] + state.last_met[here] > 0, 1, 0)
-        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(some, 1)
+        observed = wp.where(state.last_hits[here] + state.last_met[here] > 0, 1, 0)
+        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)

@@ -1,4 +1,4 @@
-r"""The prior of a cell, its reflectivity's and its surface's: densities, and surfaces drawn from it.
+r"""The prior of a cell's reflectivity and of its surface: densities, and surfaces drawn from it.
 
 The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square, and for Sigma an InverseWishart(nu,
 psi I) times exp(-tr Sigma / (2 kappa^2)): beams of other cells say nothing about a surface that grows beyond its own,
@@ -23,7 +23,7 @@ MEAN_TRIES = wp.constant(8)
 
 
 @wp.struct
-class CellPrior:
+class PriorNumbers:
     """Beta(a, b) of the reflectivity, and the surface's prior as above.
 
     At a coupling above 0 that is the Beta of free cells, and solid ones have their own; ``log_beta`` and
@@ -44,21 +44,21 @@ class CellPrior:
     log_beta_solid: wp.float64
 
 
-def put_prior(numbers: KernelNumbers) -> Any:
-    """A prior as kernels read it."""
-    there = CellPrior()
+def packed_prior(numbers: KernelNumbers) -> Any:
+    """Pack a prior as kernels read it."""
+    packed = PriorNumbers()
     for name, value in numbers._asdict().items():
-        setattr(there, name, value)
-    there.log_beta = there.log_beta_solid = 0.0
+        setattr(packed, name, value)
+    packed.log_beta = packed.log_beta_solid = 0.0
     if numbers.coupling > 0:
-        there.log_beta = float(special.betaln(numbers.a, numbers.b))
-        there.log_beta_solid = float(special.betaln(numbers.a_solid, numbers.b_solid))
-    return there
+        packed.log_beta = float(special.betaln(numbers.a, numbers.b))
+        packed.log_beta_solid = float(special.betaln(numbers.a_solid, numbers.b_solid))
+    return packed
 
 
 @wp.func
-def pseudo_counts(prior: CellPrior, solid: wp.uint8) -> wp.vec2d:
-    """a and b of the reflectivity of a cell with this label; all cells are free where there are no labels."""
+def pseudo_counts(prior: PriorNumbers, solid: wp.uint8) -> wp.vec2d:
+    """Return a and b of the reflectivity of a cell with this label; without labels all cells are free."""
     if solid != wp.uint8(0):
         return wp.vec2d(prior.a_solid, prior.b_solid)
     return wp.vec2d(prior.a, prior.b)
@@ -66,22 +66,22 @@ def pseudo_counts(prior: CellPrior, solid: wp.uint8) -> wp.vec2d:
 
 @wp.func
 def centre_of(c: int, ny: int, edge_m: wp.float64) -> wp.vec2:
-    """Centre of a cell, metres from the grid's lower left corner."""
+    """Return the centre of a cell, metres from the grid's lower left corner."""
     half = wp.float64(0.5)
     x = wp.float32((wp.float64(c // ny) + half) * edge_m)
     return wp.vec2(x, wp.float32((wp.float64(c % ny) + half) * edge_m))
 
 
 @wp.func
-def is_own(prior: CellPrior, centre: wp.vec2, cell: Cell) -> bool:
-    """Whether the surface's mean lies in the cell's own square."""
+def is_own(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
+    """Return whether the surface's mean lies in the cell's own square."""
     half = wp.float32(prior.half_m)
     return wp.abs(cell[MEAN_X] - centre[0]) <= half and wp.abs(cell[MEAN_Y] - centre[1]) <= half
 
 
 @wp.func
-def mean_within(prior: CellPrior, key: wp.uint64, at: wp.uint64) -> wp.float32:
-    """A coordinate of a mean from its prior, from the cell's centre; takes two times `MEAN_TRIES` counters.
+def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float32:
+    """Draw a coordinate of a mean from its prior, from the cell's centre; takes two times `MEAN_TRIES` counters.
 
     By rejection: of the default prior one try in five fails, and all of them once in 300 000 times, when the candidate
     is left out of the cell and is not accepted.
@@ -94,8 +94,9 @@ def mean_within(prior: CellPrior, key: wp.uint64, at: wp.uint64) -> wp.float32:
 
 
 @wp.func
-def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """The cell with a surface drawn from the prior, but for `log_size_penalty`, which the acceptance makes good.
+def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
+    """Return the cell with a surface drawn from the prior, except for `log_size_penalty`, which the acceptance
+    includes.
 
     Sigma^-1 = A A' / psi with Bartlett's lower triangular A; its inverse has the upper factor A^-T sqrt(psi), which
     turns into a lower one when x and y are exchanged, and the law does not care.
@@ -117,8 +118,8 @@ def fresh_surface(prior: CellPrior, centre: wp.vec2, cell: Cell, key: wp.uint64,
 
 
 @wp.func
-def log_surface_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float64:
-    """Log density of a surface in the coordinates above, up to a constant."""
+def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.float64:
+    """Return the log density of a surface in the coordinates above, up to a constant."""
     x = wp.float64(cell[MEAN_X] - centre[0])
     y = wp.float64(cell[MEAN_Y] - centre[1])
     l11 = wp.float64(cell[L11])
@@ -133,8 +134,8 @@ def log_surface_prior(prior: CellPrior, centre: wp.vec2, cell: Cell) -> wp.float
 
 
 @wp.func
-def log_size_penalty(prior: CellPrior, cell: Cell) -> wp.float64:
-    """The factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
+def log_size_penalty(prior: PriorNumbers, cell: Cell) -> wp.float64:
+    """Return the logarithm of the factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
     l11 = wp.float64(cell[L11])
     l21 = wp.float64(cell[L21])
     l22 = wp.float64(cell[L22])
@@ -142,9 +143,9 @@ def log_size_penalty(prior: CellPrior, cell: Cell) -> wp.float64:
 
 
 @wp.func
-def log_reflectivity_prior(prior: CellPrior, solid: wp.uint8, m: wp.float32) -> wp.float32:
-    """Log density of logit m given the label, without labels up to a constant; m is kept above what single precision
-    can hold.
+def log_reflectivity_prior(prior: PriorNumbers, solid: wp.uint8, m: wp.float32) -> wp.float32:
+    """Return the log density of logit m given the label, without labels up to a constant; m is kept above the least
+    number of single precision.
     """
     at = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
     counts = pseudo_counts(prior, solid)

@@ -1,4 +1,4 @@
-r"""Where a beam meets the surface inside a cell, and whether it meets it at all.
+r"""Compute where a beam meets the surface inside a cell, and the chance that it meets it at all.
 
 A cell's surface is a normal distribution N(mu, Sigma) of the points where beams stop. A beam from p in direction u,
 with normal n, passes the mean at the offset o = n . (mu - p); across the beam the surface has the standard deviation
@@ -35,7 +35,7 @@ REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
 
 
 def cells_to_device(states: NDArray[np.float32], device: str) -> Any:
-    """States alone, (..., 6), or without a surface, (..., 1), as an array of `Cell` on a device."""
+    """Put states alone, (..., 6), or without a surface, (..., 1), on a device as an array of `Cell`."""
     padded = np.zeros((*states.shape[:-1], 8), dtype=np.float32)
     padded[..., : states.shape[-1]] = states
     return wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
@@ -53,7 +53,7 @@ class Ray:
 
 @wp.struct
 class Crossing:
-    """Probability of meeting the surface, and mean and variance of the distance at which."""
+    """Probability of meeting the surface, and mean and variance of the distance at which the beam meets it."""
 
     chance: wp.float32
     distance_m: wp.float32
@@ -62,7 +62,7 @@ class Crossing:
 
 @wp.func
 def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
-    """A beam by its start and its direction."""
+    """Make a ray from its start and its direction."""
     ray = Ray()
     ray.x = start_m[0]
     ray.y = start_m[1]
@@ -73,14 +73,14 @@ def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
 
 @wp.func
 def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float32:
-    """The chance of meeting a surface, by the offset of its mean and its variance across the beam."""
+    """Return the chance of meeting a surface, by the offset of its mean and its variance across the beam."""
     r = offset * offset / (CROSSING_WIDTH_SQ * across)
     return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
 
 
 @wp.func
 def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
-    """The chance that the beam meets the cell's surface."""
+    """Return the chance that the beam meets the cell's surface."""
     offset = ray.ux * (cell[MEAN_Y] - ray.y) - ray.uy * (cell[MEAN_X] - ray.x)
     across_1 = cell[L21] * ray.ux - cell[L11] * ray.uy
     across_2 = cell[L22] * ray.ux
@@ -89,7 +89,7 @@ def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
 
 @wp.func
 def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, uy: wp.float32) -> Crossing:
-    """Chance, and distance where, by the offset of the surface's mean from the beam, how far ahead it lies, and the
+    """Return the crossing of a surface, from the offset of its mean from the beam, the distance of that ahead, and the
     beam's direction.
     """
     l11 = cell[L11]
@@ -116,7 +116,7 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
 
 @wp.func
 def cross_surface(cell: Cell, ray: Ray) -> Crossing:
-    """Chance, and distance where."""
+    """Return the chance that the beam meets the cell's surface, and the law of the distance at which."""
     rx = cell[MEAN_X] - ray.x
     ry = cell[MEAN_Y] - ray.y
     offset = ray.ux * ry - ray.uy * rx

@@ -1,4 +1,4 @@
-"""Beams of the cells in which readings end, and how likely they are, given one of these cells and where they stop.
+"""The beams of the cells in which readings end, and the likelihood of their stops given such a cell.
 
 With g the chance of meeting the surface,
 
@@ -47,33 +47,37 @@ class EndpointCells:
     step: wp.array(dtype=Cell)
 
 
-def put_endpoint_cells(rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str) -> EndpointCells:
-    """List the incidences of some cells, by flat index, ascending, (U,); ``steps`` are these cells', (U, 8)."""
-    wanted = np.zeros(rays.grid.n_cells, dtype=np.bool_)
-    wanted[cells] = True
-    entry = np.nonzero(wanted[rays.cells])[0].astype(np.int32)
+def endpoint_cells_to_device(
+    rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str
+) -> EndpointCells:
+    """List the incidences of some cells, by flat index, ascending, (U,), on a device; ``steps`` are these cells', (U,
+    8).
+    """
+    listed = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+    listed[cells] = True
+    entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
     entry = entry[np.argsort(rays.cells[entry], kind="stable")]
     of_entry = rays.cells[entry]
     beam = np.searchsorted(rays.offsets, entry, side="right") - 1
     away = rays.grid.cell_centres_m(of_entry) - rays.start_m[beam]
     ux, uy = rays.direction[beam].astype(np.float64).T
     passing = np.stack([ux * away[:, 1] - uy * away[:, 0], ux, uy], axis=-1)
-    there = EndpointCells()
-    there.cell = devices.to_device(cells, wp.int32, device)
+    on_device = EndpointCells()
+    on_device.cell = devices.to_device(cells, wp.int32, device)
     bounds = np.concatenate([np.searchsorted(of_entry, cells), [len(entry)]])
-    there.offsets = devices.to_device(bounds, wp.int32, device)
-    there.entry = devices.to_device(entry, wp.int32, device)
-    there.beam = devices.to_device(beam, wp.int32, device)
+    on_device.offsets = devices.to_device(bounds, wp.int32, device)
+    on_device.entry = devices.to_device(entry, wp.int32, device)
+    on_device.beam = devices.to_device(beam, wp.int32, device)
     reading = np.stack([(away * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
-    there.reading = wp.array(reading.astype(np.float32), dtype=wp.vec2, device=device)
-    there.passing = wp.array(passing.astype(np.float32), dtype=wp.vec3, device=device)
-    there.step = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
-    return there
+    on_device.reading = wp.array(reading.astype(np.float32), dtype=wp.vec2, device=device)
+    on_device.passing = wp.array(passing.astype(np.float32), dtype=wp.vec3, device=device)
+    on_device.step = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
+    return on_device
 
 
 @wp.func
 def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
-    """The chance of meeting a surface whose mean lies (dx, dy) from the cell's centre."""
+    """Return the chance of meeting a surface whose mean lies (dx, dy) from the cell's centre."""
     offset = passing[0] + passing[1] * dy - passing[2] * dx
     across_1 = cell[L21] * passing[1] - cell[L11] * passing[2]
     across_2 = cell[L22] * passing[1]
@@ -82,7 +86,8 @@ def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, ce
 
 @wp.struct
 class Listed:
-    """The incidences of a cell, in a list of its chain: those of beams that pass it, and those of beams that it stops.
+    """The incidences of one cell, in a list of its chain: those of beams that pass it, and those of beams that it
+    stops.
 
     ``entries[passing_begin:passing_end]`` and ``entries[stopped_begin:stopped_end]``, as numbers of incidences in
     `EndpointCells`.
@@ -106,7 +111,7 @@ def log_stops(
     cell: Cell,
     least: wp.float64,
 ) -> wp.float64:
-    """The formula at the top, for one surface and the beams that are listed.
+    """Evaluate the formula at the top, for one surface and the listed beams.
 
     A sum that comes out under ``least`` need not be finished: what is returned then is under ``least``, too. Stopped
     beams come first, for after them every further beam makes the sum smaller.

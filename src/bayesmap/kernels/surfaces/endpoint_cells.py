@@ -30,7 +30,7 @@ from bayesmap.kernels.random import (
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
 from bayesmap.kernels.surfaces.cell_prior import (
-    CellPrior,
+    PriorNumbers,
     centre_of,
     is_own,
     log_reflectivity_prior,
@@ -39,7 +39,7 @@ from bayesmap.kernels.surfaces.cell_prior import (
 )
 from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, Listed, crossing_probability_of, log_stops
-from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, Blocks, log_stops_in_lanes, put_in_blocks, takes_lanes
+from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, LaneBlocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 
 wp.set_module_options({"enable_backward": False})
@@ -54,7 +54,7 @@ THINNEST = wp.constant(wp.float32(1.0e-12))  # variance that rounding must not t
 
 @wp.func
 def turned(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
-    """The surface in axes turned by an angle: the factor of R Sigma R', whose determinant stays what it was."""
+    """Return the surface in axes turned by an angle: the factor of R Sigma R', with its determinant unchanged."""
     x = cell[MEAN_X]
     y = cell[MEAN_Y]
     var_x = cell[L11] * cell[L11]
@@ -74,7 +74,7 @@ def turned(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
 
 @wp.func
 def into_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
-    """The cell in its frame."""
+    """Return the cell in its frame."""
     cell[MEAN_X] = cell[MEAN_X] - centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] - centre[1]
     return turned(cell, step[COSINE], step[SINE])
@@ -82,7 +82,7 @@ def into_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
 
 @wp.func
 def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
-    """The cell in the grid's axes."""
+    """Return the cell in the grid's axes."""
     cell = turned(cell, step[COSINE], -step[SINE])
     cell[MEAN_X] = cell[MEAN_X] + centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] + centre[1]
@@ -91,7 +91,7 @@ def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
 
 @wp.func
 def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
-    """The cell, in its frame, moved by a random step, half of the time a short one.
+    """Return the cell, in its frame, moved by a random step, half of the time a short one.
 
     By turns what beams hardly say (logit m, mean along, size: a wide surface that stops few of the beams that meet it
     looks like a small one that stops many) and what they say well (mean across, slope, thickness).
@@ -126,8 +126,8 @@ AT_STEP = wp.constant(wp.uint64(32))
 
 
 @wp.func
-def log_cell_prior(prior: CellPrior, solid: wp.uint8, cell: Cell) -> wp.float64:
-    """Log prior of logit m and of the surface in its frame, up to a constant: the same in all frames."""
+def log_cell_prior(prior: PriorNumbers, solid: wp.uint8, cell: Cell) -> wp.float64:
+    """Return the log prior of logit m and of the surface in its frame, up to a constant common to all frames."""
     surface = log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
     return surface + wp.float64(log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
 
@@ -146,7 +146,9 @@ class BeamLists:
 
 @wp.func
 def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: int) -> Listed:
-    """The listed incidences of a cell, which has the incidences from ``begin`` to ``end`` and stops ``hits`` beams."""
+    """Return the listed incidences of a cell, which has the incidences from ``begin`` to ``end`` and stops ``hits``
+    beams.
+    """
     listed = Listed()
     listed.entries = lists.entries[chain]
     listed.passing_begin = begin
@@ -158,7 +160,7 @@ def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: 
 
 @wp.func
 def listed_until(listed: Listed, passing_end: int, stopped_end: int) -> Listed:
-    """The first of some listed incidences."""
+    """Return the first of some listed incidences."""
     rest = Listed()
     rest.entries = listed.entries
     rest.passing_begin = listed.passing_begin
@@ -174,7 +176,7 @@ def log_beams(
     beta: wp.float32,
     rays: TracedRays,
     endpoints: EndpointCells,
-    blocks: Blocks,
+    blocks: LaneBlocks,
     row: int,
     u: int,
     listed: Listed,
@@ -183,7 +185,9 @@ def log_beams(
     cell: Cell,
     least: wp.float64,
 ) -> wp.float64:
-    """`log_stops`, of beams in blocks and ``others`` at the head of those that stopped; -1 if there are no blocks."""
+    """Compute `log_stops` of beams in blocks and of ``others`` at the head of those that stopped; -1: there are no
+    blocks.
+    """
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
     total = wp.float64(0.0)
@@ -210,7 +214,7 @@ def count_endpoint_cells(
     state: ChainArrays,
     lists: BeamLists,
 ):
-    """One thread a chain's cell in which readings end: list its incidences, and count its beams.
+    """One thread per chain's cell in which readings end: list its incidences, and count its beams.
 
     ``last_hits`` counts the beams that stopped, ``last_met`` the passing beams that met the surface.
     """
@@ -259,15 +263,15 @@ def update_endpoint_cells(
     sweep: int,
     steps: int,
     law: SensorLaw32,
-    prior: CellPrior,
+    prior: PriorNumbers,
     rays: TracedRays,
     endpoints: EndpointCells,
     active: ActiveCells,
     state: ChainArrays,
     lists: BeamLists,
-    blocks: Blocks,
+    blocks: LaneBlocks,
 ):
-    """One thread a chain's cell in which readings end: its reflectivity, then steps of both, given lists and counts."""
+    """One thread per chain's cell in which readings end: draw its reflectivity, then step both."""
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]
     u = i_cell - chain * endpoints.cell.shape[0]

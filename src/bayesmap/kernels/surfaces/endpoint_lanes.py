@@ -1,4 +1,4 @@
-"""The density of an endpoint cell's beams, eight beams at a time.
+"""Compute the density of an endpoint cell's beams, eight beams at a time.
 
 `bayesmap.kernels.surfaces.endpoint_beams.log_stops` asks each beam for itself, through lists, whatever the sensor. A
 cell asks the same beams for every step of its surface, so they are copied side by side first, and eight of them are
@@ -45,8 +45,8 @@ UNKNOWN = wp.constant(wp.float64(1.0e300))
 
 
 @wp.struct
-class Blocks:
-    """Room for the blocks of one cell a thread: a row of numbers, and the same memory as lanes.
+class LaneBlocks:
+    """Room for the blocks of one cell per thread: a row of numbers, and the same memory as lanes.
 
     Cell u's begin at ``begin[u]`` of its row, counted in lanes: all at 0 where a row is one thread's alone.
     """
@@ -56,36 +56,37 @@ class Blocks:
     begin: wp.array(dtype=wp.int32)
 
 
-def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> Blocks:
-    """Room for the blocks of cells in each of some rows: on a GPU, where all cells are worked on at once, for every
-    cell, on the CPU for the one that needs most.
+def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlocks:
+    """Allocate room for the blocks of cells in each of some rows: on a GPU, which updates all cells at once, for every
+    cell; on the CPU for the cell that needs most.
     """
     incidences = np.diff(endpoints.offsets.numpy())
     lanes = int(PRODUCTS) + int(OF_PASSING) + int(OF_STOPPED) * (1 + -(-incidences // WIDTH))
     begin = np.zeros(len(lanes), dtype=np.int64) if device == "cpu" else np.cumsum(lanes) - lanes
     size = int((begin + lanes).max(initial=0))
-    there = Blocks()
-    there.numbers = wp.zeros((rows, size * WIDTH), dtype=wp.float32, device=device)
-    there.lanes = wp.array(ptr=there.numbers.ptr, shape=(rows, size), dtype=Lanes, device=device)
-    there.begin = devices.to_device(begin, wp.int32, device)
-    return there
+    on_device = LaneBlocks()
+    on_device.numbers = wp.zeros((rows, size * WIDTH), dtype=wp.float32, device=device)
+    on_device.lanes = wp.array(ptr=on_device.numbers.ptr, shape=(rows, size), dtype=Lanes, device=device)
+    on_device.begin = devices.to_device(begin, wp.int32, device)
+    return on_device
 
 
 @wp.func
 def takes_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
-    """Whether hits of this law can be weighed in lanes."""
+    """Return whether hits of this law can be computed in lanes."""
     return law.kind == MIXTURE and (law.dof == wp.float32(0.0) or law.power > 0) and beta == wp.float32(1.0)
 
 
 @wp.func
 def blocks_of(beams: int) -> int:
-    """How many blocks some beams fill."""
+    """Return the number of blocks that some beams fill."""
     return (beams + WIDTH - 1) // WIDTH
 
 
 @wp.func
 def exponential(x: Lanes) -> Lanes:
-    """exp(x) to 5e-6 of itself between -41 and 41, beyond these as there: Taylor's series at x / 64, squared six times.
+    """Compute exp(x) to a relative error of 5e-6 between -41 and 41, clipped beyond: Taylor's series at x / 64, squared
+    six times.
 
     An exponential of the C library has one number at a time.
     """
@@ -110,7 +111,7 @@ def exponential(x: Lanes) -> Lanes:
 
 @wp.func
 def square_root(x: Lanes) -> Lanes:
-    """The square root of each."""
+    """Return the square root of each."""
     out = Lanes()
     for j in range(WIDTH):
         out[j] = wp.sqrt(x[j])
@@ -119,13 +120,13 @@ def square_root(x: Lanes) -> Lanes:
 
 @wp.func
 def positive(x: Lanes) -> Lanes:
-    """1 where a number is positive, 0 where it is not."""
+    """Return 1 where a number is positive, 0 where it is not."""
     return wp.max(wp.min(STEEP * x, Lanes(wp.float32(1.0))), Lanes(wp.float32(0.0)))
 
 
 @wp.func
 def chance_of(offset: Lanes, across: Lanes) -> Lanes:
-    """`crossing_probability_at` of each."""
+    """Compute `crossing_probability_at` of each."""
     one = Lanes(wp.float32(1.0))
     r = wp.cw_div(wp.cw_mul(offset, offset), CROSSING_WIDTH_SQ * across)
     return wp.cw_div(one, one + wp.cw_mul(r, wp.cw_mul(r, r)))
@@ -133,7 +134,7 @@ def chance_of(offset: Lanes, across: Lanes) -> Lanes:
 
 @wp.func
 def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, variance: Lanes) -> Lanes:
-    """`stop_density` of finite readings, of a mixture that `takes_lanes`."""
+    """Compute `stop_density` of finite readings, for a mixture that `takes_lanes`."""
     one = Lanes(wp.float32(1.0))
     scale = Lanes(law.sigma_m) + law.sigma_per_m * distance
     total = wp.cw_mul(scale, scale) + variance
@@ -163,12 +164,12 @@ def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, 
 
 @wp.func
 def stopped_blocks_at(passing: int) -> int:
-    """Where the blocks of stopped beams begin in a cell's room: behind those of its passing ones."""
+    """Return where the blocks of stopped beams begin in a cell's room: behind those of its passing beams."""
     return PRODUCTS + OF_PASSING * blocks_of(passing)
 
 
 @wp.func
-def put_passing(blocks: Blocks, row: int, u: int, i: int, passing: wp.vec3):
+def put_passing(blocks: LaneBlocks, row: int, u: int, i: int, passing: wp.vec3):
     """Put the i-th passing beam into a cell's blocks."""
     first = (blocks.begin[u] + PRODUCTS + OF_PASSING * (i // WIDTH)) * WIDTH + i % WIDTH
     blocks.numbers[row, first] = passing[0]
@@ -178,9 +179,16 @@ def put_passing(blocks: Blocks, row: int, u: int, i: int, passing: wp.vec3):
 
 @wp.func
 def put_stopped(
-    blocks: Blocks, row: int, at: int, i: int, passing: wp.vec3, reading: wp.vec2, decay: wp.float32, counts: wp.float32
+    blocks: LaneBlocks,
+    row: int,
+    at: int,
+    i: int,
+    passing: wp.vec3,
+    reading: wp.vec2,
+    decay: wp.float32,
+    counts: wp.float32,
 ):
-    """Put the i-th stopped beam into the blocks that begin at ``at``; one that ``counts`` 0 only fills a lane."""
+    """Put the i-th stopped beam into the blocks that begin at ``at``; a beam that ``counts`` 0 only fills a lane."""
     first = (at + OF_STOPPED * (i // WIDTH)) * WIDTH + i % WIDTH
     blocks.numbers[row, first] = passing[0]
     blocks.numbers[row, first + WIDTH] = passing[1]
@@ -193,14 +201,14 @@ def put_stopped(
 
 @wp.func
 def put_in_blocks(
-    blocks: Blocks,
+    blocks: LaneBlocks,
     row: int,
     u: int,
     rays: TracedRays,
     endpoints: EndpointCells,
     listed: Listed,
 ) -> int:
-    """Put a cell's listed beams into its blocks, all that pass it and of those it stops the ones with a lane.
+    """Put a cell's listed beams into its blocks: all that pass it, and of those it stops the ones with a lane.
 
     The others, with typed readings or with ends that are not near, go to the head of the list of stopped beams. How
     many these are.
@@ -232,9 +240,9 @@ def put_in_blocks(
 
 
 @wp.func
-def log_of_product(blocks: Blocks, row: int, begin: int) -> wp.float64:
-    """The logarithm of the product of all lanes at ``begin``; UNKNOWN if one has been too small for a number, as the
-    lanes after it say.
+def log_of_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
+    """Return the logarithm of the product of all lanes at ``begin``; UNKNOWN if the lanes after it say that one has
+    been too small for a number.
     """
     if wp.min(blocks.lanes[row, begin + 1]) < SMALLEST:
         return UNKNOWN
@@ -247,9 +255,16 @@ def log_of_product(blocks: Blocks, row: int, begin: int) -> wp.float64:
 
 @wp.func
 def log_stops_in_lanes(
-    law: SensorLaw32, blocks: Blocks, row: int, u: int, beams: wp.vec2i, centre: wp.vec2, cell: Cell, least: wp.float64
+    law: SensorLaw32,
+    blocks: LaneBlocks,
+    row: int,
+    u: int,
+    beams: wp.vec2i,
+    centre: wp.vec2,
+    cell: Cell,
+    least: wp.float64,
 ) -> wp.float64:
-    """`log_stops` of the beams in blocks, ``beams`` passing and stopped ones; UNKNOWN where a product was too small.
+    """Compute `log_stops` of the beams in blocks, ``beams`` passing and stopped; UNKNOWN where a product was too small.
 
     The product so far, and the smallest that it has been, are written to memory in every round, for compilers take
     eight lanes together where they are stored together.
@@ -307,21 +322,21 @@ def log_stops_in_lanes(
         passed = one
         lowest = one
         for i in range(chunk, wp.min(chunk + CHUNK, passing_blocks)):
-            there = begin + PRODUCTS + OF_PASSING * i
-            vx = blocks.lanes[row, there + 1]
-            vy = blocks.lanes[row, there + 2]
+            place = begin + PRODUCTS + OF_PASSING * i
+            vx = blocks.lanes[row, place + 1]
+            vy = blocks.lanes[row, place + 2]
             side_1 = l21 * vx - l11 * vy
             side_2 = l22 * vx
             side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
-            met = chance_of(blocks.lanes[row, there] + dy * vx - dx * vy, side)
+            met = chance_of(blocks.lanes[row, place] + dy * vx - dx * vy, side)
             passed = wp.cw_mul(passed, wp.max(one - m * met, Lanes(LEAST)))
             lowest = wp.min(lowest, passed)
             blocks.lanes[row, begin] = passed
             blocks.lanes[row, begin + 1] = lowest
-        some = log_of_product(blocks, row, begin)
-        if some == UNKNOWN:
+        passed_log = log_of_product(blocks, row, begin)
+        if passed_log == UNKNOWN:
             return UNKNOWN
-        total += some
+        total += passed_log
         if total < least:
             return total
     return total

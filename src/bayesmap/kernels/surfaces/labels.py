@@ -1,4 +1,4 @@
-r"""A label for every cell of the grid, free or solid, drawn given its four neighbours' labels and its own counts.
+r"""Draw a label for every cell of the grid, free or solid, given its four neighbours' labels and its own counts.
 
 With its reflectivity integrated out a cell that h beams of those that met its surface were stopped in, and n were not,
 has
@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.random import CELLS, beta_variate, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
-from bayesmap.kernels.surfaces.cell_prior import CellPrior
+from bayesmap.kernels.surfaces.cell_prior import PriorNumbers
 from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING
 from bayesmap.kernels.surfaces.stops import LEARNS, ChainArrays
 from bayesmap.kernels.walls.wall_prior import draw_wall
@@ -45,8 +45,8 @@ STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 1
 STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
 
 
-def put_known(cells: int, touched: NDArray[np.int32], counted: NDArray[np.int32], device: str) -> Any:
-    """What is known of each cell where kernels read it, by flat indices of those that are touched and counted."""
+def known_to_device(cells: int, touched: NDArray[np.int32], counted: NDArray[np.int32], device: str) -> Any:
+    """Put what is known of each cell on a device, by flat indices of the cells that are touched and counted."""
     known = np.full(cells, UNTOUCHED, dtype=np.uint8)
     known[touched] = TOUCHED
     known[counted] = COUNTED
@@ -55,7 +55,7 @@ def put_known(cells: int, touched: NDArray[np.int32], counted: NDArray[np.int32]
 
 @wp.func
 def log_gamma(x: wp.float64) -> wp.float64:
-    """Logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
+    """Return the logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
     one = wp.float64(1.0)
     below = one
     while x < LARGE:
@@ -70,13 +70,13 @@ def log_gamma(x: wp.float64) -> wp.float64:
 
 @wp.func
 def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
-    """Logarithm of the beta function."""
+    """Return the logarithm of the beta function."""
     return log_gamma(a) + log_gamma(b) - log_gamma(a + b)
 
 
 @wp.func
 def balance(solid: wp.array(dtype=wp.uint8), cell_0: int, x: int, y: int, nx: int, ny: int) -> int:
-    """Solid less free cells among a cell's neighbours."""
+    """Return the number of solid cells less that of free cells among a cell's neighbours."""
     here = cell_0 + x * ny + y
     total = int(0)
     if x > 0:
@@ -97,11 +97,13 @@ def draw_labels(
     sweep: int,
     nx: int,
     ny: int,
-    prior: CellPrior,
+    prior: PriorNumbers,
     known: wp.array(dtype=wp.uint8),
     state: ChainArrays,
 ):
-    """One thread a chain's cell: its label, if the cell has the colour, and learns in this sweep or is untouched."""
+    """One thread per chain's cell: draw its label, if the cell has the colour, and is updated in this sweep or
+    untouched.
+    """
     here = first + wp.tid()
     chain = here // state.n_cells
     cell_0 = chain * state.n_cells
@@ -138,11 +140,11 @@ def draw_labels(
 def draw_untouched(
     first: int,
     sweep: int,
-    prior: CellPrior,
+    prior: PriorNumbers,
     known: wp.array(dtype=wp.uint8),
     state: ChainArrays,
 ):
-    """One thread a chain's cell: the reflectivity of one that no beam touches, given its label."""
+    """One thread per chain's cell: draw the reflectivity of a cell that no beam touches, given its label."""
     here = first + wp.tid()
     chain = here // state.n_cells
     c = here - chain * state.n_cells

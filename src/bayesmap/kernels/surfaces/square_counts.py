@@ -39,7 +39,7 @@ from bayesmap.kernels.random import BEAMS, CELLS, beta_or_nothing, normal, rando
 from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
 from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
-from bayesmap.kernels.surfaces.cell_prior import CellPrior, pseudo_counts
+from bayesmap.kernels.surfaces.cell_prior import PriorNumbers, pseudo_counts
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 
 wp.set_module_options({"enable_backward": False})
@@ -63,7 +63,7 @@ def stop_point_m(
     key: wp.uint64,
     counter: wp.uint64,
 ) -> wp.float64:
-    """The distance at which a beam was stopped, drawn given its reading; never behind the beam's start.
+    """Draw the distance at which a beam was stopped, given its reading, metres; never behind the beam's start.
 
     Four counters are its own.
     """
@@ -86,7 +86,7 @@ def stop_point_m(
 
 @wp.func
 def logistic_density(x: wp.float64, middle: wp.float64, scale: wp.float64) -> wp.float64:
-    """Density of the logistic distribution."""
+    """Return the density of the logistic distribution."""
     e = wp.exp(-wp.abs(x - middle) / scale)
     return e / (scale * (wp.float64(1.0) + e) * (wp.float64(1.0) + e))
 
@@ -95,7 +95,7 @@ def logistic_density(x: wp.float64, middle: wp.float64, scale: wp.float64) -> wp
 def point_by_table_m(
     law: SensorLaw32, reading: wp.float32, mean: wp.float64, spread: wp.float64, key: wp.uint64, counter: wp.uint64
 ) -> wp.float64:
-    """The same under a law in a table, perhaps behind the beam's start."""
+    """Draw the distance under a law in a table, metres, perhaps behind the beam's start."""
     one = wp.float64(1.0)
     scale = LOGISTIC * wp.sqrt(spread)
     near = mean
@@ -150,7 +150,7 @@ STREAM_POINT = wp.constant(wp.uint64(5 << 32))
 
 @wp.struct
 class SquareArrays:
-    """The squares of the grid: counts of one chain's beams for each, and what is drawn of each touched one."""
+    """The squares of the grid: counts of one chain's beams for each, and the chances drawn for each touched square."""
 
     touched: wp.array(dtype=wp.int32)  # their cells, flat
     crossings: wp.array(dtype=wp.int32)  # beams that cross the square
@@ -170,7 +170,7 @@ def count_in_squares(
     state: ChainArrays,
     squares: SquareArrays,
 ):
-    """One thread a beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
+    """One thread per beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
     b = wp.tid()
     i = chain * state.n_beams + b
     begin = rays.offsets[b]
@@ -198,13 +198,13 @@ def count_in_squares(
 def draw_stop_chances(
     chain: int,
     sweep: int,
-    prior: CellPrior,
+    prior: PriorNumbers,
     state: ChainArrays,
     squares: SquareArrays,
     solid: wp.array(dtype=wp.uint8),
     kept: int,
 ):
-    """One thread a touched cell: q as above, drawn, and its mean (a + S) / (a + b + S + P). ``solid`` are the labels.
+    """One thread per touched cell: draw q as above, and compute its mean (a + S) / (a + b + S + P).
 
     If the draw is kept, ``observed_counts`` counts it, and whether some beam comes to the square in it.
     """
@@ -218,13 +218,13 @@ def draw_stop_chances(
     squares.drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
     squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
-        some = wp.where(squares.crossings[c] > squares.behind[c], 1, 0)
-        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(some, 1)
+        observed = wp.where(squares.crossings[c] > squares.behind[c], 1, 0)
+        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)
 
 
 class InSquares(NamedTuple):
-    """Of every touched cell's square, (T,) each: beams stopped in it, beams that pass it, and the chance that a beam
-    which comes to it is stopped in it, drawn given these counts, and its mean.
+    """For the square of every touched cell, (T,) each: beams stopped in it, beams that pass it, and the chance that a
+    beam which comes to it is stopped in it, drawn given these counts, and its mean.
     """
 
     stopped: NDArray[np.int32]
@@ -255,7 +255,7 @@ class Squares:
         chain: int,
         sweep: int,
         law: SensorLaw32,
-        prior: CellPrior,
+        prior: PriorNumbers,
         rays: TracedRays,
         state: ChainArrays,
         kept: bool,

@@ -1,5 +1,5 @@
-"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, label and update
-cells.
+"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, draw labels and
+update cells.
 
 All chains stand in the same arrays. On a GPU each kernel is launched once for all of them, with a thread for each
 chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last;
@@ -22,34 +22,34 @@ from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
-from bayesmap.kernels.surfaces.cell_prior import put_prior
+from bayesmap.kernels.surfaces.cell_prior import packed_prior
 from bayesmap.kernels.surfaces.crossing import Cell, cells_to_device
-from bayesmap.kernels.surfaces.endpoint_beams import put_endpoint_cells
+from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device
 from bayesmap.kernels.surfaces.endpoint_cells import STEPS, BeamLists, count_endpoint_cells, update_endpoint_cells
 from bayesmap.kernels.surfaces.endpoint_lanes import room_for_blocks
-from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, put_known
+from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, known_to_device
 from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
 from bayesmap.kernels.surfaces.stops import (
     LEARNS,
     ChainArrays,
-    HeldCells,
+    UpdateSchedule,
     decay_of_readings,
     draw_stops,
-    pass_held_cells,
-    put_traced_rays,
+    pass_lazy_cells,
+    traced_rays_to_device,
 )
 from bayesmap.kernels.surfaces.sums import SLICE, sum_label_prior, sum_of_slices, sum_slices
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the others are no part of a state
 KERNELS = (
-    begin_sweep, pass_held_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
+    begin_sweep, pass_lazy_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
     update_endpoint_cells, count_in_squares, draw_stop_chances,
 )  # fmt: skip
 
 
 def load_stop_kernels(device: str) -> Iterator[int]:
-    """Compile what sweeps need, or fetch it from Warp's cache, and count the kernels that are there."""
+    """Compile the kernels of a sweep, or fetch them from Warp's cache, and yield the number of loaded kernels."""
     for done, kernel in enumerate(KERNELS, 1):
         devices.load_kernels(kernel, device)
         yield done
@@ -57,11 +57,11 @@ def load_stop_kernels(device: str) -> Iterator[int]:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What the sweeps of all chains share.
+    """What the sweeps of all chains have in common.
 
     Attributes:
         rays: with flat indices of the grid's cells.
-        every: in every how many sweeps it is each touched cell's turn, 0 where readings end, (T,).
+        periods: update period of each touched cell, in sweeps; 0 where readings end: every sweep updates them, (T,).
         endpoints: the cells in which readings end, flat, ascending, (U,).
         steps: sizes and frames of these cells' steps, (U, 8).
         distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
@@ -69,7 +69,7 @@ class Plan:
     """
 
     rays: Rays
-    every: NDArray[np.uint8]
+    periods: NDArray[np.uint8]
     endpoints: NDArray[np.int32]
     steps: NDArray[np.float32]
     distance_m: NDArray[np.float32] | None
@@ -82,7 +82,7 @@ class Plan:
 
 
 class StopChains:
-    """Chains where kernels change them."""
+    """Several chains on a device, advanced in place."""
 
     def __init__(
         self,
@@ -104,16 +104,18 @@ class StopChains:
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
         chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
         self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
-        self._rays = put_traced_rays(plan.rays, plan.distance_m, device)
-        self._held = HeldCells(plan.rays, plan.every)
-        self._holds = self._held.put_watched(self._rays, device)
-        self._endpoints = put_endpoint_cells(plan.rays, plan.endpoints, plan.steps, device)
+        self._rays = traced_rays_to_device(plan.rays, plan.distance_m, device)
+        self._schedule = UpdateSchedule(plan.rays, plan.periods)
+        self._lazy = self._schedule.mark_watched(self._rays, device)
+        self._endpoints = endpoint_cells_to_device(plan.rays, plan.endpoints, plan.steps, device)
         active = ActiveCells()
         active.cell = devices.to_device(plan.touched, wp.int32, device)
-        active.every = devices.to_device(plan.every, wp.uint8, device)
+        active.period = devices.to_device(plan.periods, wp.uint8, device)
         active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
         self._active = active
-        self._known = put_known(cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device)
+        self._known = known_to_device(
+            cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device
+        )
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
         self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
@@ -133,7 +135,7 @@ class StopChains:
         state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
         state.where = empty(chains * beams, dtype=wp.vec2)
         state.stopped_in = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
-        state.log_likelihood, state.held_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
+        state.log_likelihood, state.lazy_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
         if counts is None:
             state.last_hits = empty(chains * cells, dtype=wp.int32)
             state.last_met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
@@ -185,7 +187,7 @@ class StopChains:
         Returns:
             log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
         """
-        packed = put_prior(prior)
+        packed = packed_prior(prior)
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         moved, starts = self._law != (sensor, prior, beta), not self.swept
         self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
@@ -201,7 +203,7 @@ class StopChains:
         beam_sums, cell_sums, label_sums = self._slices
 
         def of_cells(number: int) -> list[tuple[Any, int, list[Any]]]:
-            """Those of the cells' half, given the stops."""
+            """Return the kernels that draw the cells given the stops."""
             out = [(count_endpoint_cells, endpoints, [number, *at_ends])]
             if prior.coupling > 0:
                 out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
@@ -216,14 +218,14 @@ class StopChains:
             return out
 
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
-            """Kernels of a sweep in their order, with the elements of a chain."""
+            """Return the kernels of a sweep in their order, with the number of a chain's elements and the inputs."""
             number, changed = first + i, int(moved and i == 0)
-            turn, after_turn = (int(self._held.have_turn(sweep)) for sweep in (number, number - 1))
+            lazy, lazy_before = (int(self._schedule.updates_lazy(sweep)) for sweep in (number, number - 1))
             begin = [number, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
             out = [(begin_sweep, touched, begin)]
-            if not turn and (after_turn or (starts and i == 0)):
-                out.append((pass_held_cells, beams, [self._holds, self._rays, state]))
-            out.append((draw_stops, beams, [number, turn, law, self._rays, state]))
+            if not lazy and (lazy_before or (starts and i == 0)):
+                out.append((pass_lazy_cells, beams, [self._lazy, self._rays, state]))
+            out.append((draw_stops, beams, [number, lazy, law, self._rays, state]))
             if steps > 0:
                 out += of_cells(number)
             out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
@@ -280,16 +282,16 @@ class StopChains:
         list(devices.thread_pool(self.threads).map(work, tasks))
 
     def _of(self, array: Any, chain: int) -> NDArray[Any]:
-        """A chain's cells or beams of an array: on the CPU not a copy, and good until the next sweep."""
+        """Return the part of an array that belongs to a chain: no copy on the CPU, valid until the next sweep."""
         size = array.shape[0] // self.n_chains
         return np.asarray(array[chain * size : (chain + 1) * size].numpy())
 
     def cells(self, chain: int) -> NDArray[np.float32]:
-        """All cells of a chain, (N, 6): on the CPU not a copy, and good until the next sweep."""
+        """Return all cells of a chain, (N, 6): no copy on the CPU, valid until the next sweep."""
         return self._of(self._state.cells, chain)[:, :STATE_SIZE]
 
     def put_cells(self, chain: int, states: NDArray[np.float32], solid: NDArray[np.bool_] | None = None) -> None:
-        """Let a chain go on from other cells, (N, 6), and labels, (N,), if it has any."""
+        """Let a chain go on from other cells, (N, 6), and labels, (N,), if cells have labels."""
         here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
         wp.copy(self._state.cells[here], cells_to_device(states, self.device))
         if solid is not None:
@@ -297,7 +299,9 @@ class StopChains:
         self._law, self._packed = (), None  # what was worked out of the cells before them is worthless
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
-        """Labels of all cells of a chain, (N,), likewise; none is solid if cells have no labels."""
+        """Return the labels of all cells of a chain, (N,), valid until the next sweep; none is solid if cells have no
+        labels.
+        """
         return self._of(self._state.solid, chain).view(np.bool_)
 
     def draw_untouched(self, sweep: int) -> None:
@@ -310,7 +314,8 @@ class StopChains:
         self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
     def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """How many beams stopped in each cell of a chain, and how many met its surface and passed, (N,) each, likewise.
+        """Return the beams that stopped in each cell of a chain, and those that met its surface and passed, (N,) each,
+        valid until the next sweep.
 
         They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
         """
@@ -322,7 +327,7 @@ class StopChains:
         return self._packed is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
-        """Where the beams of a chain with surfaces were stopped in the sweep with this number, its last.
+        """Count the stops of the beams of a chain with surfaces by squares, after the sweep with this number, its last.
 
         ``kept``: it counts in `observed_counts`. ``solid``: cells' labels before the sweep, (N,), if they have any.
         """
@@ -332,18 +337,21 @@ class StopChains:
         return self._squares.of_chain(chain, sweep, law, prior, self._rays, self._state, kept, solid)
 
     def observed_counts(self, chain: int) -> NDArray[np.int32]:
-        """In how many draws some beam says something of each cell, and in how many was looked, (N, 2), likewise.
+        """Return the draws in which at least one beam observes each cell, and the draws inspected, (N, 2), valid until
+        the next sweep.
 
         Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
         """
         return self._of(self._state.observed_counts, chain)
 
     def log_likelihood(self, chain: int) -> NDArray[np.float32]:
-        """Of every beam of a chain before its last sweep, summed over all stops, (B,), likewise."""
+        """Return the log-likelihood of every beam of a chain before its last sweep, summed over all stops, (B,), valid
+        until the next sweep.
+        """
         return self._of(self._state.log_likelihood, chain)
 
     def stopped_by(self, chain: int) -> NDArray[np.int32]:
-        """The cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
+        """Return the cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
         stop, rays = self._of(self._state.stop, chain), self.plan.rays
         stopped = stop < rays.offsets[1:]
         out = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all
@@ -351,6 +359,6 @@ class StopChains:
         return out
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
-        """Of every beam of a chain: whether it stopped, at what distance in metres, and with what variance, (B,)."""
+        """Return whether each beam of a chain stopped, at what distance in metres and with what variance, (B,) each."""
         where = self._of(self._state.where, chain)
         return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], where[:, 0].copy(), where[:, 1].copy()

@@ -17,7 +17,7 @@ matters. So the product over a beam's lazy cells far before its reading,
 
     prod over lazy far cells (1 - m g),
 
-is computed once after each update (`pass_held_cells`). The other far cells, those in which readings end or that few
+is computed once after each update (`pass_lazy_cells`). The other far cells, those in which readings end or that few
 beams pass, are *watched*: each sweep walks them. A lazy cell whose reflectivity is below single precision does not
 change T, and is skipped without a look at its surface.
 
@@ -85,13 +85,13 @@ class TracedRays:
     range_m: wp.array(dtype=wp.float32)
     decay: wp.array(dtype=wp.float32)  # see `decay_of_readings`
     watched_offsets: wp.array(dtype=wp.int32)  # of each beam, in `watched`
-    watched: wp.array(dtype=wp.int32)  # far entries whose cells are not held together with all others
+    watched: wp.array(dtype=wp.int32)  # far entries whose cells are not lazy
 
 
-def put_traced_rays(
+def traced_rays_to_device(
     rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
 ) -> Any:
-    """TracedRays where kernels read them.
+    """Put rays where kernels read them.
 
     Args:
         rays: beams.
@@ -99,22 +99,22 @@ def put_traced_rays(
         device: where to.
         cells: other numbers of the cells than their places in the grid, (K,).
     """
-    there = TracedRays()
-    there.without_surfaces = int(distance_m is not None)
-    there.offsets = devices.to_device(rays.offsets, wp.int32, device)
-    there.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
-    there.near = devices.to_device(rays.near, wp.int32, device)
-    there.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
-    there.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
-    there.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
-    there.range_m = devices.to_device(rays.range_m, wp.float32, device)
-    there.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
-    return there
+    on_device = TracedRays()
+    on_device.without_surfaces = int(distance_m is not None)
+    on_device.offsets = devices.to_device(rays.offsets, wp.int32, device)
+    on_device.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
+    on_device.near = devices.to_device(rays.near, wp.int32, device)
+    on_device.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
+    on_device.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
+    on_device.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
+    on_device.range_m = devices.to_device(rays.range_m, wp.float32, device)
+    on_device.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
+    return on_device
 
 
 @wp.struct
 class ChainArrays:
-    """All chains: their cells, what beams say of these in this sweep, and where the beams stopped.
+    """All chains on a device: their cells, what beams say of these in this sweep, and where the beams stopped.
 
     Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the
     grid.
@@ -132,7 +132,7 @@ class ChainArrays:
     met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed
     hits: wp.array2d(dtype=wp.int32)  # beams that stopped
     gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate, in units of 2^-24 nats
-    held_free: wp.array(dtype=wp.float32)  # each beam's chance to come past its held far cells
+    lazy_free: wp.array(dtype=wp.float32)  # each beam's chance to pass its lazy far cells
     stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
     stopped_in: wp.array(dtype=wp.int32)  # the last sweep in which a cell stopped a beam
@@ -144,7 +144,7 @@ class ChainArrays:
 
 @wp.func
 def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
-    """A density at an inverse temperature."""
+    """Return a density at an inverse temperature."""
     if beta == wp.float32(1.0):
         return p
     return wp.pow(p, beta)
@@ -152,7 +152,7 @@ def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
 
 @wp.func
 def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
-    """The chance of meeting the surface in the cell of entry k, one if cells have none, and where a stop would lie."""
+    """Return the crossing of the surface in the cell of entry k; without surfaces it has the chance 1."""
     if rays.without_surfaces != 0:
         met = Crossing()
         met.chance = wp.float32(1.0)
@@ -164,7 +164,7 @@ def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
 
 @wp.func
 def in_units(log_ratio: wp.float32) -> wp.int64:
-    """A logarithm as a whole number."""
+    """Return a logarithm as a whole number."""
     return wp.int64(wp.round(wp.clamp(log_ratio, wp.float32(-1.0e6), wp.float32(1.0e6)) * TO_UNITS))
 
 
@@ -181,7 +181,7 @@ def pass_by(
     k: int,
     sign: int,
 ):
-    """Count that a beam passed a cell; with sign -1 take that back."""
+    """Count that a beam passed a cell; with sign -1 take the count back."""
     one = wp.float32(1.0)
     m = cell[0]
     row = chain * state.parts + part
@@ -197,7 +197,7 @@ def pass_by(
 
 @wp.func
 def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
-    """The chance of meeting a cell's surface: one where cells have no surfaces."""
+    """Return the chance of meeting a cell's surface: 1 where cells have no surfaces."""
     if rays.without_surfaces != 0:
         return wp.float32(1.0)
     return crossing_probability(cell, ray)
@@ -205,7 +205,7 @@ def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
 
 @wp.kernel
 def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
-    """One thread a beam: `object_decay` of its reading, the same for all chains and sweeps."""
+    """One thread per beam: compute `object_decay` of its reading, which all chains and sweeps share."""
     b = first + wp.tid()
     rays.decay[b] = object_decay(law, rays.range_m[b])
 
@@ -215,14 +215,14 @@ def draw_stops(
     first: int,
     part: int,
     sweep: int,
-    all_turn: int,
+    lazy_updates: int,
     law: SensorLaw32,
     rays: TracedRays,
     state: ChainArrays,
 ):
-    """One thread a chain's beam: draw where it stops, and count it in the cells.
+    """One thread per chain's beam: draw where it stops, and count it in the cells.
 
-    ``all_turn`` says that it is the turn of cells that mostly hold what they are.
+    ``lazy_updates`` is 1 in a sweep that updates lazy cells.
     """
     i = first + wp.tid()
     chain = i // state.n_beams
@@ -246,14 +246,14 @@ def draw_stops(
     free = one
     far_begin = begin
     far_end = near
-    if all_turn == 0:
-        free = state.held_free[i]
+    if lazy_updates == 0:
+        free = state.lazy_free[i]
         far_begin = rays.watched_offsets[b]
         far_end = rays.watched_offsets[b + 1]
     # Names of one loop are not used in another: Warp would carry them, and whole cells, from round to round.
     for far in range(far_begin, far_end):
         k_far = far
-        if all_turn == 0:
+        if lazy_updates == 0:
             k_far = rays.watched[far]
         c_far = rays.cells[k_far]
         m_far = state.fixed_m[cell_0 + c_far]
@@ -344,19 +344,19 @@ def draw_stops(
 def hit_law(
     law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, met: Crossing
 ) -> wp.float32:
-    """p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
+    """Return p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
     if k < near:
         return tempered(law.uniform, beta)
     return tempered(stop_density(law, reading, decay, met.distance_m, met.variance), beta)
 
 
 OFTEN = 2
-"""Cells whose turn it is in every so many sweeps or more often are watched."""
+"""Cells with an update period of so many sweeps or fewer are watched."""
 
 
 @wp.kernel
-def pass_held_cells(first: int, holds: wp.array(dtype=wp.uint8), rays: TracedRays, state: ChainArrays):
-    """One thread a chain's beam: the product above, over the cells that ``holds`` marks."""
+def pass_lazy_cells(first: int, lazy: wp.array(dtype=wp.uint8), rays: TracedRays, state: ChainArrays):
+    """One thread per chain's beam: compute the product above, over the cells that ``lazy`` marks."""
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -365,33 +365,33 @@ def pass_held_cells(first: int, holds: wp.array(dtype=wp.uint8), rays: TracedRay
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[k]
-        if holds[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > CLEAR:
+        if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > CLEAR:
             cell = state.cells[cell_0 + c]
             free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * chance_at(rays, cell, ray))
-    state.held_free[i] = free
+    state.lazy_free[i] = free
 
 
-class HeldCells:
-    """Which cells hold in most sweeps, and in which sweeps it is their turn."""
+class UpdateSchedule:
+    """Update schedule: cells that most sweeps skip, and the sweeps that update them."""
 
-    def __init__(self, rays: Rays, every: NDArray[np.uint8]) -> None:
-        """``every`` is that of `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
-        self._turns = [int(length) for length in np.unique(every[every > OFTEN])]
-        self._holds = np.zeros(rays.grid.n_cells, dtype=np.bool_)
-        self._holds[rays.touched[every > OFTEN]] = True
+    def __init__(self, rays: Rays, periods: NDArray[np.uint8]) -> None:
+        """``periods`` are those of `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
+        self._periods = [int(period) for period in np.unique(periods[periods > OFTEN])]
+        self._lazy = np.zeros(rays.grid.n_cells, dtype=np.bool_)
+        self._lazy[rays.touched[periods > OFTEN]] = True
         self._rays = rays
 
-    def have_turn(self, sweep: int) -> bool:
-        """Whether it is the turn of some of them in a sweep."""
-        return any(sweep % length == 0 for length in self._turns)
+    def updates_lazy(self, sweep: int) -> bool:
+        """Return whether a sweep updates some of the lazy cells."""
+        return any(sweep % period == 0 for period in self._periods)
 
-    def put_watched(self, there: TracedRays, device: str) -> Any:
-        """Tell the rays on a device which of their far entries are watched; the marks of the held cells, there."""
+    def mark_watched(self, on_device: TracedRays, device: str) -> Any:
+        """Mark the watched far entries of the rays on a device. Returns the marks of the lazy cells on it."""
         rays = self._rays
-        watched = np.flatnonzero(~self._holds[rays.cells])
+        watched = np.flatnonzero(~self._lazy[rays.cells])
         beam = np.searchsorted(rays.offsets, watched, side="right") - 1
         far = watched < rays.near[beam]
         counts = np.bincount(beam[far], minlength=rays.n_beams)
-        there.watched = devices.to_device(watched[far], wp.int32, device)
-        there.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
-        return devices.to_device(self._holds, wp.uint8, device)
+        on_device.watched = devices.to_device(watched[far], wp.int32, device)
+        on_device.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
+        return devices.to_device(self._lazy, wp.uint8, device)

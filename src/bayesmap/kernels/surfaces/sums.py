@@ -5,7 +5,7 @@ Sums run over slices of fixed size, so they depend neither on threads nor on the
 
 import warp as wp
 
-from bayesmap.kernels.surfaces.cell_prior import CellPrior
+from bayesmap.kernels.surfaces.cell_prior import PriorNumbers
 from bayesmap.kernels.surfaces.stops import ChainArrays
 
 wp.set_module_options({"enable_backward": False})
@@ -16,7 +16,7 @@ WIDTH = wp.constant(SLICE)
 
 @wp.kernel
 def sum_slices(first: int, size: int, values: wp.array(dtype=wp.float32), slices: wp.array2d(dtype=wp.float64)):
-    """One thread a chain's slice of its ``size`` values."""
+    """One thread per chain's slice of its ``size`` values: sum it."""
     i = first + wp.tid()
     chain = i // slices.shape[1]
     begin = (i - chain * slices.shape[1]) * WIDTH
@@ -31,11 +31,11 @@ def sum_label_prior(
     first: int,
     nx: int,
     ny: int,
-    prior: CellPrior,
+    prior: PriorNumbers,
     state: ChainArrays,
     slices: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a slice of a chain's cells: what their pairs with the next cell in x and in y add to the log prior."""
+    """One thread per slice of a chain's cells: sum the log prior of their pairs with the next cell in x and in y."""
     i = first + wp.tid()
     chain = i // slices.shape[1]
     part = i - chain * slices.shape[1]
@@ -61,7 +61,7 @@ def sum_of_slices(
     one_total: wp.array2d(dtype=wp.float64),
     other_total: wp.array2d(dtype=wp.float64),
 ):
-    """One thread a chain: the sums of two quantities' slices, into a column of the totals. ``beside_other`` are more
+    """One thread per chain: sum the slices of two quantities, into a column of the totals. ``beside_other`` are more
     slices of the second, perhaps none.
     """
     chain = first + wp.tid()

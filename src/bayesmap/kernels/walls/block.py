@@ -22,10 +22,10 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walls.chains import (
     Chain,
-    Chains,
     Kept,
     Sweeps,
     Table,
+    WallChainArrays,
     chain_of,
     entry_loglik,
     keep,
@@ -33,7 +33,7 @@ from bayesmap.kernels.walls.chains import (
     remove_wall,
     site_of,
 )
-from bayesmap.kernels.walls.wall_prior import CERTAIN_LEVEL, Prior, draw_from_prior, log_prior
+from bayesmap.kernels.walls.wall_prior import CERTAIN_LEVEL, WallPriorArrays, draw_from_prior, log_prior
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
@@ -42,8 +42,8 @@ Weights = wp.types.vector(length=16, dtype=wp.float64)
 
 
 @wp.struct
-class Blocks:
-    """Which beams touch each block, and where."""
+class BlockArrays:
+    """The beams that touch each block, and where."""
 
     offsets: wp.array(dtype=wp.int32)
     beam: wp.array(dtype=wp.int32)
@@ -56,8 +56,8 @@ class Blocks:
 
 
 @wp.func
-def cell_of_block(blocks: Blocks, x: int, y: int, j: int) -> int:
-    """The j-th cell of the block at (x, y), or -1 where a grid one cell wide has none."""
+def cell_of_block(blocks: BlockArrays, x: int, y: int, j: int) -> int:
+    """Return the j-th cell of the block at (x, y), or -1 where a grid one cell wide has none."""
     cx = x + j // 2
     cy = y + j % 2
     if cx >= blocks.nx or cy >= blocks.ny:
@@ -67,7 +67,7 @@ def cell_of_block(blocks: Blocks, x: int, y: int, j: int) -> int:
 
 @wp.func
 def place_in_block(c: int, x: int, y: int, ny: int) -> int:
-    """Which of the four cells c is, or -1."""
+    """Return the place of cell c in the block at (x, y), 0 to 3, or -1."""
     dx = c // ny - x
     dy = c % ny - y
     if dx < 0 or dx > 1 or dy < 0 or dy > 1:
@@ -90,7 +90,7 @@ def list_block_beams(
     begin: wp.array(dtype=wp.int32),
     end: wp.array(dtype=wp.int32),
 ):
-    """One thread a range of block columns: count the beams of each block, or fill their entries in."""
+    """One thread per range of block columns: count the beams of each block, or fill in their entries."""
     thread = first + wp.tid()
     for b in range(table_offsets.shape[0] - 1):
         for k in range(table_offsets[b], table_offsets[b + 1]):
@@ -117,7 +117,7 @@ def list_block_beams(
                             end[counts[block] - 1] = k
 
 
-def list_blocks(table: BeamTable, device: str) -> Blocks:
+def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     """List the beams of every block; memory is about 25 bytes for each incidence of the table."""
     nx, ny = table.grid.shape
     columns, rows = max(1, nx - 1), max(1, ny - 1)
@@ -146,7 +146,7 @@ def list_blocks(table: BeamTable, device: str) -> Blocks:
 
     state = np.arange(16)
     takes = [((state >> j) & 1) * ((state & free) == 0) for free in range(16) for j in range(4)]
-    blocks = Blocks()
+    blocks = BlockArrays()
     blocks.offsets = devices.to_device(offsets, wp.int32, device)
     blocks.beam = devices.to_device(beam, wp.int32, device)
     blocks.first = devices.to_device(begin, wp.int32, device)
@@ -164,13 +164,13 @@ ZERO = wp.constant(wp.float64(0.0))
 @wp.func
 def block_weights(
     t: Table,
-    blocks: Blocks,
+    blocks: BlockArrays,
     chain: Chain,
     block: int,
     x: int,
     y: int,
 ) -> Weights:
-    """Log-likelihood of the 16 states, up to a constant: each beam is walked once."""
+    """Return the log-likelihood of the 16 states, up to a constant; each beam is walked once."""
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
         b = blocks.beam[i]
@@ -200,7 +200,7 @@ def block_weights(
 
 @wp.func
 def draw_state(weights: Weights, u: wp.float64) -> int:
-    """A categorical draw from unnormalised log weights, by inversion."""
+    """Draw from a categorical law given by unnormalised log weights, by inversion."""
     most = weights[0]
     for m in range(1, 16):
         most = wp.max(most, weights[m])
@@ -219,8 +219,8 @@ def draw_state(weights: Weights, u: wp.float64) -> int:
 
 
 @wp.func
-def beams_reaching(blocks: Blocks, reached: wp.array(dtype=wp.int32), x: int, y: int) -> int:
-    """How many beams reach the block's cells, counted cell by cell."""
+def beams_reaching(blocks: BlockArrays, reached: wp.array(dtype=wp.int32), x: int, y: int) -> int:
+    """Count the beams that reach the block's cells, cell by cell."""
     total = int(0)
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
@@ -231,15 +231,15 @@ def beams_reaching(blocks: Blocks, reached: wp.array(dtype=wp.int32), x: int, y:
 
 @wp.func
 def draw_block_from_prior(
-    blocks: Blocks,
-    prior: Prior,
+    blocks: BlockArrays,
+    prior: WallPriorArrays,
     walls: wp.array(dtype=wp.uint8),
     x: int,
     y: int,
     key: wp.uint64,
     counter: wp.uint64,
 ):
-    """No beam reaches the block, and nothing couples its cells: they are independent again."""
+    """Draw the cells of a block independently from the prior: no beam reaches them, and nothing couples them."""
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
         if c >= 0:
@@ -247,8 +247,10 @@ def draw_block_from_prior(
 
 
 @wp.func
-def prior_weights(blocks: Blocks, prior: Prior, x: int, y: int) -> Weights:
-    """Log prior of the 16 states without their pairs, up to a constant; impossible where a cell is fixed or outside."""
+def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -> Weights:
+    """Return the log prior of the 16 states without their pairs, up to a constant; impossible where a cell is fixed or
+    outside.
+    """
     weights = Weights()
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
@@ -262,8 +264,8 @@ def prior_weights(blocks: Blocks, prior: Prior, x: int, y: int) -> Weights:
 
 
 @wp.func
-def equal_in_block(blocks: Blocks, i: int, j: int) -> Weights:
-    """1 in the states in which two cells of a block are alike, else 0."""
+def equal_in_block(blocks: BlockArrays, i: int, j: int) -> Weights:
+    """Return 1 in the states in which two cells of a block are alike, else 0."""
     wall_i = blocks.takes[i]
     wall_j = blocks.takes[j]
     both = wp.cw_mul(wall_i, wall_j)
@@ -271,8 +273,10 @@ def equal_in_block(blocks: Blocks, i: int, j: int) -> Weights:
 
 
 @wp.func
-def coupling_weights(blocks: Blocks, prior: Prior, walls: wp.array(dtype=wp.uint8), x: int, y: int) -> Weights:
-    """What the 16 states are worth for their equal pairs, up to a constant."""
+def coupling_weights(
+    blocks: BlockArrays, prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8), x: int, y: int
+) -> Weights:
+    """Return the log prior of the equal pairs of the 16 states, up to a constant."""
     weights = Weights()
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
@@ -302,8 +306,16 @@ def coupling_weights(blocks: Blocks, prior: Prior, walls: wp.array(dtype=wp.uint
 
 
 @wp.kernel
-def block_sweeps(chain_0: int, t: Table, blocks: Blocks, prior: Prior, sweeps: Sweeps, chains: Chains, kept: Kept):
-    """One thread a chain: several sweeps, each over all positions of a block."""
+def block_sweeps(
+    chain_0: int,
+    t: Table,
+    blocks: BlockArrays,
+    prior: WallPriorArrays,
+    sweeps: Sweeps,
+    chains: WallChainArrays,
+    kept: Kept,
+):
+    """One thread per chain: several sweeps, each over all positions of a block."""
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
     key = chains.keys[n]

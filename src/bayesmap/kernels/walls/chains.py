@@ -44,7 +44,7 @@ EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
 
 @wp.struct
 class Chain:
-    """One chain's state, as described above."""
+    """The state of one chain, as described above."""
 
     walls: wp.array(dtype=wp.uint8)
     first: wp.array(dtype=wp.int32)
@@ -55,7 +55,7 @@ class Chain:
 
 
 @wp.struct
-class Chains:
+class WallChainArrays:
     """The states of several chains, one a row, and their keys of random numbers."""
 
     keys: wp.array(dtype=wp.uint64)
@@ -98,7 +98,7 @@ class Kept:
 
 @wp.func
 def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
-    """The i-th site of a sweep."""
+    """Return the i-th site of a sweep."""
     place = i
     if sweeps.shuffle_bits > wp.uint32(0):
         place = int(shuffled(wp.uint32(i), wp.uint32(sweeps.order.shape[0]), sweeps.shuffle_bits, shuffle_key))
@@ -106,8 +106,8 @@ def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
 
 
 @wp.func
-def chain_of(chains: Chains, i: int) -> Chain:
-    """The i-th chain; its arrays are views."""
+def chain_of(chains: WallChainArrays, i: int) -> Chain:
+    """Return the i-th chain; its arrays are views."""
     chain = Chain()
     chain.walls = chains.walls[i]
     chain.first = chains.first[i]
@@ -120,7 +120,7 @@ def chain_of(chains: Chains, i: int) -> Chain:
 
 @wp.func
 def next_wall(t: Table, walls: wp.array(dtype=wp.uint8), start: int, end: int) -> int:
-    """The first entry in [start, end) whose cell is a wall, or end."""
+    """Return the first entry in [start, end) whose cell is a wall, or end."""
     k = start
     while k < end:
         if walls[t.cells[k]] != wp.uint8(0):
@@ -131,7 +131,7 @@ def next_wall(t: Table, walls: wp.array(dtype=wp.uint8), start: int, end: int) -
 
 @wp.func
 def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
-    """What beam b's reading is worth when entry k is its first wall."""
+    """Return the log-likelihood of beam b's reading when entry k is its first wall."""
     if k < end:
         return t.loglik[k]
     return t.no_hit[b]
@@ -139,7 +139,7 @@ def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
 
 @wp.func
 def move_first_wall(t: Table, chain: Chain, b: int, k: int):
-    """Beam b now ends at entry k: put its numbers right, and those of the cells that it reached or now reaches."""
+    """Let beam b end at entry k, and update its numbers and those of the cells that it reached or now reaches."""
     start = t.offsets[b]
     end = t.offsets[b + 1]
     f = chain.first[b]
@@ -156,8 +156,8 @@ def move_first_wall(t: Table, chain: Chain, b: int, k: int):
 
 
 @wp.kernel
-def derive_state(chain_0: int, t: Table, chains: Chains):
-    """One thread a chain: everything that follows from its walls."""
+def derive_state(chain_0: int, t: Table, chains: WallChainArrays):
+    """One thread per chain: compute everything that follows from its walls."""
     chain = chain_of(chains, chain_0 + wp.tid())
     for c in range(chain.reached.shape[0]):
         chain.reached[c] = 0
@@ -205,7 +205,7 @@ def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)
 
 @wp.func
 def log_likelihood(current: wp.array(dtype=wp.float32)) -> wp.float64:
-    """Log p(readings | walls): always summed in the same order, so that a resumed chain repeats it exactly."""
+    """Sum log p(readings | walls) in a fixed order, so that a resumed chain repeats it exactly."""
     total = wp.float64(0.0)
     for b in range(current.shape[0]):
         total += wp.float64(current[b])
@@ -214,7 +214,7 @@ def log_likelihood(current: wp.array(dtype=wp.float32)) -> wp.float64:
 
 @wp.func
 def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
-    """Write down what chain n is after sweep ``sweeps.first + s``."""
+    """Write down the state of chain n after sweep ``sweeps.first + s``."""
     kept.log_likelihoods[n, s] = sweeps.beta * log_likelihood(chain.current)
     kept.log_priors[n, s] = log_prior
     past = sweeps.first + s + 1 - kept.first
@@ -222,24 +222,24 @@ def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp
         keep_walls(chain.walls, kept.draws[n, past // kept.every])
 
 
-def put_table(table: BeamTable, index: CellIndex, device: str) -> Any:
-    """Table and index on a device; on the CPU they share the arrays' memory."""
-    on = Table()
-    on.offsets = devices.to_device(table.offsets, wp.int32, device)
-    on.cells = devices.to_device(table.cells, wp.int32, device)
-    on.loglik = devices.to_device(table.loglik, wp.float32, device)
-    on.no_hit = devices.to_device(table.no_hit, wp.float32, device)
-    on.cell_offsets = devices.to_device(index.offsets, wp.int32, device)
-    on.cell_entry = devices.to_device(index.entry, wp.int32, device)
-    on.cell_beam = devices.to_device(index.beam, wp.int32, device)
-    on.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
-    on.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
-    on.cell_advantage = devices.to_device(index.advantage, wp.float32, device)
-    return on
+def table_to_device(table: BeamTable, index: CellIndex, device: str) -> Any:
+    """Put table and index on a device; on the CPU they share the arrays' memory."""
+    on_device = Table()
+    on_device.offsets = devices.to_device(table.offsets, wp.int32, device)
+    on_device.cells = devices.to_device(table.cells, wp.int32, device)
+    on_device.loglik = devices.to_device(table.loglik, wp.float32, device)
+    on_device.no_hit = devices.to_device(table.no_hit, wp.float32, device)
+    on_device.cell_offsets = devices.to_device(index.offsets, wp.int32, device)
+    on_device.cell_entry = devices.to_device(index.entry, wp.int32, device)
+    on_device.cell_beam = devices.to_device(index.beam, wp.int32, device)
+    on_device.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
+    on_device.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
+    on_device.cell_advantage = devices.to_device(index.advantage, wp.float32, device)
+    return on_device
 
 
 class WallChains:
-    """The states of several chains on a device, each following from its walls (see `bayesmap.kernels.walls.chains`).
+    """The states of several chains on a device.
 
     Attributes:
         states: the arrays, one row a chain.
@@ -251,7 +251,7 @@ class WallChains:
         self.device = device
         self.shape = chains, cells = walls.shape
         beams = table.no_hit.shape[0]
-        states = Chains()
+        states = WallChainArrays()
         states.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
         states.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
         states.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
@@ -263,7 +263,7 @@ class WallChains:
         devices.launch(derive_state, chains, [table, states], device)
 
     def host_walls(self) -> NDArray[np.uint8]:
-        """A copy of the maps in main memory, shape (chains, N)."""
+        """Copy the maps to main memory, (chains, N)."""
         return np.array(self.states.walls.numpy())
 
 

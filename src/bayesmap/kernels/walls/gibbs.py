@@ -18,10 +18,10 @@ from bayesmap.kernels.walls.chains import (
     EXACT,
     UNKNOWN,
     Chain,
-    Chains,
     Kept,
     Sweeps,
     Table,
+    WallChainArrays,
     chain_of,
     entry_loglik,
     keep,
@@ -30,7 +30,13 @@ from bayesmap.kernels.walls.chains import (
     remove_wall,
     site_of,
 )
-from bayesmap.kernels.walls.wall_prior import Prior, draw_given_neighbours, draw_wall, log_prior, prior_log_odds
+from bayesmap.kernels.walls.wall_prior import (
+    WallPriorArrays,
+    draw_given_neighbours,
+    draw_wall,
+    log_prior,
+    prior_log_odds,
+)
 
 wp.set_module_options({"enable_backward": False})
 
@@ -40,7 +46,7 @@ NO_BOUND = wp.constant(wp.float64(-1.0e300))
 
 @wp.func
 def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
-    """What the wall in a cell adds to the log-likelihood over free space there."""
+    """Return what the wall in a cell adds to the log-likelihood over free space there."""
     gain = wp.float64(0.0)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
         b = t.cell_beam[i]
@@ -54,7 +60,7 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
 
 @wp.func
 def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
-    """Sum what a wall in a free cell would add; stop, with a bound, once it is sure to stay below ``enough``."""
+    """Sum what a wall in a free cell would add; stop with a bound as soon as the sum must stay below ``enough``."""
     gain = wp.float64(0.0)
     known = EXACT
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
@@ -71,8 +77,8 @@ def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
 
 
 @wp.func
-def draw_free_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
-    """Whether a free cell that beams reach becomes a wall, at an inverse temperature."""
+def draw_free_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+    """Draw whether a free cell that beams reach becomes a wall, at an inverse temperature."""
     logit = prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
         sum_gain(t, chain, c, (-CERTAIN - logit) / beta)
@@ -85,8 +91,8 @@ def draw_free_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: in
 
 
 @wp.func
-def draw_wall_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
-    """Whether a wall that beams reach stays one, at an inverse temperature."""
+def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+    """Draw whether a wall that beams reach stays a wall, at an inverse temperature."""
     logit = prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
         least = wp.float64(0.0)
@@ -103,8 +109,8 @@ def draw_wall_cell(t: Table, prior: Prior, chain: Chain, beta: wp.float64, c: in
 
 
 @wp.kernel
-def gibbs_sweeps(chain_0: int, t: Table, prior: Prior, sweeps: Sweeps, chains: Chains, kept: Kept):
-    """One thread a chain: several sweeps, each over all cells."""
+def gibbs_sweeps(chain_0: int, t: Table, prior: WallPriorArrays, sweeps: Sweeps, chains: WallChainArrays, kept: Kept):
+    """One thread per chain: several sweeps, each over all cells."""
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
     key = chains.keys[n]

@@ -13,14 +13,14 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.random import random_bits
 from bayesmap.kernels.walls.chains import Table
-from bayesmap.kernels.walls.wall_prior import Prior, draw_from_prior
+from bayesmap.kernels.walls.wall_prior import WallPriorArrays, draw_from_prior
 
 wp.set_module_options({"enable_backward": False})
 
 
 @wp.func
-def particle_wall(prior: Prior, key: wp.uint64, particle: wp.uint64, cells: wp.uint64, c: int) -> bool:
-    """Whether cell c is a wall in the map of a particle."""
+def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, cells: wp.uint64, c: int) -> bool:
+    """Return whether cell c is a wall in the map of a particle."""
     return draw_from_prior(prior, c, random_bits(key, particle * cells + wp.uint64(c)))
 
 
@@ -28,12 +28,12 @@ def particle_wall(prior: Prior, key: wp.uint64, particle: wp.uint64, cells: wp.u
 def weigh_particles(
     first: int,
     t: Table,
-    prior: Prior,
+    prior: WallPriorArrays,
     key: wp.uint64,
     particle_0: wp.uint64,
     log_weights: wp.array(dtype=wp.float64),
 ):
-    """One thread a particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
+    """One thread per particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
     i = first + wp.tid()
     particle = particle_0 + wp.uint64(i)
     cells = wp.uint64(prior.level.shape[0])
@@ -51,12 +51,12 @@ def weigh_particles(
 @wp.kernel
 def draw_particles(
     first: int,
-    prior: Prior,
+    prior: WallPriorArrays,
     key: wp.uint64,
     particles: wp.array(dtype=wp.uint64),
     walls: wp.array2d(dtype=wp.uint8),
 ):
-    """One thread a particle: write its whole map."""
+    """One thread per particle: write its whole map."""
     i = first + wp.tid()
     cells = walls.shape[1]
     for c in range(cells):
@@ -65,15 +65,15 @@ def draw_particles(
 
 
 def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> NDArray[np.float64]:
-    """Log weights of particles first .. first + count - 1."""
+    """Compute the log weights of particles first .. first + count - 1."""
     log_weights = wp.empty(count, dtype=wp.float64, device=device)
     inputs = [table, prior, wp.uint64(key), wp.uint64(first), log_weights]
     devices.launch(weigh_particles, count, inputs, device)
     return np.array(log_weights.numpy())
 
 
-def draw(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
-    """The maps of some particles, (n, N)."""
+def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
+    """Return the maps of some particles, (n, N)."""
     cells = prior.level.shape[0]
     walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
     chosen = wp.array(particles.astype(np.uint64), dtype=wp.uint64, device=device)
@@ -91,7 +91,7 @@ def beam_term(
     d: int,
     b: int,
 ) -> wp.float32:
-    """What beam b's reading is worth under packed map d: the log-likelihood of its first wall."""
+    """Return the log-likelihood of beam b's reading under packed map d: that of its first wall."""
     for k in range(offsets[b], offsets[b + 1]):
         c = cells[k]
         if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
@@ -100,7 +100,7 @@ def beam_term(
 
 
 def _on_device(table: BeamTable, device: str) -> list[Any]:
-    """The table's arrays, as both kernels take them."""
+    """Return the table's arrays, as both kernels take them."""
     indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
     return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
 
@@ -115,7 +115,7 @@ def sum_log_likelihoods(
     packed: wp.array2d(dtype=wp.uint8),
     total: wp.array(dtype=wp.float64),
 ):
-    """One thread a packed map: log p(readings | map)."""
+    """One thread per packed map: log p(readings | map)."""
     d = first + wp.tid()
     value = wp.float64(0.0)
     for b in range(no_hit.shape[0]):
@@ -124,7 +124,7 @@ def sum_log_likelihoods(
 
 
 def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.float64]:
-    """Log p(all readings | map) of each packed map (draws, bytes), shape (draws,)."""
+    """Compute log p(all readings | map) of each packed map (draws, bytes), (draws,)."""
     device = devices.resolve(device)
     total = wp.empty(len(packed), dtype=wp.float64, device=device)
     inputs = _on_device(table, device)

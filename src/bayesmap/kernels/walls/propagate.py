@@ -1,4 +1,4 @@
-"""Belief propagation with ray potentials: all messages of a beam in one pass back and one forth.
+"""Belief propagation with ray potentials: all messages of a beam in one backward and one forward pass.
 
 For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a first hit on cell i and l_out of no hit
 (all relative to the beam's largest),
@@ -44,7 +44,7 @@ def relative_likelihood(
     relative: wp.array(dtype=wp.float32),
     relative_no_hit: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: likelihoods relative to the beam's largest, at an inverse temperature."""
+    """One thread per beam: likelihoods relative to the beam's largest, at an inverse temperature."""
     b = first + wp.tid()
     most = no_hit[b]
     for k in range(offsets[b], offsets[b + 1]):
@@ -75,7 +75,7 @@ def beam_messages(
     product_of: wp.array2d(dtype=wp.float32),
     received_of: wp.array2d(dtype=wp.float32),
 ):
-    """One thread a part of the beams: new messages to their cells, and their logarithms summed by cell.
+    """One thread per part of the beams: new messages to their cells, and their logarithms summed by cell.
 
     ``behind`` is room for S. Each part has its own sums, so their order never depends on the threads.
     """
@@ -123,13 +123,13 @@ def beam_messages(
 
 @wp.func
 def softplus(x: wp.float64) -> wp.float64:
-    """log(1 + exp(x))."""
+    """Return log(1 + exp(x))."""
     return wp.max(x, wp.float64(0.0)) + wp.log(wp.float64(1.0) + wp.exp(-wp.abs(x)))
 
 
 @wp.func
 def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
-    """What a cell tells a neighbour, as log-odds: from its belief, less what it received from there."""
+    """Return the message of a cell to a neighbour, as log-odds: from its belief, less what it received from there."""
     h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
     return softplus(coupling + h) - (coupling + softplus(h - coupling))
 
@@ -145,7 +145,7 @@ def neighbour_messages(
     last: wp.array2d(dtype=wp.float32),
     messages: wp.array2d(dtype=wp.float32),
 ):
-    """One thread a cell: what it receives from its neighbours, as log-odds, from those below, above, left and right.
+    """One thread per cell: compute the log-odds that it receives from its neighbours below, above, left and right.
 
     Rows of the messages are (x - 1, x + 1, y - 1, y + 1); where there is no neighbour they stay 0.
     """
@@ -177,7 +177,7 @@ def cell_beliefs(
     odds: wp.array(dtype=wp.float32),
     belief: wp.array(dtype=wp.float32),
 ):
-    """One thread a cell: prior log-odds plus all messages; where nothing couples, neighbours have sent none."""
+    """One thread per cell: sum prior log-odds and all messages; where nothing couples, neighbours send none."""
     c = first + wp.tid()
     total = wp.float32(logit[c])
     if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the others say
@@ -234,7 +234,9 @@ class Beliefs:
         self._gather()
 
     def round(self, damping: float, threads: int | None = None) -> None:
-        """All beams and neighbours send messages, made of the beliefs of the last round; then all cells gather them."""
+        """Let all beams and neighbours send messages from the beliefs of the last round; then let all cells gather
+        them.
+        """
         inputs = [self._bounds, self._offsets, self._table_cells, self._relative, self._no_hit, self._odds]
         inputs += [wp.float32(damping), self._ratio, self._behind, self._product, self._received]
         devices.launch(beam_messages, self._parts, inputs, self._device, threads)
@@ -246,7 +248,7 @@ class Beliefs:
         self._gather()
 
     def log_odds(self) -> NDArray[np.float32]:
-        """Log-odds of a wall in every cell, flat, shape (N,)."""
+        """Return the log-odds of a wall in every cell, flat, shape (N,)."""
         return np.array(self._belief.numpy())
 
     def _gather(self) -> None:

@@ -1,4 +1,4 @@
-"""Which cells do beams reach in given maps? What lies behind the first wall is not observed."""
+"""Find the cells that beams reach in some maps: what lies behind the first wall is not observed."""
 
 import numpy as np
 import warp as wp
@@ -18,7 +18,7 @@ def mark_reached(
     walls: wp.array2d(dtype=wp.uint8),
     reached: wp.array2d(dtype=wp.uint8),
 ):
-    """One thread a map: mark every cell up to each beam's first wall."""
+    """One thread per map: mark every cell up to each beam's first wall."""
     m = first + wp.tid()
     for b in range(offsets.shape[0] - 1):
         for k in range(offsets[b], offsets[b + 1]):
@@ -29,7 +29,7 @@ def mark_reached(
 
 
 def reach_frequency(table: BeamTable, maps: NDArray[np.bool_], device: str = "cpu") -> NDArray[np.float64]:
-    """Fraction of the maps (n, nx, ny) in which at least one beam reaches each cell, shape (nx, ny)."""
+    """Compute the share of the maps (n, nx, ny) in which at least one beam reaches each cell, (nx, ny)."""
     device = devices.resolve(device)
     flat = np.ascontiguousarray(maps).reshape(len(maps), -1).astype(np.uint8)
     reached = wp.zeros(flat.shape, dtype=wp.uint8, device=device)

@@ -61,7 +61,7 @@ def trace(
 
 
 def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
-    """The beam table of some rays, arguments as of `trace`."""
+    """Build the beam table of some rays, arguments as of `trace`."""
     device = devices.resolve(device)
     if sensor.kernel_parameters() is None:
         loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
@@ -77,13 +77,13 @@ def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device:
 def _by_model(
     sensor: SensorModel, rays: Rays, loglik: NDArray[np.float32]
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """The same by the model's own NumPy formula; ``loglik`` holds distances, and is overwritten."""
+    """Fill in the likelihoods by the model's own NumPy formula; ``loglik`` holds distances, and is overwritten."""
     no_hit = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits).astype(np.float32)
     beam = rays.beam_of_entry()
     for i in range(0, rays.n_incidences, SLICE):
-        some = slice(i, i + SLICE)
-        distance_m = loglik[some].astype(np.float64)
-        loglik[some] = sensor.log_likelihood(rays.range_m[beam[some]], distance_m, rays.limits)
+        part = slice(i, i + SLICE)
+        distance_m = loglik[part].astype(np.float64)
+        loglik[part] = sensor.log_likelihood(rays.range_m[beam[part]], distance_m, rays.limits)
     return loglik, no_hit
 
 
@@ -97,7 +97,7 @@ def fill_likelihood(
     loglik: wp.array(dtype=wp.float32),
     no_hit: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: the log-likelihood of each entry, and of no hit.
+    """One thread per beam: compute the log-likelihood of each entry, and of no hit.
 
     The normal noise of a mixture matters between two distances only, whose entries are found by halving: of walls
     before them and behind them a range has one likelihood each.
@@ -145,7 +145,9 @@ def beam_extremes(
     lowest: wp.array(dtype=wp.float32),
     advantage: wp.array(dtype=wp.float32),
 ):
-    """One thread a beam: the least that its reading can be worth, and each entry's advantage over what lies behind."""
+    """One thread per beam: find the least log-likelihood of its reading, and each entry's advantage over what lies
+    behind.
+    """
     b = first + wp.tid()
     least = no_hit[b]
     behind = no_hit[b]
@@ -181,7 +183,7 @@ def scatter_entries(
     advantage: wp.array(dtype=wp.float32),
     index: IndexArrays,
 ):
-    """One thread a range of cells: two passes over the table, gaining entries first, then bounds from behind."""
+    """One thread per range of cells: two passes over the table, gaining entries first, then bounds from behind."""
     t = first + wp.tid()
     low = cell_bounds[t]
     high = cell_bounds[t + 1]

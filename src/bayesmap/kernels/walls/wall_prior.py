@@ -1,4 +1,4 @@
-"""The prior of binary walls where kernels read it: log-odds of each cell, and what a pair of equal neighbours is worth.
+"""The prior of binary walls on a device: log-odds of each cell, and the coupling of equal neighbours.
 
     p(walls) proportional to  prod_c p_c^m_c (1 - p_c)^(1 - m_c)  exp(coupling * number of pairs of neighbours alike)
 
@@ -21,7 +21,7 @@ NONE = wp.constant(wp.float64(0.0))
 
 
 @wp.struct
-class Prior:
+class WallPriorArrays:
     """Wall probabilities, cell by cell, their log-odds, and the coupling of neighbours.
 
     ``level`` is the probability in units of 2^-53, for draws without floating point. Pairs left out, ``log_all_free``
@@ -40,14 +40,14 @@ class Prior:
 
 
 @wp.func
-def draw_from_prior(prior: Prior, c: int, bits: wp.uint64) -> bool:
-    """Whether a uniform number, made of these bits, lies below the cell's probability: a draw where nothing couples."""
+def draw_from_prior(prior: WallPriorArrays, c: int, bits: wp.uint64) -> bool:
+    """Draw an uncoupled cell: return whether a uniform number made of these bits lies below its probability."""
     return (bits >> wp.uint64(11)) < prior.level[c]
 
 
 @wp.func
 def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
-    """A Bernoulli draw by inversion: u < 1 / (1 + exp(-log_odds))."""
+    """Draw from a Bernoulli law by inversion: u < 1 / (1 + exp(-log_odds))."""
     if log_odds > wp.float64(40.0):
         return True
     if log_odds < wp.float64(-40.0):
@@ -56,8 +56,8 @@ def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
 
 
 @wp.func
-def walls_less_free(prior: Prior, walls: wp.array(dtype=wp.uint8), c: int) -> int:
-    """Walls less free cells among a cell's neighbours."""
+def walls_less_free(prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8), c: int) -> int:
+    """Return the number of walls less that of free cells among a cell's neighbours."""
     x = c // prior.ny
     y = c - x * prior.ny
     balance = int(0)
@@ -73,24 +73,24 @@ def walls_less_free(prior: Prior, walls: wp.array(dtype=wp.uint8), c: int) -> in
 
 
 @wp.func
-def prior_log_odds(prior: Prior, walls: wp.array(dtype=wp.uint8), c: int) -> wp.float64:
-    """Prior log-odds of a wall in a cell, given its neighbours."""
+def prior_log_odds(prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8), c: int) -> wp.float64:
+    """Return the prior log-odds of a wall in a cell, given its neighbours."""
     if prior.coupling == NONE:
         return prior.logit[c]
     return prior.logit[c] + prior.coupling * wp.float64(walls_less_free(prior, walls, c))
 
 
 @wp.func
-def draw_given_neighbours(prior: Prior, walls: wp.array(dtype=wp.uint8), c: int, bits: wp.uint64) -> bool:
-    """Whether a cell of which no beam says anything is a wall."""
+def draw_given_neighbours(prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8), c: int, bits: wp.uint64) -> bool:
+    """Draw whether a cell that no beam observes is a wall."""
     if prior.coupling == NONE:
         return draw_from_prior(prior, c, bits)
     return draw_wall(prior_log_odds(prior, walls, c), to_uniform(bits))
 
 
 @wp.func
-def pairs_alike(prior: Prior, walls: wp.array(dtype=wp.uint8)) -> int:
-    """In how many pairs of neighbours both are walls, or both free."""
+def pairs_alike(prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8)) -> int:
+    """Count the pairs of neighbours that are both walls or both free."""
     pairs = int(0)
     for c in range(walls.shape[0]):
         x = c // prior.ny
@@ -102,8 +102,8 @@ def pairs_alike(prior: Prior, walls: wp.array(dtype=wp.uint8)) -> int:
 
 
 @wp.func
-def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8)) -> wp.float64:
-    """Log p(walls), where neighbours are coupled up to a constant."""
+def log_prior(prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8)) -> wp.float64:
+    """Return log p(walls), where neighbours are coupled up to a constant."""
     total = wp.float64(prior.log_all_free)
     if prior.coupling != NONE:
         total += prior.coupling * wp.float64(pairs_alike(prior, walls))
@@ -118,17 +118,17 @@ def log_prior(prior: Prior, walls: wp.array(dtype=wp.uint8)) -> wp.float64:
     return total
 
 
-def put_prior(
+def wall_prior_to_device(
     p_wall: NDArray[np.float64], logit: NDArray[np.float64], coupling: float, shape: tuple[int, int], device: str
 ) -> Any:
-    """A prior on a device: probabilities and log-odds of all cells, (N,) each, of a grid of this shape."""
-    on = Prior()
-    on.level = devices.to_device(np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), wp.uint64, device)
-    on.logit = devices.to_device(logit, wp.float64, device)
+    """Put a prior on a device: probabilities and log-odds of all cells, (N,) each, of a grid of this shape."""
+    on_device = WallPriorArrays()
+    on_device.level = devices.to_device(np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), wp.uint64, device)
+    on_device.logit = devices.to_device(logit, wp.float64, device)
     fixed = (p_wall == 0) | (p_wall == 1)
-    on.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
-    on.uniform = int((p_wall == p_wall[0]).all())
-    on.coupling = coupling
-    on.log_all_free = float(np.log1p(-p_wall[p_wall < 1.0]).sum())
-    on.nx, on.ny = shape
-    return on
+    on_device.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
+    on_device.uniform = int((p_wall == p_wall[0]).all())
+    on_device.coupling = coupling
+    on_device.log_all_free = float(np.log1p(-p_wall[p_wall < 1.0]).sum())
+    on_device.nx, on_device.ny = shape
+    return on_device

@@ -79,9 +79,9 @@ class WallProblem:
     @cached_property
     def device_table(self) -> Any:
         """Table and index where the kernels read them."""
-        from bayesmap.kernels.walls.chains import put_table
+        from bayesmap.kernels.walls.chains import table_to_device
 
-        return put_table(self.table, self.index, self.device)
+        return table_to_device(self.table, self.index, self.device)
 
     @cached_property
     def p_wall(self) -> NDArray[np.float64]:
@@ -101,9 +101,9 @@ class WallProblem:
     @cached_property
     def device_prior(self) -> Any:
         """The prior where the kernels read it."""
-        from bayesmap.kernels.walls.wall_prior import put_prior
+        from bayesmap.kernels.walls.wall_prior import wall_prior_to_device
 
-        return put_prior(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
+        return wall_prior_to_device(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
     def log_joint(self, walls: NDArray[np.bool_]) -> float:
         """Log p(walls, readings): the plain reference for what the samplers report."""

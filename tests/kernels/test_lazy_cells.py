@@ -1,4 +1,4 @@
-"""Beams that pass held cells by one number draw what beams draw that walk all their cells."""
+"""Beams that pass their lazy cells in one step draw what beams draw that walk all their cells."""
 
 import numpy as np
 import pytest
@@ -37,23 +37,23 @@ def swept(kind, sweeps=SWEEPS, resume=None):
 def test_chains_are_those_of_beams_that_walk_all_their_cells(kind, monkeypatch):
     fast, _ = swept(kind)
     assert len({round(value, 3) for value in fast[0]}) > 4
-    monkeypatch.setattr(stops.HeldCells, "have_turn", lambda self, sweep: True)
+    monkeypatch.setattr(stops.UpdateSchedule, "updates_lazy", lambda self, sweep: True)
     plain, _ = swept(kind)
     np.testing.assert_allclose(fast, plain, rtol=1e-5)
 
 
 @pytest.mark.parametrize("kind", PRIORS)
 def test_cells_that_were_let_pass_unseen_would_be_noticed(kind, monkeypatch):
-    """The twin: beams come past held cells as if these stopped none."""
+    """The wrong twin: beams pass lazy cells as if these stopped none."""
     fast, _ = swept(kind)
-    monkeypatch.setattr(stops.HeldCells, "put_watched", _forgetful(stops.HeldCells.put_watched))
+    monkeypatch.setattr(stops.UpdateSchedule, "mark_watched", _forgetful(stops.UpdateSchedule.mark_watched))
     wrong, _ = swept(kind)
     assert abs(fast - wrong).max() > 1.0
 
 
-def _forgetful(put_watched):
+def _forgetful(mark_watched):
     def put(self, there, device):
-        holds = put_watched(self, there, device)
+        holds = mark_watched(self, there, device)
         holds.zero_()
         return holds
 
@@ -72,7 +72,7 @@ def test_chains_that_go_on_between_two_turns_are_those_that_never_stopped(kind, 
 
 def test_held_cells_have_their_turn_together_and_seldom():
     problem = StopGibbs().prepare(Model(scans(), GRID, PRIORS["surfaces"], SENSOR), "cpu", 1)
-    every = initial_estimate.turn_every(problem.estimate)
+    every = initial_estimate.update_periods(problem.estimate)
     assert {2, 8, 16} <= set(every.tolist())
-    held = stops.HeldCells(problem.rays, every)
-    assert [sweep for sweep in range(32) if held.have_turn(sweep)] == [0, 8, 16, 24]
+    schedule = stops.UpdateSchedule(problem.rays, every)
+    assert [sweep for sweep in range(32) if schedule.updates_lazy(sweep)] == [0, 8, 16, 24]

@@ -1,4 +1,8 @@
-"""What the Markov chain samplers on binary walls have in common."""
+"""Markov chain samplers of binary walls: single cells and 2 x 2 blocks, and where their chains start.
+
+docs/inference.md describes the methods; `bayesmap.kernels.walls.gibbs` and `bayesmap.kernels.walls.block` hold the
+updates.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +17,72 @@ from numpy.typing import NDArray
 from bayesmap.cells.arrays import unpack
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
-from bayesmap.samplers.problem import WallProblem, trace_walls
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.propagate import ROUNDS, propagate_to_start
-from bayesmap.samplers.sampler import NOTHING, STREAM_SWEEPS, Info, Keep, Snapshot
-from bayesmap.samplers.start import Start, default_start, start_maps
+from bayesmap.samplers.propagate import ROUNDS, Marginals, propagate_to_start
+from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.samplers.wall_problem import WallProblem, trace_walls
+from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
     from bayesmap.kernels.walls.chains import WallChains
+
+Start = Literal["prior", "zeros", "ones", "propagate"]
+
+WARM_START_CELLS = 10_000
+"""Maps with more cells than this start from belief propagation unless told otherwise."""
+
+
+def default_start(grid: Grid) -> Start:
+    """Belief propagation on large maps, prior draws on small ones."""
+    return "propagate" if grid.n_cells > WARM_START_CELLS else "prior"
+
+
+def start_maps(
+    problem: WallProblem,
+    start: Start | NDArray[np.bool_],
+    chains: Sequence[int],
+    seed: int,
+    marginals: Marginals | None = None,
+) -> NDArray[np.bool_]:
+    """Where chains start, (C, nx, ny).
+
+    A warm start is the thresholded marginals of belief propagation, the same for all chains wherever it is sure, with
+    prior draws, different in each chain, in cells of which it says no more than the prior. Chains that start alike
+    can agree before they have forgotten where they began: start from "prior" to check that. Where neighbours are
+    coupled "prior" is a map like a draw of it, not quite one (`bayesmap.cells.ising.Ising.start`).
+
+    Args:
+        problem: table and prior.
+        start: the kind of start, or a map of shape (nx, ny), or one for each number of a chain, (N, nx, ny).
+        chains: their numbers, C of them.
+        seed: of prior draws.
+        marginals: needed for "propagate".
+
+    Raises:
+        BadInput: an unknown kind, or maps of another shape than the grid's, or fewer than chains.
+    """
+    grid, shape = problem.grid, (len(chains), *problem.grid.shape)
+    if not isinstance(start, str):
+        given = np.asarray(start)
+        each = given.ndim == 3
+        if given.shape[-2:] != grid.shape or given.ndim not in (2, 3) or (each and max(chains) >= len(given)):
+            raise BadInput(
+                f"infer: the start has shape {given.shape}, expected {grid.shape}, or a map for each chain before that"
+            )
+        return np.asarray(given[list(chains)] != 0 if each else np.broadcast_to(given != 0, shape))
+    if start in ("zeros", "ones"):
+        return np.full(shape, start == "ones")
+    if start not in get_args(Start):
+        raise BadInput(f"infer: start must be one of {', '.join(get_args(Start))} or a map, got {start!r}")
+    rngs = (np.random.default_rng([seed, chain, STREAM_START]) for chain in chains)
+    prior = np.stack([problem.prior.start(rng, grid) for rng in rngs])
+    if start == "prior":
+        return prior
+    assert marginals is not None, "a warm start needs marginals"
+    without_beams = problem.p_wall.reshape(grid.shape) if marginals.prior is None else marginals.prior
+    says_nothing = np.abs(marginals.p_wall - without_beams) < 1e-3
+    return np.where(says_nothing, prior, marginals.p_wall > 0.5)
+
 
 Order = Literal["raster", "radial", "random"]
 
@@ -48,7 +110,7 @@ class WallSampler(ABC):
 
     Attributes:
         order: of the sites in a sweep: "radial", "raster" or "random".
-        start: where chains start, see `bayesmap.samplers.start`; a default by the size of the map if None.
+        start: where chains start, see `bayesmap.samplers.walls`; a default by the size of the map if None.
         rounds: of belief propagation for a start from it, at most.
     """
 
@@ -160,3 +222,53 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
     away = np.ones((nx, ny), dtype=np.uint8)
     away[np.clip(cells[:, 0], 0, nx - 1), np.clip(cells[:, 1], 0, ny - 1)] = 0
     return np.asarray(ndimage.distance_transform_cdt(away, metric="taxicab"), dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Gibbs(WallSampler):
+    """Every sweep draws each cell once from its conditional.
+
+    Orders: "raster" by rows of the array; "radial" outwards from the nearest sensor, so that what a wall shadowed is
+    drawn after it in the same sweep; "random", another permutation each sweep.
+    """
+
+    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
+        """Flat indices of all cells."""
+        if self.order == "radial":
+            return np.argsort(radial_distance(problem).ravel(), kind="stable").astype(np.int32)
+        return np.arange(problem.grid.n_cells, dtype=np.int32)
+
+    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
+        """The single-site kernel reads the table alone."""
+        from bayesmap.kernels.device import load_kernels
+        from bayesmap.kernels.walls.gibbs import gibbs_sweeps
+
+        load_kernels(gibbs_sweeps, problem.device)
+        return gibbs_sweeps, [problem.device_table]
+
+
+@dataclass(frozen=True, eq=False)
+class BlockGibbs(WallSampler):
+    """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
+
+    Where walls are rare this converges fast and single-site sampling hardly at all: a wall that stands too near the
+    sensor can only go once the beams that it stops have a wall to meet behind it, and in the almost empty map behind a
+    wall there is none. A block takes the wall away and puts another beside or behind it in one step.
+    """
+
+    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
+        """Block numbers ``x * rows + y`` of all positions of the lower-left cell."""
+        nx, ny = problem.grid.shape
+        columns, rows = max(1, nx - 1), max(1, ny - 1)
+        if self.order == "radial":
+            distance = radial_distance(problem)[:columns, :rows]
+            return np.argsort(distance.ravel(), kind="stable").astype(np.int32)
+        return np.arange(columns * rows, dtype=np.int32)
+
+    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
+        """The block kernel reads the table, and its own list of beams by block."""
+        from bayesmap.kernels.device import load_kernels
+        from bayesmap.kernels.walls.block import block_sweeps, list_blocks
+
+        load_kernels(block_sweeps, problem.device)
+        return block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)]
