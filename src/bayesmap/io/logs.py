@@ -17,7 +17,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogOptions, LogReading, Pose
 from bayesmap.io.ros.compression import compression_of, first_bytes
 from bayesmap.io.text.carmen import KNOWN, read_carmen
-from bayesmap.io.text.csv import is_header, read_csv
+from bayesmap.io.text.csv import read_csv, starts_table
 from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.g2o import read_g2o
 from bayesmap.io.text.lines import DamagedFile, read_lines
@@ -33,7 +33,7 @@ FORMATS = (
     "ROS 1 bag",
     "ROS 2 bag (a folder, .db3 or .mcap)",
     "g2o and TORO (VERTEX_SE2 or VERTEX2 with laser lines)",
-    "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p)",
+    "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p or ros2 topic echo --csv)",
     "NumPy .npz",
     "MRPT's .rawlog",
 )
@@ -192,7 +192,7 @@ def _text_format(name: str) -> str:
                     return "g2o"  # whose laser lines are CARMEN's: hence not earlier
                 if words and words[0] in carmen:
                     found = found or "carmen"
-                if found is None and not line.startswith(b"#") and is_header(line):
+                if found is None and not line.startswith(b"#") and starts_table(line):
                     return "csv"
     except DamagedFile:
         if found is None:
