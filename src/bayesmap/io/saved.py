@@ -143,7 +143,7 @@ def _write(
 
 
 def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
-    """Arrays that only some posteriors have."""
+    """Return arrays that only some posteriors have."""
     out = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
     out |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
     return out if posterior.log_weights is None else {**out, "log_weight": posterior.log_weights}
@@ -193,7 +193,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
 
 
 def _not_ours(attributes: dict[str, Any]) -> str | None:
-    """Why a sound netCDF file is not one that we can read, or None."""
+    """Return why a sound netCDF file is not one that we can read, or None."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"
     if int(attributes["format_version"]) == FORMAT_VERSION:

@@ -74,7 +74,7 @@ def simulate_odometry(
     stamps_s: ArrayLike | None = None,
     seed: int = 0,
 ) -> NDArray[np.float64]:
-    """The poses that a robot's odometry reports along a path; it starts at the true first pose.
+    """Return the poses that a robot's odometry reports along a path; it starts at the true first pose.
 
     Args:
         poses_world: where the robot's base truly was, shape (S, 3): x, y in metres and yaw in radians.
@@ -105,7 +105,7 @@ def simulate_odometry(
 
 
 def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> NDArray[np.float64]:
-    """When a robot of some speed comes by each pose of its path, seconds from the first, shape (S,).
+    """Compute when a robot of some speed comes by each pose of its path, seconds from the first, shape (S,).
 
     A step takes the longer of its way at full speed and its turn at the full rate.
 
@@ -124,7 +124,7 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
 
 
 def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Each true step as odometry reports it, as a pose in the frame of the step before, (S - 1, 3)."""
+    """Return each true step as odometry reports it, as a pose in the frame of the step before, (S - 1, 3)."""
     normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
     distance = np.hypot(steps[:, 0], steps[:, 1])
     first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)

@@ -14,7 +14,7 @@ PAIRS_A_POSE = 3
 
 
 def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs of poses up to `NEAR_M` apart: each with its next, and with two others, at all distances in time alike.
+    """Choose pairs of poses up to `NEAR_M` apart: each with its next, and with two others, at all distances in time.
 
     Kuemmerle et al. (2009) relate poses whose scans a person can lay on top of each other: neighbours in time, and
     places seen again.

@@ -22,7 +22,7 @@ Rows = Sequence[tuple[str, Score]]
 
 
 def draw_pit(ax: Axes, rows: Rows) -> None:
-    """Histograms of the probability integral transform: flat if the predictive laws are right.
+    """Draw histograms of the probability integral transform: flat if the predictive laws are right.
 
     High ends mean that predictions are too sure, a hump in the middle that they are not sure enough, a slope that they
     are too far or too near.
@@ -36,7 +36,7 @@ def draw_pit(ax: Axes, rows: Rows) -> None:
 
 
 def draw_coverage(ax: Axes, rows: Rows) -> None:
-    """Share of readings in the central interval of every probability: the diagonal if intervals are right."""
+    """Draw the share of readings in the central interval of every probability: the diagonal if intervals are right."""
     for i, (name, found) in enumerate(rows):
         shares = [inside(found.pit, level).mean() for level in LEVELS]
         ax.plot(LEVELS, shares, color=_color(i), linewidth=1.2, label=name)
@@ -46,7 +46,7 @@ def draw_coverage(ax: Axes, rows: Rows) -> None:
 
 
 def draw_reliability(ax: Axes, rows: Rows) -> None:
-    """Share of first hits among events that were given a chance: the diagonal if chances are right."""
+    """Draw the share of first hits among events that were given a chance: the diagonal if chances are right."""
     for i, (name, found) in enumerate(rows):
         points = [(p, share) for p, share, count in found.reliability if count >= LEAST_EVENTS and share > 0]
         if points:
@@ -58,7 +58,7 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
 
 
 def calibration_figure(rows: Rows) -> Figure:
-    """Three panels, a line for each scored map.
+    """Draw three panels, a line for each scored map.
 
     Args:
         rows: name and score of each.

@@ -37,7 +37,7 @@ class Candidate:
 def comparison_figure(
     grid: Grid, candidates: Sequence[Candidate], *, label: str = "probability of wall", title: str | None = None
 ) -> Figure:
-    """Up to four maps in the same colours, with one colour bar.
+    """Draw up to four maps in the same colours, with one colour bar.
 
     Args:
         grid: where the cells are, of all of them.

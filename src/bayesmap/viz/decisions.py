@@ -35,7 +35,7 @@ def route_figure(
     title: str = "",
     label: str = "probability of wall",
 ) -> Figure:
-    """A path over the mean map, and all that a disc which moves along it sweeps.
+    """Draw a path over the mean map, and all that a disc which moves along it sweeps.
 
     Args:
         grid: of the map.
@@ -56,7 +56,7 @@ def route_figure(
 
 
 def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """A path and what a disc that moves along it sweeps.
+    """Draw a path and what a disc that moves along it sweeps.
 
     Raises:
         BadInput: a path that is not (P, 2).
@@ -83,7 +83,7 @@ def views_figure(
     *,
     label: str = "probability of wall",
 ) -> Figure:
-    """Candidate views over the mean map, coloured by what they would tell, and the best ones, numbered.
+    """Draw candidate views over the mean map, coloured by what they would tell, and the best ones, numbered.
 
     Args:
         grid: of the map.
@@ -112,7 +112,7 @@ def views_figure(
 
 
 def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """A dot at each candidate, the telling ones on top.
+    """Draw a dot at each candidate, the telling ones on top.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -143,7 +143,7 @@ def _with_legend(figure: Figure, ax: Axes) -> Figure:
 
 
 def _swept(corners: Floats, radius_m: float) -> Path:
-    """The union of discs along a polyline, as overlapping outlines that wind the same way."""
+    """Return the union of discs along a polyline, as overlapping outlines that wind the same way."""
     turn = np.arange(CIRCLE) / CIRCLE * 2 * np.pi
     circle = radius_m * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     shapes = [corner + circle for corner in corners]

@@ -38,7 +38,7 @@ def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> N
 
 
 def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Mean of the log joint over all draws so far, a line per chain; chains that agree run together.
+    """Draw the mean of the log joint over all draws so far, a line per chain; chains that agree run together.
 
     The band is the mean over all chains plus and minus one standard deviation of the draws: lines that end
     outside of each other's reach on this scale have not mixed.
@@ -62,7 +62,7 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
 
 
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
-    """Trace, running mean and distribution of the log joint by chain, in one figure.
+    """Draw the trace, running mean and distribution of the log joint by chain, in one figure.
 
     Args:
         log_joint: in nats, shape (chain, draw), or (draw,) for one chain.
@@ -107,7 +107,7 @@ def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
 
 
 def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Sweep numbers and values to draw, at most `MAX_POINTS`."""
+    """Return sweep numbers and values to draw, at most `MAX_POINTS`."""
     n = len(trace)
     index = np.arange(n)
     if n > MAX_POINTS:

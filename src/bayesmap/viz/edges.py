@@ -13,7 +13,7 @@ from bayesmap.space.grid import Grid
 
 
 def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """The boundary between true and false cells; outside the grid counts as false.
+    """Return the boundary between true and false cells; outside the grid counts as false.
 
     Edges in a row are joined into one segment.
 
@@ -35,7 +35,7 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
 
 
 def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Disjoint boxes that cover the true cells, each a run of cells along y.
+    """Return disjoint boxes that cover the true cells, each a run of cells along y.
 
     Returns:
         Closed outlines in metres, counter-clockwise, shape (M, 5, 2).
@@ -46,7 +46,7 @@ def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 
 def _runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Row, first column, and column after the last, of every run of true along axis 1."""
+    """Return row, first column, and column after the last, of every run of true along axis 1."""
     steps = np.diff(np.pad(mask, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     row, start = np.nonzero(steps == 1)
     stop = np.nonzero(steps == -1)[1]

@@ -50,7 +50,7 @@ def posterior_figure(
     width: ArrayLike | None = None,
     surfaces: Surfaces | None = None,
 ) -> Figure:
-    """The posterior at a glance: the mean, how sure it is, the readings, and one draw.
+    """Draw the posterior at a glance: the mean, how sure it is, the readings, and one draw.
 
     The panels stand in a row, four in a square, or stacked if the map is long.
 
@@ -164,7 +164,7 @@ def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
 
 
 def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -> list[Artist]:
-    """The surfaces, as thick as a fifth of a cell, and their legend key; none in cells that are too small."""
+    """Draw the surfaces, as thick as a fifth of a cell, and their legend key; none in cells that are too small."""
     if cell_pt < LEAST_STROKE_PT:
         return []
     thickness_pt = float(np.clip(cell_pt / 5.0, 0.6, 1.6))
@@ -188,7 +188,7 @@ def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bo
 def color_bar(
     figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str, ticks: list[float]
 ) -> None:
-    """A thin horizontal bar under the panel's x label, never too narrow to read."""
+    """Draw a thin horizontal bar under the panel's x label, never too narrow to read."""
     width = max(0.7 * layout.panel[0], 1.5 * layout.dpi)
     left = corner[0] + (layout.panel[0] - width) / 2.0
     box = layout.fractions(left, corner[1] - 0.58 * layout.dpi, width, 0.09 * layout.dpi)
@@ -214,14 +214,14 @@ def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool
 
 
 def unobserved_legend(figure: Figure) -> None:
-    """The one key of figures that show nothing else to explain."""
+    """Return the one key of figures that show nothing else to explain."""
     hatched = maps.hatch_patch()
     hatched.set_label("unobserved")
     place_legend(figure, [hatched])
 
 
 def place_legend(figure: Figure, handles: list[Artist]) -> None:
-    """Keys under the panels, in as many rows as they need; none if there is none."""
+    """Place the keys under the panels, in as many rows as they need; none if there is none."""
     if not handles:
         return
     # Two rows where one would be wider than the figure: a key takes about 0.95 inch.

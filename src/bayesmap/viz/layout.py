@@ -53,7 +53,7 @@ class Layout:
     most_ticks: tuple[int, int]
 
     def fractions(self, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
-        """A box in pixels as fractions of the figure, as `Figure.add_axes` takes it."""
+        """Return a box in pixels as fractions of the figure, as `Figure.add_axes` takes it."""
         wide, high = self.figure
         return left / wide, bottom / high, width / wide, height / high
 
@@ -109,12 +109,12 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
 
 
 def tick_locator(most: int) -> MaxNLocator:
-    """Ticks at 1, 2 or 5 times a power of ten, with so many intervals at most."""
+    """Return ticks at 1, 2 or 5 times a power of ten, with so many intervals at most."""
     return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
 
 
 def _tick_letters(low: float, high: float) -> int:
-    """Length of the longest tick label on an axis from low to high, as the widest choice of ticks has it."""
+    """Return the length of the longest tick label on an axis from low to high, as the widest choice of ticks has it."""
     formatter = ScalarFormatter(useOffset=False)
     formatter.create_dummy_axis()
     ticks = [float(tick) for tick in tick_locator(6).tick_values(low, high)]

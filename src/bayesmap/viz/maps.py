@@ -24,7 +24,7 @@ from bayesmap.viz.layout import tick_locator
 
 
 def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Posterior probability of wall: free is light, wall is dark, unobserved is hatched.
+    """Draw the posterior probability of wall: free is light, wall is dark, unobserved is hatched.
 
     Args:
         ax: where to draw.
@@ -43,7 +43,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
 
 
 def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
+    """Draw the entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
 
     Args:
         ax: where to draw.
@@ -62,7 +62,7 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 
 
 def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest that there is.
+    """Draw the posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest possible.
 
     Args:
         ax: where to draw.
@@ -86,7 +86,7 @@ def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLi
 
 
 def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans all reflectivities.
+    """Draw the width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans everything.
 
     Args:
         ax: where to draw.
@@ -110,7 +110,7 @@ def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | Non
 
 
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """One map drawn from the posterior; where no beam reached it is the prior's, and shown faded.
+    """Draw one map of the posterior; where no beam reached it is the prior's, and shown faded.
 
     Args:
         ax: where to draw.
@@ -130,7 +130,7 @@ def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | No
 
 
 def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """One draw from the posterior, walls as `draw_sample` shows them, reflectivities in [0, 1] in shades.
+    """Draw one map of the posterior, walls as `draw_sample` shows them, reflectivities in [0, 1] in shades.
 
     Arguments and errors are those of the two; what the image's numbers mean differs.
     """
@@ -141,7 +141,7 @@ def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None =
 
 
 def entropy_bits(probability: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Entropy in bits of a yes-or-no variable with this probability; same shape."""
+    """Return the entropy in bits of a yes-or-no variable with this probability; same shape."""
     p = np.asarray(probability, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
         bits = -p * np.log2(p) - (1.0 - p) * np.log2(1.0 - p)
@@ -160,7 +160,7 @@ def frame_axes(ax: Axes, grid: Grid) -> None:
 
 
 def hatch_patch(path: Path | None = None) -> PathPatch:
-    """The mark of unobserved cells, over them or (with its own colour beneath) as a legend's key."""
+    """Return the mark of unobserved cells, over them or (with its own colour beneath) as a legend's key."""
     square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
     patch = PathPatch(
         square if path is None else path,
@@ -183,7 +183,7 @@ def _show(
     *,
     hide: bool = True,
 ) -> AxesImage:
-    """An image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
+    """Draw an image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
     image = ax.imshow(
         np.ma.array(values, mask=~observed & hide).T,
         cmap=colors,

@@ -27,7 +27,7 @@ def panel_figure(
     truth: ArrayLike | None = None,
     label: str = "probability of wall",
 ) -> Figure:
-    """A single map with its colour bar.
+    """Draw a single map with its colour bar.
 
     Args:
         grid: the map's grid.

@@ -36,7 +36,7 @@ class Scale:
 
 
 def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scale:
-    """Symmetric around zero; by default to the residual that 90 % of the beams stay within, but 5 cm at least."""
+    """Return a symmetric scale: by default to the residual that 90 % of the beams stay within, but 5 cm at least."""
     values = as_array(residuals_m, "residuals_m")
     if limit_m is None:
         limit_m = max(0.05, _rounded(float(np.quantile(np.abs(values), 0.9)) if values.size else 0.0))
@@ -46,14 +46,14 @@ def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scal
 
 
 def surprise_scale(surprises: ArrayLike) -> Scale:
-    """Of surprise, minus the log score in nats: from the median beam's, which is expected, to the 99th percentile's."""
+    """Return a scale of surprise, minus the log score in nats: from the median beam's to the 99th percentile's."""
     values = as_array(surprises, "surprises")
     low, high = (float(v) for v in np.quantile(values, [0.5, 0.99])) if values.size else (0.0, 1.0)
     return Scale(palette.surprise_colormap(), low, max(high, low + 1e-3), "surprise: minus log score [nats]")
 
 
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """A dot at the end of every beam; the worst are larger and lie on top.
+    """Draw a dot at the end of every beam; the worst are larger and lie on top.
 
     Args:
         ax: where to draw, already framed.
@@ -102,7 +102,7 @@ def residuals_figure(
     *,
     scale: Scale | None = None,
 ) -> Figure:
-    """Held-out beams over the faded map.
+    """Draw held-out beams over the faded map.
 
     Args:
         grid: where the cells are.
@@ -129,7 +129,7 @@ def residuals_figure(
 
 
 def _rounded(value: float) -> float:
-    """Up to the next of 1, 2 or 5 times a power of ten."""
+    """Round up to the next of 1, 2 or 5 times a power of ten."""
     if value <= 0.0:
         return 0.0
     power = 10.0 ** np.floor(np.log10(value))

@@ -34,7 +34,7 @@ LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
 def surface_strokes(
     means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
 ) -> NDArray[np.float64]:
-    """Both ends of every stroke, metres, shape (n, 2, 2): surface, end, (x, y).
+    """Return both ends of every stroke, metres, shape (n, 2, 2): surface, end, (x, y).
 
     Args:
         means_world: centres in metres, shape (n, 2).
@@ -72,7 +72,7 @@ def draw_surfaces(
     longest_m: float = np.inf,
     color: str | None = None,
 ) -> LineCollection:
-    """One stroke a surface, as opaque as its weight.
+    """Draw one stroke a surface, as opaque as its weight.
 
     Args:
         ax: where to draw, already framed.
@@ -112,7 +112,7 @@ def surfaces_figure(
     weights: ArrayLike,
     observed: ArrayLike | None = None,
 ) -> Figure:
-    """All surfaces of a map, over hatched ground where no beam reached.
+    """Draw all surfaces of a map, over hatched ground where no beam reached.
 
     Arguments and errors are those of `draw_surfaces`; ``observed`` has shape (nx, ny), None for everywhere.
     """

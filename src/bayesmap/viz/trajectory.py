@@ -25,7 +25,7 @@ BEFORE, AFTER, FLAGGED, LOOP = "#c1440e", "#0b7a5b", "#d6278a", "#3b6fb6"
 
 
 def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
-    """95 % ellipses of positions, (n, 2) and (n, 2, 2) in metres, drawn so many times as large as they are."""
+    """Draw 95 % ellipses of positions, (n, 2) and (n, 2, 2) in metres, so many times as large as they are."""
     values, vectors = np.linalg.eigh(covariances)
     axes_m = 2.0 * np.sqrt(REGION * np.maximum(values, 0.0)) * magnified
     angle = np.degrees(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
@@ -45,7 +45,7 @@ def trajectory_figure(
     covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:
-    """The map, the trajectory on it, 95 % ellipses, and the scans whose poses are not to be trusted.
+    """Draw the map, the trajectory on it, 95 % ellipses, and the scans whose poses are not to be trusted.
 
     Args:
         grid: of the map.
@@ -78,7 +78,7 @@ def _draw_map(
 def before_and_after_figure(
     raw: Floats, ends: Floats, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
 ) -> Figure:
-    """Left raw odometry and where its scans would put the walls, right the inferred trajectory on its map.
+    """Draw raw odometry with the walls that it makes, and the inferred trajectory on its map.
 
     Args:
         raw: (S, 3).
@@ -103,7 +103,7 @@ def before_and_after_figure(
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
-    """The trajectory as odometry has it, and as it was inferred, (S, 3) each, from the same first pose."""
+    """Draw the trajectory as odometry has it, and as it was inferred, (S, 3) each, from the same first pose."""
     low = np.minimum(raw.min(axis=0), inferred.min(axis=0))[:2]
     high = np.maximum(raw.max(axis=0), inferred.max(axis=0))[:2]
     figure, ax = _axes(float((high - low)[1] / max((high - low)[0], 1e-3)))
@@ -122,7 +122,7 @@ def loops_figure(
     weights: Floats,
     alternatives: Sequence[tuple[Floats, float]] = (),
 ) -> Figure:
-    """Where the robot came back to a place: pairs of scans, coloured by how far the final poses are from the match.
+    """Draw where the robot came back to a place: pairs of scans, coloured by how far poses are from the match.
 
     Args:
         poses: (S, 3).
@@ -174,6 +174,6 @@ def _finished(figure: Figure, ax: Axes) -> Figure:
 
 
 def _round_down(value: float) -> float:
-    """To 1, 2 or 5 times a power of ten."""
+    """Round down to 1, 2 or 5 times a power of ten."""
     ten = 10.0 ** np.floor(np.log10(value))
     return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= value * (1 + 1e-9)))

@@ -13,7 +13,7 @@ from bayesmap.viz import palette
 
 
 def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
-    """Share of relations whose error is at most so large, with mean and median."""
+    """Draw share of relations whose error is at most so large, with mean and median."""
     ordered = np.sort(errors)
     ax.step(
         ordered, np.arange(1, len(ordered) + 1) / len(ordered), where="post", color=palette.CHAINS[0], linewidth=1.2
@@ -28,7 +28,7 @@ def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None
 
 
 def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
-    """Share of relations whose truth lies in the region of every probability: the diagonal if covariances are right."""
+    """Draw the share of relations whose truth lies in the region of every probability: the diagonal is right."""
     levels = np.linspace(0.0, 1.0, 101)
     ax.plot(levels, [score.coverage(level) for level in levels], color=palette.CHAINS[0], linewidth=1.2)
     ax.plot([0, 1], [0, 1], color=palette.FRAME, linewidth=0.8, linestyle=":")
@@ -37,7 +37,7 @@ def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
 
 
 def errors_figure(score: TrajectoryScore) -> Figure:
-    """Distributions of both errors, and coverage where the trajectory says how sure it is."""
+    """Draw distributions of both errors, and coverage where the trajectory says how sure it is."""
     panels = 2 if score.region is None else 3
     figure = Figure(figsize=(3.4 * panels, 3.4), dpi=160.0, facecolor="white", layout="constrained")
     FigureCanvasAgg(figure)

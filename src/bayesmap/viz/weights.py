@@ -21,7 +21,7 @@ ALL = 0.9995
 def draw_weights(
     ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE
 ) -> NDArray[np.intp]:
-    """Histogram of the normalised log weights, the largest marked, with the effective sample size as title.
+    """Draw a histogram of the normalised log weights, the largest marked, with the effective sample size as title.
 
     If one sample has nearly all the weight, the effective sample size is 1 and the answer is that one sample:
     the collapse that the tutorial shows. Counts are on a logarithmic scale, or that sample could not be seen.
@@ -75,7 +75,7 @@ def draw_weights(
 
 
 def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE) -> Figure:
-    """`draw_weights` as a figure of its own; arguments and errors as there."""
+    """Draw `draw_weights` as a figure of its own; arguments and errors as there."""
     figure = Figure(figsize=(6.4, 3.2), dpi=160.0, facecolor="white", layout="constrained")
     FigureCanvasAgg(figure)
     draw_weights(figure.add_subplot(), log_weights, range_nats=range_nats)
@@ -103,5 +103,5 @@ def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
 
 
 def effective_sample_size(normalized_logs: NDArray[np.float64]) -> float:
-    """Kish's effective sample size: 1 over the sum of the squared weights."""
+    """Return Kish's effective sample size: 1 over the sum of the squared weights."""
     return float(1.0 / np.exp(2.0 * normalized_logs).sum())

@@ -15,7 +15,7 @@ Cut = tuple[slice, slice]
 
 
 def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Cut]:
-    """The cells that a rectangle of the world touches.
+    """Return the cells that a rectangle of the world touches.
 
     Args:
         grid: where the cells are.
@@ -51,7 +51,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
 
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
-    """The window of the true cells with a margin: what is left of a map without its empty borders.
+    """Return the window of the true cells with a margin: what is left of a map without its empty borders.
 
     Args:
         grid: where the cells are.

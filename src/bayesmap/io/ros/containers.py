@@ -170,7 +170,7 @@ def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
 
 @cache
 def _bag_reader() -> type:
-    """rosbags' reader of ROS 1 bags, which takes index records for as long as they count, as ROS does."""
+    """Return rosbags' reader of ROS 1 bags, which takes index records for as long as they count, as ROS does."""
     from rosbags.rosbag1 import Reader
     from rosbags.rosbag1.reader import Header, IndexData, RecordType, read_bytes, read_uint32
 
