@@ -157,15 +157,15 @@ def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
         except BadInput as problem:
             first = first or problem
             continue
-        found = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
+        sensor = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
         why = _reason(recording.path, first)
         if not reading.posed and first is not None:
-            found["no_poses"] = why
+            sensor["no_poses"] = why
         elif first is not None:
-            found["notes"].append(
+            sensor["notes"].append(
                 f"poses are those of {reading.pose_source}: without --pose-topic, {why.partition(';')[0]}"
             )
-        return {**found, "notes": [*found["notes"], *_about_poses(reading)]}
+        return {**sensor, "notes": [*sensor["notes"], *_about_poses(reading)]}
     return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first)}
 
 

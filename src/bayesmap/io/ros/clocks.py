@@ -127,11 +127,11 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
 
 def joined_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]]) -> NDArray[np.int64]:
     """Return the stamps of the scans of all runs, which go on after a step by as much as was received later, (S,)."""
-    found = [parts[0][0]]
+    joined = [parts[0][0]]
     for (stamps, scans), (_, before) in zip(parts[1:], parts, strict=False):
         later = max(scans[0].received_ns - before[-1].received_ns, 1)
-        found.append(stamps - stamps[0] + found[-1][-1] + later)
-    return np.concatenate(found)
+        joined.append(stamps - stamps[0] + joined[-1][-1] + later)
+    return np.concatenate(joined)
 
 
 def _stream(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:

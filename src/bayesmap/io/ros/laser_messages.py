@@ -165,12 +165,12 @@ class LaserMessages:
 
     def of_one_frame(self, bad: Callable[[int, str], None]) -> list[LaserMessage]:
         """Return the scans with readings in the commonest frame; ``bad`` is told of the others."""
-        some = [scan for scan in self.scans if scan.layout.beams]
-        frame = Counter(scan.layout.frame for scan in some).most_common(1)[0][0] if some else ""
-        for scan in some:
+        scans = [scan for scan in self.scans if scan.layout.beams]
+        frame = Counter(scan.layout.frame for scan in scans).most_common(1)[0][0] if scans else ""
+        for scan in scans:
             if scan.layout.frame != frame:
                 bad(scan.number, f"is in frame {scan.layout.frame!r}, but most scans of {self.topic} in {frame!r}")
-        return [scan for scan in some if scan.layout.frame == frame]
+        return [scan for scan in scans if scan.layout.frame == frame]
 
 
 def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -165,7 +165,7 @@ def _spaces(topic: str) -> list[str]:
 def by_transforms(
     recording: Recording, trees: list[FrameTree], sensor: str, fixed_frame: str | None, *, chosen: bool = False
 ) -> PoseSource | None:
-    """Return the sensor's poses by transforms; None if no fixed frame is named and none is found.
+    """Return the sensor's poses by transforms; None if no fixed frame is named or found.
 
     Args:
         recording: for its path and topics.
@@ -177,37 +177,37 @@ def by_transforms(
     Raises:
         BadInput: a frame that is not known, or that nothing connects with the sensor's; a transform with two values.
     """
-    wanted = None if fixed_frame is None else frame_of(fixed_frame)
+    named = None if fixed_frame is None else frame_of(fixed_frame)
     for tree in trees:
         notes: list[str] = []
-        found = wanted or fixed_frame_of(tree, sensor)
-        if wanted is None and found is not None and found.rpartition("/")[2] not in FIXED_FRAMES:
-            notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {found!r}")
-        chain = None if found is None else tree.chain(found, sensor)
-        if found is None or chain is None:
+        fixed = named or fixed_frame_of(tree, sensor)
+        if named is None and fixed is not None and fixed.rpartition("/")[2] not in FIXED_FRAMES:
+            notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {fixed!r}")
+        chain = None if fixed is None else tree.chain(fixed, sensor)
+        if fixed is None or chain is None:
             continue
-        if found not in tree.upwards(sensor):
+        if fixed not in tree.upwards(sensor):
             notes.append(
-                f"the frame {found!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
+                f"the frame {fixed!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
             )
         notes += [
             f"there is a single message of the transform {edge}; it was taken to hold at all times"
-            for edge in tree.single_messages(found, sensor)
+            for edge in tree.single_messages(fixed, sensor)
         ]
-        notes += checked(recording, tree, found, sensor)
-        links = tree.links(found, sensor)
-        notes += _beside(trees, tree, found, sensor)
+        notes += checked(recording, tree, fixed, sensor)
+        links = tree.links(fixed, sensor)
+        notes += _beside(trees, tree, fixed, sensor)
         if len(trees) > 1 and tree is not trees[-1] and not chosen:
             others = [t.name for t in topics_of_type(recording, TF_TYPES) if t.name not in tree.topics]
             notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
         moving = [parts for _, _, parts in links if not Samples.joined(parts).constant()]
         topics = dict.fromkeys(part.topic for parts in moving or [p for _, _, p in links] for part in parts)
-        return PoseSource(", ".join(topics) or "/tf", found, chain, tuple(notes))
-    if wanted is not None:
+        return PoseSource(", ".join(topics) or "/tf", fixed, chain, tuple(notes))
+    if named is not None:
         tree = trees[-1]
-        what = "is not known" if wanted not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
+        what = "is not known" if named not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
         raise BadInput(
-            f"{recording.path}: the frame {wanted!r} {what}; {_frames(tree)}; choose another with --fixed-frame"
+            f"{recording.path}: the frame {named!r} {what}; {_frames(tree)}; choose another with --fixed-frame"
         )
     return None
 
@@ -232,11 +232,11 @@ def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> l
             raise BadInput(f"{recording.path}: {tree.notes[child].partition(';')[0]}; {_choose(recording, rivals)}")
         if child in tree.notes:
             notes.append(tree.notes[child])
-        found = contradiction(parent, child, parts)
-        if found is not None and not found.fatal:
-            notes.append(found.text)
-        elif found is not None:
-            remedies = [_choose(recording, found.topics)] if found.topics else []
+        conflict = contradiction(parent, child, parts)
+        if conflict is not None and not conflict.fatal:
+            notes.append(conflict.text)
+        elif conflict is not None:
+            remedies = [_choose(recording, conflict.topics)] if conflict.topics else []
             others = topics_of_type(recording, POSE_TYPES)
             if others and not remedies:
                 remedies.append(f"take the poses from another topic with --pose-topic: {listed(others)}")
@@ -244,7 +244,7 @@ def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> l
             if below is not None and below.span_ns() is not None:
                 remedies.append(f"map in a frame below it with --fixed-frame {child}")
             raise BadInput(
-                f"{recording.path}: {found.text}; {', or '.join(remedies) or 'record again with one publisher'}"
+                f"{recording.path}: {conflict.text}; {', or '.join(remedies) or 'record again with one publisher'}"
             )
     return notes
 
@@ -316,9 +316,9 @@ def by_topic(
             f"{child or '?'} in {parent or '?'}" for parent, child in messages.poses if (parent, child) != ends
         )
         notes.append(f"{topic.name} tells where {body or '?'} is in {fixed or '?'}; not used: {others}")
-    found = contradiction(fixed or "?", body or "?", [samples])
-    if found is not None:
-        raise BadInput(f"{recording.path}: {found.text}; choose other poses with --pose-topic")
+    conflict = contradiction(fixed or "?", body or "?", [samples])
+    if conflict is not None:
+        raise BadInput(f"{recording.path}: {conflict.text}; choose other poses with --pose-topic")
     if samples.unstamped:
         notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
     track = Link(samples.track(), constant=False)

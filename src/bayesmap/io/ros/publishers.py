@@ -109,14 +109,14 @@ def told(values: Numbers) -> str:
 
 def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
     """Return the values that differ, in the order of their first appearance, with their counts; at most ten."""
-    found: list[tuple[Numbers, int]] = []
+    distinct: list[tuple[Numbers, int]] = []
     for value in values:
-        at = next((i for i, (known, _) in enumerate(found) if not differ(known, value)), None)
+        at = next((i for i, (known, _) in enumerate(distinct) if not differ(known, value)), None)
         if at is not None:
-            found[at] = (found[at][0], found[at][1] + 1)
-        elif len(found) < 10:
-            found.append((value, 1))
-    return found
+            distinct[at] = (distinct[at][0], distinct[at][1] + 1)
+        elif len(distinct) < 10:
+            distinct.append((value, 1))
+    return distinct
 
 
 def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
@@ -140,10 +140,10 @@ def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Nu
     for i in at_once:
         if differ(values[i], values[i + 1]):
             return (moving[whose[i]].topic, values[i]), (moving[whose[i + 1]].topic, values[i + 1])
-    found = two_motions(stamps, np.array(values), whose)
-    if found is None:
+    beside = two_motions(stamps, np.array(values), whose)
+    if beside is None:
         return None
-    return (moving[whose[found]].topic, values[found]), (moving[whose[found - 1]].topic, values[found - 1])
+    return (moving[whose[beside]].topic, values[beside]), (moving[whose[beside - 1]].topic, values[beside - 1])
 
 
 def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
@@ -160,8 +160,8 @@ def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None
     if len(far) < len(inside) / 2:
         return None
     i = far[len(far) // 2]
-    there = track.at(stamps[inside[[i]]])
-    return (*there.translation[0], *there.rotation.as_quat()[0]), other.values[inside[i]]
+    expected = track.at(stamps[inside[[i]]])
+    return (*expected.translation[0], *expected.rotation.as_quat()[0]), other.values[inside[i]]
 
 
 def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers], NDArray[np.intp]]:
@@ -194,8 +194,8 @@ def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
 def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose: NDArray[np.intp]) -> int | None:
     """Find a sample beside the motion of its neighbours, where samples come from two motions; None if from one.
 
-    Of two publishers that take turns, each one's samples are smooth without the other's, and the way from one motion to
-    the other changes slowly. A jump, a corner or noise has one of the two, but not both.
+    If two publishers take turns, the samples of each are smooth without those of the other, and the offset from one
+    motion to the other changes slowly. A jump, a corner or noise has one of these properties, but not both.
 
     Args:
         stamps_ns: in ascending order, (T,).
@@ -236,9 +236,9 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     count = int(beyond.sum())
     if count < (FEWEST_BETWEEN if several else FEWEST):
         return None
-    one, next_one = away[beyond][:-1], away[beyond][1:]
-    largest = np.maximum(np.linalg.norm(one, axis=1), np.linalg.norm(next_one, axis=1))
-    change = np.minimum(np.linalg.norm(one - next_one, axis=1), np.linalg.norm(one + next_one, axis=1)) / largest
+    first, second = away[beyond][:-1], away[beyond][1:]  # offsets of successive samples
+    largest = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
+    change = np.minimum(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1)) / largest
     allowed = STEADY[0][1] if several else next(steady for share, steady in STEADY if count >= share * len(seconds))
     if float(np.median(change)) > allowed:
         return None

@@ -307,13 +307,13 @@ def _names(line: bytes, delimiter: bytes) -> list[str]:
 def _as_read(names: list[str]) -> list[str]:
     """Return the columns' names as they are read; empty for those that are not."""
     echoed = any(_ECHOED_BEAM.fullmatch(name) for name in names)
-    found = []
+    read = []
     for name in names:
         own = name in (*POSE, "stamp", "scan", "angle", "range", *OWN_ANGLES) or _BEAM.fullmatch(name)
         beam = _ECHOED_BEAM.fullmatch(name) if echoed else None
         known = ECHOED.get(name.removeprefix("field.").lstrip("./"), "") if echoed else ""
-        found.append(f"r_{int(beam[1])}" if beam else known or (name if own else ""))
-    return found
+        read.append(f"r_{int(beam[1])}" if beam else known or (name if own else ""))
+    return read
 
 
 def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
