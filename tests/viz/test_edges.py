@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from bayesmap.space.grid import Grid
-from bayesmap.viz.edges import boundary_segments, boxes
+from bayesmap.viz.cells import boundary_segments, boxes
 
 
 def test_one_cell_has_four_edges_in_metres():

@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 
 from bayesmap.errors import BadInput
 from bayesmap.viz import draw_weights, weights_figure
-from bayesmap.viz.weights import effective_sample_size, normalized
+from bayesmap.viz.diagnostics import effective_sample_size, normalized
 
 
 def texts(ax):

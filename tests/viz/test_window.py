@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from viz_case import GRID
 
 from bayesmap.errors import BadInput
-from bayesmap.viz.window import window, window_around
+from bayesmap.viz.cells import window, window_around
 
 X, Y = GRID.extent_m[:2], GRID.extent_m[2:]
 

@@ -9,18 +9,21 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
+from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import ScalarFormatter
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.cell_arrays import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.space.grid import Grid
 from bayesmap.viz import palette
-from bayesmap.viz.edges import boxes
-from bayesmap.viz.layout import tick_locator
+from bayesmap.viz.cells import boxes
+
+HEIGHT_IN, BAR_IN = 5.6, 1.3
+"""Height of a map's panel, and the room for a colour bar at its right."""
 
 
 def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
@@ -148,6 +151,33 @@ def entropy_bits(probability: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where((p > 0.0) & (p < 1.0), bits, 0.0)
 
 
+def map_figure(
+    grid: Grid,
+    *,
+    aspects: tuple[float, float] = (0.3, 3.0),
+    bar_in: float = BAR_IN,
+    foot_in: float = 0.0,
+    dpi: float = 160.0,
+) -> tuple[Figure, Axes]:
+    """Return a figure of one panel as wide as the map is beside its height.
+
+    Args:
+        grid: of the map.
+        aspects: the smallest and the largest width of the panel beside its height.
+        bar_in: room for a colour bar at the right, inches.
+        foot_in: room for a legend at the foot, inches.
+        dpi: pixels per inch.
+    """
+    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
+    figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
+    return figure, figure.subplots()
+
+
+def tick_locator(most: int) -> MaxNLocator:
+    """Return ticks at 1, 2 or 5 times a power of ten, with so many intervals at most."""
+    return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
+
+
 def frame_axes(ax: Axes, grid: Grid) -> None:
     """Set the panel to the grid's extent in metres, x right and y up, at equal scale, with labelled axes."""
     x0, x1, y0, y1 = grid.extent_m
@@ -168,6 +198,7 @@ def hatch_patch(path: Path | None = None) -> PathPatch:
         edgecolor=palette.UNOBSERVED_HATCH,
         linewidth=0.0,
         hatch=palette.HATCH,
+        label=None if path is not None else "unobserved",
     )
     patch.set_hatch_linewidth(palette.HATCH_WIDTH_PT)
     return patch

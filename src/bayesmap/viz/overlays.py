@@ -16,7 +16,7 @@ from bayesmap.space.cell_arrays import as_mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans, as_poses
 from bayesmap.viz import palette
-from bayesmap.viz.edges import boundary_segments
+from bayesmap.viz.cells import boundary_segments
 
 MAX_ARROWS = 12
 """Up to so many poses each get an arrow; more are a trajectory, with one arrow where it ends."""

@@ -1,4 +1,4 @@
-"""Every colour that a picture of bayesmap uses, and why it was chosen.
+"""The style of all pictures: every colour, why it was chosen, and the paper of a figure.
 
 - **Probability of wall** runs from paper to ink along one straight line in CIELAB, so equal steps in
   probability look equally large, its lightness falls all the way (it survives grey printing), and no
@@ -16,11 +16,13 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, ListedColormap
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 PAPER_LAB: Final = (98.0, 0.0, 1.0)
@@ -108,3 +110,16 @@ def draw_colormap() -> ListedColormap:
     """Return the colours of the kinds of cell in one draw: free, wall, unobserved and free, unobserved and wall."""
     free, wall = (tuple(color) for color in probability_colors(2).tolist())
     return ListedColormap([free, wall, UNOBSERVED, UNOBSERVED_WALL], name="bayesmap.draw")
+
+
+def chain_color(chain: int) -> str:
+    """Return the colour of a chain's lines; more chains than colours start again."""
+    return CHAINS[chain % len(CHAINS)]
+
+
+def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> Figure:
+    """Return an empty figure with its own Agg canvas, outside pyplot's global state; matplotlib arranges its panels."""
+    layout: Literal["constrained"] | None = "constrained" if arranged else None
+    figure = Figure(figsize=(width_in, height_in), dpi=dpi, facecolor="white", layout=layout)
+    FigureCanvasAgg(figure)
+    return figure

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PathCollection
 from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
@@ -17,7 +16,6 @@ from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
 
-HEIGHT_IN, BAR_IN = 5.6, 1.3
 FAINT = 0.3
 """Opacity of the map beneath."""
 
@@ -81,16 +79,9 @@ def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Sc
         order = np.concatenate([rest[:: -(-len(rest) // (MAX_POINTS - len(worst)))], worst])
     unit_pt2 = float(np.clip(12_000.0 / max(len(order), 1), 0.6, 14.0))
     return ax.scatter(
-        ends[order, 0],
-        ends[order, 1],
-        c=numbers[order],
-        s=unit_pt2 * (0.6 + 2.4 * severity[order]),
-        cmap=scale.colors,
-        vmin=scale.low,
-        vmax=scale.high,
-        linewidths=0.0,
-        zorder=3.4,
-    )
+        ends[order, 0], ends[order, 1], c=numbers[order], s=unit_pt2 * (0.6 + 2.4 * severity[order]),
+        cmap=scale.colors, vmin=scale.low, vmax=scale.high, linewidths=0.0, zorder=3.4,
+    )  # fmt: skip
 
 
 def residuals_figure(
@@ -116,10 +107,7 @@ def residuals_figure(
         BadInput: shapes or values that do not fit.
     """
     scale = residual_scale(values) if scale is None else scale
-    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.4, 2.5)) + BAR_IN
-    figure = Figure(figsize=(width_in, HEIGHT_IN), dpi=200, layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
+    figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), dpi=200)
     maps.draw_probability(axes, grid, occupancy, observed).set_alpha(FAINT)
     dots = draw_residuals(axes, ends_world, values, scale)
     bar = figure.colorbar(dots, ax=axes, label=scale.label, shrink=0.8, extend="both")

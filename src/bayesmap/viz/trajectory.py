@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
@@ -55,7 +54,7 @@ def trajectory_figure(
         covariances: of x, y and yaw, (S, 3, 3).
         flagged: (S,).
     """
-    figure, ax = _one(grid)
+    figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
         ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED, markersize=5, label="badly explained scan", zorder=5)
@@ -90,8 +89,7 @@ def before_and_after_figure(
         covariances: of x, y and yaw, (S, 3, 3).
     """
     height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
-    figure = Figure(figsize=(1.5 * SIZE_IN, height), dpi=110, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
     left, right = figure.subplots(1, 2)
     left.plot(*ends.T, ",", color="#8a8a8a", zorder=1)
     left.plot(raw[:, 0], raw[:, 1], color=BEFORE, linewidth=0.9, label="raw odometry")
@@ -155,14 +153,9 @@ def loops_figure(
     return _finished(figure, ax)
 
 
-def _one(grid: Grid) -> tuple[Figure, Axes]:
-    return _axes(grid.shape[1] / grid.shape[0])
-
-
 def _axes(tall: float) -> tuple[Figure, Axes]:
     height = SIZE_IN * float(np.clip(tall, 0.35, 1.6)) + 1.0
-    figure = Figure(figsize=(SIZE_IN, height), dpi=150, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = palette.blank_figure(SIZE_IN, height, dpi=150)
     return figure, figure.add_subplot()
 
 

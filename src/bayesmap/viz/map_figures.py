@@ -1,20 +1,71 @@
-"""Maps side by side: the posterior, and what other mappers make of the same scans."""
+"""Figures of maps: one map alone, and maps side by side."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.cell_arrays import as_observed
 from bayesmap.space.grid import Grid
-from bayesmap.viz import maps, palette
-from bayesmap.viz.figure import FONT_PT, color_bar, letter, unobserved_legend
-from bayesmap.viz.layout import lay_out
+from bayesmap.viz import maps
+from bayesmap.viz.figure import color_bar, lay_out, letter, place_legend
+from bayesmap.viz.overlays import draw_truth_outline
+
+NO_BAR_IN = 0.9
+"""How much narrower a panel is without a bar."""
+
+
+def panel_figure(
+    grid: Grid,
+    what: str,
+    values: NDArray[Any],
+    observed: ArrayLike | None = None,
+    *,
+    truth: ArrayLike | None = None,
+    label: str = "probability of wall",
+) -> Figure:
+    """Draw a single map with its colour bar.
+
+    Args:
+        grid: the map's grid.
+        what: "mean" and "entropy" (values: probabilities of a wall), "deviation" (values: the same; drawn is the
+            standard deviation of a cell), "width" (values: upper minus lower bound of the interval), or "draw"
+            (values: walls, or numbers in [0, 1]).
+        values: shape (nx, ny).
+        observed: cells to draw; the others are hatched. All if None.
+        truth: true walls, (nx, ny), to be outlined.
+        label: what the values of "mean" and of a draw in [0, 1] are.
+
+    Raises:
+        BadInput: shapes or values that do not fit.
+    """
+    figure, axes = maps.map_figure(grid, dpi=max(160.0, 1.1 * max(grid.shape) / maps.HEIGHT_IN))
+    if what == "mean":
+        image, words = maps.draw_probability(axes, grid, values, observed), label
+    elif what == "entropy":
+        image, words = maps.draw_entropy(axes, grid, values, observed), "entropy [bits]"
+    elif what == "deviation":
+        spread = np.sqrt(values * (1.0 - values))
+        image, words = maps.draw_deviation(axes, grid, spread, observed), "standard deviation"
+    elif what == "width":
+        image, words = maps.draw_width(axes, grid, values, observed), "width of the 90 % interval"
+    elif np.isin(values, (0, 1)).all():
+        image, words = maps.draw_sample(axes, grid, values, observed), ""
+    else:
+        image, words = maps.draw_probability(axes, grid, values, observed), label.removeprefix("mean ")
+    if not words:
+        figure.set_figwidth(figure.get_figwidth() - NO_BAR_IN)
+    else:
+        figure.colorbar(image, ax=axes, label=words, shrink=0.8)
+    if truth is not None:
+        draw_truth_outline(axes, grid, truth)
+    return figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +105,7 @@ def comparison_figure(
     if not 2 <= len(candidates) <= 4:
         raise BadInput(f"picture: compare two to four maps, got {len(candidates)}")
     layout = lay_out(grid, len(candidates), bars=len(candidates), titled=title is not None)
-    size_in = layout.figure[0] / layout.dpi, layout.figure[1] / layout.dpi
-    figure = Figure(figsize=size_in, dpi=layout.dpi, facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = layout.blank_figure()
     everywhere = True
     for position, (candidate, corner) in enumerate(zip(candidates, layout.corners, strict=True)):
         panel = figure.add_axes(layout.fractions(*corner, *layout.panel), label=f"{position}: {candidate.title}")
@@ -70,8 +119,6 @@ def comparison_figure(
     middle = sum(left for left, _ in last_row) // len(last_row), last_row[0][1]
     color_bar(figure, layout, middle, image, label, [0.0, 0.25, 0.5, 0.75, 1.0])
     if not everywhere:
-        unobserved_legend(figure)
-    if title is not None:
-        top = 1.0 - 0.12 * layout.dpi / layout.figure[1]
-        figure.text(0.5, top, title, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
+        place_legend(figure, [maps.hatch_patch()])
+    layout.title(figure, title)
     return figure
