@@ -11,12 +11,12 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.cli.pictures import log_odds_map
 from bayesmap.sim.tutorial import TUTORIAL_GRID
-from bayesmap.viz.comparison import Candidate, comparison_figure
+from bayesmap.viz.cells import window
 from bayesmap.viz.figure import write_figure
+from bayesmap.viz.map_figures import Candidate, comparison_figure
 from bayesmap.viz.palette import SURFACE
 from bayesmap.viz.surfaces import draw_surfaces
 from bayesmap.viz.trajectory import before_and_after_figure
-from bayesmap.viz.window import window
 
 IMAGES = Path(__file__).with_name("images")
 ROOMS = (6.0, 19.0), (-5.0, 6.5)  # x and y of the building's picture, metres

@@ -299,6 +299,33 @@ def test_scans_as_rostopic_echo_writes_them(tmp_path):
     np.testing.assert_allclose(read_log(unstamped, without_poses=True).stamps_s, scans.stamps_s + 0.01)
 
 
+def ros2_rows(scans, intensities=True):
+    """What ros2 topic echo --csv --full-length writes: no header, and an empty field for no intensities."""
+    for scan, at in enumerate(scans.stamps_s):
+        angles, ranges = scans.beams_of(scan)
+        ns, step = round(at * 1e9), float(angles[1] - angles[0])
+        words = [ns // 10**9, ns % 10**9, "laser", float(angles[0]), float(angles[-1]), step, 0.0, 0.1]
+        words += [scans.min_range_m, scans.max_range_m, *map(float, ranges)]
+        yield ",".join(map(str, [*words, *([47.0] * len(ranges) if intensities else [""])])) + "\n"
+
+
+def test_scans_as_ros2_topic_echo_writes_them(tmp_path):
+    scans = simulated(TIMES).at(np.zeros((len(TIMES), 3)))
+    for intensities in (True, False):
+        path = written(tmp_path / "scans.csv", "".join(ros2_rows(scans, intensities)))
+        assert "bayesmap slam --no-odometry" in refused(path)
+        equal(read_log(path, without_poses=True), scans)
+    few = bm.Scans(scans.poses, scans.angles_rad[:3] + 0.1, scans.ranges_m[:, :3], 42.0, stamps_s=scans.stamps_s + 99.0)
+    wide, narrow = ros2_rows(scans), ros2_rows(few)
+    both = read_log(written(tmp_path / "both.csv", "".join([*wide, *narrow])), without_poses=True)
+    assert np.isfinite(both.own_angles_rad).sum(axis=1).tolist() == [len(ANGLES)] * len(TIMES) + [3] * len(TIMES)
+    row = next(ros2_rows(scans, intensities=False))
+    cut = ",".join([*row.split(",")[:14], "...", "\n"])
+    assert "--full-length" in refused(written(tmp_path / "cut.csv", cut))
+    odd = row.rstrip("\n") + "1.0,2.0\n"
+    assert "line 1: " in refused(written(tmp_path / "odd.csv", odd), without_poses=True)
+
+
 def test_a_table_with_the_names_of_a_message_s_fields(tmp_path):
     head = "Time,header.seq,header.stamp.secs,header.stamp.nsecs,header.frame_id,angle_min,angle_max,angle_increment"
     text = head + ",range_min,range_max,ranges_0,ranges_1,ranges_2\n"

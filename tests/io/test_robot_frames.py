@@ -7,6 +7,7 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
+from bayesmap.io.contents import contents_of
 from bayesmap.io.logs import describe_log
 from bayesmap.io.ros.frames import Samples
 from bayesmap.io.ros.publishers import contradiction
@@ -208,6 +209,12 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     assert "two publishers" in message
     assert "--pose-topic: /odom" in message
     same(describe_log(file, pose_topic="/odom").scans, scans)
+    told = contents_of(file)
+    assert told.suggestion.endswith("--pose-topic /odom")
+    assert (
+        f"poses are those of /odom: without --pose-topic, {message.split(';')[0].split(': ', 1)[1]}"
+        in (told.sensors[0]["notes"])
+    )
 
 
 def test_two_publishers_of_the_map_leave_the_odometry(tmp_path):

@@ -1,4 +1,4 @@
-"""A saved run over reflectivities or surfaces comes back equal, opens anywhere, and damage does not pass unnoticed."""
+"""A saved run over reflectivities or surfaces comes back equal and opens anywhere."""
 
 from dataclasses import fields, replace
 from functools import cache
@@ -64,51 +64,3 @@ def test_it_opens_as_plain_netcdf(kind, tmp_path):
             np.testing.assert_array_equal(
                 draws["surface_l22"][:], surfaces_of(run.posterior)[..., 4].astype(np.float32)
             )
-
-
-def test_a_truncated_file_is_refused_wherever_it_ends(tmp_path):
-    run_of("surfaces").save(tmp_path / "run.nc")
-    content = (tmp_path / "run.nc").read_bytes()
-    copy = tmp_path / "damaged.nc"
-    for length in [*range(0, 60, 11), *np.linspace(60, len(content) - 1, 30).astype(int)]:
-        copy.write_bytes(content[:length])
-        with pytest.raises(bm.BadInput, match=r"damaged\.nc: "):
-            bm.load(copy)
-
-
-@pytest.mark.parametrize(
-    ("group", "name"),
-    [
-        ("posterior", "reflectivity"), ("posterior", "expected"), ("posterior", "surface_mean_x"),
-        ("posterior", "stop_chance"),
-        ("sample_stats", "log_likelihood"), ("chain_state", "state"), ("chain_state", "observed_counts"),
-        ("chain_state", "counts"), ("posterior", "cell_x"), ("constant_data", "occupancy"),
-        ("observed_data", "range_m"),
-    ],
-)  # fmt: skip
-def test_a_number_that_was_changed_is_noticed(group, name, tmp_path):
-    path = tmp_path / "changed.nc"
-    run_of("surfaces").save(path)
-    with netCDF4.Dataset(path, "a") as file:
-        values = file[group][name][:]
-        values.ravel()[-1] += 1
-        file[group][name][:] = values
-    with pytest.raises(bm.BadInput, match=r"changed\.nc: "):
-        bm.load(path)
-
-
-def test_an_attribute_that_was_changed_is_noticed(tmp_path):
-    path = tmp_path / "changed.nc"
-    run_of("surfaces").save(path)
-    with netCDF4.Dataset(path, "a") as file:
-        file.setncattr("bayesmap", file.getncattr("bayesmap").replace('"spread": 0.28', '"spread": 0.29'))
-    with pytest.raises(bm.BadInput, match=r"changed\.nc: "):
-        bm.load(path)
-
-
-def test_a_folder_that_is_not_there_is_refused_and_nothing_is_left(tmp_path):
-    run = infer("reflectivities")
-    (tmp_path / "file").write_text("not a folder")
-    with pytest.raises(bm.BadInput):
-        run.save(tmp_path / "file" / "run.nc")
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]

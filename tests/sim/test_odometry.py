@@ -1,11 +1,11 @@
-"""Odometry errs as its numbers say, alike however finely the path is cut."""
+"""Simulated odometry, and pairs of poses whose relation is written as truth."""
 
 import numpy as np
 import pytest
 from tiers import full_but
 
 from bayesmap.errors import BadInput
-from bayesmap.sim.odometry import OdometryNoise, simulate_odometry, travel_times_s
+from bayesmap.sim.odometry import NEAR_M, OdometryNoise, related_pairs, simulate_odometry, travel_times_s
 from bayesmap.space.planar import between, wrapped
 
 PERFECT = dict.fromkeys(OdometryNoise.__dataclass_fields__, 0.0)
@@ -105,3 +105,18 @@ def test_stamps_follow_from_the_slower_of_way_and_turn():
 def test_numbers_that_make_no_sense(numbers, message):
     with pytest.raises(BadInput, match=message):
         OdometryNoise(**numbers)
+
+
+def test_pairs_are_near_different_and_from_near_and_far_in_time():
+    angle = np.linspace(0, 6 * np.pi, 300)  # three rounds of a circle
+    path = np.column_stack([5 * np.cos(angle), 5 * np.sin(angle), angle])
+    start, end = related_pairs(path, seed=1)
+    assert (end > start).all()
+    assert len(np.unique(np.stack([start, end]), axis=1).T) == len(start)
+    assert np.hypot(*(path[start, :2] - path[end, :2]).T).max() <= NEAR_M
+    assert set(zip(range(299), range(1, 300), strict=True)) <= set(zip(start.tolist(), end.tolist(), strict=True))
+    assert (end - start > 80).sum() > 20  # a round later
+
+
+def test_a_single_pose_has_no_relation():
+    assert len(related_pairs(np.zeros((1, 3)))[0]) == 0

@@ -8,8 +8,8 @@ import pytest
 import bayesmap as bm
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.scoring import score_prediction
-from bayesmap.viz.calibration import calibration_figure
 from bayesmap.viz.figure import write_figure
+from bayesmap.viz.scores import calibration_figure
 
 
 @pytest.fixture(scope="module")

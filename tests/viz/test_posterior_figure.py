@@ -14,7 +14,7 @@ from viz_case import CORNER, GRID, observed, occupancy, scans
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 from bayesmap.viz import palette, posterior_figure, write_figure
-from bayesmap.viz.layout import lay_out
+from bayesmap.viz.figure import lay_out
 
 FREE, WALL = palette.probability_colors(2)
 

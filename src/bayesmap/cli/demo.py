@@ -108,8 +108,8 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
 
     from bayesmap.sim.tutorial import tutorial
     from bayesmap.viz.animation import write_animation
+    from bayesmap.viz.diagnostics import weights_figure
     from bayesmap.viz.figure import write_figure
-    from bayesmap.viz.weights import weights_figure
 
     walls, pose = tutorial()
     paths = []

@@ -65,7 +65,7 @@ def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
     Raises:
         BadInput: neither four numbers nor "observed", or a window outside the map.
     """
-    from bayesmap.viz.window import window, window_around
+    from bayesmap.viz.cells import window, window_around
 
     if text is None:
         return run.grid, (slice(None), slice(None))

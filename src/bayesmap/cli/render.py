@@ -75,7 +75,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
 
         write_figure(trace_figure(run.log_joint, first_sweep=run.posterior.settings["warmup"] + 1), target)
     elif what == "weights":
-        from bayesmap.viz.weights import weights_figure
+        from bayesmap.viz.diagnostics import weights_figure
 
         write_figure(weights_figure(run.log_weights), target)
     elif what == "animation":
@@ -94,7 +94,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
         scale = surprise_scale(numbers_shown) if what == "surprise" else None
         write_figure(residuals_figure(grid, mean, ends, numbers_shown, observed, scale=scale), target)
     elif what == "log-odds":
-        from bayesmap.viz.comparison import Candidate, comparison_figure
+        from bayesmap.viz.map_figures import Candidate, comparison_figure
 
         other, seen = pictures.log_odds_map(run)
         both = [Candidate("log-odds", other[cut], seen[cut]), Candidate(f"posterior: {label}", mean, observed)]
@@ -104,7 +104,7 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
 
         write_figure(surfaces_figure(grid, *run.surfaces(), observed), target)
     else:
-        from bayesmap.viz.panel import panel_figure
+        from bayesmap.viz.map_figures import panel_figure
 
         shown: NDArray[Any] = mean
         if what == "deviation":

@@ -220,9 +220,8 @@ def _score_others(
 
 def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
     """Draw what there is, and say where: errors of poses beside NAME.png in NAME-poses.png if it is taken."""
-    from bayesmap.viz.calibration import calibration_figure
     from bayesmap.viz.figure import write_figure
-    from bayesmap.viz.trajectory_errors import errors_figure
+    from bayesmap.viz.scores import calibration_figure, errors_figure
 
     target, written = Path(picture), []
     if rows:

@@ -141,7 +141,7 @@ def _write_truth(
 ) -> list[Path]:
     from bayesmap.io.text.relations import write_relations
     from bayesmap.io.text.tum import write_trajectory
-    from bayesmap.sim.relations import related_pairs
+    from bayesmap.sim.odometry import related_pairs
     from bayesmap.space.planar import between
 
     outputs = [write_trajectory(trajectory, laser, stamps_s)]

@@ -135,14 +135,14 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
 
 
 def _without_scans(recording: Any) -> str:
-    """What is said of a recording that no map can be made from, and what would help."""
+    """Return what is said of a recording that no map can be made from, and what would help."""
     types = {topic.type for topic in recording.topics.values() if topic.count}
     remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
     return f"no topic holds range scans ({', '.join(SCAN_TYPES)}), so there is nothing to make a map from{remedy}"
 
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
-    """What the scans of one topic look like, and by which poses they can be used."""
+    """Return what the scans of one topic look like, and by which poses they can be used."""
     from bayesmap.io.ros.poses import POSE_TYPES, topics_of_type
 
     account: dict[str, Any] = {
@@ -156,10 +156,15 @@ def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
         except BadInput as problem:
             first = first or problem
             continue
-        found = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
+        sensor = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
+        why = _reason(recording.path, first)
         if not reading.posed and first is not None:
-            found["no_poses"] = _reason(recording.path, first)
-        return {**found, "notes": [*found["notes"], *_about_poses(reading)]}
+            sensor["no_poses"] = why
+        elif first is not None:
+            sensor["notes"].append(
+                f"poses are those of {reading.pose_source}: without --pose-topic, {why.partition(';')[0]}"
+            )
+        return {**sensor, "notes": [*sensor["notes"], *_about_poses(reading)]}
     return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first)}
 
 
@@ -183,7 +188,7 @@ def _account(reading: LogReading) -> dict[str, Any]:
 
 
 def _about_poses(reading: LogReading) -> list[str]:
-    """What to do with poses under which the same wall stands in several places, and with scans that have none."""
+    """Say what to do with poses under which a wall stands in several places, and with scans that have none."""
     if not reading.posed:
         return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
     if not look_like_odometry(reading.scans):
@@ -196,7 +201,7 @@ def _about_poses(reading: LogReading) -> list[str]:
 
 
 def scans_summary(scans: Scans) -> dict[str, Any]:
-    """What scans look like, ready for JSON: how many, where their beams point, what they read, how far they go."""
+    """Return what scans look like, ready for JSON: number, beams, readings, and how far they go."""
     angles = np.degrees(scans.angles_rad)
     low, high = scans.poses[:, :2].min(axis=0), scans.poses[:, :2].max(axis=0)
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
@@ -217,7 +222,7 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
 
 
 def _command(path: str, sensor: dict[str, Any], *, scan_topic: str | None = None, skip: bool = False) -> str | None:
-    """The command that makes a map of a sensor's scans; None if there is none that works."""
+    """Return the command that makes a map of a sensor's scans; None if there is none that works."""
     if sensor["no_poses"] is not None and not sensor["followable"]:
         return None
     words = ["bayesmap", "slam" if sensor["raw_odometry"] or sensor["no_poses"] is not None else "infer", path]

@@ -235,8 +235,8 @@ def export_run(
             package that is not installed, or a file that cannot be written; the message says what would be right.
     """
     chosen = export_format(path, format)
-    given = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
-    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    thresholds = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
+    options: dict[str, Any] = {name: value for name, value in thresholds.items() if value is not None}
     if options and chosen not in THRESHOLDED:
         raise BadInput(
             f"{path}: {chosen} keeps the numbers and takes no {next(iter(options))}; leave it out, or choose "

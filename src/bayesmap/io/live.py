@@ -22,7 +22,7 @@ from bayesmap.io.log_reading import Account, LogOptions, Pose
 from bayesmap.io.logs import LINES_LOOKED_AT, format_of
 from bayesmap.io.returns import decode
 from bayesmap.io.text.carmen import KNOWN, LASERS, Malformed, message_name, parse_laser
-from bayesmap.io.text.csv import Bad, is_header, live_rows
+from bayesmap.io.text.csv import Bad, live_rows, starts_table
 from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.lines import GZIP_MAGIC, as_utf8, split_lines
 from bayesmap.space.scans import Scans
@@ -99,7 +99,7 @@ def live_scans(
         if words and words[0] in {known.encode() for known in KNOWN}:
             yield from _of_carmen(chain(before, lines), bad, options)
             return
-        if is_header(line):
+        if starts_table(line):
             yield from live_rows(name, chain(before, lines), bad, options)
             return
         if number >= LINES_LOOKED_AT or b"\0" in line or (words and words[0] in KNOWN_G2O):

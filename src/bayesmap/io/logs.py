@@ -17,7 +17,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogOptions, LogReading, Pose
 from bayesmap.io.ros.compression import compression_of, first_bytes
 from bayesmap.io.text.carmen import KNOWN, read_carmen
-from bayesmap.io.text.csv import is_header, read_csv
+from bayesmap.io.text.csv import read_csv, starts_table
 from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.g2o import read_g2o
 from bayesmap.io.text.lines import DamagedFile, read_lines
@@ -33,7 +33,7 @@ FORMATS = (
     "ROS 1 bag",
     "ROS 2 bag (a folder, .db3 or .mcap)",
     "g2o and TORO (VERTEX_SE2 or VERTEX2 with laser lines)",
-    "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p)",
+    "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p or ros2 topic echo --csv)",
     "NumPy .npz",
     "MRPT's .rawlog",
 )
@@ -176,12 +176,12 @@ def format_of(path: str | os.PathLike[str]) -> str:
 
 
 def _text_format(name: str) -> str:
-    carmen, some = {word.encode() for word in KNOWN}, False
-    found = None
+    carmen, any_line = {word.encode() for word in KNOWN}, False
+    kind = None
     try:
         with closing(read_lines(name)) as lines:
             for _, line in itertools.islice(lines, LINES_LOOKED_AT):
-                some = True
+                any_line = True
                 words = line.split(None, 1)
                 if words and words[0] in GMAPPING:
                     raise BadInput(
@@ -191,15 +191,15 @@ def _text_format(name: str) -> str:
                 if words and words[0] in KNOWN_G2O:
                     return "g2o"  # whose laser lines are CARMEN's: hence not earlier
                 if words and words[0] in carmen:
-                    found = found or "carmen"
-                if found is None and not line.startswith(b"#") and is_header(line):
+                    kind = kind or "carmen"
+                if kind is None and not line.startswith(b"#") and starts_table(line):
                     return "csv"
     except DamagedFile:
-        if found is None:
+        if kind is None:
             raise
-    if found is not None:
-        return found
-    if not some:
+    if kind is not None:
+        return kind
+    if not any_line:
         raise BadInput(f"{name}: the file is empty")
     raise BadInput(
         f"{name}: not a log of a known format; known are: {'; '.join(FORMATS)}. "
@@ -220,16 +220,16 @@ def _coarse_stamps(reading: LogReading) -> str | None:
 
 
 def _jumps(reading: LogReading) -> str | None:
-    scans, found = reading.scans, jumps(reading.scans)
-    if not len(found):
+    scans, jumped = reading.scans, jumps(reading.scans)
+    if not len(jumped):
         return None
-    scan = int(found[0])
+    scan = int(jumped[0])
     step = float(steps_m(scans.poses)[scan - 1])
     gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
     when = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
     where = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     return (
-        f"{len(found):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
+        f"{len(jumped):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
         "walls will appear twice if the poses are wrong"
     )
 

@@ -189,9 +189,9 @@ def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[
     else:  # The counts that matter begin at 0.8 of the smallest candidate, which is 0.8 of the largest reading.
         top = usable & (readings_m >= TOP_SHARE**2 * readings_m[usable].max())
         once = usable & ~views.repeated(readings_m, top)
-    found = next((value for value in _standing_out(readings_m, once) if _viewed(views, readings_m >= value)), None)
-    if found is not None or views is None:
-        return found, None
+    code = next((value for value in _standing_out(readings_m, once) if _viewed(views, readings_m >= value)), None)
+    if code is not None or views is None:
+        return code, None
     doubtful = next(iter(_standing_out(readings_m, usable)), None)
     if doubtful is not None and 2 * (readings_m[usable] >= doubtful).sum() > usable.sum():
         doubtful = None  # It stands out among nothing.

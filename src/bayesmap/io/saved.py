@@ -4,9 +4,9 @@ Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sa
 ``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (where the chains stand),
 ``warmup_sample_stats``, and ``trajectory`` (`bayesmap.io.saved_trajectory`) where one was inferred. Settings, grid,
 prior, sensor and timings are attributes of the root, as JSON. Arrays that count some cells only have these cells'
-indices beside them, as ``cell_x`` and ``cell_y``. Booleans are stored as deflated bytes, half precision as 32-bit
-floats, so that any reader sees plain arrays. Each array has the CRC of its elements as an attribute, and
-so has the header: what HDF5 itself does not notice of damage, they do.
+indices beside them, as ``cell_x`` and ``cell_y``. netCDF has neither bits nor half precision: booleans are deflated
+bytes in the file, and half precision is 32-bit floats, whose last bits are zero and compress well. HDF5 checks each
+array by its Fletcher-32 sum, and the header has a CRC: a damaged file is refused.
 """
 
 from __future__ import annotations
@@ -15,24 +15,21 @@ import json
 import math
 import os
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.arrays import Draws
+from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.io.saved_arrays import read_array, read_draws, write_arrays, write_draws
-from bayesmap.io.saved_trajectory import numbers_of, read_trajectory, write_trajectory
 from bayesmap.model import POSES
-from bayesmap.poses.trajectory import Trajectory
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.describe import describe, from_description
@@ -40,8 +37,16 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
+if TYPE_CHECKING:
+    from bayesmap.poses.trajectory import Trajectory
+
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
+
+BLOCK = 1 << 22
+"""Numbers that are turned over at a time, so that no whole copy is made of the draws."""
+CHUNK = 1 << 20
+"""Numbers that are compressed together."""
 
 
 def save(
@@ -84,7 +89,11 @@ def _write(
         "notes": posterior.notes,
     }
     if trajectory is not None:
+        from bayesmap.io.saved_trajectory import arrays_of, numbers_of
+
         header["trajectory"] = numbers_of(trajectory)
+        for name, (dimensions, values) in arrays_of(trajectory).items():
+            write_arrays(_group(file, "trajectory"), dimensions, {name: values})
     text = json.dumps(header)
     file.setncatts(
         {
@@ -96,7 +105,7 @@ def _write(
             "checksum": _checksum(text),
         }
     )
-    group = file.createGroup("posterior")
+    group = _group(file, "posterior")
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
         write_arrays(group, (name,), {name: values}, compressed=False)
@@ -118,24 +127,22 @@ def _write(
     densities = {
         "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
     }  # fmt: skip
-    write_arrays(file.createGroup("sample_stats"), ("chain", "draw"), densities)
-    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
+    write_arrays(_group(file, "sample_stats"), ("chain", "draw"), densities)
+    write_arrays(_group(file, "warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
     constant = _write_scans(file, scans)
     observed = posterior.observed.astype(np.int8)
     write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
     for name, values in _by_name(posterior).items():
         write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), {name: values})
-    state = file.createGroup("chain_state")
+    state = _group(file, "chain_state")
     for name, values in posterior.snapshot.arrays.items():
         # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
         write_arrays(state, dimensions, {name: values}, compressed=values.dtype == np.uint8)
-    if trajectory is not None:
-        write_trajectory(file, trajectory)
 
 
 def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
-    """Arrays that only some posteriors have."""
+    """Return arrays that only some posteriors have."""
     out = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
     out |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
     return out if posterior.log_weights is None else {**out, "log_weight": posterior.log_weights}
@@ -143,8 +150,8 @@ def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
 
 def _write_scans(file: Any, scans: Scans) -> Any:
     """Write what was conditioned on; the group of constants, for more of them."""
-    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
-    constant = file.createGroup("constant_data")
+    write_arrays(_group(file, "observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
+    constant = _group(file, "constant_data")
     write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
     write_arrays(constant, ("beam",), {"angle_rad": scans.angles_rad})
     if scans.own_angles_rad is not None:
@@ -185,7 +192,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
 
 
 def _not_ours(attributes: dict[str, Any]) -> str | None:
-    """Why a sound netCDF file is not one that we can read, or None."""
+    """Return why a sound netCDF file is not one that we can read, or None."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"
     if int(attributes["format_version"]) == FORMAT_VERSION:
@@ -209,7 +216,12 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
 
     prior = prior_from(header["prior"] | named("prior_"))
     snapshot = Snapshot(header["sweep"], {name: read_array(v) for name, v in file["chain_state"].variables.items()})
-    trajectory = read_trajectory(file, header["trajectory"]) if "trajectory" in header else None
+    trajectory = None
+    if "trajectory" in header:
+        from bayesmap.io.saved_trajectory import trajectory_from
+
+        arrays = {name: read_array(variable) for name, variable in file["trajectory"].variables.items()}
+        trajectory = trajectory_from(arrays, header["trajectory"])
     return _posterior(file, header, prior, snapshot, named("statistic_")), trajectory
 
 
@@ -279,3 +291,87 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
 
 def _checksum(header: str) -> int:
     return zlib.crc32(header.encode())
+
+
+def _group(file: Any, name: str) -> Any:
+    return file.groups.get(name) or file.createGroup(name)
+
+
+def write_arrays(
+    group: Any, dimensions: tuple[str, ...], arrays: Mapping[str, NDArray[Any]], compressed: bool = True
+) -> None:
+    """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
+    for name, values in arrays.items():
+        _need_dimensions(group, dimensions, values.shape)
+        variable = group.createVariable(
+            name, values.dtype, dimensions, zlib=compressed, complevel=1, fletcher32=bool(dimensions)
+        )
+        variable[:] = values
+
+
+def read_array(variable: Any) -> NDArray[Any]:
+    """Read an array."""
+    return np.asarray(variable[:])
+
+
+def write_draws(
+    group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], written: Callable[[int], None]
+) -> None:
+    """Write an array of the draws, (chains, draws, ...), as it is kept, and tell how many numbers each block had."""
+    chains, draws = stored.shape[:2]
+    dimensions, sizes = ("chain", "draw", *spec.dims), (chains, draws, *shape)
+    _need_dimensions(group, dimensions, sizes)
+    size, dtype = int(np.prod(shape)), {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
+    deep = _depth(draws, size)
+    wide = tuple(max(1, part) for part in shape) if size <= CHUNK or len(shape) > 1 else (CHUNK,)
+    chunks = (1, max(1, min(deep, draws)), *wide)
+    variable = group.createVariable(
+        spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits", chunksizes=chunks,
+        fletcher32=True,
+    )  # fmt: skip
+    # Whole chunks are written: by default netCDF would keep 64 MB of each array until the file is closed.
+    variable.set_var_chunk_cache(size=math.prod(chunks) * np.dtype(dtype).itemsize)
+    variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
+    if spec.what:
+        variable.long_name = spec.what
+    for chain, block in _blocks(chains, draws, size):
+        part = spec.values(stored[chain, block], shape)
+        variable[chain, block] = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
+        written(part.size)
+
+
+def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
+    """Return draws as they were kept.
+
+    Raises:
+        ValueError: sizes that are not those of the file's cells.
+    """
+    chains, draws, *sizes = variable.shape
+    if tuple(sizes) != shape:
+        raise ValueError(f"{spec.name} has the sizes {sizes}, and not {shape}")
+    out = spec.empty(chains, draws, shape)
+    if variable.chunking() != "contiguous":
+        variable.set_var_chunk_cache(size=math.prod(variable.chunking()) * variable.dtype.itemsize)
+    for chain, block in _blocks(chains, draws, int(np.prod(shape))):
+        out[chain, block] = spec.stored(variable[chain, block])
+    return out
+
+
+def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
+    for dimension, size in zip(dimensions, sizes, strict=True):
+        if dimension not in group.dimensions:
+            group.createDimension(dimension, size)
+
+
+def _depth(draws: int, size: int) -> int:
+    """Return how many draws are compressed together."""
+    return max(1, min(draws, CHUNK // max(size, 1)))
+
+
+def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
+    """Return the blocks of draws that are turned over at a time, chain by chain."""
+    deep = _depth(draws, size)
+    at_once = max(1, BLOCK // max(size * deep, 1)) * deep  # whole chunks
+    for chain in range(chains if size else 0):
+        for i in range(0, draws, at_once):
+            yield chain, slice(i, min(i + at_once, draws))

@@ -1,7 +1,7 @@
-"""The approximation of a trajectory (`bayesmap.poses.trajectory`) in a saved run: a group of arrays, and a few numbers.
+"""The approximation of a trajectory (`bayesmap.poses.trajectory`) in a saved run: arrays by name, and a few numbers.
 
-What is kept is what it was made from, all of it: covariances of relative poses and draws are computed from that when
-they are asked for.
+All that the approximation was made from is kept: covariances of relative poses and draws are computed when they are
+asked for.
 """
 
 from __future__ import annotations
@@ -13,14 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.io.saved_arrays import read_array, write_arrays
-from bayesmap.poses.calibration import MotionNoise, OdometryFit
+from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory
-
-GROUP = "trajectory"
 
 VECTOR, MATRIX = ("pose_part",), ("pose_part", "other_pose_part")
 
@@ -53,7 +50,7 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
 
 
 def arrays_of(found: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
-    """All arrays by the names under which they are saved, with their dimensions."""
+    """Return all arrays by the names under which they are saved, with their dimensions."""
     every = [(name, dims, getattr(found, name)) for name, dims in FIELDS.items()]
     for part, fields in PARTS.items():
         of = getattr(found, part)
@@ -63,44 +60,26 @@ def arrays_of(found: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any
 
 
 def numbers_of(found: Trajectory) -> dict[str, Any]:
-    """What is no array, as JSON values."""
+    """Return what is no array, as JSON values."""
     about = found.calibration
     fit = about.odometry
+    odometry = None if fit is None else {
+        "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(), "lag_s": float(fit.lag_s),
+        "lag_sigma_s": float(fit.lag_sigma_s), "rates": fit.noise.rates.tolist(),
+    }  # fmt: skip
     return {
-        "dof": found.gaussian.dof,
-        "angle_step_ratio": about.angle_step_ratio,
-        "point_sigma_m": about.point_sigma_m,
-        "noise": None if about.noise is None else asdict(about.noise),
-        "odometry": None
-        if fit is None
-        else {
-            "slope": fit.slope.tolist(),
-            "slope_sigma": fit.slope_sigma.tolist(),
-            "lag_s": float(fit.lag_s),
-            "lag_sigma_s": float(fit.lag_sigma_s),
-            "rates": fit.noise.rates.tolist(),
-        },
-    }
+        "dof": found.gaussian.dof, "angle_step_ratio": about.angle_step_ratio, "point_sigma_m": about.point_sigma_m,
+        "noise": None if about.noise is None else asdict(about.noise), "odometry": odometry,
+    }  # fmt: skip
 
 
-def write_trajectory(file: Any, found: Trajectory) -> None:
-    """Write the arrays into an open file."""
-    group = file.createGroup(GROUP)
-    for name, (dims, values) in arrays_of(found).items():
-        write_arrays(group, dims, {name: values})
-
-
-def read_trajectory(file: Any, numbers: Mapping[str, Any]) -> Trajectory:
-    """Read it back from an open file, given what `numbers_of` said."""
-    variables = file[GROUP].variables
-
-    def read(name: str) -> Any:
-        return read_array(variables[name]) if name in variables else None
+def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> Trajectory:
+    """Return the trajectory of which `arrays_of` and `numbers_of` said all."""
 
     def part(name: str) -> dict[str, Any]:
-        return {field: read(f"{name}_{field}") for field in PARTS[name]}
+        return {field: arrays.get(f"{name}_{field}") for field in PARTS[name]}
 
-    own = {name: read(name) for name in FIELDS}
+    own: dict[str, Any] = {name: arrays.get(name) for name in FIELDS}
     own["flagged"] = own["flagged"] != 0
     about, noise = numbers["odometry"], numbers["noise"]
     fit = None
@@ -115,14 +94,14 @@ def read_trajectory(file: Any, numbers: Mapping[str, Any]) -> Trajectory:
         **own,
         gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
         closures=LoopClosures(**part("closures")),
-        alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in variables else NO_ALTERNATIVES,
-        odometry=Factors(**part("odometry")) if "odometry_first" in variables else None,
+        alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
+        odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None,
         calibration=calibration,
     )
 
 
 def _stored(values: NDArray[Any]) -> NDArray[Any]:
-    """Truth values as bytes, and indices with 64 bits on every machine."""
+    """Return truth values as bytes, and indices with 64 bits on every machine."""
     if values.dtype == np.bool_:
         return values.astype(np.int8)
     return values.astype(np.int64) if values.dtype.kind == "i" else np.asarray(values, dtype=np.float64)

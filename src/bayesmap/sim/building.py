@@ -69,7 +69,7 @@ def building(
     glass_pass: float = 0.7,
     clutter: float = 1.0,
 ) -> Building:
-    """An office floor: rooms along corridors, every one within reach, the outer wall closed.
+    """Simulate an office floor: rooms along corridors, every one within reach, the outer wall closed.
 
     The same arguments give the same building.
 
@@ -145,7 +145,7 @@ class _Construction:
             self.furnish(space, clutter)
 
     def doors(self, room: Space) -> None:
-        """One door to the corridor near a corner, two for wide rooms; glass along some meeting rooms."""
+        """Cut one door to the corridor near a corner, two for wide rooms; set glass along some meeting rooms."""
         side = int(self.rng.choice(room.corridors))
         wide = room.width * self.resolution > 6.2
         both_corners = [True, False] if wide else [bool(self.rng.random() < 0.5)]
@@ -172,7 +172,7 @@ class _Construction:
             self.opacity[hinge, leaf] = 1.0
 
     def wall_rows(self, room: Space, side: int) -> tuple[int, int]:
-        """Rows of the wall between a room and the corridor at its side."""
+        """Return the rows of the wall between a room and the corridor at its side."""
         thickness = inner_wall_cells(self.resolution)
         return (room.y1, room.y1 + thickness) if side > 0 else (room.y0 - thickness, room.y0)
 
@@ -182,7 +182,7 @@ class _Construction:
         self.pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
 
     def windows(self, room: Space) -> None:
-        """Glazing down to the floor in some facade rooms; elsewhere the sill is above the laser."""
+        """Set glazing down to the floor in some facade rooms; elsewhere the sill is above the laser."""
         ix0, ix1, iy0, iy1 = self.inside
         chance = {"lobby": 1.0, "open plan": 0.75, "meeting": 0.6}.get(room.kind, 0.4)
         if room.facade and self.rng.random() < chance:
@@ -196,7 +196,7 @@ class _Construction:
                 self.window(column, column + self.outer, middle - half, middle + half, along_x=False)
 
     def end_windows(self, corridor: Space) -> None:
-        """A window at each end of a corridor that meets the facade."""
+        """Set a window at each end of a corridor that meets the facade."""
         ix0, ix1, _, iy1 = self.inside
         edge = self.cells(0.3)
         if corridor.x0 == ix0:
@@ -207,14 +207,14 @@ class _Construction:
             self.window(corridor.x0 + edge, corridor.x1 - edge, iy1, iy1 + self.outer, along_x=True)
 
     def keep_junctions(self, cross: Space, corridors: list[Space]) -> None:
-        """Nothing may stand where a cross corridor meets the others."""
+        """Reserve the places where a cross corridor meets the others: nothing may stand there."""
         thickness, clear = inner_wall_cells(self.resolution), self.cells(DOOR_CLEAR_M)
         for corridor in corridors:
             if corridor.x0 < cross.x0 and corridor.y0 <= cross.y1 + thickness and cross.y0 <= corridor.y1:
                 self.keep[cross.x0 : cross.x1, corridor.y0 - clear : corridor.y1 + clear] = True
 
     def window(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
-        """A pane in the middle of the outer wall, with reveals on both sides."""
+        """Set a pane in the middle of the outer wall, with reveals on both sides."""
         self.opacity[x0:x1, y0:y1] = 0.0
         middle = (y0 + y1) // 2 if along_x else (x0 + x1) // 2
         if along_x:
@@ -223,7 +223,7 @@ class _Construction:
             self.pane(middle, middle + 1, y0, y1, along_x=False)
 
     def pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
-        """Glass with a mullion every 1.2 m."""
+        """Set glass with a mullion every 1.2 m."""
         self.opacity[x0:x1, y0:y1] = 1.0
         self.glass[x0:x1, y0:y1] = True
         every = self.cells(1.2)

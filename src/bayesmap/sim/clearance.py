@@ -15,7 +15,7 @@ LATTICE_M = 0.1
 
 
 def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
-    """Distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
+    """Return the distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
     from scipy import ndimage  # half a second to import: only those who simulate buildings pay for it
 
     if not walls.any():
@@ -24,12 +24,12 @@ def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.f
 
 
 def lattice_stride(resolution: float) -> int:
-    """Cells between neighbours of the planning lattice."""
+    """Return the number of cells between neighbours of the planning lattice."""
     return max(1, round(LATTICE_M / resolution))
 
 
 def passage_m(resolution: float) -> float:
-    """Centre-to-centre distance from walls that keeps a path clear of them by `ROBOT_CLEARANCE_M`.
+    """Return the centre-to-centre distance from walls that keeps a path clear of them by `ROBOT_CLEARANCE_M`.
 
     A wall's edge is nearer than its centre by up to half a cell's diagonal, and a point of the path is off
     the lattice by up to half the lattice's diagonal.

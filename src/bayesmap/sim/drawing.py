@@ -13,7 +13,7 @@ WALLS = "X#"
 
 
 def from_text(text: str) -> NDArray[np.bool_]:
-    """Walls from a text drawing: ``.`` is free, ``X`` or ``#`` is a wall.
+    """Read walls from a text drawing: ``.`` is free, ``X`` or ``#`` is a wall.
 
     The text is read as the tutorial reads it: lines are the *first* index, so ``walls[i, j]`` is line ``i``,
     column ``j``. On a map, where arrays are indexed ``[x, y]``, the first line is therefore the column of
@@ -58,7 +58,7 @@ def from_text(text: str) -> NDArray[np.bool_]:
 
 
 def to_text(walls: ArrayLike) -> str:
-    """The drawing that `from_text` reads back as these walls.
+    """Return the drawing that `from_text` reads back as these walls.
 
     Args:
         walls: boolean walls, shape (lines, columns), with at least one cell.

@@ -72,7 +72,7 @@ class _Band:
 
 
 def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolution: float) -> tuple[Space, ...]:
-    """Corridors and rooms that fill a rectangle of cells, one inner wall apart.
+    """Lay out corridors and rooms that fill a rectangle of cells, one inner wall apart.
 
     Args:
         rng: the source of randomness.
@@ -107,12 +107,12 @@ def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolu
 
 
 def inner_wall_cells(resolution: float) -> int:
-    """Thickness of an inner wall in cells."""
+    """Return the thickness of an inner wall in cells."""
     return max(1, round(INNER_WALL_M / resolution))
 
 
 def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> list[_Band]:
-    """Rows and corridors from y0 to y1: as many rows as come nearest to the usual depth."""
+    """Divide y0 to y1 into rows and corridors: as many rows as come nearest to the usual depth."""
     wall, corridor = inner_wall_cells(resolution), round(CORRIDOR_M / resolution)
 
     def room_cells(rows: int) -> int:
@@ -132,7 +132,7 @@ def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> lis
 
 
 def _order(rows: int) -> list[str]:
-    """Rows with corridors between, so that every row touches one."""
+    """Order rows with corridors between, so that every row touches one."""
     order: list[str] = []
     for row in range(rows):
         order.append("row")
@@ -145,7 +145,7 @@ def _order(rows: int) -> list[str]:
 def _cross_corridors(
     rng: np.random.Generator, x0: int, x1: int, corridors: int, resolution: float
 ) -> list[tuple[int, int]]:
-    """Column ranges of the cross corridors: none if there is only one corridor to join."""
+    """Return column ranges of the cross corridors: none if there is only one corridor to join."""
     if corridors < 2:
         return []
     width, length = round(CROSS_CORRIDOR_M / resolution), x1 - x0
@@ -155,7 +155,7 @@ def _cross_corridors(
 
 
 def _between(x0: int, x1: int, gaps: list[tuple[int, int]], wall: int) -> Iterator[tuple[int, int]]:
-    """What is left of x0..x1 on both sides of the gaps and their walls."""
+    """Return what is left of x0..x1 on both sides of the gaps and their walls."""
     start = x0
     for a, b in sorted(gaps):
         yield start, a - wall
@@ -164,7 +164,7 @@ def _between(x0: int, x1: int, gaps: list[tuple[int, int]], wall: int) -> Iterat
 
 
 def _split(rng: np.random.Generator, x0: int, x1: int, resolution: float) -> Iterator[tuple[int, int]]:
-    """Rooms between x0 and x1, by splitting in two until pieces are narrow enough."""
+    """Divide x0 to x1 into rooms, by splitting in two until pieces are narrow enough."""
     wall, least = inner_wall_cells(resolution), round(MIN_ROOM_M / resolution)
     widths, chances = zip(*STOP_SPLITTING_M, strict=True)
     if x1 - x0 < 2 * least + wall or (x1 - x0) * resolution < rng.choice(widths, p=chances):
@@ -177,7 +177,7 @@ def _split(rng: np.random.Generator, x0: int, x1: int, resolution: float) -> Ite
 
 
 def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float) -> tuple[Space, ...]:
-    """What each room is for, from its size and place; one facade room becomes the lobby."""
+    """Name what each room is for, from its size and place; one facade room becomes the lobby."""
     facade = [k for k, space in enumerate(spaces) if space.facade]
     middle = np.mean([(spaces[k].x0 + spaces[k].x1) / 2 for k in facade])
     lobby = min(facade, key=lambda k: abs((spaces[k].x0 + spaces[k].x1) / 2 - middle) + 1e6 * spaces[k].y0)

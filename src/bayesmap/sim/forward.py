@@ -21,7 +21,7 @@ def ranges(
     *,
     device: str = "cpu",
 ) -> NDArray[np.float64]:
-    """Noise-free ranges: the distance from each pose to the first wall along each beam, capped.
+    """Compute noise-free ranges: the distance from each pose to the first wall along each beam, capped.
 
     Cells are closed squares: a beam that touches a corner hits all cells that meet there. From inside a wall the
     range is that of the exit edge. This equals the minimum over the four edges of every wall cell.

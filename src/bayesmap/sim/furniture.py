@@ -70,7 +70,7 @@ class RoomFloor:
         return float(self._room_to_pass(opacity).sum()) * self.resolution**2
 
     def _reachable(self, opacity: NDArray[np.float64]) -> float:
-        """Square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
+        """Return the square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
         from scipy import ndimage
 
         labels, _ = ndimage.label(self._room_to_pass(opacity))
@@ -108,7 +108,7 @@ def _office(room: RoomFloor, clutter: float) -> None:
 
 
 def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
-    """A desk along a side wall: drawers under one end, two legs at the other, a chair before it."""
+    """Put a desk along a side wall: drawers under one end, two legs at the other, a chair before it."""
     width, _ = room.size_m
     x_wall = 0.0 if left else width - 0.6
     x_edge = 0.6 if left else width - 0.7
@@ -118,7 +118,7 @@ def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
 
 
 def _chair(room: RoomFloor, x: float, y: float) -> None:
-    """A swivel chair: the column and five short feet fill about a square of 0.2 m."""
+    """Put a swivel chair: the column and five short feet fill about a square of 0.2 m."""
     room.place((x + room.rng.uniform(-0.2, 0.2), y + room.rng.uniform(-0.2, 0.2), 0.2, 0.2, LEG))
 
 
@@ -128,7 +128,7 @@ def _four_legs(x: float, y: float, width: float, depth: float) -> list[Rectangle
 
 
 def _table(room: RoomFloor, clutter: float) -> None:
-    """A table in the middle, with four legs, and chairs along its sides."""
+    """Put a table in the middle, with four legs, and chairs along its sides."""
     width, depth = room.size_m
     along_x = width > depth
     length, across = min(max(width, depth) - 2.6, 3.6), 1.2
@@ -152,7 +152,7 @@ def _meeting(room: RoomFloor, clutter: float) -> None:
 
 
 def _open_plan(room: RoomFloor, clutter: float) -> None:
-    """Islands of four desks: a screen down the middle, drawers at the outer ends, a chair at each desk."""
+    """Put islands of four desks: a screen down the middle, drawers at the outer ends, a chair at each desk."""
     width, depth = room.size_m
     islands = max(1, int((width - 0.8) / 3.6))
     for k in range(islands):
@@ -168,7 +168,7 @@ def _open_plan(room: RoomFloor, clutter: float) -> None:
 
 
 def _store(room: RoomFloor, clutter: float) -> None:
-    """Shelves along both side walls, boxes on the floor."""
+    """Put shelves along both side walls, boxes on the floor."""
     width, depth = room.size_m
     for x in (0.0, width - 0.4):
         room.place((x, 1.3, 0.4, depth - 1.3, SOLID))
@@ -191,7 +191,7 @@ def _kitchen(room: RoomFloor, clutter: float) -> None:
 
 
 def _washroom(room: RoomFloor, clutter: float) -> None:
-    """Stalls along the back wall, their doors open, and a row of basins."""
+    """Put stalls along the back wall, their doors open, and a row of basins."""
     width, depth = room.size_m
     stalls = max(1, int(width / 1.0))
     for k in range(stalls):
@@ -203,7 +203,7 @@ def _washroom(room: RoomFloor, clutter: float) -> None:
 
 
 def _lobby(room: RoomFloor, clutter: float) -> None:
-    """A reception desk, armchairs, a plant."""
+    """Put a reception desk, armchairs, a plant."""
     width, depth = room.size_m
     room.place((width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6, SOLID))
     for _ in range(3):
@@ -212,7 +212,7 @@ def _lobby(room: RoomFloor, clutter: float) -> None:
 
 
 def _corridor(room: RoomFloor, clutter: float) -> None:
-    """A copier, a cabinet or a plant here and there, flat against a wall."""
+    """Put a copier, a cabinet or a plant here and there, flat against a wall."""
     for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
         length = room.rng.choice([0.3, 0.6, 0.8, 1.2])
         _against_wall(room, float(length), 0.4)
@@ -224,7 +224,7 @@ def _cabinets(room: RoomFloor, count: int) -> None:
 
 
 def _against_wall(room: RoomFloor, length: float, depth_of_piece: float, tries: int = 6) -> None:
-    """A solid piece with its back to a wall, at a random place."""
+    """Put a solid piece with its back to a wall, at a random place."""
     width, depth = room.size_m
     for _ in range(tries):
         side = room.rng.integers(4)

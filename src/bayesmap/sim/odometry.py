@@ -1,4 +1,4 @@
-"""What wheel odometry makes of a robot's path: noise, bias, slip and lag.
+"""What is known of a simulated path beside its scans: wheel odometry with noise, bias, slip and lag; true relations.
 
 The path is cut into turn, straight, turn (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section 5.4). The
 book adds noise whose variance depends on the square of each part, so that the same path cut into smaller steps has
@@ -23,6 +23,11 @@ from bayesmap.space.scans import as_poses
 
 STANDING_M = 1e-9
 """A shorter straight has no direction: the step is one turn."""
+
+NEAR_M = 4.0
+"""Poses further apart than this see different walls, and no ground truth is measured between them."""
+
+PAIRS_A_POSE = 3
 
 
 @dataclass(frozen=True)
@@ -74,7 +79,7 @@ def simulate_odometry(
     stamps_s: ArrayLike | None = None,
     seed: int = 0,
 ) -> NDArray[np.float64]:
-    """The poses that a robot's odometry reports along a path; it starts at the true first pose.
+    """Return the poses that a robot's odometry reports along a path; it starts at the true first pose.
 
     Args:
         poses_world: where the robot's base truly was, shape (S, 3): x, y in metres and yaw in radians.
@@ -105,7 +110,7 @@ def simulate_odometry(
 
 
 def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> NDArray[np.float64]:
-    """When a robot of some speed comes by each pose of its path, seconds from the first, shape (S,).
+    """Compute when a robot of some speed comes by each pose of its path, seconds from the first, shape (S,).
 
     A step takes the longer of its way at full speed and its turn at the full rate.
 
@@ -124,7 +129,7 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
 
 
 def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Each true step as odometry reports it, as a pose in the frame of the step before, (S - 1, 3)."""
+    """Return each true step as odometry reports it, as a pose in the frame of the step before, (S - 1, 3)."""
     normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
     distance = np.hypot(steps[:, 0], steps[:, 1])
     first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
@@ -154,3 +159,34 @@ def _accumulated(start: NDArray[np.float64], steps: NDArray[np.float64]) -> NDAr
     for i, step in enumerate(steps):
         poses[i + 1] = compose(poses[i], step)
     return poses
+
+
+def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Choose pairs of poses up to `NEAR_M` apart: each with its next, and with two others, at all distances in time.
+
+    Kuemmerle et al. (2009) relate poses whose scans a person can lay on top of each other: neighbours in time, and
+    places seen again.
+
+    Args:
+        poses_world: shape (S, 3).
+        seed: of the choice.
+
+    Returns:
+        Indices of the earlier and the later pose of each pair, ascending, each pair once.
+    """
+    count = len(poses_world)
+    rng = np.random.default_rng(check_count("relations", "seed", seed, 0))
+    if count < 2:
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    pairs = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
+    start = rng.integers(0, count - 1, PAIRS_A_POSE * 4 * count)
+    # Log-uniform gaps: as many pairs seconds apart as minutes.
+    gap = np.exp(rng.uniform(0.0, np.log(count), len(start))).astype(np.intp)
+    far = np.stack([start, start + gap], axis=1)[start + gap < count]
+    pairs = np.concatenate([pairs, far])
+    apart = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)
+    _, first = np.unique(pairs, axis=0, return_index=True)
+    kept = pairs[np.sort(first)]
+    kept = kept[apart[np.sort(first)] <= NEAR_M][: PAIRS_A_POSE * count]
+    order = np.lexsort((kept[:, 1], kept[:, 0]))
+    return kept[order, 0], kept[order, 1]

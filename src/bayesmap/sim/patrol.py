@@ -22,7 +22,7 @@ HEADING_M = 0.2
 
 
 def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float64]:
-    """Poses of a robot that goes round a building and enters its rooms.
+    """Simulate the poses of a robot that goes round a building and enters its rooms.
 
     From the first corridor it goes to the nearest room that it has not seen, again and again, by shortest
     paths that prefer open floor. Scans are taken at equal distances along the way.
@@ -58,7 +58,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float6
 def _along(
     path_m: NDArray[np.float64], length_m: NDArray[np.float64], at_m: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Points of a path at the given lengths along it, held at its ends."""
+    """Return points of a path at the given lengths along it, held at its ends."""
     return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)
 
 
@@ -105,7 +105,7 @@ class _Lattice:
         return sparse.csr_array(entries, shape=(len(self.nodes), len(self.nodes)))
 
     def stops(self, rng: np.random.Generator) -> list[int]:
-        """One node in each room within reach, in the open and near a random point of the room's middle."""
+        """Choose one node in each room within reach, in the open and near a random point of the room's middle."""
         stops = []
         x, y = self.points_m.T
         for room in sorted(self.building.rooms, key=lambda room: room.kind != "corridor"):
@@ -119,7 +119,7 @@ class _Lattice:
         return stops
 
     def tour(self, stops: list[int]) -> NDArray[np.float64]:
-        """Points of a path through all stops, from the first: always to the nearest that is left."""
+        """Return the points of a path through all stops, from the first: always to the nearest that is left."""
         from scipy.sparse import csgraph
 
         if not stops:
@@ -139,7 +139,7 @@ class _Lattice:
 
 
 def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Lattice points that the ground around the building does not reach."""
+    """Select the lattice points that the ground around the building does not reach."""
     from scipy import ndimage
 
     labels, _ = ndimage.label(~building.walls)
@@ -151,7 +151,7 @@ def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) 
 
 
 def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float64]:
-    """The path with the lattice's corners rounded, wherever that keeps it as clear of the walls."""
+    """Round the lattice's corners of a path, wherever that keeps it as clear of the walls."""
     from scipy import ndimage
 
     spacing = lattice_stride(lattice.resolution) * lattice.resolution

@@ -37,7 +37,7 @@ DRAWING = """
 
 
 def tutorial() -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """The tutorial's walls and the robot's pose, on `TUTORIAL_GRID`.
+    """Return the tutorial's walls and the robot's pose, on `TUTORIAL_GRID`.
 
     Returns:
         Walls, shape (21, 21), indexed ``[x, y]`` (line i of the drawing is x = i), and the pose

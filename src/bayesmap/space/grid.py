@@ -67,7 +67,7 @@ class Grid:
         return x0, x0 + nx * self.resolution, y0, y0 + ny * self.resolution
 
     def centers_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """World x of the cell columns, shape (nx,), and world y of the cell rows, shape (ny,)."""
+        """Return the world x of the cell columns, shape (nx,), and world y of the cell rows, shape (ny,)."""
         (x0, y0), (nx, ny) = self.origin, self.shape
         return (
             np.asarray(x0 + self.resolution * (np.arange(nx) + 0.5), dtype=np.float64),
@@ -75,24 +75,24 @@ class Grid:
         )
 
     def cell_centres_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
-        """Centres of cells by flat index ``x * ny + y``, metres from the grid's lower left corner, (n, 2)."""
+        """Return centres of cells by flat index ``x * ny + y``, metres from the grid's lower left corner, (n, 2)."""
         ny = self.shape[1]
         return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * self.resolution
 
     def to_cells(self, points_world: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Positions in units of cells, from the origin: world ``(..., 2)`` in metres to ``(..., 2)``."""
+        """Return positions in units of cells, from the origin: world ``(..., 2)`` in metres to ``(..., 2)``."""
         points = np.asarray(points_world, dtype=np.float64)
         return np.asarray((points - np.asarray(self.origin)) / self.resolution)
 
     def cell_at(self, x_m: float, y_m: float) -> tuple[int, int] | None:
-        """The cell ``(i, j)`` that holds a world point, or None outside the grid."""
+        """Return the cell ``(i, j)`` that holds a world point, or None outside the grid."""
         u, v = self.to_cells(np.array([x_m, y_m]))
         i, j = math.floor(u), math.floor(v)
         return (i, j) if 0 <= i < self.shape[0] and 0 <= j < self.shape[1] else None
 
     @classmethod
     def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> Grid:
-        """The smallest grid that holds every pose and every hit, with a margin.
+        """Return the smallest grid that holds every pose and every hit, with a margin.
 
         The origin is a multiple of the resolution, so that maps of two recordings of a building line up.
 
@@ -120,7 +120,7 @@ class Grid:
 
     @classmethod
     def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
-        """The smallest grid that holds a rectangle; its origin is a multiple of the resolution.
+        """Return the smallest grid that holds a rectangle; its origin is a multiple of the resolution.
 
         Args:
             low: lower left corner of the rectangle in the world frame, metres.
@@ -135,7 +135,7 @@ class Grid:
 
 
 def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The lower left and the upper right corner of what scans saw, with a margin, metres in the world frame.
+    """Return the lower left and the upper right corner of what scans saw, with a margin, metres in the world frame.
 
     Raises:
         BadInput: no scan at all.
@@ -150,7 +150,7 @@ def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], 
 def _whole_cells(
     low: tuple[float, float], high: tuple[float, float], resolution: float
 ) -> tuple[tuple[int, int], tuple[int, int]]:
-    """How many cells cover a rectangle, and the number of the first, along x and y."""
+    """Return how many cells cover a rectangle, and the number of the first, along x and y."""
     if not (math.isfinite(resolution) and resolution > 0):
         raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
     first = tuple(math.floor(v / resolution) for v in low)
@@ -159,5 +159,5 @@ def _whole_cells(
 
 
 def _large(nx: int, ny: int) -> str:
-    """A size that may have hundreds of digits."""
+    """Return a size that may have hundreds of digits."""
     return f"{nx:.6g} x {ny:.6g} cells"

@@ -15,7 +15,7 @@ MOST = 0.1
 
 
 def outlying(scans: Scans) -> NDArray[np.intp]:
-    """Scans whose pose, or longest hit, is `FARTHER` times as far out as half of the scans reach, the furthest first.
+    """Select scans whose pose, or longest hit, is `FARTHER` times as far out as half of them reach, the furthest first.
 
     Empty if that would be more than `MOST` of them (but one may be of any), so that there is no majority to go by.
     """
@@ -27,22 +27,22 @@ def outlying(scans: Scans) -> NDArray[np.intp]:
 
 
 def reach_m(scans: Scans) -> NDArray[np.float64]:
-    """How far each scan's pose and longest hit may be from the middle of all poses, metres, (S,)."""
+    """Return how far each scan's pose and longest hit may be from the middle of all poses, metres, (S,)."""
     return from_middle_m(scans) + longest_m(scans)
 
 
 def from_middle_m(scans: Scans) -> NDArray[np.float64]:
-    """Each pose's distance along x or y, the larger, from the median pose, metres, (S,)."""
+    """Return each pose's distance along x or y, the larger, from the median pose, metres, (S,)."""
     return np.asarray(np.abs(scans.poses[:, :2] - np.median(scans.poses[:, :2], axis=0)).max(axis=1))
 
 
 def longest_m(scans: Scans) -> NDArray[np.float64]:
-    """Each scan's longest hit, metres, (S,); 0 without one."""
+    """Return each scan's longest hit, metres, (S,); 0 without one."""
     return np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
 
 
 def why_outlying(scans: Scans, scan: int) -> str:
-    """What is wrong with an outlying scan, and what to do about it, for an error."""
+    """Say what is wrong with an outlying scan, and what to do about it, for an error."""
     when = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     longest = longest_m(scans)[scan]
     if from_middle_m(scans)[scan] < longest:

@@ -16,12 +16,12 @@ Floats = NDArray[np.float64]
 
 
 def wrapped(angle_rad: Floats) -> Floats:
-    """The same angles in [-pi, pi)."""
+    """Return angles in [-pi, pi)."""
     return np.asarray((angle_rad + np.pi) % (2 * np.pi) - np.pi)
 
 
 def compose(first: Floats, then: Floats) -> Floats:
-    """The pose that lies at ``then`` in the frame of ``first``."""
+    """Return the pose that lies at ``then`` in the frame of ``first``."""
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
     x = first[..., 0] + c * then[..., 0] - s * then[..., 1]
     y = first[..., 1] + s * then[..., 0] + c * then[..., 1]
@@ -29,21 +29,21 @@ def compose(first: Floats, then: Floats) -> Floats:
 
 
 def between(first: Floats, second: Floats) -> Floats:
-    """The second pose as it is seen from the first: what has to be composed with the first to make the second."""
+    """Return the second pose as seen from the first: composed with the first, it makes the second."""
     dx, dy = second[..., 0] - first[..., 0], second[..., 1] - first[..., 1]
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
     return np.stack([c * dx + s * dy, c * dy - s * dx, wrapped(second[..., 2] - first[..., 2])], axis=-1)
 
 
 def inverse(pose: Floats) -> Floats:
-    """The frame in which a pose is given, as it is seen from the pose."""
+    """Return the frame in which a pose is given, as it is seen from the pose."""
     return between(pose, np.zeros(3))
 
 
 def around(
     known: NDArray[np.floating] | NDArray[np.integer], wanted: NDArray[np.floating] | NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Indices of what is known before and after each of some times, or other numbers.
+    """Return the indices of what is known before and after each of some times, or other numbers.
 
     Args:
         known: shape (S,), ascending.
@@ -60,7 +60,7 @@ def around(
 def nearest(
     known: NDArray[np.floating] | NDArray[np.integer], wanted: NDArray[np.floating] | NDArray[np.integer]
 ) -> NDArray[np.intp]:
-    """Index of what is known nearest to each of some times, or other numbers, (N,); of two as near the earlier.
+    """Return the index of what is known nearest to each of some times, or other numbers, (N,); the earlier of two.
 
     Args:
         known: shape (S,), ascending.
@@ -71,7 +71,7 @@ def nearest(
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
-    """Poses at other times: along the straight relative motion between neighbours; outside, the nearest end.
+    """Return poses at other times: along the straight relative motion between neighbours; outside, the nearest end.
 
     Args:
         stamps_s: shape (S,), ascending; of equal stamps the later pose counts.

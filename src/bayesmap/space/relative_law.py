@@ -28,11 +28,11 @@ class RelativeLaw:
     dof: float
 
     def covariances(self, first: Indices, second: Indices) -> Floats:
-        """Covariances of the second poses in the frames of the first, (N, 3, 3)."""
+        """Return covariances of the second poses in the frames of the first, (N, 3, 3)."""
         return self.dof / (self.dof - 2.0) * self.scales(first, second)
 
     def of_frame(self, poses: Floats, mount: Floats) -> RelativeLaw:
-        """The law of another frame that is fixed to this one.
+        """Return the law of another frame that is fixed to this one.
 
         Args:
             poses: of this frame, (S, 3).

@@ -18,13 +18,13 @@ Floats = NDArray[np.float64]
 
 
 def planar(motion: RigidTransform) -> Floats:
-    """Pose in the plane, shape (..., 3): x, y, and the yaw of the child's x axis."""
+    """Return the pose in the plane, shape (..., 3): x, y, and the yaw of the child's x axis."""
     ahead = motion.rotation.apply([1.0, 0.0, 0.0])
     return np.concatenate([motion.translation[..., :2], np.arctan2(ahead[..., 1], ahead[..., 0])[..., None]], -1)
 
 
 def upright(motion: RigidTransform) -> Floats:
-    """Height of the child's z axis over the plane, shape (...): 1 upright, -1 upside down, 0 on its side."""
+    """Return the height of the child's z axis over the plane, shape (...): 1 upright, -1 upside down, 0 on its side."""
     return np.asarray(motion.rotation.apply([0.0, 0.0, 1.0])[..., 2])
 
 
@@ -41,11 +41,11 @@ class Track:
     motions: Any
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Which times lie between the first and the last: elsewhere nothing is known."""
+        """Select the times between the first and the last: elsewhere nothing is known."""
         return np.asarray((stamps_ns >= self.stamps_ns[0]) & (stamps_ns <= self.stamps_ns[-1]))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Interpolated: the position along a line, the rotation along the shorter arc. Outside: the nearest end."""
+        """Interpolate: the position along a line, the rotation along the shorter arc. Outside, take the nearest end."""
         if len(self.stamps_ns) == 1:
             return self.motions[np.zeros(np.shape(stamps_ns), dtype=np.intp)]
         # Nanoseconds since 1970 are too many for a double, those since the track began are not.

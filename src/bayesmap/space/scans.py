@@ -124,7 +124,7 @@ class Scans:
         return np.isfinite(self.own_angles_rad)
 
     def angles_by_scan(self) -> NDArray[np.float64]:
-        """Beam angles in the sensor frame, shape (S, A), all finite: where a scan has no such beam, the largest scan's.
+        """Return beam angles in the sensor frame, (S, A), all finite: the largest scan's where a scan has no such beam.
 
         The readings there are NaN, so that the angle says nothing.
         """
@@ -133,7 +133,7 @@ class Scans:
         return np.where(np.isnan(self.own_angles_rad), self.angles_rad, self.own_angles_rad)
 
     def beams_of(self, scan: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Angles and readings of the beams that one scan has, shape (N,) each."""
+        """Return angles and readings of the beams that one scan has, shape (N,) each."""
         if self.own_angles_rad is None:
             return self.angles_rad, self.ranges_m[scan]
         beams = np.isfinite(self.own_angles_rad[scan])
@@ -149,24 +149,24 @@ class Scans:
         return kinds
 
     def counts(self) -> dict[str, int]:
-        """How many readings there are of each kind."""
+        """Count the readings of each kind."""
         kinds = self.readings if self.own_angles_rad is None else self.readings[self.has_beam]
         tally = np.bincount(kinds.ravel(), minlength=len(Reading))
         return {kind.name.lower(): int(tally[kind]) for kind in Reading}
 
     def beam_angles_world(self) -> NDArray[np.float64]:
-        """Direction of every beam in the world frame, radians, shape (S, A)."""
+        """Return the direction of every beam in the world frame, radians, shape (S, A)."""
         yaw = self.poses[:, 2:3] if self.beam_poses is None else self.beam_poses[..., 2]
         return np.asarray(yaw + self.angles_by_scan())
 
     def beam_starts_world(self) -> NDArray[np.float64]:
-        """Where every beam leaves the sensor, metres in the world frame, shape (S, A, 2)."""
+        """Return where every beam leaves the sensor, metres in the world frame, shape (S, A, 2)."""
         if self.beam_poses is not None:
             return self.beam_poses[..., :2]
         return np.broadcast_to(self.poses[:, None, :2], (*self.ranges_m.shape, 2))
 
     def hit_points_world(self) -> NDArray[np.float64]:
-        """End points of the beams that hit something, metres, shape (H, 2)."""
+        """Return the end points of the beams that hit something, metres, shape (H, 2)."""
         angles = self.beam_angles_world()
         hit = np.isfinite(self.ranges_m)
         ranges = self.ranges_m[hit]
@@ -174,7 +174,7 @@ class Scans:
         return np.asarray(self.beam_starts_world()[hit] + ends)
 
     def select(self, scans: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Scans:
-        """The scans at the given indices, or where the mask is true, or in the slice."""
+        """Return the scans at the given indices, or where the mask is true, or in the slice."""
         stamps = None if self.stamps_s is None else self.stamps_s[scans]
         beam_poses = None if self.beam_poses is None else self.beam_poses[scans]
         own = None if self.own_angles_rad is None else self.own_angles_rad[scans]
@@ -188,7 +188,7 @@ class Scans:
         )
 
     def stretched(self, ratio: float) -> Scans:
-        """The same scans with ``ratio`` times the angle between beams, about the first beam of each scan."""
+        """Return the scans with ``ratio`` times the angle between beams, about the first beam of each scan."""
         angles = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0])
         if self.own_angles_rad is None:
             return replace(self, angles_rad=angles)
@@ -209,7 +209,7 @@ class Scans:
         return np.diff(self.angles_rad if self.own_angles_rad is None else self.own_angles_rad, axis=-1)
 
     def _first_and_last(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Angles of the first and last beam of each scan, (S,) each; 0 of a scan without beams."""
+        """Return angles of the first and last beam of each scan, (S,) each; 0 of a scan without beams."""
         has = self.has_beam
         ends = has.argmax(axis=1), has.shape[1] - 1 - has[:, ::-1].argmax(axis=1)
         angles = np.nan_to_num(np.asarray(self.own_angles_rad))
@@ -243,7 +243,7 @@ class Scans:
         return self.select(~held), self.select(held)
 
     def limited(self, max_range_m: float) -> Scans:
-        """The same scans from a sensor that sees no further: longer hits become no return."""
+        """Return the scans as of a sensor that sees no further: longer hits become no return."""
         if not (math.isfinite(max_range_m) and max_range_m > self.min_range_m):
             raise BadInput(f"scans: max_range_m must exceed min_range_m, got {max_range_m!r}")
         ranges = np.where(self.ranges_m > max_range_m, np.inf, self.ranges_m)
@@ -251,7 +251,7 @@ class Scans:
 
 
 def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
-    """Poses as an (S, 3) array.
+    """Return poses as an (S, 3) array.
 
     Raises:
         BadInput: another shape, or a number that is not finite.
@@ -266,7 +266,7 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
 
 
 def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
-    """Beam angles as an (A,) array.
+    """Return beam angles as an (A,) array.
 
     Raises:
         BadInput: another shape, no angle at all, or one that is not finite.
@@ -285,7 +285,7 @@ def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
 def _as_own_angles(
     largest: ArrayLike, own: ArrayLike, ranges_m: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Angles (A,) of the largest scan and (S, A) of each, or None for these if all scans have the same."""
+    """Return angles (A,) of the largest scan and (S, A) of each, or None for these if all scans have the same."""
     each = _as_floats(own, "angles_rad")
     if each.shape != ranges_m.shape or not each.shape[1]:
         raise BadInput(f"scans: angles_rad has shape {each.shape}, expected (A,) or that of ranges_m, {ranges_m.shape}")
@@ -332,7 +332,7 @@ class Fan:
 def side_by_side(
     angles_rad: Sequence[NDArray[np.float64]], readings_m: Sequence[NDArray[np.floating]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Angles and readings of scans of any lengths as arrays (S, A), NaN where a scan has fewer beams than others."""
+    """Return angles and readings of scans of any lengths as arrays (S, A), NaN where a scan has fewer beams."""
     shape = len(readings_m), max((len(row) for row in readings_m), default=0)
     angles, readings = np.full(shape, np.nan), np.full(shape, np.nan)
     with np.errstate(invalid="ignore"):  # NaN of the signalling kind
@@ -342,7 +342,7 @@ def side_by_side(
 
 
 def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
-    """Say why beams cannot point from one angle to the other, or None if they can.
+    """Return why beams cannot point from one angle to the other, or None if they can.
 
     No sensor sees more than a turn, nor counts its angles from more than a turn away: such angles are degrees. Drivers
     whose beams overlap at the end of a turn go over it by a few beams.
@@ -359,7 +359,7 @@ def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
 
 
 def check_limits(min_range_m: float, max_range_m: float) -> None:
-    """The sensor's span must make sense.
+    """Check that the sensor's span makes sense.
 
     Raises:
         BadInput: a largest range that is not positive, or a smallest that is negative or not below it.

@@ -43,7 +43,7 @@ class TimeOrder:
         return int((rank < np.maximum.accumulate(rank)).sum())
 
     def notes(self, stamps_s: NDArray[np.float64]) -> tuple[str, ...]:
-        """A sentence for each step, by the stamps of the log."""
+        """Return a sentence for each step, by the stamps of the log."""
         return tuple(
             f"the clock goes back by {back:.3g} s at scan {step} (at {stamps_s[step]:.3f} s) and stays so: the log's "
             "order was kept there, and stamps from there on are later than it says"
@@ -116,7 +116,7 @@ def coarse_stamps_note(stamps_s: NDArray[np.float64]) -> str | None:
 
 
 def _step(stamps: NDArray[np.float64]) -> int | None:
-    """The first scan before which the clock was set back, or None."""
+    """Find the first scan before which the clock was set back, or None."""
     latest = np.maximum.accumulate(stamps)
     drops = np.nonzero(np.diff(stamps) < -STEP_S)[0] + 1
     for drop in drops:
@@ -137,11 +137,11 @@ def _step(stamps: NDArray[np.float64]) -> int | None:
 
 
 def _in_order(stamps: NDArray[np.float64]) -> bool:
-    """Whether stamps ascend, but for one: of 10 shuffled scans, that happens in 3 of 10 000 cases."""
+    """Return whether stamps ascend, but for one: of 10 shuffled scans, that happens in 3 of 10 000 cases."""
     return bool((np.diff(stamps) < 0.0).sum() <= 1)
 
 
 def _alternate(some: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
-    """Whether two groups of stamps take turns one by one, rather than in bursts."""
+    """Return whether two groups of stamps take turns one by one, rather than in bursts."""
     whose = np.repeat([False, True], [len(some), len(others)])[np.argsort(np.concatenate([some, others]))]
     return bool((np.diff(whose)).sum() >= TURNS * min(len(some), len(others)))

@@ -62,7 +62,7 @@ class Trajectory:
 
     @classmethod
     def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
-        """The trajectory of a posterior: mean and covariance of each pose over draws.
+        """Return the trajectory of a posterior: mean and covariance of each pose over draws.
 
         A yaw's mean is that of its deviations from the first draw's, so that it may lie anywhere on the circle.
 
@@ -88,7 +88,7 @@ class Trajectory:
         return cls(poses, stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        """Poses at other times, (N, 3), and which of those times lie between the first stamp and the last, (N,).
+        """Return poses at other times, (N, 3), and which of those times lie between the first stamp and the last, (N,).
 
         Raises:
             BadInput: a trajectory without stamps, or without a pose.
@@ -100,7 +100,7 @@ class Trajectory:
         return interpolate(self.stamps_s, self.poses, at), inside
 
     def of_frame(self, mount: Floats) -> Trajectory:
-        """The trajectory of another frame that is fixed to this one.
+        """Return the trajectory of another frame that is fixed to this one.
 
         Args:
             mount: where the other frame is in this one, shape (3,).
@@ -123,7 +123,7 @@ SLACK_S = 0.002
 
 
 def ellipses(centres: Floats, covariances: Floats, level: float = 0.95, points: int = 32) -> Floats:
-    """Outlines of the regions that hold normal positions with some probability, (S, points, 2), each closed.
+    """Return outlines of the regions that hold normal positions with some probability, (S, points, 2), each closed.
 
     Args:
         centres: mean positions, shape (S, 2).

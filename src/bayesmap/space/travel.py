@@ -23,7 +23,7 @@ USUAL_STEPS = 10.0
 
 
 def thinned(scans: Scans, spacing_m: float) -> Scans:
-    """The first scan, and then each by which the robot has travelled ``spacing_m`` since the last one kept.
+    """Select the first scan, and then each by which the robot has travelled ``spacing_m`` since the last selected.
 
     The distance is measured along the path through all the poses, turns on the spot do not count.
 
@@ -45,13 +45,13 @@ def thinned(scans: Scans, spacing_m: float) -> Scans:
 
 
 def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distance from each pose to the next, shape (S - 1,)."""
+    """Return the distance from each pose to the next, shape (S - 1,)."""
     with np.errstate(over="ignore"):
         return np.asarray(np.hypot(*np.diff(poses[:, :2], axis=0).T))
 
 
 def jumps(scans: Scans) -> NDArray[np.intp]:
-    """Scans whose pose is further from the one before than a robot can have moved: their indices, ascending.
+    """Find scans whose pose is further from the one before than a robot can have moved: their indices, ascending.
 
     A step is a jump if it is over 0.2 m and faster than 10 m/s, or over 2 m and ten times the median step. Stamps that
     repeat say nothing of the speed between them.

@@ -5,16 +5,14 @@ nothing.
 """
 
 from bayesmap.viz.animation import render_frames, write_animation
-from bayesmap.viz.comparison import Candidate, comparison_figure
-from bayesmap.viz.diagnostics import draw_log_joint, draw_running_mean, trace_figure
+from bayesmap.viz.cells import window
+from bayesmap.viz.diagnostics import draw_log_joint, draw_running_mean, draw_weights, trace_figure, weights_figure
 from bayesmap.viz.figure import posterior_figure, write_figure
+from bayesmap.viz.map_figures import Candidate, comparison_figure, panel_figure
 from bayesmap.viz.maps import draw_deviation, draw_entropy, draw_probability, draw_sample, draw_width
 from bayesmap.viz.overlays import draw_rays, draw_sensor, draw_truth_outline
-from bayesmap.viz.panel import panel_figure
 from bayesmap.viz.residuals import draw_residuals, residual_scale, residuals_figure, surprise_scale
 from bayesmap.viz.surfaces import draw_surfaces, surface_strokes, surfaces_figure
-from bayesmap.viz.weights import draw_weights, weights_figure
-from bayesmap.viz.window import window
 
 __all__ = [
     "Candidate",

@@ -164,7 +164,7 @@ class _Canvas:
         return image
 
     def _caption(self, text: str) -> NDArray[np.uint8]:
-        """The strip under the map: smooth type, whose shades are those of probability, from paper to ink."""
+        """Draw the strip under the map: smooth type, whose shades are those of probability, from paper to ink."""
         strip = Image.new("L", (self.size[0], CAPTION_PX), 0)
         place = (MARGIN_PX, CAPTION_PX // 2 - 4)
         ImageDraw.Draw(strip).text(place, text, fill=LEVELS - 1, font=self.font, anchor="lm")
@@ -172,11 +172,11 @@ class _Canvas:
         return np.where(shades > 0, shades, BACKGROUND).astype(np.uint8)
 
     def _enlarge(self, cells: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """From cells [x, y] to pixels [row, column], the first row on top."""
+        """Turn cells [x, y] into pixels [row, column], the first row on top."""
         return cells.T[::-1].repeat(self.scale, axis=0).repeat(self.scale, axis=1)
 
     def _outline(self, walls: NDArray[np.bool_]) -> None:
-        """A line around the walls, on the outside, so that it does not hide them."""
+        """Draw a line around the walls, on the outside, so that it does not hide them."""
         solid = np.zeros(self.marks.shape, dtype=np.bool_)
         solid[self.inside] = self._enlarge(walls.astype(np.uint8)) == 1
         thick = max(1, self.scale // 12)
@@ -209,7 +209,7 @@ def _palette_bytes() -> bytes:
 
 
 def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:
-    """The draws as they came: a long chain of a large map is bits, and as floats it would not fit."""
+    """Return the draws as they came: a long chain of a large map is bits, and would not fit as floats."""
     chain = np.asarray(draws)
     if chain.dtype.kind not in "buif":
         raise BadInput(f"animation: draws must be an array of numbers, not of {chain.dtype}")

@@ -6,7 +6,6 @@ import itertools
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
@@ -20,7 +19,7 @@ from bayesmap.viz.overlays import draw_sensor
 
 Floats = NDArray[np.float64]
 
-HEIGHT_IN, BAR_IN, FOOT_IN = 5.6, 1.3, 0.6
+FOOT_IN = 0.6
 CIRCLE = 24
 """Corners of the outline of a disc."""
 
@@ -35,7 +34,7 @@ def route_figure(
     title: str = "",
     label: str = "probability of wall",
 ) -> Figure:
-    """A path over the mean map, and all that a disc which moves along it sweeps.
+    """Draw a path over the mean map, and all that a disc which moves along it sweeps.
 
     Args:
         grid: of the map.
@@ -52,11 +51,11 @@ def route_figure(
     figure, ax = _map_figure(grid, occupancy, observed, label)
     draw_route(ax, path, radius_m)
     ax.set_title(title, fontsize=9)
-    return _with_legend(figure, ax)
+    return _with_legend(figure)
 
 
 def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """A path and what a disc that moves along it sweeps.
+    """Draw a path and what a disc that moves along it sweeps.
 
     Raises:
         BadInput: a path that is not (P, 2).
@@ -83,7 +82,7 @@ def views_figure(
     *,
     label: str = "probability of wall",
 ) -> Figure:
-    """Candidate views over the mean map, coloured by what they would tell, and the best ones, numbered.
+    """Draw candidate views over the mean map, coloured by what they would tell, and the best ones, numbered.
 
     Args:
         grid: of the map.
@@ -108,11 +107,11 @@ def views_figure(
             fontweight="bold", color=palette.TEXT, zorder=3.8,
             bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
         )  # fmt: skip
-    return _with_legend(figure, ax)
+    return _with_legend(figure)
 
 
 def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """A dot at each candidate, the telling ones on top.
+    """Draw a dot at each candidate, the telling ones on top.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -128,22 +127,19 @@ def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCol
 
 
 def _map_figure(grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, label: str) -> tuple[Figure, Axes]:
-    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.5, 3.0)) + BAR_IN
-    figure = Figure(figsize=(width_in, HEIGHT_IN + FOOT_IN), dpi=160, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
-    ax = figure.subplots()
+    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     image = maps.draw_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)
     return figure, ax
 
 
-def _with_legend(figure: Figure, ax: Axes) -> Figure:
+def _with_legend(figure: Figure) -> Figure:
     figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
     return figure
 
 
 def _swept(corners: Floats, radius_m: float) -> Path:
-    """The union of discs along a polyline, as overlapping outlines that wind the same way."""
+    """Return the union of discs along a polyline, as overlapping outlines that wind the same way."""
     turn = np.arange(CIRCLE) / CIRCLE * 2 * np.pi
     circle = radius_m * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     shapes = [corner + circle for corner in corners]

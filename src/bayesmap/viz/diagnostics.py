@@ -1,10 +1,9 @@
-"""Did the chains arrive, and at the same place? Pictures of the log joint by chain."""
+"""Pictures that tell whether a sampler worked: the log joint by chain, and the weights of importance sampling."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
@@ -18,9 +17,14 @@ MAX_POINTS = 4000
 
 MAX_KEYS = 8
 
+BINS = 100
+TUTORIAL_RANGE = (-10_000.0, 0.0)
+ALL = 0.9995
+"""A share of the sum that, rounded to a tenth of a percent, is all of it."""
+
 
 def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Trace of the log joint density, a line per chain.
+    """Draw the trace of the log joint density, a line per chain.
 
     Args:
         ax: where to draw.
@@ -33,12 +37,12 @@ def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> N
     traces = _as_traces(log_joint)
     for chain, trace in enumerate(traces):
         sweep, values = _thinned(trace, first_sweep)
-        ax.plot(sweep, values, color=_color(chain), label=f"chain {chain + 1}", linewidth=0.8, alpha=0.9)
+        ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", linewidth=0.8, alpha=0.9)
     _finish(ax, traces, first_sweep, "log joint [nats]")
 
 
 def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Mean of the log joint over all draws so far, a line per chain; chains that agree run together.
+    """Draw the mean of the log joint over all draws so far, a line per chain; chains that agree run together.
 
     The band is the mean over all chains plus and minus one standard deviation of the draws: lines that end
     outside of each other's reach on this scale have not mixed.
@@ -57,12 +61,12 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
     ax.axhspan(center - spread, center + spread, color=palette.FRAME, alpha=0.12, linewidth=0.0)
     for chain, trace in enumerate(means):
         sweep, values = _thinned(trace, first_sweep)
-        ax.plot(sweep, values, color=_color(chain), label=f"chain {chain + 1}", linewidth=1.2)
+        ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", linewidth=1.2)
     _finish(ax, traces, first_sweep, "running mean [nats]")
 
 
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
-    """Trace, running mean and distribution of the log joint by chain, in one figure.
+    """Draw the trace, running mean and distribution of the log joint by chain, in one figure.
 
     Args:
         log_joint: in nats, shape (chain, draw), or (draw,) for one chain.
@@ -72,8 +76,7 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
         BadInput: another shape, no draw at all, or a number that is not finite.
     """
     traces = _as_traces(log_joint)
-    figure = Figure(figsize=(7.6, 4.6), dpi=160.0, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = palette.blank_figure(7.6, 4.6)
     axes = figure.subplots(2, 2, width_ratios=[4.0, 1.0], sharex="col", sharey="row")
     draw_log_joint(axes[0, 0], traces, first_sweep=first_sweep)
     axes[0, 0].set_xlabel("")
@@ -83,7 +86,7 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
     edges = np.linspace(low, high if high > low else low + 1.0, 41)
     for chain, trace in enumerate(traces):
         counts = np.histogram(trace, bins=edges)[0]
-        axes[0, 1].stairs(counts, edges, orientation="horizontal", color=_color(chain), linewidth=1.0)
+        axes[0, 1].stairs(counts, edges, orientation="horizontal", color=palette.chain_color(chain), linewidth=1.0)
     axes[0, 1].tick_params(labelleft=False, labelbottom=True)
     axes[0, 1].set(xlabel="draws", xlim=(0.0, None))
     axes[0, 1].spines[["top", "right"]].set_visible(False)
@@ -107,7 +110,7 @@ def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
 
 
 def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Sweep numbers and values to draw, at most `MAX_POINTS`."""
+    """Return sweep numbers and values to draw, at most `MAX_POINTS`."""
     n = len(trace)
     index = np.arange(n)
     if n > MAX_POINTS:
@@ -117,10 +120,6 @@ def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.i
     return index + first_sweep, trace[index]
 
 
-def _color(chain: int) -> str:
-    return palette.CHAINS[chain % len(palette.CHAINS)]
-
-
 def _finish(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str) -> None:
     n = traces.shape[1]
     ax.set(xlabel="sweep", ylabel=label, xlim=(first_sweep - 0.5, first_sweep + n - 0.5))
@@ -128,3 +127,85 @@ def _finish(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str)
     # An offset ("+1.2e5") in a corner is easily overlooked.
     ax.ticklabel_format(axis="y", useOffset=False, style="plain")
     ax.spines[["top", "right"]].set_visible(False)
+
+
+def draw_weights(
+    ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE
+) -> NDArray[np.intp]:
+    """Draw a histogram of the normalised log weights, the largest marked, with the effective sample size as title.
+
+    If one sample has nearly all the weight, the effective sample size is 1 and the answer is that one sample:
+    the collapse that the tutorial shows. Counts are on a logarithmic scale, or that sample could not be seen.
+
+    Args:
+        ax: where to draw.
+        log_weights: one per sample in nats, shape (n,), normalised or not; -inf is a weight of zero.
+        range_nats: lower and upper end of the histogram; how many weights are below is written in the panel.
+
+    Returns:
+        The counts, shape (100,).
+
+    Raises:
+        BadInput: no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.
+    """
+    logs = normalized(log_weights)
+    low, high = range_nats
+    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+        raise BadInput(f"weights: range_nats must rise from a finite number to another, got ({low}, {high})")
+    counts, edges = np.histogram(logs, bins=BINS, range=(low, high))
+    ax.stairs(counts, edges, fill=True, color=palette.RAY, alpha=0.85)
+    ax.set_yscale("log")
+    ax.set(xlim=(low - 0.01 * (high - low), high + 0.025 * (high - low)))
+    ax.set(ylim=(0.5, 20.0 * max(1.0, float(counts.max()))))
+    ax.set_xlabel("normalised log weight [nats]")
+    ax.set_ylabel("samples")
+    size = effective_sample_size(logs)
+    ax.set_title(f"{len(logs):,} samples, effective sample size {size:,.{1 if size < 100 else 0}f}")
+
+    largest = float(logs.max())
+    if largest >= low:
+        share = float(np.exp(largest))
+        note = "one sample has all the weight" if share > ALL else f"largest weight: {100 * share:.3g} % of the sum"
+        near_right = largest > 0.5 * (low + high)
+        ax.axvline(largest, color=palette.TRUTH, linewidth=1.2, label="largest")
+        ax.annotate(
+            note, (largest, 0.93), xycoords=("data", "axes fraction"), xytext=(-6.0 if near_right else 6.0, 0.0),
+            textcoords="offset points", ha="right" if near_right else "left", va="center", color=palette.TRUTH,
+        )  # fmt: skip
+    below = int(np.count_nonzero(logs < low))
+    if below:
+        ax.text(0.02, 0.93, f"{below:,} below {low:,g}", transform=ax.transAxes, va="center", color=palette.TEXT)
+    ax.spines[["top", "right"]].set_visible(False)
+    return np.asarray(counts)
+
+
+def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE) -> Figure:
+    """Draw `draw_weights` as a figure of its own; arguments and errors as there."""
+    figure = palette.blank_figure(6.4, 3.2)
+    draw_weights(figure.add_subplot(), log_weights, range_nats=range_nats)
+    return figure
+
+
+def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
+    """Return log weights whose weights add up to 1, shape (n,).
+
+    Raises:
+        BadInput: no weight at all, all of them zero, or one that is NaN or +inf.
+    """
+    logs = as_array(log_weights, "log_weights")
+    if logs.ndim != 1 or len(logs) == 0:
+        raise BadInput(f"weights: log_weights has shape {logs.shape}; give one number per sample, shape (n,), n >= 1")
+    wrong = np.isnan(logs) | np.isposinf(logs)
+    if wrong.any():
+        sample = int(np.argmax(wrong))
+        raise BadInput(f"weights: log weight of sample {sample} is {logs[sample]}; it must be a number or -inf")
+    largest = logs.max()
+    if np.isneginf(largest):
+        raise BadInput("weights: every sample has weight zero; draw more samples, or allow for more noise")
+    shifted = logs - largest
+    return np.asarray(shifted - np.log(np.exp(shifted).sum()))
+
+
+def effective_sample_size(normalized_logs: NDArray[np.float64]) -> float:
+    """Return Kish's effective sample size: 1 over the sum of the squared weights."""
+    return float(1.0 / np.exp(2.0 * normalized_logs).sum())

@@ -1,20 +1,26 @@
-"""The composed figure of a posterior: the mean, the entropy, the readings, and one draw."""
+"""The composed figure of a posterior: the mean, the entropy, the readings, and one draw.
+
+The layout is in whole pixels, and computed here, not left to a layout engine, so that every cell of a map is the same
+whole number of pixels wide and high: walls one cell thick stay crisp, and equally thick, in a map of any size.
+"""
 
 from __future__ import annotations
 
 import io
+import math
 import os
 import threading
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
+from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike
 
 from bayesmap.files import need_ending, write_whole
@@ -22,7 +28,6 @@ from bayesmap.space.cell_arrays import as_observed
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
-from bayesmap.viz.layout import Layout, lay_out, tick_locator
 from bayesmap.viz.surfaces import draw_surfaces
 
 FONT_PT = 9.0
@@ -31,10 +36,122 @@ COARSE_CELLS = 100
 LEAST_STROKE_PT = 2.5
 """Strokes of surfaces are drawn where cells are at least so large on the page."""
 
+PANEL_IN = 3.4
+"""Longest side of a panel in inches."""
+TALL_IN = 5.0
+"""Height of a panel of a map at least twice as high as wide."""
+WIDE_IN = 7.0
+"""Width of a panel when panels are stacked, as those of a long map are."""
+LEAST_SLOT_IN = 1.9
+"""No panel's slot is narrower: its title and its colour bar need the room."""
+LETTER_IN, LINE_IN = 0.075, 0.2
+"""Width of a digit, and height of a line with its lead, in the tick labels' type."""
+LEAST_DPI, MOST_DPI = 160.0, 320.0
+
+LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25
+TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36
+"""Room for the figure's title, the x axis' labels, the colour bar beneath them, and the legend."""
+
 Surfaces = tuple[ArrayLike, ArrayLike, ArrayLike]
 """Means (n, 2) and covariances (n, 2, 2) in metres, and reflectivities (n,)."""
 
 _rc_lock = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A figure of panels of equal size.
+
+    Attributes:
+        dpi: pixels per inch.
+        figure: width and height of the figure, pixels.
+        panel: width and height of a panel, pixels.
+        corners: lower-left corner of each panel, pixels from the figure's, in reading order.
+        exact: whether a cell is a whole number of pixels; not so in maps too large for it.
+        columns: number of panels in a row.
+        most_ticks: the largest number of intervals between ticks on x and on y whose labels fit.
+    """
+
+    dpi: float
+    figure: tuple[int, int]
+    panel: tuple[int, int]
+    corners: list[tuple[int, int]]
+    exact: bool
+    columns: int
+    most_ticks: tuple[int, int]
+
+    def blank_figure(self) -> Figure:
+        """Return the figure, without its panels."""
+        return palette.blank_figure(self.figure[0] / self.dpi, self.figure[1] / self.dpi, self.dpi, arranged=False)
+
+    def title(self, figure: Figure, text: str | None) -> None:
+        """Write a line over the figure, if there is a text."""
+        if text is not None:
+            top = 1.0 - 0.12 * self.dpi / self.figure[1]
+            figure.text(0.5, top, text, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
+
+    def fractions(self, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
+        """Return a box in pixels as fractions of the figure, as `Figure.add_axes` takes it."""
+        wide, high = self.figure
+        return left / wide, bottom / high, width / wide, height / high
+
+
+def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
+    """Arrange the panels of a map: in a row, four in a square, or stacked if the map is long.
+
+    Args:
+        grid: its shape is the panels'.
+        panels: number of panels, 1 to 4.
+        bars: the first so many panels have a colour bar.
+        titled: whether the figure has a title.
+    """
+    nx, ny = grid.shape
+    tall = ny >= 2 * nx
+    columns = panels if panels < 4 or tall else 2
+    if nx >= (2 if panels < 4 else 4) * ny:
+        columns = 1
+    rows = panels // columns
+    longest_in = WIDE_IN if columns == 1 else TALL_IN if tall else PANEL_IN
+
+    longest = max(nx, ny)
+    cell = float(math.ceil(LEAST_DPI * longest_in / longest))
+    dpi = cell * longest / longest_in
+    exact = dpi <= MOST_DPI
+    if not exact:
+        dpi, cell = MOST_DPI, MOST_DPI * longest_in / longest
+    panel = (max(1, round(nx * cell)), max(1, round(ny * cell)))
+
+    x0, x1, y0, y1 = grid.extent_m
+    x_letters, y_letters = _tick_letters(x0, x1), _tick_letters(y0, y1)
+    most_ticks = (
+        max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN)))),
+        max(1, min(6, int(panel[1] / dpi / LINE_IN))),
+    )
+
+    left_in = LEFT_IN + y_letters * LETTER_IN
+    gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
+    right_in = max(RIGHT_IN, (x_letters / 2 + 1) * LETTER_IN)
+    left, right, gap, slot = (round(dpi * inches) for inches in (left_in, right_in, gap_in, LEAST_SLOT_IN))
+    top, title, label, bar, legend = (round(dpi * inches) for inches in (TOP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN))
+    pitch = max(panel[0], slot) + gap
+    inset = (pitch - gap - panel[0]) // 2
+    below = [label + (bar if row * columns < bars else 0) for row in range(rows)]
+    row_heights = [top + panel[1] + room for room in below]
+    corners = [
+        (left + column * pitch + inset, legend + sum(row_heights[row + 1 :]) + below[row])
+        for row in range(rows)
+        for column in range(columns)
+    ]
+    figure = (left + columns * pitch - gap + right, legend + sum(row_heights) + (title if titled else 0))
+    return Layout(dpi, figure, panel, corners, exact, columns, most_ticks)
+
+
+def _tick_letters(low: float, high: float) -> int:
+    """Return the length of the longest tick label on an axis from low to high, as the widest choice of ticks has it."""
+    formatter = ScalarFormatter(useOffset=False)
+    formatter.create_dummy_axis()
+    ticks = [float(tick) for tick in maps.tick_locator(6).tick_values(low, high)]
+    return max(len(label) for label in formatter.format_ticks(ticks))
 
 
 def posterior_figure(
@@ -50,7 +167,7 @@ def posterior_figure(
     width: ArrayLike | None = None,
     surfaces: Surfaces | None = None,
 ) -> Figure:
-    """The posterior at a glance: the mean, how sure it is, the readings, and one draw.
+    """Draw the posterior at a glance: the mean, how sure it is, the readings, and one draw.
 
     The panels stand in a row, four in a square, or stacked if the map is long.
 
@@ -80,9 +197,7 @@ def posterior_figure(
     doubt = "entropy" if width is None else "width"
     shown = ["mean", doubt] + ["data"] * (scans is not None) + ["draw"] * (draw is not None)
     layout = lay_out(grid, len(shown), bars=2, titled=title is not None)
-    size_in = layout.figure[0] / layout.dpi, layout.figure[1] / layout.dpi
-    figure = Figure(figsize=size_in, dpi=layout.dpi, facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = layout.blank_figure()
     panels = {
         name: figure.add_axes(layout.fractions(*corner, *layout.panel), label=name)
         for name, corner in zip(shown, layout.corners, strict=True)
@@ -111,15 +226,9 @@ def posterior_figure(
     ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
     color_bar(figure, layout, layout.corners[0], mean, label, ticks)
     color_bar(figure, layout, layout.corners[1], uncertainty, unit, ticks)
-    _legend(
-        figure,
-        keys,
-        walls="draw" in panels and bool(np.isin(np.asarray(draw), (0, 1)).all()),
-        unobserved=not seen.all(),
-    )
-    if title is not None:
-        top = 1.0 - 0.12 * layout.dpi / layout.figure[1]
-        figure.text(0.5, top, title, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
+    walls = "draw" in panels and bool(np.isin(np.asarray(draw), (0, 1)).all())
+    _legend(figure, keys, walls=walls, unobserved=not seen.all())
+    layout.title(figure, title)
     return figure
 
 
@@ -164,7 +273,7 @@ def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
 
 
 def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -> list[Artist]:
-    """The surfaces, as thick as a fifth of a cell, and their legend key; none in cells that are too small."""
+    """Draw the surfaces, as thick as a fifth of a cell, and their legend key; none in cells that are too small."""
     if cell_pt < LEAST_STROKE_PT:
         return []
     thickness_pt = float(np.clip(cell_pt / 5.0, 0.6, 1.6))
@@ -178,8 +287,8 @@ def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bo
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
     panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
     panel.yaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
-    panel.xaxis.set_major_locator(tick_locator(most_ticks[0]))
-    panel.yaxis.set_major_locator(tick_locator(most_ticks[1]))
+    panel.xaxis.set_major_locator(maps.tick_locator(most_ticks[0]))
+    panel.yaxis.set_major_locator(maps.tick_locator(most_ticks[1]))
     panel.tick_params(labelsize=FONT_PT - 0.5, labelleft=leftmost)
     if not leftmost:
         panel.set_ylabel("")
@@ -188,7 +297,7 @@ def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bo
 def color_bar(
     figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str, ticks: list[float]
 ) -> None:
-    """A thin horizontal bar under the panel's x label, never too narrow to read."""
+    """Draw a thin horizontal bar under the panel's x label, never too narrow to read."""
     width = max(0.7 * layout.panel[0], 1.5 * layout.dpi)
     left = corner[0] + (layout.panel[0] - width) / 2.0
     box = layout.fractions(left, corner[1] - 0.58 * layout.dpi, width, 0.09 * layout.dpi)
@@ -205,40 +314,20 @@ def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool
     if walls:
         handles.append(Patch(facecolor=free, edgecolor=palette.FRAME, linewidth=0.6, label="free"))
         handles.append(Patch(facecolor=wall, edgecolor=palette.FRAME, linewidth=0.6, label="wall"))
-    if unobserved:
-        hatched = maps.hatch_patch()
-        hatched.set_label("unobserved")
-        handles.append(hatched)
-    handles += keys
-    place_legend(figure, handles)
-
-
-def unobserved_legend(figure: Figure) -> None:
-    """The one key of figures that show nothing else to explain."""
-    hatched = maps.hatch_patch()
-    hatched.set_label("unobserved")
-    place_legend(figure, [hatched])
+    place_legend(figure, [*handles, *([maps.hatch_patch()] if unobserved else []), *keys])
 
 
 def place_legend(figure: Figure, handles: list[Artist]) -> None:
-    """Keys under the panels, in as many rows as they need; none if there is none."""
+    """Place the keys under the panels, in as many rows as they need; none if there is none."""
     if not handles:
         return
     # Two rows where one would be wider than the figure: a key takes about 0.95 inch.
     per_row = max(1, int(figure.get_figwidth() / 0.95))
     legend = figure.legend(
-        handles=handles,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 0.0),
-        ncols=-(-len(handles) // -(-len(handles) // per_row)),
-        frameon=False,
-        fontsize=FONT_PT,
-        labelcolor=palette.TEXT,
-        handlelength=1.6,
-        handletextpad=0.6,
-        columnspacing=1.4,
-        borderaxespad=0.5,
-    )
+        handles=handles, loc="lower center", bbox_to_anchor=(0.5, 0.0),
+        ncols=-(-len(handles) // -(-len(handles) // per_row)), frameon=False, fontsize=FONT_PT,
+        labelcolor=palette.TEXT, handlelength=1.6, handletextpad=0.6, columnspacing=1.4, borderaxespad=0.5,
+    )  # fmt: skip
     # On the map many marks are faint and small; their keys have to be legible alone.
     for key in legend.legend_handles:
         if key is not None:

@@ -9,22 +9,25 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
+from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import ScalarFormatter
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.cell_arrays import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.space.grid import Grid
 from bayesmap.viz import palette
-from bayesmap.viz.edges import boxes
-from bayesmap.viz.layout import tick_locator
+from bayesmap.viz.cells import boxes
+
+HEIGHT_IN, BAR_IN = 5.6, 1.3
+"""Height of a map's panel, and the room for a colour bar at its right."""
 
 
 def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Posterior probability of wall: free is light, wall is dark, unobserved is hatched.
+    """Draw the posterior probability of wall: free is light, wall is dark, unobserved is hatched.
 
     Args:
         ax: where to draw.
@@ -43,7 +46,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
 
 
 def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
+    """Draw the entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
 
     Args:
         ax: where to draw.
@@ -62,7 +65,7 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 
 
 def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest that there is.
+    """Draw the posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest possible.
 
     Args:
         ax: where to draw.
@@ -86,7 +89,7 @@ def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLi
 
 
 def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans all reflectivities.
+    """Draw the width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans everything.
 
     Args:
         ax: where to draw.
@@ -110,7 +113,7 @@ def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | Non
 
 
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """One map drawn from the posterior; where no beam reached it is the prior's, and shown faded.
+    """Draw one map of the posterior; where no beam reached it is the prior's, and shown faded.
 
     Args:
         ax: where to draw.
@@ -130,7 +133,7 @@ def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | No
 
 
 def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """One draw from the posterior, walls as `draw_sample` shows them, reflectivities in [0, 1] in shades.
+    """Draw one map of the posterior, walls as `draw_sample` shows them, reflectivities in [0, 1] in shades.
 
     Arguments and errors are those of the two; what the image's numbers mean differs.
     """
@@ -141,11 +144,38 @@ def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None =
 
 
 def entropy_bits(probability: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Entropy in bits of a yes-or-no variable with this probability; same shape."""
+    """Return the entropy in bits of a yes-or-no variable with this probability; same shape."""
     p = np.asarray(probability, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
         bits = -p * np.log2(p) - (1.0 - p) * np.log2(1.0 - p)
     return np.where((p > 0.0) & (p < 1.0), bits, 0.0)
+
+
+def map_figure(
+    grid: Grid,
+    *,
+    aspects: tuple[float, float] = (0.3, 3.0),
+    bar_in: float = BAR_IN,
+    foot_in: float = 0.0,
+    dpi: float = 160.0,
+) -> tuple[Figure, Axes]:
+    """Return a figure of one panel as wide as the map is beside its height.
+
+    Args:
+        grid: of the map.
+        aspects: the smallest and the largest width of the panel beside its height.
+        bar_in: room for a colour bar at the right, inches.
+        foot_in: room for a legend at the foot, inches.
+        dpi: pixels per inch.
+    """
+    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
+    figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
+    return figure, figure.subplots()
+
+
+def tick_locator(most: int) -> MaxNLocator:
+    """Return ticks at 1, 2 or 5 times a power of ten, with so many intervals at most."""
+    return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
 
 
 def frame_axes(ax: Axes, grid: Grid) -> None:
@@ -160,7 +190,7 @@ def frame_axes(ax: Axes, grid: Grid) -> None:
 
 
 def hatch_patch(path: Path | None = None) -> PathPatch:
-    """The mark of unobserved cells, over them or (with its own colour beneath) as a legend's key."""
+    """Return the mark of unobserved cells, over them or (with its own colour beneath) as a legend's key."""
     square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
     patch = PathPatch(
         square if path is None else path,
@@ -168,6 +198,7 @@ def hatch_patch(path: Path | None = None) -> PathPatch:
         edgecolor=palette.UNOBSERVED_HATCH,
         linewidth=0.0,
         hatch=palette.HATCH,
+        label=None if path is not None else "unobserved",
     )
     patch.set_hatch_linewidth(palette.HATCH_WIDTH_PT)
     return patch
@@ -183,7 +214,7 @@ def _show(
     *,
     hide: bool = True,
 ) -> AxesImage:
-    """An image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
+    """Draw an image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
     image = ax.imshow(
         np.ma.array(values, mask=~observed & hide).T,
         cmap=colors,

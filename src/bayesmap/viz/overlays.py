@@ -16,14 +16,14 @@ from bayesmap.space.cell_arrays import as_mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans, as_poses
 from bayesmap.viz import palette
-from bayesmap.viz.edges import boundary_segments
+from bayesmap.viz.cells import boundary_segments
 
 MAX_ARROWS = 12
 """Up to so many poses each get an arrow; more are a trajectory, with one arrow where it ends."""
 
 
 def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
-    """The outline of the true walls.
+    """Draw the outline of the true walls.
 
     Args:
         ax: where to draw.
@@ -52,7 +52,7 @@ def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineColle
 def draw_rays(
     ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000
 ) -> list[LineCollection | PathCollection]:
-    """Beams, the end points of those that hit something, and those with no return, dashed to their limit.
+    """Draw beams, the end points of those that hit something, and those with no return, dashed to their limit.
 
     Readings that are too close or invalid have no end point and are left out. Of more beams than the limits
     evenly spaced ones are drawn, the same ones every time. Points bury less than lines do, so their limit is
@@ -114,7 +114,7 @@ def draw_rays(
 
 
 def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
-    """The sensor, as an arrow along its yaw; many poses are drawn as a trajectory that ends in an arrow.
+    """Draw the sensor, as an arrow along its yaw; many poses are drawn as a trajectory that ends in an arrow.
 
     Args:
         ax: where to draw.
@@ -145,14 +145,14 @@ def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
 
 
 def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
-    """At most so many of the beams, evenly spaced, first and last among them."""
+    """Select at most so many of the beams, evenly spaced, first and last among them."""
     if len(beams) <= most:
         return beams
     return beams[np.linspace(0, len(beams) - 1, most).astype(np.intp)]
 
 
 def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Start and end in metres of the beams of these flat indices, (n, 2, 2); no return reaches the limit."""
+    """Return start and end in metres of the beams of these flat indices, (n, 2, 2); no return reaches the limit."""
     scan = beams // scans.ranges_m.shape[1]
     angles = scans.beam_angles_world().ravel()[beams]
     ranges = scans.ranges_m.ravel()[beams]
@@ -163,6 +163,6 @@ def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
 
 
 def _arrow(yaw_rad: float) -> MarkerStyle:
-    """A navigator's arrowhead that points along the yaw."""
+    """Return a navigator's arrowhead that points along the yaw."""
     outline = np.array([(1.0, 0.0), (-0.75, 0.7), (-0.4, 0.0), (-0.75, -0.7), (1.0, 0.0)])
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))

@@ -1,4 +1,4 @@
-"""Every colour that a picture of bayesmap uses, and why it was chosen.
+"""The style of all pictures: every colour, why it was chosen, and the paper of a figure.
 
 - **Probability of wall** runs from paper to ink along one straight line in CIELAB, so equal steps in
   probability look equally large, its lightness falls all the way (it survives grey printing), and no
@@ -16,11 +16,13 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, ListedColormap
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 PAPER_LAB: Final = (98.0, 0.0, 1.0)
@@ -54,7 +56,7 @@ HATCH_WIDTH_PT: Final = 0.6
 
 
 def lab_to_srgb(lab: NDArray[np.float64]) -> NDArray[np.float64]:
-    """CIELAB under D65, shape (n, 3), to sRGB in [0, 1], shape (n, 3) (IEC 61966-2-1)."""
+    """Convert CIELAB under D65, shape (n, 3), to sRGB in [0, 1], shape (n, 3) (IEC 61966-2-1)."""
     fy = (lab[:, 0] + 16.0) / 116.0
     f = np.stack([fy + lab[:, 1] / 500.0, fy, fy - lab[:, 2] / 200.0], axis=1)
     ratio = np.where(f > 6.0 / 29.0, f**3, 3.0 * (6.0 / 29.0) ** 2 * (f - 4.0 / 29.0))
@@ -72,39 +74,52 @@ def lab_to_srgb(lab: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def probability_colors(n: int = 256) -> NDArray[np.float64]:
-    """The colours of wall probability 0 to 1 in ``n`` equal steps, sRGB in [0, 1], shape (n, 3)."""
+    """Return the colours of wall probability 0 to 1 in ``n`` equal steps, sRGB in [0, 1], shape (n, 3)."""
     steps = np.linspace(0.0, 1.0, n)[:, None]
     return lab_to_srgb((1.0 - steps) * np.array(PAPER_LAB) + steps * np.array(INK_LAB))
 
 
 def probability_colormap() -> Colormap:
-    """Free is light, wall is dark, unobserved (masked) is `UNOBSERVED`."""
+    """Return the colours of probability: free is light, wall is dark, unobserved (masked) is `UNOBSERVED`."""
     return ListedColormap(probability_colors().tolist(), name="bayesmap.probability").with_extremes(bad=UNOBSERVED)
 
 
 def uncertainty_colormap() -> Colormap:
-    """Certain is dark, uncertain is bright, unobserved (masked) is `UNOBSERVED`."""
+    """Return the colours of uncertainty: certain is dark, uncertain is bright, unobserved (masked) is `UNOBSERVED`."""
     cividis = colormaps["cividis"](np.linspace(0.0, 1.0, 256))
     return ListedColormap(cividis.tolist(), name="bayesmap.uncertainty").with_extremes(bad=UNOBSERVED)
 
 
 def residual_colormap() -> Colormap:
-    """Of -limit to limit: shorter than predicted, as predicted, longer."""
+    """Return the colours of -limit to limit: shorter than predicted, as predicted, longer."""
     return ListedColormap(_through(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB).tolist(), name="bayesmap.residual")
 
 
 def surprise_colormap() -> Colormap:
-    """Expected is light grey; the more surprising, the darker and redder."""
+    """Return the colours of surprise: expected is light grey; the more surprising, the darker and redder."""
     return ListedColormap(_through(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB).tolist(), name="bayesmap.surprise")
 
 
 def _through(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
-    """256 colours in equal steps along straight lines in CIELAB, sRGB in [0, 1], shape (256, 3)."""
+    """Return 256 colours in equal steps along straight lines in CIELAB, sRGB in [0, 1], shape (256, 3)."""
     at, knots = np.linspace(0.0, len(ends) - 1.0, 256), np.arange(len(ends))
     return lab_to_srgb(np.stack([np.interp(at, knots, part) for part in np.array(ends).T], axis=1))
 
 
 def draw_colormap() -> ListedColormap:
-    """Of the four kinds of cell in one draw: free, wall, unobserved and free, unobserved and wall."""
+    """Return the colours of the kinds of cell in one draw: free, wall, unobserved and free, unobserved and wall."""
     free, wall = (tuple(color) for color in probability_colors(2).tolist())
     return ListedColormap([free, wall, UNOBSERVED, UNOBSERVED_WALL], name="bayesmap.draw")
+
+
+def chain_color(chain: int) -> str:
+    """Return the colour of a chain's lines; more chains than colours start again."""
+    return CHAINS[chain % len(CHAINS)]
+
+
+def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> Figure:
+    """Return an empty figure with its own Agg canvas, outside pyplot's global state; matplotlib arranges its panels."""
+    layout: Literal["constrained"] | None = "constrained" if arranged else None
+    figure = Figure(figsize=(width_in, height_in), dpi=dpi, facecolor="white", layout=layout)
+    FigureCanvasAgg(figure)
+    return figure

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PathCollection
 from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
@@ -17,7 +16,6 @@ from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
 
-HEIGHT_IN, BAR_IN = 5.6, 1.3
 FAINT = 0.3
 """Opacity of the map beneath."""
 
@@ -36,7 +34,7 @@ class Scale:
 
 
 def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scale:
-    """Symmetric around zero; by default to the residual that 90 % of the beams stay within, but 5 cm at least."""
+    """Return a symmetric scale: by default to the residual that 90 % of the beams stay within, but 5 cm at least."""
     values = as_array(residuals_m, "residuals_m")
     if limit_m is None:
         limit_m = max(0.05, _rounded(float(np.quantile(np.abs(values), 0.9)) if values.size else 0.0))
@@ -46,14 +44,14 @@ def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scal
 
 
 def surprise_scale(surprises: ArrayLike) -> Scale:
-    """Of surprise, minus the log score in nats: from the median beam's, which is expected, to the 99th percentile's."""
+    """Return a scale of surprise, minus the log score in nats: from the median beam's to the 99th percentile's."""
     values = as_array(surprises, "surprises")
     low, high = (float(v) for v in np.quantile(values, [0.5, 0.99])) if values.size else (0.0, 1.0)
     return Scale(palette.surprise_colormap(), low, max(high, low + 1e-3), "surprise: minus log score [nats]")
 
 
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """A dot at the end of every beam; the worst are larger and lie on top.
+    """Draw a dot at the end of every beam; the worst are larger and lie on top.
 
     Args:
         ax: where to draw, already framed.
@@ -81,16 +79,9 @@ def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Sc
         order = np.concatenate([rest[:: -(-len(rest) // (MAX_POINTS - len(worst)))], worst])
     unit_pt2 = float(np.clip(12_000.0 / max(len(order), 1), 0.6, 14.0))
     return ax.scatter(
-        ends[order, 0],
-        ends[order, 1],
-        c=numbers[order],
-        s=unit_pt2 * (0.6 + 2.4 * severity[order]),
-        cmap=scale.colors,
-        vmin=scale.low,
-        vmax=scale.high,
-        linewidths=0.0,
-        zorder=3.4,
-    )
+        ends[order, 0], ends[order, 1], c=numbers[order], s=unit_pt2 * (0.6 + 2.4 * severity[order]),
+        cmap=scale.colors, vmin=scale.low, vmax=scale.high, linewidths=0.0, zorder=3.4,
+    )  # fmt: skip
 
 
 def residuals_figure(
@@ -102,7 +93,7 @@ def residuals_figure(
     *,
     scale: Scale | None = None,
 ) -> Figure:
-    """Held-out beams over the faded map.
+    """Draw held-out beams over the faded map.
 
     Args:
         grid: where the cells are.
@@ -116,10 +107,7 @@ def residuals_figure(
         BadInput: shapes or values that do not fit.
     """
     scale = residual_scale(values) if scale is None else scale
-    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.4, 2.5)) + BAR_IN
-    figure = Figure(figsize=(width_in, HEIGHT_IN), dpi=200, layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
+    figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), dpi=200)
     maps.draw_probability(axes, grid, occupancy, observed).set_alpha(FAINT)
     dots = draw_residuals(axes, ends_world, values, scale)
     bar = figure.colorbar(dots, ax=axes, label=scale.label, shrink=0.8, extend="both")
@@ -129,7 +117,7 @@ def residuals_figure(
 
 
 def _rounded(value: float) -> float:
-    """Up to the next of 1, 2 or 5 times a power of ten."""
+    """Round up to the next of 1, 2 or 5 times a power of ten."""
     if value <= 0.0:
         return 0.0
     power = 10.0 ** np.floor(np.log10(value))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -27,14 +26,13 @@ DEVIATIONS = 2.0
 FAINTEST = 0.02
 """Less likely surfaces are left out: they could not be seen, and most cells are free."""
 
-HEIGHT_IN = 5.6
 LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
 
 
 def surface_strokes(
     means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
 ) -> NDArray[np.float64]:
-    """Both ends of every stroke, metres, shape (n, 2, 2): surface, end, (x, y).
+    """Return both ends of every stroke, metres, shape (n, 2, 2): surface, end, (x, y).
 
     Args:
         means_world: centres in metres, shape (n, 2).
@@ -72,7 +70,7 @@ def draw_surfaces(
     longest_m: float = np.inf,
     color: str | None = None,
 ) -> LineCollection:
-    """One stroke a surface, as opaque as its weight.
+    """Draw one stroke a surface, as opaque as its weight.
 
     Args:
         ax: where to draw, already framed.
@@ -112,31 +110,22 @@ def surfaces_figure(
     weights: ArrayLike,
     observed: ArrayLike | None = None,
 ) -> Figure:
-    """All surfaces of a map, over hatched ground where no beam reached.
+    """Draw all surfaces of a map, over hatched ground where no beam reached.
 
     Arguments and errors are those of `draw_surfaces`; ``observed`` has shape (nx, ny), None for everywhere.
     """
-    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], 0.4, 2.5)) + 0.7
-    figure = Figure(figsize=(width_in, HEIGHT_IN + 0.35), dpi=200, layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
+    figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), bar_in=0.7, foot_in=0.35, dpi=200)
     maps.draw_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
     # A stroke is as thick as a third of a cell where that can be seen.
-    cell_pt = 72.0 * HEIGHT_IN / max(grid.shape)
+    cell_pt = 72.0 * maps.HEIGHT_IN / max(grid.shape)
     width_pt = float(np.clip(cell_pt / 3.0, LEAST_WIDTH_PT, MOST_WIDTH_PT))
     # Hits of a cell lie in it: a longer stroke shows only how little is known of the surface.
     longest_m = 1.5 * grid.resolution
     draw_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
     ink = tuple(palette.probability_colors(2)[1])
     keys = [Line2D([], [], color=ink, alpha=a, linewidth=2.0, label=f"stops {a:.0%}") for a in (1.0, 0.5, 0.2)]
-    hatched = maps.hatch_patch()
-    hatched.set_label("unobserved")
     figure.legend(
-        handles=[*keys, hatched],
-        loc="outside lower center",
-        ncols=4,
-        frameon=False,
-        fontsize=9,
+        handles=[*keys, maps.hatch_patch()], loc="outside lower center", ncols=4, frameon=False, fontsize=9,
         labelcolor=palette.TEXT,
-    )
+    )  # fmt: skip
     return figure

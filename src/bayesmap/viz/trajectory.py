@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
@@ -25,7 +24,7 @@ BEFORE, AFTER, FLAGGED, LOOP = "#c1440e", "#0b7a5b", "#d6278a", "#3b6fb6"
 
 
 def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
-    """95 % ellipses of positions, (n, 2) and (n, 2, 2) in metres, drawn so many times as large as they are."""
+    """Draw 95 % ellipses of positions, (n, 2) and (n, 2, 2) in metres, so many times as large as they are."""
     values, vectors = np.linalg.eigh(covariances)
     axes_m = 2.0 * np.sqrt(REGION * np.maximum(values, 0.0)) * magnified
     angle = np.degrees(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
@@ -45,7 +44,7 @@ def trajectory_figure(
     covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:
-    """The map, the trajectory on it, 95 % ellipses, and the scans whose poses are not to be trusted.
+    """Draw the map, the trajectory on it, 95 % ellipses, and the scans whose poses are not to be trusted.
 
     Args:
         grid: of the map.
@@ -55,7 +54,7 @@ def trajectory_figure(
         covariances: of x, y and yaw, (S, 3, 3).
         flagged: (S,).
     """
-    figure, ax = _one(grid)
+    figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
         ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED, markersize=5, label="badly explained scan", zorder=5)
@@ -78,7 +77,7 @@ def _draw_map(
 def before_and_after_figure(
     raw: Floats, ends: Floats, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
 ) -> Figure:
-    """Left raw odometry and where its scans would put the walls, right the inferred trajectory on its map.
+    """Draw raw odometry with the walls that it makes, and the inferred trajectory on its map.
 
     Args:
         raw: (S, 3).
@@ -90,8 +89,7 @@ def before_and_after_figure(
         covariances: of x, y and yaw, (S, 3, 3).
     """
     height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
-    figure = Figure(figsize=(1.5 * SIZE_IN, height), dpi=110, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
     left, right = figure.subplots(1, 2)
     left.plot(*ends.T, ",", color="#8a8a8a", zorder=1)
     left.plot(raw[:, 0], raw[:, 1], color=BEFORE, linewidth=0.9, label="raw odometry")
@@ -103,7 +101,7 @@ def before_and_after_figure(
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
-    """The trajectory as odometry has it, and as it was inferred, (S, 3) each, from the same first pose."""
+    """Draw the trajectory as odometry has it, and as it was inferred, (S, 3) each, from the same first pose."""
     low = np.minimum(raw.min(axis=0), inferred.min(axis=0))[:2]
     high = np.maximum(raw.max(axis=0), inferred.max(axis=0))[:2]
     figure, ax = _axes(float((high - low)[1] / max((high - low)[0], 1e-3)))
@@ -122,7 +120,7 @@ def loops_figure(
     weights: Floats,
     alternatives: Sequence[tuple[Floats, float]] = (),
 ) -> Figure:
-    """Where the robot came back to a place: pairs of scans, coloured by how far the final poses are from the match.
+    """Draw where the robot came back to a place: pairs of scans, coloured by how far poses are from the match.
 
     Args:
         poses: (S, 3).
@@ -155,14 +153,9 @@ def loops_figure(
     return _finished(figure, ax)
 
 
-def _one(grid: Grid) -> tuple[Figure, Axes]:
-    return _axes(grid.shape[1] / grid.shape[0])
-
-
 def _axes(tall: float) -> tuple[Figure, Axes]:
     height = SIZE_IN * float(np.clip(tall, 0.35, 1.6)) + 1.0
-    figure = Figure(figsize=(SIZE_IN, height), dpi=150, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = palette.blank_figure(SIZE_IN, height, dpi=150)
     return figure, figure.add_subplot()
 
 
@@ -174,6 +167,6 @@ def _finished(figure: Figure, ax: Axes) -> Figure:
 
 
 def _round_down(value: float) -> float:
-    """To 1, 2 or 5 times a power of ten."""
+    """Round down to 1, 2 or 5 times a power of ten."""
     ten = 10.0 ** np.floor(np.log10(value))
     return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= value * (1 + 1e-9)))

@@ -53,11 +53,11 @@ class _Stream:
     received: NDArray[np.int64]
 
     def falls(self) -> NDArray[np.intp]:
-        """Messages whose stamp is far below that of the message before."""
+        """Return messages whose stamp is far below that of the message before."""
         return np.nonzero(np.diff(self.stamps) < -STEP_NS)[0] + 1
 
     def steps(self) -> list[int]:
-        """Falls after which stamps ascend again, as they did before."""
+        """Return the falls after which stamps ascend again, as they did before."""
         return [
             int(i)
             for i in self.falls()
@@ -67,13 +67,13 @@ class _Stream:
         ]
 
     def fall_near(self, start_ns: int, end_ns: int) -> int | None:
-        """The first fall at which a clock that was set back within a time can have been met."""
+        """Return the first fall at which a clock that was set back within a time can have been met."""
         return next(
             (int(i) for i in self.falls() if self.received[i] >= start_ns and self.received[i - 1] <= end_ns), None
         )
 
     def spans(self, time_ns: int) -> bool:
-        """Whether there are messages before and after a time."""
+        """Return whether there are messages before and after a time."""
         return bool(self.received[0] < time_ns - SLACK_NS and self.received[-1] > time_ns + SLACK_NS)
 
 
@@ -126,16 +126,16 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
 
 
 def joined_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]]) -> NDArray[np.int64]:
-    """Stamps of the scans of all runs, which go on after a step by as much as was received later, (S,)."""
-    found = [parts[0][0]]
+    """Return the stamps of the scans of all runs, which go on after a step by as much as was received later, (S,)."""
+    joined = [parts[0][0]]
     for (stamps, scans), (_, before) in zip(parts[1:], parts, strict=False):
         later = max(scans[0].received_ns - before[-1].received_ns, 1)
-        found.append(stamps - stamps[0] + found[-1][-1] + later)
-    return np.concatenate(found)
+        joined.append(stamps - stamps[0] + joined[-1][-1] + later)
+    return np.concatenate(joined)
 
 
 def _stream(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:
-    """None if no message says its time."""
+    """Return the stream, or None if no message says its time."""
     if not len(stamps) or not any(stamps):
         return None
     return _Stream(np.array(stamps, dtype=np.int64), np.array(received, dtype=np.int64))
@@ -146,5 +146,5 @@ def _all_fall(streams: list[_Stream], at_ns: int) -> bool:
 
 
 def _in_order(stamps: NDArray[np.int64]) -> bool:
-    """Whether stamps ascend, but for one."""
+    """Return whether stamps ascend, but for one."""
     return bool((np.diff(stamps) < 0).sum() <= 1)

@@ -27,7 +27,7 @@ class NotUnpacked(Exception):
 
 
 def zstd() -> Any:
-    """The library: Python's own from 3.14 on, before that the one that comes with rosbags."""
+    """Return the library: Python's own from 3.14 on, before that the one that comes with rosbags."""
     return importlib.import_module("compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd")
 
 
@@ -48,7 +48,7 @@ def unpack_zstd(packed: bytes, largest: int) -> bytes:
 
 
 def compression_of(start: bytes) -> str | None:
-    """The compression of a file by its first bytes: ``"zstd"``, ``"gzip"``, ``"bzip2"``; None if it has none."""
+    """Return the compression of a file by its first bytes: ``"zstd"``, ``"gzip"``, ``"bzip2"``; None if it has none."""
     return next((name for name, (magic, _) in _OPENERS.items() if start.startswith(magic)), None)
 
 

@@ -155,9 +155,9 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
     formats = {container_of(file) for file in files}
     if len(formats) != 1:
         raise Damaged(f"the folder has no {METADATA}, and no .db3 or .mcap files of one kind that can be read")
-    found = formats.pop()
-    assert found is not None
-    return files, found
+    container = formats.pop()
+    assert container is not None
+    return files, container
 
 
 def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
@@ -170,7 +170,7 @@ def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
 
 @cache
 def _bag_reader() -> type:
-    """rosbags' reader of ROS 1 bags, which takes index records for as long as they count, as ROS does."""
+    """Return rosbags' reader of ROS 1 bags, which takes index records for as long as they count, as ROS does."""
     from rosbags.rosbag1 import Reader
     from rosbags.rosbag1.reader import Header, IndexData, RecordType, read_bytes, read_uint32
 
@@ -231,14 +231,14 @@ def _by_records(
 
 
 def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], int | None, int | None]:
-    found: dict[str, Topic] = {}
+    topics: dict[str, Topic] = {}
     try:
         with closing(_opened(make)) as reader:
             for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
-                before = found.get(connection.topic)
+                before = topics.get(connection.topic)
                 if before is not None and before.type != connection.msgtype:
                     continue
-                found[connection.topic] = Topic(
+                topics[connection.topic] = Topic(
                     connection.topic,
                     connection.msgtype,
                     connection.msgcount + (before.count if before else 0),
@@ -251,8 +251,8 @@ def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, 
             start_ns, end_ns = about.start_time, about.end_time - 1
     except Exception as error:  # rosbags raises whatever its parsing meets
         raise Damaged(_reason(error)) from None
-    some = any(topic.count for topic in found.values())
-    return found, (start_ns if some else None), (end_ns if some else None)
+    held = any(topic.count for topic in topics.values())
+    return topics, (start_ns if held else None), (end_ns if held else None)
 
 
 def _rosbags_messages(
@@ -260,9 +260,9 @@ def _rosbags_messages(
 ) -> Iterator[Message]:
     try:
         with closing(_opened(make)) as reader:
-            wanted = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
-            if wanted:
-                for connection, received_ns, data in reader.messages(wanted):
+            connections = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
+            if connections:
+                for connection, received_ns, data in reader.messages(connections):
                     yield Message(connection.topic, received_ns, bytes(data))
     except Exception as error:  # rosbags raises whatever its parsing meets
         raise Damaged(_reason(error)) from None

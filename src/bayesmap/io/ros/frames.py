@@ -1,13 +1,14 @@
-"""Where frames are in each other: the tree that /tf and /tf_static tell, and chains through it.
+"""The tree of frames that /tf and /tf_static tell, and chains of transforms through it.
 
-A transform that never changes in the whole recording, or that is static, holds at all times. Any other is known only
-from its first to its last message, and is interpolated between.
+A transform that never changes in the whole recording, or that is static, holds at all times. Any other transform is
+known only from its first to its last message, and is interpolated between.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,20 +29,20 @@ Numbers = tuple[float, float, float, float, float, float, float]
 """Translation x, y, z and rotation x, y, z, w."""
 
 
-def close(one: Numbers, other: Numbers, tolerance: float) -> bool:
-    """Whether two poses agree, in metres and radians; a quaternion and its negative are one rotation."""
-    if one == other:
+def close(first: Numbers, second: Numbers, tolerance: float) -> bool:
+    """Return whether two poses agree, in metres and radians; a quaternion and its negative are one rotation."""
+    if first == second:
         return True
-    sign = 1.0 if sum(a * b for a, b in zip(one[3:], other[3:], strict=True)) >= 0 else -1.0
-    moved = max(abs(a - b) for a, b in zip(one[:3], other[:3], strict=True))
+    sign = 1.0 if sum(a * b for a, b in zip(first[3:], second[3:], strict=True)) >= 0 else -1.0
+    moved = max(abs(a - b) for a, b in zip(first[:3], second[:3], strict=True))
     # A difference of quaternions is half the angle.
-    turned = 2 * max(abs(a - sign * b) for a, b in zip(one[3:], other[3:], strict=True))
+    turned = 2 * max(abs(a - sign * b) for a, b in zip(first[3:], second[3:], strict=True))
     return moved <= tolerance and turned <= tolerance
 
 
 @dataclass
 class Samples:
-    """The poses of a frame in another on one topic, as they come."""
+    """The poses of a frame in another on one topic, in the order of receipt."""
 
     static: bool = False
     topic: str = ""
@@ -50,19 +51,18 @@ class Samples:
     values: list[Numbers] = field(default_factory=list)
 
     def add(self, stamp_ns: int, received_ns: int, values: Numbers) -> None:
-        """One more."""
+        """Append a pose."""
         self.stamps_ns.append(stamp_ns)
         self.received_ns.append(received_ns)
         self.values.append(values)
 
     def part(self, which: slice) -> Samples:
-        """Some of them, in the order of receipt."""
-        lists = (self.stamps_ns[which], self.received_ns[which], self.values[which])
-        return Samples(self.static, self.topic, *lists)
+        """Return the poses of a slice."""
+        return Samples(self.static, self.topic, self.stamps_ns[which], self.received_ns[which], self.values[which])
 
     @classmethod
     def joined(cls, parts: Sequence[Samples]) -> Samples:
-        """Those of several topics as one."""
+        """Return the poses of several topics as one."""
         if len(parts) == 1:
             return parts[0]
         result = cls(all(part.static for part in parts), ", ".join(part.topic for part in parts))
@@ -78,16 +78,16 @@ class Samples:
         return not any(self.stamps_ns)
 
     def times_ns(self) -> NDArray[np.int64]:
-        """Stamps, or times of receipt if no message says its own, (T,)."""
+        """Return stamps, or times of receipt if no message says its own, (T,)."""
         return np.array(self.received_ns if self.unstamped else self.stamps_ns, dtype=np.int64)
 
     def last(self) -> Numbers:
-        """The value with the latest time."""
+        """Return the pose with the latest time."""
         times = self.times_ns()
         return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
 
     def track(self) -> Track:
-        """Sorted by time (of receipt, if no message says its own); of several at one time, the last."""
+        """Return the poses in the order of time; of several at one time, the last."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         last = np.append(np.diff(stamps[order]) > 0, True)
@@ -96,12 +96,12 @@ class Samples:
         return Track(stamps[order], RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:])))
 
     def constant(self) -> bool:
-        """Whether the pose is the same at all times."""
+        """Return whether the pose is the same at all times."""
         return self.static or all(close(value, self.values[0], ROUNDING) for value in self.values)
 
 
 def numbers_of(position: object, rotation: object) -> Numbers:
-    """Position and orientation of a message, checked.
+    """Return position and orientation of a message, checked.
 
     Raises:
         Malformed: not finite, further than the earth is large, or no rotation.
@@ -117,55 +117,70 @@ def numbers_of(position: object, rotation: object) -> Numbers:
 
 
 @dataclass(frozen=True, eq=False)
-class Chain:
-    """The transforms between two frames, from the fixed one to the sensor's.
+class Link:
+    """One transform of a chain.
 
     Attributes:
-        links: tracks with whether they hold at all times and whether they are walked against their direction.
+        track: where the child is in the parent, over time.
+        constant: whether that holds at all times.
+        inverted: whether the chain leads from the child to the parent.
     """
 
-    links: tuple[tuple[Track, bool, bool], ...]
+    track: Track
+    constant: bool
+    inverted: bool = False
+
+    def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
+        """Return the motion along the chain at some times, (T,); the last message of one that holds at all times."""
+        motion = self.last() if self.constant else self.track.at(stamps_ns)
+        return motion.inv() if self.inverted and not self.constant else motion
+
+    def last(self) -> RigidTransform:
+        """Return the last motion along the chain."""
+        motion = self.track.motions[-1]
+        return motion.inv() if self.inverted else motion
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """The transforms between two frames, from the fixed one to the sensor's."""
+
+    links: tuple[Link, ...]
 
     def span_ns(self) -> tuple[int, int] | None:
-        """When all of it is known; None if always."""
-        spans = [(int(t.stamps_ns[0]), int(t.stamps_ns[-1])) for t, constant, _ in self.links if not constant]
-        return (max(start for start, _ in spans), min(end for _, end in spans)) if spans else None
+        """Return the first and the last time at which all of it is known; None if it always is."""
+        stamps = [link.track.stamps_ns for link in self.links if not link.constant]
+        return (max(int(s[0]) for s in stamps), min(int(s[-1]) for s in stamps)) if stamps else None
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """At which times all of it is known."""
+        """Select the times at which all of it is known."""
         span = self.span_ns()
         if span is None:
             return np.ones(np.shape(stamps_ns), dtype=bool)
         return np.asarray((stamps_ns >= span[0]) & (stamps_ns <= span[1]))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Where the last frame is in the first, at some times, (T,)."""
+        """Return where the last frame is in the first, at some times, (T,)."""
         result = RigidTransform.identity(len(stamps_ns))
-        for track, constant, against in self.links:
-            # Of one that holds at all times, the last message.
-            motion = track.motions[-1] if constant else track.at(stamps_ns)
-            result = result * (motion.inv() if against else motion)
+        for link in self.links:
+            result = result * link.at(stamps_ns)
         return result
 
     def in_gaps(self, stamps_ns: NDArray[np.int64], longest_s: float, furthest_m: float) -> NDArray[np.bool_]:
-        """At which times a transform is interpolated over a long time in which it moved far."""
+        """Select the times at which a transform is interpolated over a long time in which it moved far."""
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
-        for track, constant, _ in self.links:
-            if not constant and len(track.stamps_ns) > 1:
-                before, _ = around(track.stamps_ns, stamps_ns)
-                moved = np.diff(track.motions.translation, axis=0)[before]
-                long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
-                result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)
+        for track in (link.track for link in self.links if not link.constant and len(link.track.stamps_ns) > 1):
+            before, _ = around(track.stamps_ns, stamps_ns)
+            moved = np.diff(track.motions.translation, axis=0)[before]
+            long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
+            result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float]:
-        """Pose in the plane by the last transforms that hold at all times: x, y in metres, yaw in radians."""
+        """Return the pose in the plane by the last transforms that hold at all times: metres and radians."""
         result = RigidTransform.identity()
-        for track, constant, against in reversed(self.links):
-            if not constant:
-                break
-            motion = track.motions[-1]
-            result = (motion.inv() if against else motion) * result
+        for link in takewhile(lambda link: link.constant, reversed(self.links)):
+            result = link.last() * result
         x, y, yaw = (float(v) for v in planar(result))
         return x, y, yaw
 
@@ -209,18 +224,18 @@ class FrameTree:
                 )
 
     def frames(self) -> list[str]:
-        """All frames, by name."""
+        """Return all frames, by name."""
         return sorted({*self._edges, *(parent for parent, _ in self._edges.values())})
 
     def upwards(self, frame: str) -> list[str]:
-        """The frame, its parent, and so on to the root."""
+        """Return the frame, its parent, and so on to the root."""
         path = [frame]
         while path[-1] in self._edges and self._edges[path[-1]][0] not in path:
             path.append(self._edges[path[-1]][0])
         return path
 
     def _ways(self, fixed: str, sensor: str) -> tuple[list[str], list[str]] | None:
-        """Frames between two and their common ancestor, which is left out: up from one, down to the other."""
+        """Return the frames between two and their common ancestor, without it: up from one, down to the other."""
         up, down = self.upwards(fixed), self.upwards(sensor)
         common = next((frame for frame in down if frame in up), None)
         if common is None:
@@ -228,7 +243,7 @@ class FrameTree:
         return up[: up.index(common)], down[: down.index(common)][::-1]
 
     def chain(self, fixed: str, sensor: str) -> Chain | None:
-        """From one frame to another; None if nothing connects them."""
+        """Return the chain from one frame to another; None if nothing connects them."""
         if fixed == sensor:
             return Chain(())
         ways = self._ways(fixed, sensor)
@@ -237,29 +252,29 @@ class FrameTree:
         return Chain((*(self._link(f, True) for f in ways[0]), *(self._link(f, False) for f in ways[1])))
 
     def links(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
-        """Parent, child and what each topic says, for the transforms of a chain."""
+        """Return parent, child and what each topic says, for the transforms of a chain."""
         up, down = self._ways(fixed, sensor) or ([], [])
         return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
 
-    def _link(self, child: str, against: bool) -> tuple[Track, bool, bool]:
+    def _link(self, child: str, inverted: bool) -> Link:
         samples = Samples.joined(self._edges[child][1])
-        return samples.track(), samples.constant(), against
+        return Link(samples.track(), samples.constant(), inverted)
 
     def root(self, sensor: str) -> str:
-        """The topmost frame over a sensor's."""
+        """Return the topmost frame over a sensor's."""
         return self.upwards(sensor)[-1]
 
     def above(self, sensor: str, names: Iterable[str]) -> str | None:
-        """The first of some names (or ``robot/name``) that a frame over the sensor's has, the nearest such frame."""
+        """Return the nearest frame over the sensor's with the first name possible (or ``robot/name``); None without."""
         over = self.upwards(sensor)[1:]
         return next((frame for name in names for frame in over if frame.rpartition("/")[2] == name), None)
 
     def body(self, sensor: str, names: Iterable[str]) -> str | None:
-        """The frame of a robot's body: over the sensor's, or else at rest beside it, by its name."""
+        """Return the frame of a robot's body by its name: over the sensor's, or else at rest beside it."""
         names = tuple(names)
-        found = self.above(sensor, names)
-        if found is not None:
-            return found
+        over = self.above(sensor, names)
+        if over is not None:
+            return over
         beside = [f for f in self.frames() if f != sensor and self.root(f) == self.root(sensor)]
         for name in names:
             for frame in sorted(beside, key=len):
@@ -269,11 +284,11 @@ class FrameTree:
         return None
 
     def moves(self, frame: str) -> bool:
-        """Whether some transform between a frame and its root changes."""
+        """Return whether some transform between a frame and its root changes."""
         return any(not Samples.joined(self._edges[f][1]).constant() for f in self.upwards(frame)[:-1])
 
     def single_messages(self, fixed: str, sensor: str) -> list[str]:
-        """Transforms of a chain of which there is a single message that is not static: ``parent -> child``."""
+        """Return the transforms of a chain with a single message that is not static, as ``parent -> child``."""
         return [
             f"{parent} -> {child}"
             for parent, child, parts in self.links(fixed, sensor)

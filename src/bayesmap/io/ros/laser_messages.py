@@ -77,17 +77,17 @@ class LaserMessage:
 
 
 def stamp_ns_of(header: Any) -> int:
-    """A header's time in nanoseconds."""
+    """Return a header's time in nanoseconds."""
     return int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
 
 
 def frame_of(name: str) -> str:
-    """A frame's name without the slash that ROS 1 puts before some."""
+    """Return a frame's name without the slash that ROS 1 puts before some."""
     return name.lstrip("/")
 
 
 def laser_message(type_name: str, message: Any, number: int, received_ns: int) -> LaserMessage:
-    """A message as a scan.
+    """Return a message as a scan.
 
     Raises:
         Malformed: no readings, or angles that do not fit them.
@@ -132,7 +132,7 @@ def _layout(message: Any, beams: int) -> tuple[Layout, str]:
 
 
 def _odd_end(first: float, last: float, step: float, beams: int) -> str:
-    """How ``angle_max`` contradicts the other angles, in words; empty if it does not."""
+    """Return how ``angle_max`` contradicts the other angles, in words; empty if it does not."""
     if not math.isfinite(last):
         return f"angle_max is {last:g}; {TAKEN}"
     # The beams may pass behind the sensor.
@@ -164,17 +164,17 @@ class LaserMessages:
     scans: list[LaserMessage] = field(default_factory=list)
 
     def of_one_frame(self, bad: Callable[[int, str], None]) -> list[LaserMessage]:
-        """The scans with readings in the commonest frame; ``bad`` is told of those in others by number and reason."""
-        some = [scan for scan in self.scans if scan.layout.beams]
-        frame = Counter(scan.layout.frame for scan in some).most_common(1)[0][0] if some else ""
-        for scan in some:
+        """Return the scans with readings in the commonest frame; ``bad`` is told of the others."""
+        scans = [scan for scan in self.scans if scan.layout.beams]
+        frame = Counter(scan.layout.frame for scan in scans).most_common(1)[0][0] if scans else ""
+        for scan in scans:
             if scan.layout.frame != frame:
                 bad(scan.number, f"is in frame {scan.layout.frame!r}, but most scans of {self.topic} in {frame!r}")
-        return [scan for scan in some if scan.layout.frame == frame]
+        return [scan for scan in scans if scan.layout.frame == frame]
 
 
 def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Beam angles in the sensor's frame and readings (S, A) of scans.
+    """Return beam angles in the sensor's frame and readings (S, A) of scans.
 
     Angles are (A,) where all scans have the same beams, else (S, A): each scan keeps its own.
     """

@@ -311,12 +311,12 @@ def _source(wanted: _Wanted, poses: PoseMessages, options: LogOptions) -> PoseSo
     if pose_topic is not None and pose_topic.type in POSE_TYPES:
         return by_topic(recording, pose_topic, poses, trees, sensor, laser)
     body = sensor if laser is None else body_of(recording.path, trees, sensor)
-    found = None
+    source = None
     if body is not None:
-        found = by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)
-    if found is None:
+        source = by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)
+    if source is None:
         raise no_poses(recording.path, trees[-1], sensor, topics_of_type(recording, POSE_TYPES))
-    return found if laser is None else replace(found, chain=Chain((*found.chain.links, link_of(laser))))
+    return source if laser is None else replace(source, chain=Chain((*source.chain.links, link_of(laser))))
 
 
 def _odd(scans: list[LaserMessage]) -> list[str]:

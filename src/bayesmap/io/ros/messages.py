@@ -80,11 +80,11 @@ def scans_and_poses(
     recording: Recording, topic: Topic, pose_topic: Topic | None, bad: Bad
 ) -> tuple[LaserMessages, PoseMessages]:
     """Return the scans, and the messages of poses: of /tf, and of the topic of poses that was chosen."""
-    wanted = [topic, *(t for t in topics_of_type(recording, TF_TYPES) if t.encoding in READABLE)]
-    if pose_topic is not None and pose_topic not in wanted:
-        wanted.append(pose_topic)
+    topics = [topic, *(t for t in topics_of_type(recording, TF_TYPES) if t.encoding in READABLE)]
+    if pose_topic is not None and pose_topic not in topics:
+        topics.append(pose_topic)
     lasers, poses = LaserMessages(topic.name), PoseMessages()
-    read_messages(recording, wanted, lasers, poses, bad)
+    read_messages(recording, topics, lasers, poses, bad)
     return lasers, poses
 
 
@@ -190,11 +190,11 @@ def _store(topic: Topic) -> Any:
 def _parsed(topic: Topic) -> dict[str, Any]:
     if topic.language != "idl":
         return get_types_from_msg(topic.definition, topic.type)
-    found: dict[str, Any] = {}
+    types: dict[str, Any] = {}
     for part in topic.definition.split(IDL_SEPARATOR):
         if part.strip():
-            found |= get_types_from_idl(part.split("\n", 1)[1] if part.startswith("IDL: ") else part)
-    return found
+            types |= get_types_from_idl(part.split("\n", 1)[1] if part.startswith("IDL: ") else part)
+    return types
 
 
 def _complete(store: Any, shipped: Any) -> list[str]:

@@ -1,4 +1,4 @@
-"""Where the sensor is: by /tf, or by a topic of poses and the static transform from the robot's body to the sensor."""
+"""The poses of the sensor: by /tf, or by a topic of poses and the transform from the robot's body to the sensor."""
 
 from __future__ import annotations
 
@@ -9,11 +9,10 @@ from typing import Any
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import WITHOUT_POSES, Pose
-from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Samples, numbers_of
+from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Link, Samples, numbers_of
 from bayesmap.io.ros.laser_messages import LATEST_NS, Malformed, frame_of, stamp_ns_of
 from bayesmap.io.ros.publishers import contradiction
 from bayesmap.io.ros.recording import Recording, Topic
-from bayesmap.space.rigid import Track
 
 TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
 ODOMETRY = "nav_msgs/msg/Odometry"
@@ -28,7 +27,7 @@ MOUNTS = ("base_link", "base_footprint", "base")
 
 @dataclass(frozen=True, eq=False)
 class PoseSource:
-    """Where the sensor is over time, and how it is known.
+    """The poses of the sensor over time, and how they are known.
 
     Attributes:
         label: the topic, such as ``"/tf"`` or ``"/odom"``.
@@ -46,7 +45,7 @@ class PoseSource:
 
 
 class PoseMessages:
-    """Transforms and poses, as they come."""
+    """Transforms and poses, in the order of receipt."""
 
     def __init__(self) -> None:
         self.transforms: dict[tuple[str, str, str], Samples] = {}
@@ -55,7 +54,7 @@ class PoseMessages:
         """By the frame in which poses are and the body whose they are."""
 
     def add(self, topic: Topic, message: Any, received_ns: int) -> None:
-        """A message of one of `TF_TYPES` or `POSE_TYPES`.
+        """Append a message of one of `TF_TYPES` or `POSE_TYPES`.
 
         Raises:
             Malformed: a number that is not one, or a time.
@@ -78,7 +77,7 @@ class PoseMessages:
 
 
 def is_static(topic: Topic) -> bool:
-    """Whether a topic of transforms is one of those that never change."""
+    """Return whether a topic of transforms is one of those that never change."""
     return topic.name.rpartition("/")[2] == "tf_static"
 
 
@@ -90,13 +89,13 @@ def _time(header: Any) -> int:
 
 
 def topics_of_type(recording: Recording, types: Iterable[str]) -> list[Topic]:
-    """The recording's topics of some types that have messages."""
-    wanted = frozenset(types)
-    return [topic for topic in recording.topics.values() if topic.type in wanted and topic.count]
+    """Return the recording's topics of some types that have messages."""
+    chosen = frozenset(types)
+    return [topic for topic in recording.topics.values() if topic.type in chosen and topic.count]
 
 
 def pose_topic_of(recording: Recording, given: str) -> Topic:
-    """The topic of poses that the user names.
+    """Return the topic of poses that the user names.
 
     Raises:
         BadInput: no such topic, or one of another type; the message lists those that there are.
@@ -113,22 +112,22 @@ def pose_topic_of(recording: Recording, given: str) -> Topic:
 
 
 def listed(topics: Iterable[Topic]) -> str:
-    """Topics with their types and counts, for messages."""
+    """Return topics with their types and counts, for messages."""
     return ", ".join(f"{topic.name} ({topic.type}, {topic.count:,} messages)" for topic in topics)
 
 
 def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
-    """The topic of poses to use where /tf does not help: the only one of the scans' namespace, or the only one."""
-    there = topics_of_type(recording, POSE_TYPES)
+    """Return the topic of poses to use where /tf does not help: the only one of the scans' namespace, or of all."""
+    topics = topics_of_type(recording, POSE_TYPES)
     for space in _spaces(scan_topic):
-        inside = [topic for topic in there if _space(topic.name) == space]
+        inside = [topic for topic in topics if _space(topic.name) == space]
         if inside:
             return inside[0] if len(inside) == 1 else None
-    return there[0] if len(there) == 1 else None
+    return topics[0] if len(topics) == 1 else None
 
 
 def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None) -> list[FrameTree]:
-    """Frames by the topics of transforms that come first, and by all topics, where there are others.
+    """Return frames by the topics of transforms that come first, and by all topics, where there are others.
 
     First come the topic that the user chose, those of its namespace and of the scans' namespace, and those of the
     namespaces around these: in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has frames of its own.
@@ -146,7 +145,7 @@ def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None)
 
 
 def fixed_frame_of(tree: FrameTree, sensor: str) -> str | None:
-    """The frame over a sensor's in which to map: one that is named so, or the topmost if the sensor moves in it."""
+    """Return the frame over a sensor's in which to map: by its name, or the topmost if the sensor moves in it."""
     named = tree.above(sensor, FIXED_FRAMES)
     return tree.root(sensor) if named is None and tree.moves(sensor) else named
 
@@ -156,17 +155,17 @@ def _space(topic: str) -> str:
 
 
 def _spaces(topic: str) -> list[str]:
-    """The namespace of a topic and those around it, the nearest first: ``/a/b``, ``/a``, and the empty one."""
-    found = [_space(topic)]
-    while found[-1]:
-        found.append(_space(found[-1]))
-    return found
+    """Return the namespace of a topic and those around it, the nearest first: ``/a/b``, ``/a``, and the empty one."""
+    spaces = [_space(topic)]
+    while spaces[-1]:
+        spaces.append(_space(spaces[-1]))
+    return spaces
 
 
 def by_transforms(
     recording: Recording, trees: list[FrameTree], sensor: str, fixed_frame: str | None, *, chosen: bool = False
 ) -> PoseSource | None:
-    """The sensor's poses by transforms; None if no fixed frame is named and none is found.
+    """Return the sensor's poses by transforms; None if no fixed frame is named or found.
 
     Args:
         recording: for its path and topics.
@@ -178,45 +177,50 @@ def by_transforms(
     Raises:
         BadInput: a frame that is not known, or that nothing connects with the sensor's; a transform with two values.
     """
-    wanted = None if fixed_frame is None else frame_of(fixed_frame)
+    named = None if fixed_frame is None else frame_of(fixed_frame)
     for tree in trees:
         notes: list[str] = []
-        found = wanted or fixed_frame_of(tree, sensor)
-        if wanted is None and found is not None and found.rpartition("/")[2] not in FIXED_FRAMES:
-            notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {found!r}")
-        chain = None if found is None else tree.chain(found, sensor)
-        if found is None or chain is None:
+        fixed = named or fixed_frame_of(tree, sensor)
+        if named is None and fixed is not None and fixed.rpartition("/")[2] not in FIXED_FRAMES:
+            notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {fixed!r}")
+        chain = None if fixed is None else tree.chain(fixed, sensor)
+        if fixed is None or chain is None:
             continue
-        if found not in tree.upwards(sensor):
+        if fixed not in tree.upwards(sensor):
             notes.append(
-                f"the frame {found!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
+                f"the frame {fixed!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
             )
         notes += [
             f"there is a single message of the transform {edge}; it was taken to hold at all times"
-            for edge in tree.single_messages(found, sensor)
+            for edge in tree.single_messages(fixed, sensor)
         ]
-        notes += checked(recording, tree, found, sensor)
-        links = tree.links(found, sensor)
-        if len(trees) > 1 and tree is trees[-1]:
-            used = dict.fromkeys(part.topic for _, _, parts in links for part in parts)
-            notes.append(f"transforms were taken from {', '.join(used)}, beside the namespace of the scans")
-        elif len(trees) > 1 and not chosen:
+        notes += checked(recording, tree, fixed, sensor)
+        links = tree.links(fixed, sensor)
+        notes += _beside(trees, tree, fixed, sensor)
+        if len(trees) > 1 and tree is not trees[-1] and not chosen:
             others = [t.name for t in topics_of_type(recording, TF_TYPES) if t.name not in tree.topics]
             notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
         moving = [parts for _, _, parts in links if not Samples.joined(parts).constant()]
         topics = dict.fromkeys(part.topic for parts in moving or [p for _, _, p in links] for part in parts)
-        return PoseSource(", ".join(topics) or "/tf", found, chain, tuple(notes))
-    if wanted is not None:
+        return PoseSource(", ".join(topics) or "/tf", fixed, chain, tuple(notes))
+    if named is not None:
         tree = trees[-1]
-        what = "is not known" if wanted not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
+        what = "is not known" if named not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
         raise BadInput(
-            f"{recording.path}: the frame {wanted!r} {what}; {_frames(tree)}; choose another with --fixed-frame"
+            f"{recording.path}: the frame {named!r} {what}; {_frames(tree)}; choose another with --fixed-frame"
         )
     return None
 
 
+def _beside(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+    if len(trees) == 1 or tree is not trees[-1]:
+        return []
+    topics = dict.fromkeys(part.topic for _, _, parts in tree.links(fixed, sensor) for part in parts)
+    return [f"transforms were taken from {', '.join(topics)}, beside the namespace of the scans"]
+
+
 def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
-    """Notes on transforms between two frames of which a topic states several values.
+    """Return notes on transforms between two frames of which a topic states several values.
 
     Raises:
         BadInput: values that contradict each other, and nothing says which of them to use.
@@ -228,11 +232,11 @@ def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> l
             raise BadInput(f"{recording.path}: {tree.notes[child].partition(';')[0]}; {_choose(recording, rivals)}")
         if child in tree.notes:
             notes.append(tree.notes[child])
-        found = contradiction(parent, child, parts)
-        if found is not None and not found.fatal:
-            notes.append(found.text)
-        elif found is not None:
-            remedies = [_choose(recording, found.topics)] if found.topics else []
+        conflict = contradiction(parent, child, parts)
+        if conflict is not None and not conflict.fatal:
+            notes.append(conflict.text)
+        elif conflict is not None:
+            remedies = [_choose(recording, conflict.topics)] if conflict.topics else []
             others = topics_of_type(recording, POSE_TYPES)
             if others and not remedies:
                 remedies.append(f"take the poses from another topic with --pose-topic: {listed(others)}")
@@ -240,7 +244,7 @@ def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> l
             if below is not None and below.span_ns() is not None:
                 remedies.append(f"map in a frame below it with --fixed-frame {child}")
             raise BadInput(
-                f"{recording.path}: {found.text}; {', or '.join(remedies) or 'record again with one publisher'}"
+                f"{recording.path}: {conflict.text}; {', or '.join(remedies) or 'record again with one publisher'}"
             )
     return notes
 
@@ -273,11 +277,11 @@ def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
     return None
 
 
-def link_of(laser: Pose) -> tuple[Track, bool, bool]:
+def link_of(laser: Pose) -> Link:
     """Return the link of a chain from the robot's body to a laser that is mounted level at a pose."""
     x, y, yaw = laser
     numbers = (x, y, 0.0, 0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
-    return Samples(True, "", [0], [0], [numbers]).track(), True, False
+    return Link(Samples(True, "", [0], [0], [numbers]).track(), constant=True)
 
 
 def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
@@ -285,9 +289,8 @@ def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
     tree = next((tree for tree in trees if sensor in tree.frames()), trees[-1])
     body = tree.body(sensor, BODIES) if sensor in tree.frames() else None
     chain = tree.chain(body, sensor) if body is not None else None
-    if chain is None or not all(constant for _, constant, _ in chain.links):
-        chain = Chain(())
-    return PoseSource("", "", chain, posed=False)
+    still = chain is not None and all(link.constant for link in chain.links)
+    return PoseSource("", "", chain if chain is not None and still else Chain(()), posed=False)
 
 
 def by_topic(
@@ -298,7 +301,7 @@ def by_topic(
     sensor: str,
     laser: Pose | None = None,
 ) -> PoseSource:
-    """The sensor's poses by a topic of poses, and where the sensor is on the body, by /tf or as the user says.
+    """Return the sensor's poses by a topic of poses, and where the sensor is on the body, by /tf or as the user says.
 
     Raises:
         BadInput: no pose at all, or a pose or transform with two values.
@@ -313,15 +316,14 @@ def by_topic(
             f"{child or '?'} in {parent or '?'}" for parent, child in messages.poses if (parent, child) != ends
         )
         notes.append(f"{topic.name} tells where {body or '?'} is in {fixed or '?'}; not used: {others}")
-    found = contradiction(fixed or "?", body or "?", [samples])
-    if found is not None:
-        raise BadInput(f"{recording.path}: {found.text}; choose other poses with --pose-topic")
+    conflict = contradiction(fixed or "?", body or "?", [samples])
+    if conflict is not None:
+        raise BadInput(f"{recording.path}: {conflict.text}; choose other poses with --pose-topic")
     if samples.unstamped:
         notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
+    track = Link(samples.track(), constant=False)
     if laser is not None:
-        return PoseSource(
-            topic.name, fixed or "?", Chain(((samples.track(), False, False), link_of(laser))), tuple(notes)
-        )
+        return PoseSource(topic.name, fixed or "?", Chain((track, link_of(laser))), tuple(notes))
     tree = next((tree for tree in trees if _body(tree, body, sensor)), trees[-1])
     guess = _body(tree, body, sensor)
     if guess is not None and guess != body:
@@ -338,15 +340,12 @@ def by_topic(
         offset = Chain(())
     elif body != sensor:
         notes += checked(recording, tree, body, sensor)
-        if len(trees) > 1 and tree is trees[-1]:
-            used = dict.fromkeys(part.topic for _, _, parts in tree.links(body, sensor) for part in parts)
-            notes.append(f"transforms were taken from {', '.join(used)}, beside the namespace of the scans")
-    track = (samples.track(), False, False)
+        notes += _beside(trees, tree, body, sensor)
     return PoseSource(topic.name, fixed or "?", Chain((track, *offset.links)), tuple(notes))
 
 
 def _body(tree: FrameTree, body: str, sensor: str) -> str | None:
-    """The frame whose poses a topic tells: the one that it names, or what robots' bodies are called."""
+    """Return the frame whose poses a topic tells: the one that it names, or what robots' bodies are called."""
     if body == sensor:
         return sensor
     if body and body in tree.frames():
@@ -355,7 +354,7 @@ def _body(tree: FrameTree, body: str, sensor: str) -> str | None:
 
 
 def no_poses(path: str, tree: FrameTree, sensor: str, pose_topics: list[Topic]) -> BadInput:
-    """The error where nothing says where the sensor is."""
+    """Return the error where nothing says where the sensor is."""
     if pose_topics:
         remedy = f"choose one with --pose-topic: there are {listed(pose_topics)}"
     elif not tree.frames():

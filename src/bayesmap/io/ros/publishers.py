@@ -86,12 +86,12 @@ def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradi
 
 
 def differ(one: Numbers, other: Numbers) -> bool:
-    """Whether two poses are not the same for a map."""
+    """Return whether two poses are not the same for a map."""
     return not close(one, other, SAME)
 
 
 def told(values: Numbers) -> str:
-    """A pose for messages: x, y and yaw, and what else is not zero."""
+    """Return a pose for messages: x, y and yaw, and what else is not zero."""
     x, y, z, *quaternion = values
     # By hand: SciPy warns of rotations by which a sensor looks straight up.
     qx, qy, qz, qw = quaternion
@@ -108,19 +108,19 @@ def told(values: Numbers) -> str:
 
 
 def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
-    """The values that differ, in the order of their first appearance, with their counts; at most ten."""
-    found: list[tuple[Numbers, int]] = []
+    """Return the values that differ, in the order of their first appearance, with their counts; at most ten."""
+    distinct: list[tuple[Numbers, int]] = []
     for value in values:
-        at = next((i for i, (known, _) in enumerate(found) if not differ(known, value)), None)
+        at = next((i for i, (known, _) in enumerate(distinct) if not differ(known, value)), None)
         if at is not None:
-            found[at] = (found[at][0], found[at][1] + 1)
-        elif len(found) < 10:
-            found.append((value, 1))
-    return found
+            distinct[at] = (distinct[at][0], distinct[at][1] + 1)
+        elif len(distinct) < 10:
+            distinct.append((value, 1))
+    return distinct
 
 
 def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
-    """Two topics with values that contradict each other; None if there are none."""
+    """Return two topics with values that contradict each other; None if there are none."""
     holds = [part for part in parts if part.constant()]
     moving = [part for part in parts if not part.constant()]
     for part in holds[1:]:
@@ -140,14 +140,14 @@ def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Nu
     for i in at_once:
         if differ(values[i], values[i + 1]):
             return (moving[whose[i]].topic, values[i]), (moving[whose[i + 1]].topic, values[i + 1])
-    found = two_motions(stamps, np.array(values), whose)
-    if found is None:
+    beside = two_motions(stamps, np.array(values), whose)
+    if beside is None:
         return None
-    return (moving[whose[found]].topic, values[found]), (moving[whose[found - 1]].topic, values[found - 1])
+    return (moving[whose[beside]].topic, values[beside]), (moving[whose[beside - 1]].topic, values[beside - 1])
 
 
 def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
-    """Two values where half of the samples are further from another topic's motion than that goes in one step."""
+    """Return two values where half of the samples are further from another topic than it moves in one step."""
     track, stamps = one.track(), other.times_ns()
     inside = np.nonzero(track.covers(stamps))[0]
     if not len(inside):
@@ -160,12 +160,12 @@ def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None
     if len(far) < len(inside) / 2:
         return None
     i = far[len(far) // 2]
-    there = track.at(stamps[inside[[i]]])
-    return (*there.translation[0], *there.rotation.as_quat()[0]), other.values[inside[i]]
+    expected = track.at(stamps[inside[[i]]])
+    return (*expected.translation[0], *expected.rotation.as_quat()[0]), other.values[inside[i]]
 
 
 def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers], NDArray[np.intp]]:
-    """All samples by time, without repetitions: stamps, values, and the number of the part of each."""
+    """Return all samples by time, without repetitions: stamps, values, and the number of the part of each."""
     stamps = np.concatenate([part.times_ns() for part in parts])
     values = [value for part in parts for value in part.values]
     whose = np.repeat(np.arange(len(parts)), [len(part.values) for part in parts])
@@ -177,7 +177,7 @@ def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers
 
 
 def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
-    """The time, a value and the one beside it where a topic has two publishers that differ; None if it has not."""
+    """Return the time, a value and the one beside it where a topic has two publishers that differ; else None."""
     if part.constant():
         return None
     stamps, values, whose = _in_order([part])
@@ -192,10 +192,10 @@ def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
 
 
 def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose: NDArray[np.intp]) -> int | None:
-    """A sample that lies beside the motion of its neighbours, where samples come from two motions; None if from one.
+    """Find a sample beside the motion of its neighbours, where samples come from two motions; None if from one.
 
-    Of two publishers that take turns, each one's samples are smooth without the other's, and the way from one motion to
-    the other changes slowly. A jump, a corner or noise has one of the two, but not both.
+    If two publishers take turns, the samples of each are smooth without those of the other, and the offset from one
+    motion to the other changes slowly. A jump, a corner or noise has one of these properties, but not both.
 
     Args:
         stamps_ns: in ascending order, (T,).
@@ -214,7 +214,7 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     ahead = np.where(length > 0, ahead / np.where(length > 0, length, 1.0), 0.0)
 
     def beside(at: int, before: int, after: int) -> NDArray[np.float64]:
-        """From the line between two neighbours to a third, without some steps along the motion: stamps may be late."""
+        """Return the way from the line between two neighbours to a third, without some steps along the motion."""
         i, j, k = middle + at, middle + before, middle + after
         span = seconds[k] - seconds[j]
         share = np.where(span > 0, (seconds[i] - seconds[j]) / np.where(span > 0, span, 1.0), 0.5)[:, None]
@@ -236,9 +236,9 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     count = int(beyond.sum())
     if count < (FEWEST_BETWEEN if several else FEWEST):
         return None
-    one, next_one = away[beyond][:-1], away[beyond][1:]
-    largest = np.maximum(np.linalg.norm(one, axis=1), np.linalg.norm(next_one, axis=1))
-    change = np.minimum(np.linalg.norm(one - next_one, axis=1), np.linalg.norm(one + next_one, axis=1)) / largest
+    first, second = away[beyond][:-1], away[beyond][1:]  # offsets of successive samples
+    largest = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
+    change = np.minimum(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1)) / largest
     allowed = STEADY[0][1] if several else next(steady for share, steady in STEADY if count >= share * len(seconds))
     if float(np.median(change)) > allowed:
         return None

@@ -328,12 +328,12 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
     angles = [scans.beams_of(scan)[0] for scan in range(1 if scans.own_angles_rad is None else len(scans))]
     fans = [_even_fan(own) for own in angles]
     ranges = scans.ranges_m
-    wanted = np.where(np.isfinite(ranges) & (ranges > 0), np.round(ranges, 4), np.nan)
-    wanted[np.isposinf(ranges) | (wanted >= scans.max_range_m)] = np.inf
-    numbers = _flaser_numbers(wanted, scans) if all(_is_implied(own) for own in angles) else None
+    typed = np.where(np.isfinite(ranges) & (ranges > 0), np.round(ranges, 4), np.nan)
+    typed[np.isposinf(ranges) | (typed >= scans.max_range_m)] = np.inf
+    numbers = _flaser_numbers(typed, scans) if all(_is_implied(own) for own in angles) else None
     kind = "ROBOTLASER1" if numbers is None else "FLASER"
     if numbers is None:
-        numbers = np.where(np.isnan(wanted), 0.0, np.minimum(wanted, scans.max_range_m))
+        numbers = np.where(np.isnan(typed), 0.0, np.minimum(typed, scans.max_range_m))
     stamps = np.arange(len(scans), dtype=np.float64) if scans.stamps_s is None else scans.stamps_s
     bases = scans.poses if robot_poses is None else as_poses(robot_poses)
     if len(bases) != len(scans):
@@ -375,10 +375,10 @@ def _is_implied(angles_rad: Floats) -> bool:
     return bool(np.abs(_implied_fan("FLASER", beams).angles_rad() - angles_rad).max() <= ANGLE_TOLERANCE_RAD)
 
 
-def _flaser_numbers(wanted: Floats, scans: Scans) -> Floats | None:
+def _flaser_numbers(typed: Floats, scans: Scans) -> Floats | None:
     """Return the numbers of FLASER lines, or None if the reader would not find no return in them by itself."""
-    hits = wanted[np.isfinite(wanted)]
+    hits = typed[np.isfinite(typed)]
     far = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
-    numbers = np.where(np.isnan(wanted), 0.0, np.where(np.isposinf(wanted), far, wanted))
+    numbers = np.where(np.isnan(typed), 0.0, np.where(np.isposinf(typed), far, typed))
     decoded, _ = decode(numbers, views=Views.of(scans.poses, scans.angles_by_scan()))
-    return numbers if np.array_equal(decoded, wanted, equal_nan=True) else None
+    return numbers if np.array_equal(decoded, typed, equal_nan=True) else None

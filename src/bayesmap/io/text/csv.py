@@ -23,7 +23,9 @@ may mean no return: `bayesmap.io.returns`. Between semicolons or tabs numbers ma
 
 LaserScan messages that were turned into tables are read, too: by ``rostopic echo -p`` (``%time``,
 ``field.header.stamp``, ``field.angle_min``, ``field.ranges0`` ..), or with the message's own names
-(``header.stamp.secs``, ``angle_min``, ``ranges_0`` ..). They have no poses, unless x, y and yaw were added.
+(``header.stamp.secs``, ``angle_min``, ``ranges_0`` ..). They have no poses, unless x, y and yaw were added. So are the
+rows of ``ros2 topic echo --csv --full-length``, which have no header: the fields of the message in their order, then
+the readings, and as many intensities or none.
 """
 
 from __future__ import annotations
@@ -70,6 +72,10 @@ ECHOED = {
 }  # fmt: skip
 """Columns of a LaserScan message as a table, and how they are called here."""
 
+ROS2_FIELDS = ("stamp", NANOSECONDS, "", "angle_min", "", "angle_increment", "", "", "range_min", "range_max")
+"""Fields of a LaserScan before its readings, as they are called here; those that are not read are empty."""
+ROS2_COLUMNS = [name for name in ROS2_FIELDS if name]
+
 
 @dataclass
 class _Table:
@@ -85,6 +91,7 @@ class _Table:
         lines: numbers of the lines of ``rows``.
         rows: a number for each of ``columns``.
         delimiter: between fields.
+        headless: whether these are the rows of ``ros2 topic echo --csv``, of any number of readings each.
     """
 
     name: str
@@ -96,6 +103,7 @@ class _Table:
     lines: list[int] = field(default_factory=list)
     rows: list[Floats] = field(default_factory=list)
     delimiter: bytes = b","
+    headless: bool = False
 
     def limits(self) -> tuple[float, float]:
         """Return the sensor's smallest and largest range, as far as comments say them."""
@@ -108,6 +116,10 @@ class _Table:
             setting = _SETTING.fullmatch(text.rstrip(b'" \t,;'))
             if setting and (key := setting[1].decode()) in SETTINGS:
                 self.settings[key] = _setting(self.name, number, key, setting[2])
+        elif self.headless or (not self.columns and _is_ros2_row(line)):
+            self.headless, self.columns = True, [*ROS2_COLUMNS, "r_0"]
+            if text:
+                self._take_ros2_row(number, text)
         elif not self.columns:
             if is_header(line):
                 self._head(line)
@@ -121,13 +133,33 @@ class _Table:
             words = [fields[i] or b"nan" for i in self.at]
             if self.delimiter != b",":
                 words = [word.replace(b",", b".") for word in words]
-            values = numbers_in(words)
-            if isinstance(values, int):
-                shown = words[values][:20].decode("ascii", "backslashreplace")
-                self.bad(number, f"field {self.at[values] + 1} is '{shown}', not a number")
-                return
-            self.lines.append(number)
-            self.rows.append(values)
+            self._append(number, words, self.at)
+
+    def _append(self, number: int, words: list[bytes], at: list[int]) -> None:
+        values = numbers_in(words)
+        if isinstance(values, int):
+            shown = words[values][:20].decode("ascii", "backslashreplace")
+            self.bad(number, f"field {at[values] + 1} is '{shown}', not a number")
+            return
+        self.lines.append(number)
+        self.rows.append(values)
+
+    def _take_ros2_row(self, number: int, text: bytes) -> None:
+        fields = text.split(b",")
+        if b"..." in fields:
+            raise BadInput(
+                f"{self.name}: line {number}: ros2 topic echo cut the readings short ('...'); use --full-length, or "
+                "record with ros2 bag record"
+            )
+        first = len(ROS2_FIELDS)
+        after = len(fields) - first
+        # An empty array of intensities leaves an empty field.
+        count = after - 1 if fields[-1] == b"" else after // 2
+        if count < 1 or (fields[-1] != b"" and after % 2):
+            self.bad(number, f"{after} fields follow range_max: not readings, and as many intensities or none")
+            return
+        at = [i for i, name in enumerate(ROS2_FIELDS) if name] + list(range(first, first + count))
+        self._append(number, [fields[i] for i in at], at)
 
     def _head(self, line: bytes) -> None:
         self.delimiter = _delimiter(line)
@@ -144,6 +176,10 @@ class _Table:
 
     def finish(self) -> None:
         """Make one stamp of those of a message, in seconds, and settings of the limits that stand in columns."""
+        if self.headless and self.rows:
+            width = max(map(len, self.rows))
+            self.rows = [np.pad(row, (0, width - len(row)), constant_values=np.nan) for row in self.rows]
+            self.columns = [*ROS2_COLUMNS, *(f"r_{i}" for i in range(width - len(ROS2_COLUMNS)))]
         rows = np.array(self.rows).reshape(-1, len(self.columns))
         stamps = self.column("stamp", rows) + 1e-9 * self.column(NANOSECONDS, rows)
         if not stamps.any():
@@ -173,6 +209,18 @@ class _Table:
 
 _Parts = tuple[Floats, Floats, Floats, "Floats | None"]
 """Poses (S, 3) or (S, A, 3), angles (A,) or (S, A), readings (S, A), stamps (S,)."""
+
+
+def starts_table(line: bytes) -> bool:
+    """Return whether such a table begins with a line: its header, or a row of ``ros2 topic echo --csv``."""
+    return is_header(line) or _is_ros2_row(line)
+
+
+def _is_ros2_row(line: bytes) -> bool:
+    fields = line.split(b",")
+    numbers = fields[: len(ROS2_FIELDS)]
+    frame = numbers.pop(2) if len(fields) > len(ROS2_FIELDS) else b"0"
+    return not isinstance(numbers_in(numbers), int) and isinstance(numbers_in([frame]), int)
 
 
 def is_header(line: bytes) -> bool:
@@ -259,13 +307,13 @@ def _names(line: bytes, delimiter: bytes) -> list[str]:
 def _as_read(names: list[str]) -> list[str]:
     """Return the columns' names as they are read; empty for those that are not."""
     echoed = any(_ECHOED_BEAM.fullmatch(name) for name in names)
-    found = []
+    read = []
     for name in names:
         own = name in (*POSE, "stamp", "scan", "angle", "range", *OWN_ANGLES) or _BEAM.fullmatch(name)
         beam = _ECHOED_BEAM.fullmatch(name) if echoed else None
         known = ECHOED.get(name.removeprefix("field.").lstrip("./"), "") if echoed else ""
-        found.append(f"r_{int(beam[1])}" if beam else known or (name if own else ""))
-    return found
+        read.append(f"r_{int(beam[1])}" if beam else known or (name if own else ""))
+    return read
 
 
 def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:

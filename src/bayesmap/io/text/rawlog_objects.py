@@ -113,17 +113,17 @@ class Reader:
         self.data, self.at = data, at
 
     def take(self, form: str) -> tuple[float, ...]:
-        """The next numbers, by their struct format, little-endian."""
+        """Return the next numbers, by their struct format, little-endian."""
         values = struct.unpack_from("<" + form, self.data, self.at)
         self.at += struct.calcsize("<" + form)
         return values
 
     def number(self, form: str) -> float:
-        """The next number."""
+        """Return the next number."""
         return self.take(form)[0]
 
     def array(self, kind: str, count: int) -> NDArray[np.float64]:
-        """The next numbers of one kind."""
+        """Return the next numbers of one kind."""
         size = np.dtype(kind).itemsize * count
         if not 0 <= size <= len(self.data) - self.at:
             raise Unknown("is cut short")
@@ -132,7 +132,7 @@ class Reader:
         return values
 
     def text(self) -> str:
-        """The next text."""
+        """Return the next text."""
         (length,) = (int(v) for v in self.take("I"))
         if length > 1000:
             raise Unknown("is damaged")
@@ -141,7 +141,7 @@ class Reader:
         return word.decode("utf-8", "replace")
 
     def header(self, *names: str) -> Header:
-        """The header of an object within this one, which must be of one of some classes."""
+        """Return the header of an object within this one, which must be of one of some classes."""
         first = self.data[self.at] if self.at < len(self.data) else 0
         start = self.at + (1 if first & 0x80 else 4)
         length = first & 0x7F if first & 0x80 else int.from_bytes(self.data[self.at : start], "little")
@@ -153,12 +153,12 @@ class Reader:
         return Header(name, version, self.at, bool(first & 0x80))
 
     def end(self, header: Header) -> None:
-        """The mark behind an object within this one."""
+        """Check the mark behind an object within this one."""
         if header.ended and self.number("B") != END:
             raise Unknown(f"holds a {header.name} of version {header.version} that does not end where it should")
 
     def matrix(self) -> Floats:
-        """A matrix that is an object."""
+        """Return a matrix that is an object."""
         header = self.header("CMatrix", "CMatrixF", "CMatrixD")
         rows, columns = (int(v) for v in self.take("II"))
         if rows * columns > 10_000:
@@ -168,7 +168,7 @@ class Reader:
         return values.reshape(rows, columns)
 
     def pose_in_plane(self) -> Floats:
-        """A CPose2D."""
+        """Return a CPose2D."""
         header = self.header("CPose2D")
         if header.version not in (0, 1):
             raise Unknown(f"holds a CPose2D of version {header.version}; 0 and 1 are known")
@@ -177,7 +177,7 @@ class Reader:
         return pose
 
     def pose_in_space(self) -> tuple[Floats, Floats]:
-        """A CPose3D: position (3,) and rotation (3, 3)."""
+        """Return a CPose3D: position (3,) and rotation (3, 3)."""
         header = self.header("CPose3D")
         if header.version in (0, 1):
             whole = self.matrix()
@@ -203,7 +203,7 @@ class Reader:
         return position, rotation
 
     def stamp_s(self) -> float | None:
-        """A time in seconds since 1970; None if it is not known."""
+        """Return a time in seconds since 1970; None if it is not known."""
         ticks = int(self.number("Q"))
         return ticks * 1e-7 - SECONDS_1601_TO_1970 if ticks else None
 
@@ -224,7 +224,7 @@ class Reader:
         raise Unknown("does not end where it should")
 
     def _passed(self, form: str) -> bool:
-        """Pass over a field; whether its flag is as it should be."""
+        """Pass over a field. Returns whether its flag is as it should be."""
         flag = {"T": 1, "F": 0}.get(form[:1])
         fits = flag is None or self.data[self.at : self.at + 1] == bytes([flag])
         self.at += struct.calcsize("<" + form.replace("T", "x").replace("F", "x"))

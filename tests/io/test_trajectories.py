@@ -1,13 +1,22 @@
-"""Trajectories in other programs' formats."""
+"""Trajectories, graphs and relations in the formats of other programs."""
+
+import gzip
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from map_case import scans
+from oracle.trajectories import round_way
 from recorded import READERS
+from scipy.spatial.transform import Rotation
 
 from bayesmap.errors import BadInput
-from bayesmap.io.exports import export_trajectory, trajectory_of
-from bayesmap.io.text.g2o import Edges, chain_edges, write_g2o
-from bayesmap.io.text.tum import read_trajectory
+from bayesmap.io.exports import export_run, export_trajectory, trajectory_of
+from bayesmap.io.text.g2o import Edges, chain_edges, slam_edges, write_g2o
+from bayesmap.io.text.relations import write_relations
+from bayesmap.io.text.tum import read_trajectory, write_trajectory
+from bayesmap.poses.graph import Factors, normal_equations, quadratic, solve_step
+from bayesmap.poses.precision import Precision, relative_covariances
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory, ellipses
@@ -172,3 +181,105 @@ def test_a_run_with_drawn_poses_exports_those():
 
     assert trajectory_of(object(), scans).covariances is None
     assert trajectory_of(Drawn(), scans).draws.shape == (100, 3, 3)
+
+
+def test_numpy_reads_stamps_and_scipy_reads_turns(tmp_path):
+    poses, stamps = scans().poses, [1421098765.123456, 1421098765.25, 1421098766.0]
+    path = write_trajectory(tmp_path / "poses.tum", poses, stamps)
+    rows = np.loadtxt(path)  # leaves out what follows #
+    assert rows.shape == (3, 8)
+    np.testing.assert_allclose(rows[:, 0], stamps, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(rows[:, 1:4], np.column_stack([poses[:, :2], np.zeros(3)]), atol=1e-9)
+    turns = Rotation.from_quat(rows[:, 4:])  # x, y, z, w
+    np.testing.assert_allclose(np.linalg.norm(rows[:, 4:], axis=1), 1.0, atol=1e-11)
+    np.testing.assert_allclose(turns.as_euler("xyz"), np.column_stack([np.zeros((3, 2)), poses[:, 2]]), atol=1e-9)
+
+
+def test_without_stamps_poses_are_numbered_and_the_file_says_so(tmp_path):
+    path = write_trajectory(tmp_path / "poses.tum", scans().poses)
+    np.testing.assert_array_equal(np.loadtxt(path)[:, 0], [0, 1, 2])
+    assert path.read_text().startswith("# scan number (the scans have no stamps) tx ty tz qx qy qz qw\n")
+
+
+@pytest.mark.parametrize(
+    ("poses", "stamps", "says"),
+    [
+        (np.zeros((0, 3)), None, "no pose"),
+        (np.zeros((2, 3)), [1.0], r"one finite stamp a pose, \(2,\), got shape \(1,\)"),
+        (np.zeros((1, 3)), [np.nan], "one finite stamp"),
+        (np.zeros((1, 2)), None, r"expected \(S, 3\)"),
+    ],
+)
+def test_what_is_no_trajectory_leaves_no_file(tmp_path, poses, stamps, says):
+    with pytest.raises(BadInput, match=says):
+        write_trajectory(tmp_path / "poses.tum", poses, stamps)
+    assert list(tmp_path.iterdir()) == []
+
+
+def written(found, path):
+    """The graph as a file's lines say it: vertices, and edges as factors."""
+    run = SimpleNamespace(trajectory=found, grid=None, observed=None)
+    export_run(path, run, SimpleNamespace(stamps_s=None))
+    lines = [line.split() for line in path.read_text().splitlines()]
+    tags = [line[0] for line in lines]
+    assert tags == sorted(tags, reverse=True)  # vertices, then edges, and nothing else
+    poses = np.array([line[2:] for line in lines if line[0] == "VERTEX_SE2"], float)
+    edges = [line for line in lines if line[0] == "EDGE_SE2"]
+    numbers = np.array([line[3:] for line in edges], float)
+    information = np.zeros((len(edges), 3, 3))
+    information[:, *np.triu_indices(3)] = information[:, *np.triu_indices(3)[::-1]] = numbers[:, 3:]
+    first, second = np.array([line[1:3] for line in edges], int).T
+    return poses, Factors(first, second, numbers[:, :3], information)
+
+
+@pytest.mark.parametrize("force", [0.0, 60.0])
+def test_the_graph_s_solution_and_its_covariances_are_those_of_the_run(force, tmp_path):
+    """Errors that pairs have in common are in it on average: determinants are right over pairs of scans together."""
+    found = round_way(force=force)
+    poses, graph = written(found, tmp_path / "walk.g2o")
+    assert len(poses) == len(found)
+    assert len(graph) == len(found.gaussian.first) + 1
+    step, _ = solve_step(len(poses), [quadratic(graph, poses)])
+    assert np.abs(step).max() < 1e-6
+    precision = Precision(normal_equations(len(poses), [quadratic(graph, poses)])[0])
+    first, second = np.triu_indices(len(found), 2)
+    mine = relative_covariances(precision, poses, first, second)
+    theirs = found.gaussian.dof / (found.gaussian.dof - 2.0) * found.relative_covariances(first, second)
+    if force == 0.0:
+        np.testing.assert_allclose(mine, theirs, rtol=1e-3, atol=1e-9)
+    ratio = np.linalg.slogdet(mine)[1] - np.linalg.slogdet(theirs)[1]
+    assert abs(ratio.mean() / 3) < (1e-3 if force == 0.0 else 0.1)
+
+
+def test_an_edge_that_says_nothing_of_a_direction_can_still_be_read():
+    found = round_way()
+    found.gaussian.curvature[3, 0] = found.gaussian.curvature[3, :, 0] = 0.0
+    edges = slam_edges(found)
+    assert np.linalg.eigvalsh(edges.information).min() == pytest.approx(1e-3)
+
+
+def test_gtsam_finds_nothing_to_mend(tmp_path):
+    gtsam = pytest.importorskip("gtsam")
+    poses, graph = written(round_way(), tmp_path / "walk.g2o")
+    read, values = gtsam.readG2o(str(tmp_path / "walk.g2o"), False)
+    assert (read.size(), values.size()) == (len(graph), len(poses))
+    assert read.error(values) < 1e-6
+
+
+@pytest.mark.parametrize("name", ["true.relations", "true.relations.gz"])
+def test_relations_are_written_with_all_their_digits(tmp_path, name):
+    rng = np.random.default_rng(0)
+    first, second = 976052905.0 + np.round(np.sort(rng.uniform(0, 100, (2, 7)), axis=0), 6)
+    relative = rng.uniform(-3, 3, (7, 3))
+    path = write_relations(tmp_path / name, first, second, relative)
+    text = gzip.decompress(path.read_bytes()) if name.endswith(".gz") else path.read_bytes()
+    table = np.loadtxt(text.decode().splitlines())
+    np.testing.assert_allclose(table[:, :2], np.column_stack([first, second]), atol=1e-6, rtol=0)
+    np.testing.assert_allclose(table[:, [2, 3, 7]], relative, atol=1e-8)
+    assert not table[:, 4:7].any()
+
+
+def test_shapes_that_do_not_fit(tmp_path):
+    for first, second, relative in (([], [], np.zeros((0, 3))), ([1], [2, 3], np.zeros((1, 3))), ([1], [2], [0, 0])):
+        with pytest.raises(BadInput, match="relations: got stamps"):
+            write_relations(tmp_path / "a.relations", first, second, relative)

@@ -1,16 +1,64 @@
-"""Recordings for rerun, read back by rerun's own reader: there is no other."""
+"""GeoTIFF, by rasterio and without it; recordings for rerun, by rerun's own reader, since there is no other."""
 
 import builtins
+import zlib
 
 import numpy as np
 import pytest
 from map_case import GRID, observed, occupancy, scans
+from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.io.layers import UNKNOWN_COLOR, to_pixels, write_rerun
+from bayesmap.io.layers import UNKNOWN_COLOR, to_pixels, write_geotiff, write_rerun
 from bayesmap.space.trajectory import Trajectory
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}
+
+
+def expected(values):
+    """Rows from the top, NaN where no beam reached."""
+    return np.where(observed(), values, np.nan).T[::-1].astype(np.float32)
+
+
+def test_rasterio_finds_every_value_at_its_place(tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    path = write_geotiff(tmp_path / "floor.tif", LAYERS, GRID, observed())
+    with rasterio.open(path) as file:
+        assert file.descriptions == ("mean", "entropy")
+        assert file.dtypes == ("float32", "float32")
+        assert np.isnan(file.nodata)
+        assert tuple(file.bounds) == (-1.5, 2.0, -0.25, 2.75)
+        assert file.crs is None
+        places = [(x, y) for x in GRID.centers_m()[0] for y in GRID.centers_m()[1]]
+        found = np.array(list(file.sample(places))).reshape(5, 3, 2)
+        np.testing.assert_array_equal(file.read_masks(1), np.where(np.isnan(expected(occupancy())), 0, 255))
+    for band, values in enumerate(LAYERS.values()):
+        np.testing.assert_array_equal(found[..., band], np.where(observed(), values, np.nan).astype(np.float32))
+
+
+def test_the_same_without_the_library_that_wrote_it(tmp_path):
+    """Pillow reads the tags, zlib the strips."""
+    pytest.importorskip("rasterio")
+    path = write_geotiff(tmp_path / "floor.tif", LAYERS, GRID, observed())
+    with open(path, "rb") as file:
+        assert file.read(4) in (b"II*\0", b"MM\0*")
+    content = path.read_bytes()
+    with Image.open(path) as image:
+        tags = dict(image.tag_v2)
+    assert (tags[256], tags[257], tags[258], tags[339]) == (5, 3, (32, 32), (3, 3))  # width, height, bits, floats
+    assert tags[284] == 2  # band after band
+    assert tags[33550] == (0.25, 0.25, 0.0)  # ModelPixelScale
+    assert tags[33922] == (0.0, 0.0, 0.0, -1.5, 2.75, 0.0)  # ModelTiepoint: the upper-left corner
+    assert tags[42113] == "nan"  # GDAL_NODATA
+    strips = [zlib.decompress(content[at : at + size]) for at, size in zip(tags[273], tags[279], strict=True)]
+    values = np.frombuffer(b"".join(strips), dtype="<f4" if content[:2] == b"II" else ">f4").reshape(2, 3, 5)
+    np.testing.assert_array_equal(values, [expected(layer) for layer in LAYERS.values()])
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path):
+    pytest.importorskip("rasterio")
+    with pytest.raises(BadInput, match="cannot be written"):
+        write_geotiff(tmp_path / "nowhere" / "floor.tif", LAYERS, GRID)
 
 
 def columns_of(path):
@@ -84,20 +132,6 @@ def test_stamps_that_count_from_a_start_are_durations(tmp_path):
         assert all(kind in text for text in types)
 
 
-def test_without_rerun_the_remedy_is_named(tmp_path, monkeypatch):
-    real = builtins.__import__
-
-    def absent(name, *rest, **named):
-        if name.split(".")[0] == "rerun":
-            raise ImportError(name)
-        return real(name, *rest, **named)
-
-    monkeypatch.setattr(builtins, "__import__", absent)
-    with pytest.raises(BadInput, match=r"pip install 'bayesmap\[rerun\]'"):
-        write_rerun(tmp_path / "floor.rrd", LAYERS, GRID)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
     poses = np.array([[-1.0, 2.2, 0.0], [-0.5, 2.6, 1.0]])
     covariances = np.stack([np.diag([0.01, 0.04, 0.01]), np.diag([0.01, 0.01, 0.01])])
@@ -109,3 +143,20 @@ def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
     assert len(outlines) == 2
     width, height = np.ptp(np.array(outlines[0]), axis=0)
     assert height / width == pytest.approx(2.0, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("library", "extra", "write"), [("rasterio", "geotiff", write_geotiff), ("rerun", "rerun", write_rerun)]
+)
+def test_without_the_library_the_remedy_is_named(tmp_path, monkeypatch, library, extra, write):
+    real = builtins.__import__
+
+    def absent(name, *rest, **named):
+        if name.split(".")[0] == library:
+            raise ImportError(name)
+        return real(name, *rest, **named)
+
+    monkeypatch.setattr(builtins, "__import__", absent)
+    with pytest.raises(BadInput, match=rf"pip install 'bayesmap\[{extra}\]'"):
+        write(tmp_path / "floor", LAYERS, GRID)
+    assert list(tmp_path.iterdir()) == []
