@@ -14,8 +14,8 @@ from bayesmap.gen.choice_map import Indexed
 from bayesmap.gen.dense import check_index
 from bayesmap.gen.diff import Diff, IndexChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Update
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, IndexRequest, Update
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score
 
 

@@ -8,9 +8,9 @@ import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff, IndexChange
+from bayesmap.gen.edits import Edited, EditRequest, IndexRequest, Update
 from bayesmap.gen.generative_function import Trace
 from bayesmap.gen.pytree import dataclass
-from bayesmap.gen.requests import Edited, EditRequest, IndexRequest, Update
 from bayesmap.gen.typing import PRNGKey
 
 
