@@ -1,7 +1,7 @@
 """A pytest plugin under which `import genjax` gives `bayesmap.gen`: to run GenJAX's own tests on it.
 
-GenJAX's public modules are ours of the same name, and those of its private ones that its tests import are ours with
-the same contents, named below. What its tests ask of no particular module is looked up in all of ours.
+Every module of GenJAX 0.10.3 that has a counterpart can be imported under its own path, the private ones too, which
+public notebooks import. A name is looked for in the counterpart, then in all of `bayesmap.gen`.
 """
 
 import importlib
@@ -18,34 +18,64 @@ from bayesmap.gen import flags
 
 run_branch = importlib.import_module("bayesmap.gen.switch").run_branch  # `bayesmap.gen.switch` is the combinator
 
-PUBLIC = {
-    "genjax": "bayesmap.gen",
-    "genjax.typing": "bayesmap.gen.typing",
-    "genjax.inference": "bayesmap.gen.inference",
-    "genjax.inference.smc": "bayesmap.gen.inference.smc",
-    "genjax.inference.requests": "bayesmap.gen.inference.requests",
+MODULES = {
+    "genjax": "gen",
+    "genjax.checkify": "gen.flags",
+    "genjax.core": "gen",
+    "genjax.core.compiler": "gen.diff",
+    "genjax.core.generative": "gen",
+    "genjax.core.pytree": "gen.pytree",
+    "genjax.core.requests": "gen.edits",
+    "genjax.generative_functions": "gen",
+    "genjax.generative_functions.combinators": "gen",
+    "genjax.generative_functions.distributions": "gen",
+    "genjax.generative_functions.static": "gen.static",
+    "genjax.incremental": "gen.diff",
+    "genjax.inference": "gen.inference",
+    "genjax.inference.requests": "gen.inference.requests",
+    "genjax.inference.smc": "gen.inference.smc",
+    "genjax.pretty": "gen.outline",
+    "genjax.typing": "gen.typing",
+    "genjax._src": "gen",
+    "genjax._src.checkify": "gen.flags",
+    "genjax._src.core": "gen",
+    "genjax._src.core.compiler": "gen",
+    "genjax._src.core.compiler.interpreters": "gen",
+    "genjax._src.core.compiler.interpreters.incremental": "gen.diff",
+    "genjax._src.core.compiler.staging": "gen.flags",
+    "genjax._src.core.generative": "gen",
+    "genjax._src.core.generative.choice_map": "gen.choice_map",
+    "genjax._src.core.generative.concepts": "gen.typing",
+    "genjax._src.core.generative.functional_types": "gen.mask",
+    "genjax._src.core.generative.generative_function": "gen.generative_function",
+    "genjax._src.core.generative.requests": "gen.edits",
+    "genjax._src.core.pytree": "gen.pytree",
+    "genjax._src.core.typing": "gen.typing",
+    "genjax._src.generative_functions": "gen",
+    "genjax._src.generative_functions.combinators": "gen",
+    "genjax._src.generative_functions.combinators.dimap": "gen.dimap",
+    "genjax._src.generative_functions.combinators.mask": "gen.masking",
+    "genjax._src.generative_functions.combinators.mixture": "gen.switch",
+    "genjax._src.generative_functions.combinators.or_else": "gen.switch",
+    "genjax._src.generative_functions.combinators.repeat": "gen.vmap",
+    "genjax._src.generative_functions.combinators.scan": "gen.scan",
+    "genjax._src.generative_functions.combinators.switch": "gen.switch",
+    "genjax._src.generative_functions.combinators.vmap": "gen.vmap",
+    "genjax._src.generative_functions.distributions": "gen",
+    "genjax._src.generative_functions.distributions.custom": "gen",
+    "genjax._src.generative_functions.distributions.custom.discrete_hmm": "gen.discrete_hmm",
+    "genjax._src.generative_functions.distributions.distribution": "gen.distribution",
+    "genjax._src.generative_functions.distributions.tensorflow_probability": "gen.densities",
+    "genjax._src.generative_functions.static": "gen.static",
+    "genjax._src.inference": "gen.inference",
+    "genjax._src.inference.requests": "gen.inference.requests",
+    "genjax._src.inference.requests.hmc": "gen.inference.requests",
+    "genjax._src.inference.requests.rejuvenate": "gen.inference.requests",
+    "genjax._src.inference.smc": "gen.inference.smc",
+    "genjax._src.inference.sp": "gen.inference.target",
 }
-PRIVATE = {
-    "genjax.generative_functions": None,
-    "genjax.generative_functions.static": "bayesmap.gen.static",
-    "genjax._src": None,
-    "genjax._src.checkify": "bayesmap.gen.flags",
-    "genjax._src.core": None,
-    "genjax._src.core.compiler": None,
-    "genjax._src.core.compiler.interpreters": None,
-    "genjax._src.core.compiler.interpreters.incremental": "bayesmap.gen.diff",
-    "genjax._src.core.compiler.staging": None,
-    "genjax._src.core.generative": None,
-    "genjax._src.core.generative.choice_map": "bayesmap.gen.choice_map",
-    "genjax._src.core.generative.functional_types": "bayesmap.gen.mask",
-    "genjax._src.core.typing": "bayesmap.gen.typing",
-    "genjax._src.generative_functions": None,
-    "genjax._src.generative_functions.combinators": None,
-    "genjax._src.generative_functions.combinators.vmap": "bayesmap.gen.vmap",
-    "genjax._src.generative_functions.static": "bayesmap.gen.static",
-    "genjax._src.inference": None,
-    "genjax._src.inference.sp": "bayesmap.gen.inference.target",
-}
+"""Each module of GenJAX 0.10.3, and ours where its names are looked for first. Not here: variational inference, ADEV,
+and the interpreters of its compiler that docs/coming-from-genjax.md calls absent."""
 
 
 def _multi_switch(idx: Any, branches: Any, arguments: Any) -> list[Any]:
@@ -68,27 +98,35 @@ INTERNAL = {
 }
 
 
-class Elsewhere(types.ModuleType):
-    """A module whose names are found in one of ours, or else in whichever defines them."""
+class Counterpart(types.ModuleType):
+    """A module of GenJAX whose names are found in one of ours, or else in whichever defines them."""
 
-    def __init__(self, name: str, first: str | None = None) -> None:
+    def __init__(self, name: str, ours: str) -> None:
         super().__init__(name)
-        self.first, self.__path__ = first, []
+        self.ours, self.__path__ = importlib.import_module(ours), []
+        self.__all__ = getattr(self.ours, "__all__", [name for name in vars(self.ours) if not name.startswith("_")])
 
     def __getattr__(self, name: str) -> object:
         if name in INTERNAL:
             return INTERNAL[name]
+        if name in vars(self.ours):
+            return vars(self.ours)[name]
         if not name.startswith("__"):
             every = [info.name for info in pkgutil.walk_packages(bayesmap.gen.__path__, "bayesmap.gen.")]
-            for ours in [*filter(None, [self.first]), *every]:
-                names = vars(importlib.import_module(ours))
+            for module in [bayesmap.gen, *map(importlib.import_module, every)]:
+                names = vars(module)
                 if name in names and not isinstance(names[name], types.ModuleType):
                     return names[name]
         raise AttributeError(f"bayesmap.gen has no {name}")
 
 
-sys.modules.update({theirs: importlib.import_module(ours) for theirs, ours in PUBLIC.items()})
-sys.modules.update({theirs: Elsewhere(theirs, ours) for theirs, ours in PRIVATE.items()})
+for theirs, ours in MODULES.items():
+    same = theirs.removeprefix("genjax") == ours.removeprefix("gen")  # public, and ours of the same name
+    module = f"bayesmap.{ours}"
+    sys.modules[theirs] = importlib.import_module(module) if same else Counterpart(theirs, module)
+    parent, _, name = theirs.rpartition(".")
+    if parent and name not in vars(sys.modules[parent]):
+        setattr(sys.modules[parent], name, sys.modules[theirs])
 
 # pytest reads the numbers of an array by a property that JAX's arrays no longer have.
 _approx = pytest.approx

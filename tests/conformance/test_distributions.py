@@ -37,6 +37,32 @@ def test_a_distribution_applied_to_arguments_and_a_key_is_a_draw():
     assert genjax.normal.sample(jr.key(0), 1.0, 2.0, sample_shape=(5, 2)).shape == (5, 2)
 
 
+@pytest.mark.parametrize("shape", [3, (3,), [3], genjax.Const(3), genjax.Const((3,)), np.int64(3), jnp.array(3)])
+def test_a_site_of_several_draws(shape):
+    """`sample_shape` is a number or a tuple: in a draw, and where a site is simulated, scored, given and edited."""
+
+    @genjax.gen
+    def model(loc):
+        return genjax.normal(loc, 2.0, sample_shape=shape) @ "x"
+
+    trace = jax.jit(model.simulate)(jr.key(0), (1.0,))
+    assert trace.get_retval().shape == genjax.normal.sample(jr.key(0), 1.0, 2.0, sample_shape=shape).shape == (3,)
+    np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_retval(), 1.0, 2.0).sum(), rtol=1e-6)
+    given = C["x"].set(jnp.arange(3.0))
+    expected = st.norm.logpdf(np.arange(3.0), 1.0, 2.0).sum()
+    np.testing.assert_allclose(model.assess(given, (1.0,))[0], expected, rtol=1e-6)
+    np.testing.assert_allclose(model.importance(jr.key(1), given, (1.0,))[1], expected, rtol=1e-6)
+    edited, weight, *_ = jax.jit(lambda trace: trace.update(jr.key(2), given))(trace)
+    np.testing.assert_allclose(weight, expected - trace.get_score(), rtol=1e-5)
+    np.testing.assert_array_equal(edited.get_choices()["x"], np.arange(3.0))
+
+
+@pytest.mark.parametrize("shape", [2.5, "3", (2.0,), None])
+def test_what_is_no_shape_is_named(shape):
+    with pytest.raises(genjax.BadArguments, match="a number of draws or a tuple of lengths"):
+        genjax.normal.sample(jr.key(0), 1.0, 2.0, sample_shape=shape)
+
+
 @pytest.mark.parametrize("dist", [genjax.bernoulli, genjax.categorical])
 def test_positional_logits_warn_and_named_parameters_do_not(dist):
     logits = jnp.log(jnp.array([0.3, 0.7]))

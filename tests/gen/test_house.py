@@ -51,6 +51,7 @@ def test_the_room_knows_jax_and_nothing_else():
         "inspect",
         "importlib",
         "math",
+        "operator",
         "threading",
         "types",
         "typing",

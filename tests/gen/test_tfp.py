@@ -61,7 +61,8 @@ def test_any_distribution_of_the_library_becomes_a_generative_function():
     from scipy import stats
 
     np.testing.assert_allclose(mine.assess(C.v(0.5), (1.0, 2.0))[0], stats.norm.logpdf(0.5, 1.0, 2.0), rtol=1e-6)
-    assert mine(1.0, 2.0, sample_shape=gen.Const((3,)))(jr.key(0)).shape == (3,)
+    for shape in (3, (3,), gen.Const((3,))):
+        assert mine(1.0, 2.0, sample_shape=shape)(jr.key(0)).shape == (3,)
 
 
 def test_without_the_library_the_error_names_the_package(monkeypatch):

@@ -60,6 +60,16 @@ from bayesmap.gen.distribution import (
     ExactDensity,
     exact_density,
 )
+from bayesmap.gen.edits import (
+    DiffAnnotate,
+    EditRequest,
+    EmptyRequest,
+    IndexRequest,
+    Regenerate,
+    StaticRequest,
+    Update,
+    VectorRequest,
+)
 from bayesmap.gen.errors import (
     AddressError,
     AddressReuse,
@@ -78,6 +88,10 @@ from bayesmap.gen.flags import (
 from bayesmap.gen.generative_function import (
     GenerativeFunction,
     Trace,
+)
+from bayesmap.gen.inference import (
+    requests,
+    smc,
 )
 from bayesmap.gen.inference.marginal import (
     Marginal,
@@ -128,16 +142,6 @@ from bayesmap.gen.pytree import (
     PythonicPytree,
     Pytree,
     nth,
-)
-from bayesmap.gen.requests import (
-    DiffAnnotate,
-    EditRequest,
-    EmptyRequest,
-    IndexRequest,
-    Regenerate,
-    StaticRequest,
-    Update,
-    VectorRequest,
 )
 from bayesmap.gen.scan import (
     Scan,
@@ -191,7 +195,9 @@ from bayesmap.gen.tfp import (
 from bayesmap.gen.typing import (
     Address,
     AddressComponent,
+    Argdiffs,
     Arguments,
+    Retdiff,
     Score,
     Weight,
 )
@@ -208,6 +214,7 @@ __all__ = [
     "AddressError",
     "AddressReuse",
     "Algorithm",
+    "Argdiffs",
     "Arguments",
     "BadArguments",
     "Chain",
@@ -246,6 +253,7 @@ __all__ = [
     "Pytree",
     "Regenerate",
     "Rejuvenate",
+    "Retdiff",
     "SMCAlgorithm",
     "SafeHMC",
     "SampleDistribution",
@@ -328,9 +336,11 @@ __all__ = [
     "reduce",
     "render",
     "repeat",
+    "requests",
     "run_chain",
     "scan",
     "skellam",
+    "smc",
     "split_rhat",
     "student_t",
     "switch",

@@ -6,10 +6,10 @@ from typing import Any
 from bayesmap.gen import handler
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import Edited, EditRequest
 from bayesmap.gen.fluent import method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass
-from bayesmap.gen.requests import Edited, EditRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 

@@ -17,10 +17,10 @@ import jax.scipy.stats as st
 from jax.nn import log_sigmoid, log_softmax
 from jax.scipy.special import gammaln, xlog1py, xlogy
 
-from bayesmap.gen.distribution import ExactDensity
+from bayesmap.gen.distribution import ExactDensity, draw_shape
 from bayesmap.gen.errors import BadArguments
 from bayesmap.gen.generative_function import GenerativeFunction
-from bayesmap.gen.pytree import Const, dataclass, static
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.typing import PRNGKey
 
 Params = tuple[Any, ...]
@@ -51,7 +51,7 @@ class Named(ExactDensity):
         if self.by_name:
             args, kwargs = args[0], {**args[1], **kwargs}
         kwargs = dict(kwargs)
-        shape = Const.unwrap(kwargs.pop("sample_shape", ()))
+        shape = draw_shape(kwargs.pop("sample_shape", ()))
         read = _FAMILIES[self.name].parameters
         try:
             inspect.signature(read).bind(*args, **kwargs)

@@ -8,10 +8,10 @@ from typing import Any
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dataflow import dataflow
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import Edited, EditRequest
 from bayesmap.gen.fluent import decorator_method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 

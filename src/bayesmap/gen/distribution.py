@@ -1,21 +1,23 @@
 """Distributions as generative functions with one choice at the empty address."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
+import operator
 from collections.abc import Callable
 from typing import Any
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dense import dense
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.errors import MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
+from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
+from bayesmap.gen.errors import BadArguments, MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
 from bayesmap.gen.flags import check, in_optional_part, is_concrete, where
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.mask import Mask
-from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest, Regenerate, Update
+from bayesmap.gen.pytree import Const, dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
@@ -124,6 +126,24 @@ class Distribution(GenerativeFunction):
         return new, new.score - trace.score, unchanged, nothing
 
 
+def draw_shape(sample_shape: Any) -> tuple[int, ...]:
+    """Return the shape of independent draws as a tuple.
+
+    Args:
+        sample_shape: a number of draws, a sequence of lengths, or a `Const` of either.
+
+    Raises:
+        BadArguments: it is neither.
+    """
+    given = Const.unwrap(sample_shape)
+    try:
+        return tuple(map(operator.index, given)) if np.ndim(given) else (operator.index(given),)
+    except TypeError:
+        raise BadArguments(
+            f"sample_shape is a number of draws or a tuple of lengths (under jit as a Const), not {given!r}"
+        ) from None
+
+
 def _check_tuple(args: Any) -> None:
     if not isinstance(args, tuple):
         raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
@@ -187,7 +207,8 @@ class ExactDensity(Distribution):
             OutsideSupport: the value is known, and a discrete distribution never draws it.
         """
         found = dense(choices, self.index_shape(args))
-        expected = jax.eval_shape(self.draw, jax.random.key(0), args)
+        # The arguments are closed over, not traced: one of them may be a shape.
+        expected = jax.eval_shape(lambda key: self.draw(key, args), jax.random.key(0))
         if found is None:
             # What has no elements is in no choice map, and needs no value.
             return (jnp.zeros(expected.shape, expected.dtype) if 0 in expected.shape else None), None, 0.0

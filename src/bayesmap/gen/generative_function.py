@@ -28,11 +28,11 @@ from jax.extend.core import jaxprs_in_params
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.errors import AddressError
 from bayesmap.gen.fluent import Fluent
 from bayesmap.gen.outline import Outlined, leaf_text
 from bayesmap.gen.pytree import Pytree
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 

@@ -7,13 +7,13 @@ import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff, NoChange
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, NotSupportedEditRequest
 from bayesmap.gen.flags import optional_part
 from bayesmap.gen.fluent import method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.mask import Mask
 from bayesmap.gen.pytree import dataclass
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 

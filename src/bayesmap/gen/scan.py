@@ -12,12 +12,12 @@ from bayesmap.gen.choice_map import ChoiceMap, Indexed
 from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.dimap import dimap, map
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.errors import NotSupportedEditRequest
 from bayesmap.gen.fluent import decorator_method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.masking import mask
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 

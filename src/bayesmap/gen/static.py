@@ -15,11 +15,11 @@ import jax.numpy as jnp
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.dataflow import Dataflow, dataflow
 from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
 from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, show
 from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.handler import Handler, as_path, running
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 

@@ -12,12 +12,12 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.densities import categorical
 from bayesmap.gen.diff import Diff, NoChange
 from bayesmap.gen.dimap import contramap
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.errors import AddressError, BadArguments, NotSupportedEditRequest, UnknownAddress
 from bayesmap.gen.flags import is_concrete, optional_part, where
 from bayesmap.gen.fluent import method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.pytree import dataclass
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.static import gen
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight

@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from bayesmap.gen.distribution import ExactDensity
+from bayesmap.gen.distribution import ExactDensity, draw_shape
 from bayesmap.gen.errors import MissingExtra
 from bayesmap.gen.generative_function import GenerativeFunction
-from bayesmap.gen.pytree import Const, dataclass, static
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.typing import PRNGKey
 
 
@@ -43,7 +43,7 @@ class TfpDistribution(ExactDensity):
         """(The library's distribution, shape of independent draws)."""
         if self.by_name:
             args, kwargs = args[0], {**args[1], **kwargs}
-        shape = Const.unwrap(kwargs.get("sample_shape", ()))
+        shape = draw_shape(kwargs.get("sample_shape", ()))
         return self.make(*args, **{k: v for k, v in kwargs.items() if k != "sample_shape"}), shape
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:

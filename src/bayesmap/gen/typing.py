@@ -21,6 +21,8 @@ Flag: TypeAlias = bool | BoolArray
 Score: TypeAlias = FloatArray
 Weight: TypeAlias = FloatArray
 Arguments: TypeAlias = tuple[Any, ...]
+Argdiffs: TypeAlias = tuple[Any, ...]
+Retdiff: TypeAlias = Any
 InAxes: TypeAlias = int | Sequence[Any] | None
 
 StaticComponent: TypeAlias = str
@@ -48,6 +50,7 @@ __all__ = [
     "AddressComponent",
     "Annotated",
     "Any",
+    "Argdiffs",
     "Arguments",
     "Array",
     "ArrayLike",
@@ -66,6 +69,7 @@ __all__ = [
     "Literal",
     "PRNGKey",
     "ParamSpec",
+    "Retdiff",
     "ScalarFlag",
     "ScalarInt",
     "ScalarShaped",

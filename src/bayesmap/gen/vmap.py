@@ -16,11 +16,11 @@ from bayesmap.gen.choice_map import ChoiceMap, Indexed
 from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.errors import NotSupportedEditRequest
 from bayesmap.gen.fluent import decorator_method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 

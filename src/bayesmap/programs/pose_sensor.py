@@ -23,9 +23,9 @@ from bayesmap.errors import BadInput
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff, IndexChange, NoChange
 from bayesmap.gen.distribution import DistributionTrace
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.requests import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 from bayesmap.programs.reading_law import ReadingLaw

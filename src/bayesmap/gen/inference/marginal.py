@@ -10,12 +10,12 @@ from jax.scipy.special import logsumexp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, NotSupportedEditRequest
 from bayesmap.gen.fluent import decorator_method
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.inference.target import Algorithm, SampleDistribution, Target
 from bayesmap.gen.pytree import dataclass, nth, static
-from bayesmap.gen.requests import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 

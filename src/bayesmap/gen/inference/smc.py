@@ -8,10 +8,10 @@ from jax.scipy.special import logsumexp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.distribution import Distribution
+from bayesmap.gen.edits import EditRequest
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.inference.target import Algorithm, Target
 from bayesmap.gen.pytree import Pytree, dataclass, nth, static
-from bayesmap.gen.requests import EditRequest
 from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
 
 
