@@ -210,7 +210,7 @@ class _Path:
         self._key(int(batch[fits]))
 
     def _slips(self, scan: int, placed: Placed) -> bool:
-        """Take a scan that fits worse than usual, although nothing contradicts it, to where it fits as usual near by."""
+        """Take a scan that fits worse than usual, although nothing contradicts it, to where it fits as usual near."""
         score = float(placed.scores[0])
         if self.motions is None or score > self.usual - SLIPPED_BELOW:
             return False

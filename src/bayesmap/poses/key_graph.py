@@ -8,11 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.front_end import Track, grid_half_width
+from bayesmap.poses.front_end import SLIPPED_BELOW, UNKNOWN, WINDOW, Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
 from bayesmap.poses.key_path import KeyPath, key_path
+from bayesmap.poses.likelihood_grid import likelihood_grids
 from bayesmap.poses.look_alikes import Weighed, weigh
 from bayesmap.poses.loops import Search, find_closures
+from bayesmap.poses.matcher import score_at
+from bayesmap.poses.next_scans import POINTS
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.poses.submap_matching import Closures, no_closures
@@ -31,6 +34,15 @@ SETTLED_M = 0.3
 
 LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
 """A step that differs so much from the front end's, and by so many of its standard deviations, is a leap."""
+
+REFUSED_SIGMAS = 5.0
+"""Odometry contradicts a step that differs by so many of its own standard deviations,"""
+
+CONFIRMED_BELOW = 0.2
+"""and the key scans before confirm it where they explain the scan after it no more than this worse than usual."""
+
+GUESSED_SIGMAS = 3.0
+"""A part of the path that fitted where the front end guessed it, and was joined so much further off, is in doubt."""
 
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),
@@ -95,6 +107,39 @@ def contradicted_links(track: Track, poses: Floats) -> NDArray[np.bool_]:
     off = chain.errors(poses)
     leaps = (np.hypot(off[:, 0], off[:, 1]) > LEAP_M) | (np.abs(off[:, 2]) > LEAP_RAD)
     return np.asarray(leaps & (chain.squares(poses) > LEAP_SIGMAS**2) & ~track.broken[track.keys[1:]])
+
+
+def unconfirmed_links(
+    geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats, threads: int | None = None
+) -> NDArray[np.bool_]:
+    """Find steps from key to key that odometry contradicts and the scans just before do not confirm, (K - 1,).
+
+    Where the path broke odometry decides nothing. There a step is in doubt if it is far from the front end's, although
+    the scan after the break fitted as well as usual where the front end had it.
+
+    Args:
+        geometry: of all scans.
+        track: what the front end found.
+        odometry: of each step, with the noise that was found.
+        poses: of the keys, (K, 3).
+        threads: to compute with; by default all cores.
+    """
+    keys, usual = track.keys, float(np.median(track.scores))
+    broken = track.broken[keys[1:]]
+    doubtful = ~broken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    half_width_m, grid = grid_half_width(geometry), None
+    for k in np.nonzero(doubtful)[0]:
+        before = np.arange(max(0, k + 1 - WINDOW), k + 1)
+        seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
+        grid = likelihood_grids(
+            geometry, [keys[before]], [seen], np.zeros(2), half_width_m, threads=threads, reuse=grid
+        )  # fmt: skip
+        points = geometry.points_of(int(keys[k + 1]), POINTS)
+        doubtful[k] = score_at(grid, 0, points, between(poses[k], poses[k + 1]))[0] < usual - CONFIRMED_BELOW
+    off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
+    off[:, 2] = wrapped(off[:, 2])
+    moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
+    return np.asarray(doubtful | (broken & moved & (track.scores[keys[1:]] > usual - SLIPPED_BELOW)))
 
 
 def poses_between_keys(

@@ -16,7 +16,7 @@ from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.frozen_odometry import caught_up
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
-from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys
+from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys, unconfirmed_links
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
@@ -190,7 +190,10 @@ class _Run:
         explained[keys] = scores
         nearest_key = nearest(keys, np.arange(len(scans)))
         breaks = np.nonzero(track.broken)[0][~closed["joined"][1:]]
-        leaps = keys[1:][contradicted_links(track, final.poses)]
+        leaping = contradicted_links(track, final.poses)
+        if not self.no_odometry:
+            leaping |= unconfirmed_links(geometry, track, factors, final.poses, threads)
+        leaps = keys[1:][leaping]
         gaussian = replace(with_point_error(final, error), poses=compose(self.origin, final.poses))
         alternatives, elsewhere = alternatives_of(closed, keys, gaussian.poses)
         gaussian = replace(gaussian, elsewhere=elsewhere)
