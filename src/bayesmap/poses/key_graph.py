@@ -41,6 +41,9 @@ REFUSED_SIGMAS = 5.0
 CONFIRMED_BELOW = 0.2
 """and the key scans before confirm it where they explain the scan after it no more than this worse than usual."""
 
+BOTH_SIGMAS = 4.0
+"""Where odometry contradicts a step, so many of the front end's standard deviations make it a leap."""
+
 GUESSED_SIGMAS = 3.0
 """A part of the path that fitted where the front end guessed it, and was joined so much further off, is in doubt."""
 
@@ -103,10 +106,15 @@ def contradicted_links(track: Track, poses: Floats) -> NDArray[np.bool_]:
     Where the front end was sure of a step and the poses leap, loops or pairs of scans pull at the two sides that cannot
     all be right.
     """
+    return _leaps(track, poses, LEAP_SIGMAS)
+
+
+def _leaps(track: Track, poses: Floats, sigmas: float) -> NDArray[np.bool_]:
+    """Where poses of the keys move so many standard deviations unlike the front end's, and far, (K - 1,)."""
     chain = chain_of(track, track.poses[track.keys])
     off = chain.errors(poses)
     leaps = (np.hypot(off[:, 0], off[:, 1]) > LEAP_M) | (np.abs(off[:, 2]) > LEAP_RAD)
-    return np.asarray(leaps & (chain.squares(poses) > LEAP_SIGMAS**2) & ~track.broken[track.keys[1:]])
+    return np.asarray(leaps & (chain.squares(poses) > sigmas**2) & ~track.broken[track.keys[1:]])
 
 
 def unconfirmed_links(
@@ -114,8 +122,9 @@ def unconfirmed_links(
 ) -> NDArray[np.bool_]:
     """Find steps from key to key that odometry contradicts and the scans just before do not confirm, (K - 1,).
 
-    Where the path broke odometry decides nothing. There a step is in doubt if it is far from the front end's, although
-    the scan after the break fitted as well as usual where the front end had it.
+    They do not where they explain the next key scan badly, or where the front end, which matched it to them, had it
+    elsewhere. Where the path broke odometry decides nothing. There a step is in doubt if it is far from the front
+    end's, although the scan after the break fitted as well as usual where the front end had it.
 
     Args:
         geometry: of all scans.
@@ -126,9 +135,10 @@ def unconfirmed_links(
     """
     keys, usual = track.keys, float(np.median(track.scores))
     broken = track.broken[keys[1:]]
-    doubtful = ~broken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    refused = ~broken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    doubtful = refused & _leaps(track, poses, BOTH_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
-    for k in np.nonzero(doubtful)[0]:
+    for k in np.nonzero(refused & ~doubtful)[0]:
         before = np.arange(max(0, k + 1 - WINDOW), k + 1)
         seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
         grid = likelihood_grids(
