@@ -29,6 +29,9 @@ DEFLATION = 4.0
 LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 """Standard deviations that a link between key scans has at least."""
 
+BENT_M = 5.0
+"""A path may be bent by so much before loops are closed."""
+
 SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
@@ -80,12 +83,15 @@ class ClosedGraph:
 def chain_of(track: Track, poses: Floats) -> Factors:
     """Links from each key scan to the next, with what laser and odometry together tell.
 
-    Where the path breaks they are those of the given poses of the keys, (K, 3), with hardly any information.
+    Where the path breaks they have hardly any information. They are those of the given poses of the keys, (K, 3), or
+    where the scan after the break fitted as well as usual, and a bent path may explain what differs, the front end's.
     """
     keys = track.keys
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
-    broken = track.broken[keys[1:]]
-    relative[broken] = between(poses[:-1][broken], poses[1:][broken])
+    as_they_are = between(poses[:-1], poses[1:])
+    off = np.hypot(*(as_they_are - relative)[:, :2].T)
+    unknown = track.broken[keys[1:]] & ~(_fitted_after_break(track) & (off < BENT_M))
+    relative[unknown] = as_they_are[unknown]
     laser = track.information[keys[1:]] / DEFLATION
     odometry = np.zeros_like(laser)
     index = np.arange(3)
@@ -98,6 +104,12 @@ def chain_of(track: Track, poses: Floats) -> Factors:
     covariance = turn @ covariance @ np.swapaxes(turn, 1, 2) + np.diag(LINK_FLOOR**2)
     order = np.arange(len(keys) - 1)
     return Factors(order, order + 1, relative, np.linalg.inv(covariance))
+
+
+def _fitted_after_break(track: Track) -> NDArray[np.bool_]:
+    """Where the path broke, and the scan after that fitted as well as usual where the front end had it, (K - 1,)."""
+    after = track.keys[1:]
+    return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - SLIPPED_BELOW))
 
 
 def contradicted_links(track: Track, poses: Floats) -> NDArray[np.bool_]:
@@ -134,8 +146,7 @@ def unconfirmed_links(
         threads: to compute with; by default all cores.
     """
     keys, usual = track.keys, float(np.median(track.scores))
-    broken = track.broken[keys[1:]]
-    refused = ~broken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    refused = ~track.broken[keys[1:]] & (odometry.squares(poses) > REFUSED_SIGMAS**2)
     doubtful = refused & _leaps(track, poses, BOTH_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
     for k in np.nonzero(refused & ~doubtful)[0]:
@@ -149,7 +160,7 @@ def unconfirmed_links(
     off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
     off[:, 2] = wrapped(off[:, 2])
     moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
-    return np.asarray(doubtful | (broken & moved & (track.scores[keys[1:]] > usual - SLIPPED_BELOW)))
+    return np.asarray(doubtful | (_fitted_after_break(track) & moved))
 
 
 def poses_between_keys(
