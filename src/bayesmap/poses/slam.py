@@ -9,14 +9,20 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
+from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs, tied_pairs
 from bayesmap.poses.calibration import OdometryFit, angle_step_ratio, fit_odometry
 from bayesmap.poses.checkpoint import Arrays, Stages, fingerprint
 from bayesmap.poses.explain import flag_unexplained
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.frozen_odometry import caught_up
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
-from bayesmap.poses.key_graph import close_loops, contradicted_links, poses_between_keys, unconfirmed_links
+from bayesmap.poses.key_graph import (
+    close_loops,
+    contradicted_links,
+    poses_between_keys,
+    separate_stretches,
+    unconfirmed_links,
+)
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.odometry_factors import chain_factors, corrected_factors
@@ -132,6 +138,7 @@ class _Run:
         self.no_odometry = no_odometry
         self.origin = scans.poses[0] if not no_odometry else np.zeros(3)
         self.track: Track | None = None
+        self.stretches: NDArray[np.intp] | None = None
 
     def geometry(self, scans: Scans) -> ScanGeometry:
         return scan_geometry(scans, farthest_m=FARTHEST_M, device=self.device, threads=self.threads)
@@ -149,6 +156,8 @@ class _Run:
         closed = self.stages.get("loops", lambda: self.loops(geometry, track))
         half_width_m = grid_half_width(geometry)
         reach_m = MATCH_REACH * half_width_m
+        believed = closed["weights"] > 0.5
+        self.stretches = separate_stretches(track, closed["first"][believed], closed["second"][believed])
         key_geometry = geometry.select(keys)
         poses = closed["poses"]
         first = self.align("aligned", key_geometry, poses, self.first_factors(track, poses), reach_m, 8, wide=True)
@@ -288,10 +297,11 @@ class _Run:
         firm: NDArray[np.bool_] | None = None,
     ) -> Alignment:
         threads = self.threads
-        pairs = overlapping_pairs(geometry, poses, reach_m, threads)
 
         def again(at: Floats) -> Pairs:
-            return overlapping_pairs(geometry, at, reach_m, threads)
+            return tied_pairs(overlapping_pairs(geometry, at, reach_m, threads), self.stretches)
+
+        pairs = again(poses)
 
         spans = {} if wide else {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
         return align(
