@@ -14,7 +14,9 @@ import bayesmap as bm
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.io import saved as saved_module
 from bayesmap.io.saved_trajectory import arrays_of, numbers_of
+from bayesmap.poses.trajectory import Alternatives
 from bayesmap.run import runner
+from bayesmap.space.planar import between, compose
 
 ARRAYS = ("occupancy", "observed", "log_likelihood", "log_prior", "warmup_log_joint", "log_weights")
 NAMED = (lambda p: p.draws.arrays, lambda p: p.draws.index, lambda p: p.snapshot.arrays, lambda p: p.statistics)
@@ -341,6 +343,26 @@ def test_the_approximation_comes_back_and_says_the_same(run, options, tmp_path):
     np.testing.assert_array_equal(back.relative_covariances(first, second), found.relative_covariances(first, second))
     np.testing.assert_array_equal(back.draw(2, seed=3), found.draw(2, seed=3))
     assert back.flagged.dtype == bool
+
+
+def test_alternatives_come_back_and_covariances_hold_them(run, tmp_path):
+    plain = round_way(force=3.0)
+    there = compose(plain.gaussian.poses[None], np.array([[[0.0, 0.0, 0.0]] * 8 + [[0.0, 2.0, 0.1]] * 8]))
+    steps = between(plain.gaussian.poses[None], there) * np.sqrt(0.2)
+    other = Alternatives(np.array([2], np.intp), np.array([12], np.intp), np.array([0.2]), there)
+    gaussian = dataclasses.replace(plain.gaussian, elsewhere=steps)
+    found = dataclasses.replace(plain, gaussian=gaussian, alternatives=other)
+    dataclasses.replace(run, trajectory=found).save(tmp_path / "run.nc")
+    back = bm.load(tmp_path / "run.nc").trajectory
+    assert len(back.alternatives) == 1
+    for name in ("first", "last", "probabilities", "poses"):
+        np.testing.assert_array_equal(getattr(back.alternatives, name), getattr(other, name))
+    np.testing.assert_array_equal(back.alternative_poses(0), found.alternative_poses(0))
+    pair = np.array([1]), np.array([14])
+    np.testing.assert_array_equal(back.relative_covariances(*pair), found.relative_covariances(*pair))
+    added = back.relative_covariances(*pair)[0] - plain.relative_covariances(*pair)[0]
+    assert added[0, 0] + added[1, 1] > 0.5, "probability 0.2 times 2 m squared, and Student's scale"
+    np.testing.assert_array_equal(back.draw(2, seed=3), found.draw(2, seed=3))
 
 
 def test_a_run_without_one_has_none(run, tmp_path):

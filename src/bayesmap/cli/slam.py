@@ -261,8 +261,8 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
         )
     if trajectory["leaps"]:
         call.console.warn(
-            "before these scans the trajectory leaps as neither odometry nor matching did, and what lies before and "
-            f"after may be shifted against each other: {_first_of(trajectory['leaps'])}"
+            "before these scans the trajectory moves as odometry did not, and the scans just before do not confirm it; "
+            f"what lies before and after may be shifted against each other: {_first_of(trajectory['leaps'])}"
         )
 
     for other in trajectory["alternatives"][:ALTERNATIVES_SHOWN]:

@@ -57,6 +57,10 @@ LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])
 SLIPPED_BELOW = 0.15
 """A scan explained no more than this worse than usual may be taken to be where a wide search about odometry has it."""
 
+AGAIN_BELOW = 0.1
+"""A scan explained so much worse than usual is matched again, from where the scan before it was matched: odometry's
+errors add up over the scans that are matched at once, until the window is elsewhere."""
+
 LEARN_BELOW = 0.25
 """Motions of scans explained so much worse than usual teach nothing about odometry."""
 
@@ -171,6 +175,8 @@ class _Path:
         if wrong[0] and self.motions is not None:
             batch = self._patience()
             placed, wrong = self._near(batch)
+        if not wrong[0] and self._slips(int(batch[0]), placed):
+            return
         if not wrong[0]:
             self._take(batch, placed, int(np.argmax(wrong)) if wrong.any() else len(batch))
         elif not wrong.all():
@@ -184,6 +190,8 @@ class _Path:
     def _take(self, batch: NDArray[np.intp], placed: Placed, count: int) -> None:
         """Accept the first few of a batch, up to one that becomes a key scan."""
         for k in range(count):
+            if k and placed.scores[k] < self.usual - AGAIN_BELOW:
+                break
             scan = int(batch[k])
             self._put(scan, placed, k)
             moved = between(self.poses[self.keys[-1]], self.poses[scan])
@@ -200,6 +208,14 @@ class _Path:
         self.information[skipped] = 0.0
         self.poses[skipped] = placed.predicted[:fits]
         self._key(int(batch[fits]))
+
+    def _slips(self, scan: int, placed: Placed) -> bool:
+        """Take a scan that fits worse than usual, although nothing contradicts it, to where it fits as usual near."""
+        score = float(placed.scores[0])
+        if self.motions is None or score > self.usual - SLIPPED_BELOW:
+            return False
+        found = self._anywhere(scan, placed.predicted[0], score)
+        return found is not None and self._slipped(scan, placed, found)
 
     def _slipped(self, scan: int, placed: Placed, found: Elsewhere) -> bool:
         """Take a scan that fits as well as usual not far from where odometry has it: wheels slipped. False if not."""

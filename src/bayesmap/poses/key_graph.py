@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.front_end import Track, grid_half_width
+from bayesmap.poses.front_end import SLIPPED_BELOW, UNKNOWN, WINDOW, Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
 from bayesmap.poses.key_path import KeyPath, key_path
 from bayesmap.poses.look_alikes import Weighed, weigh
-from bayesmap.poses.loops import Closures, Search, find_closures, no_closures
+from bayesmap.poses.loops import Search, find_closures
+from bayesmap.poses.matcher import likelihood_grids, score_at
+from bayesmap.poses.next_scans import POINTS
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose, wrapped
@@ -25,11 +27,29 @@ DEFLATION = 4.0
 LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 """Standard deviations that a link between key scans has at least."""
 
+BENT_M = 5.0
+"""A path may be bent by so much before loops are closed."""
+
 SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
+LOOSE_M, LOOSE_RAD = 0.15, np.radians(6.0)
+"""Standard deviations of a step over which scans are held against each other only if loops reach over it."""
+
 LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
 """A step that differs so much from the front end's, and by so many of its standard deviations, is a leap."""
+
+REFUSED_SIGMAS = 5.0
+"""Odometry contradicts a step that differs by so many of its own standard deviations,"""
+
+CONFIRMED_BELOW = 0.2
+"""and the key scans before confirm it where they explain the scan after it no more than this worse than usual."""
+
+BOTH_SIGMAS = 4.0
+"""Where odometry contradicts a step, so many of the front end's standard deviations make it a leap."""
+
+GUESSED_SIGMAS = 3.0
+"""A part of the path that fitted where the front end guessed it, and was joined so much further off, is in doubt."""
 
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),
@@ -64,12 +84,15 @@ class ClosedGraph:
 def chain_of(track: Track, poses: Floats) -> Factors:
     """Links from each key scan to the next, with what laser and odometry together tell.
 
-    Where the path breaks they are those of the given poses of the keys, (K, 3), with hardly any information.
+    Where the path breaks they have hardly any information. They are those of the given poses of the keys, (K, 3), or
+    where the scan after the break fitted as well as usual, and a bent path may explain what differs, the front end's.
     """
     keys = track.keys
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
-    broken = track.broken[keys[1:]]
-    relative[broken] = between(poses[:-1][broken], poses[1:][broken])
+    as_they_are = between(poses[:-1], poses[1:])
+    off = np.hypot(*(as_they_are - relative)[:, :2].T)
+    unknown = track.broken[keys[1:]] & ~(_fitted_after_break(track) & (off < BENT_M))
+    relative[unknown] = as_they_are[unknown]
     laser = track.information[keys[1:]] / DEFLATION
     odometry = np.zeros_like(laser)
     index = np.arange(3)
@@ -84,16 +107,80 @@ def chain_of(track: Track, poses: Floats) -> Factors:
     return Factors(order, order + 1, relative, np.linalg.inv(covariance))
 
 
+def separate_stretches(track: Track, first: NDArray[np.intp], second: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Number the stretches of the path that nothing ties to each other, of each key, (K,), ascending.
+
+    They are parted by steps that neither laser nor odometry know well, and over which no loop reaches.
+
+    Args:
+        track: what the front end found.
+        first: keys at which the loops begin, (M,).
+        second: and those where they end, (M,).
+    """
+    covariance = np.linalg.inv(chain_of(track, track.poses[track.keys]).information)
+    sigma = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    loose = (sigma[:, :2].max(axis=1) > LOOSE_M) | (sigma[:, 2] > LOOSE_RAD)
+    spans = np.zeros(len(loose) + 1)
+    np.add.at(spans, first, 1)
+    np.add.at(spans, second, -1)
+    return np.concatenate([[0], np.cumsum(loose & (np.cumsum(spans)[:-1] == 0))]).astype(np.intp)
+
+
+def _fitted_after_break(track: Track) -> NDArray[np.bool_]:
+    """Where the path broke, and the scan after that fitted as well as usual where the front end had it, (K - 1,)."""
+    after = track.keys[1:]
+    return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - SLIPPED_BELOW))
+
+
 def contradicted_links(track: Track, poses: Floats) -> NDArray[np.bool_]:
     """Where poses of the keys, (K, 3), move from one to the next as neither odometry nor the front end did, (K - 1,).
 
     Where the front end was sure of a step and the poses leap, loops or pairs of scans pull at the two sides that cannot
     all be right.
     """
+    return _leaps(track, poses, LEAP_SIGMAS)
+
+
+def _leaps(track: Track, poses: Floats, sigmas: float) -> NDArray[np.bool_]:
+    """Where poses of the keys move so many standard deviations unlike the front end's, and far, (K - 1,)."""
     chain = chain_of(track, track.poses[track.keys])
     off = chain.errors(poses)
     leaps = (np.hypot(off[:, 0], off[:, 1]) > LEAP_M) | (np.abs(off[:, 2]) > LEAP_RAD)
-    return np.asarray(leaps & (chain.squares(poses) > LEAP_SIGMAS**2) & ~track.broken[track.keys[1:]])
+    return np.asarray(leaps & (chain.squares(poses) > sigmas**2) & ~track.broken[track.keys[1:]])
+
+
+def unconfirmed_links(
+    geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats, threads: int | None = None
+) -> NDArray[np.bool_]:
+    """Find steps from key to key that odometry contradicts and the scans just before do not confirm, (K - 1,).
+
+    They do not where they explain the next key scan badly, or where the front end, which matched it to them, had it
+    elsewhere. Where the path broke odometry decides nothing. There a step is in doubt if it is far from the front
+    end's, although the scan after the break fitted as well as usual where the front end had it.
+
+    Args:
+        geometry: of all scans.
+        track: what the front end found.
+        odometry: of each step, with the noise that was found.
+        poses: of the keys, (K, 3).
+        threads: to compute with; by default all cores.
+    """
+    keys, usual = track.keys, float(np.median(track.scores))
+    refused = ~track.broken[keys[1:]] & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    doubtful = refused & _leaps(track, poses, BOTH_SIGMAS)
+    half_width_m, grid = grid_half_width(geometry), None
+    for k in np.nonzero(refused & ~doubtful)[0]:
+        before = np.arange(max(0, k + 1 - WINDOW), k + 1)
+        seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
+        grid = likelihood_grids(
+            geometry, [keys[before]], [seen], np.zeros(2), half_width_m, threads=threads, reuse=grid
+        )  # fmt: skip
+        points = geometry.points_of(int(keys[k + 1]), POINTS)
+        doubtful[k] = score_at(grid, 0, points, between(poses[k], poses[k + 1]))[0] < usual - CONFIRMED_BELOW
+    off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
+    off[:, 2] = wrapped(off[:, 2])
+    moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
+    return np.asarray(doubtful | (_fitted_after_break(track) & moved))
 
 
 def poses_between_keys(

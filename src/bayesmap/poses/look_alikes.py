@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, solve_step
 from bayesmap.poses.precision import relative_covariances
-from bayesmap.space.planar import between, compose, retract
+from bayesmap.space.planar import between, compose, retract, wrapped
 
 Floats = NDArray[np.float64]
 
@@ -149,8 +149,34 @@ def _doubtful(
             continue
         _, precision = solve_step(len(there), [quadratic(chain, there), quadratic(rest, there, _weights(rest, there))])
         covariance = relative_covariances(precision, there, own.first, own.second) + np.linalg.inv(own.information)
-        distance = 0.5 * np.median(np.einsum("mi,mij,mj->m", off, np.linalg.inv(covariance), off))
+        distance = 0.5 * np.median(twist_squares(own.relative + off, own.relative, covariance))
         yield float(odds[k] - distance), k, there
+
+
+def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
+    """Return squared Mahalanobis lengths of relative poses about expected ones, (M,), as twists.
+
+    Where a heading was lost half-way, what comes after lies on an arc. A turn about any point is a twist, so that its
+    length grows as the turn's, where a straight ellipsoid holds little of the arc (Barfoot and Furgale 2014,
+    "Associating uncertainty with three-dimensional poses for use in estimation problems").
+
+    Args:
+        expected: relative poses, (M, 3).
+        measured: the same, (M, 3).
+        covariance: of the expected ones, x, y and yaw in the first's frame, (M, 3, 3).
+    """
+    change = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw to twists
+    change[:, 0, 2], change[:, 1, 2] = expected[:, 1], -expected[:, 0]
+    yaw = wrapped(measured[:, 2] - expected[:, 2])
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    x = measured[:, 0] - (cosine * expected[:, 0] - sine * expected[:, 1])
+    y = measured[:, 1] - (sine * expected[:, 0] + cosine * expected[:, 1])
+    # The inverse of the left Jacobian: h cot h and h, where h is half the turn.
+    half = 0.5 * yaw
+    cotangent = np.where(np.abs(half) > 1e-6, half / np.tan(np.where(half == 0.0, 1.0, half)), 1.0)
+    twist = np.stack([cotangent * x + half * y, -half * x + cotangent * y, yaw], axis=1)
+    spread = change @ covariance @ np.swapaxes(change, 1, 2)
+    return np.asarray(np.einsum("mi,mij,mj->m", twist, np.linalg.inv(spread), twist))
 
 
 def settled(poses: Floats, chain: Factors, loops: Factors) -> Floats:

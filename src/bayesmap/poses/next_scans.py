@@ -26,9 +26,15 @@ Floats = NDArray[np.float64]
 UNUSUAL = 0.04
 """A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
 
+BACKWARDS_BETTER = 0.1
+"""Going backwards must explain it so much better: along a wall that looks alike everywhere both do nearly as well."""
+
 WIDE_M = 1.0
 WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
 """Ranges of angles, and by how much better a place in them must explain the scan: about the prediction, then all."""
+
+TELLING = 6.0
+"""And by so many points, where a scan has few: what three of five points do is chance."""
 
 POINT_SIGMA_M = 0.02
 """Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
@@ -144,9 +150,10 @@ def place_near(
     centre, turned = predicted.copy(), np.zeros(len(scans), np.bool_)
     doubtful = np.nonzero(score < usual - UNUSUAL)[0]
     if backwards is not None and len(doubtful):
+        some = [points[k] for k in doubtful]
         back = match(
-            window.grid, [points[k] for k in doubtful], backwards[doubtful], half_m[doubtful], half_rad[doubtful],
-            least=score[doubtful] + 0.5 * UNUSUAL, pull=pull, threads=threads,
+            window.grid, some, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
+            least=score[doubtful] + _clearly(BACKWARDS_BETTER, some), pull=pull, threads=threads,
         )  # fmt: skip
         better = back.found[:, 0]
         start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
@@ -176,8 +183,8 @@ def place_anywhere(
     points = [geometry.points_of(scan, POINTS)]
     for number, (wide_rad, gain) in enumerate(WIDER):
         wide = match(
-            window.grid, points, predicted[None], WIDE_M, wide_rad, least=score + gain, pull=Pull(WIDE_M, wide_rad),
-            step_rad=np.radians(1.0), threads=threads,
+            window.grid, points, predicted[None], WIDE_M, wide_rad, least=score + _clearly(gain, points),
+            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0), threads=threads,
         )  # fmt: skip
         if wide.found[0, 0]:
             variance = np.array([[0.05, 0.05, 0.02]])  # what odometry said cannot be right: it does not hold it back
@@ -186,6 +193,11 @@ def place_anywhere(
             )
             return Elsewhere(poses[0], information[0], float(wide.scores[0, 0]), number == 0)
     return None
+
+
+def _clearly(gain: float, points: list[Floats]) -> Floats:
+    """Return by how much better a place must explain each of N scans, (N,): by a share and by a number of points."""
+    return np.maximum(gain, TELLING / np.maximum([len(p) for p in points], 1))
 
 
 def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats, threads: int | None) -> bool:

@@ -26,6 +26,9 @@ STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
 """How firmly, without odometry, the front end's own links hold."""
 
 
+NEIGHBOURS = 7
+"""Successive motions of which the median variance is taken."""
+
 GUESSED = np.diag(1.0 / UNKNOWN**2)
 """How firmly a link holds that nothing is known of: it keeps parts of the path from drifting away."""
 
@@ -134,7 +137,17 @@ def corrected_factors(
     corrected = motions + motions @ slope.T
     corrected[:, 2] = wrapped(corrected[:, 2])
     lost = np.concatenate([[0], np.cumsum(rejected)])
-    return guessed(composed(corrected, variances(motions), keys), poses, lost[keys[1:]] > lost[keys[:-1]])
+    return guessed(composed(corrected, _steadied(variances(motions)), keys), poses, lost[keys[1:]] > lost[keys[:-1]])
+
+
+def _steadied(variances: Floats) -> Floats:
+    """Return the variances of successive motions, (N, 3), each at least the median of those about it.
+
+    Noise grows with the true way, so a motion that noise has made too short is stated with too small a variance.
+    """
+    from scipy.ndimage import median_filter
+
+    return np.asarray(np.maximum(variances, median_filter(variances, size=(NEIGHBOURS, 1), mode="nearest")))
 
 
 def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:

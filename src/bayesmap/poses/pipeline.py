@@ -14,7 +14,14 @@ from bayesmap.poses.calibration import angle_step_ratio
 from bayesmap.poses.checkpoint import Stages, fingerprint
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.key_alignment import KeyAlignment
-from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys
+from bayesmap.poses.key_graph import (
+    ClosedGraph,
+    close_loops,
+    contradicted_links,
+    poses_between_keys,
+    separate_stretches,
+    unconfirmed_links,
+)
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
 from bayesmap.poses.placement import place_scans
@@ -101,7 +108,9 @@ def infer_trajectory(
 
     # Key scans are aligned with all others that see the same walls.
     half_width_m = grid_half_width(geometry)
-    alignment = KeyAlignment(geometry.select(keys), track, half_width_m, report.of_keys, threads)
+    believed = closed.closures.select(closed.weights > 0.5)
+    stretches = separate_stretches(track, believed.first, believed.second)
+    alignment = KeyAlignment(geometry.select(keys), track, half_width_m, stretches, report.of_keys, threads)
     first = alignment.align("aligned", closed.poses, odometry.first_factors(track, closed.poses), wide=True)
 
     # Laser and odometry are calibrated, and key scans aligned once more.
@@ -129,6 +138,9 @@ def infer_trajectory(
     report.told("placing", len(scans), len(scans), placed.poses)
 
     # What is known, how well, and what is doubtful.
+    leaping = contradicted_links(track, final.poses)
+    if odometry.used:
+        leaping |= unconfirmed_links(geometry, track, factors, final.poses, threads)
     gaussian = replace(with_point_error(final, error), poses=compose(report.origin, final.poses))
     alternatives, elsewhere = alternatives_of(closed, keys, gaussian.poses)
     explained = placed.matched.copy()
@@ -148,7 +160,7 @@ def infer_trajectory(
         calibration=Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m),
         order=order,
         odometry=None if fit is None else factors,
-        leaps=keys[1:][contradicted_links(track, final.poses)],
+        leaps=keys[1:][leaping],
         alternatives=alternatives,
     )
 

@@ -105,7 +105,8 @@ class Trajectory:
         breaks: scans before which the motion is unlike any that odometry or the laser can confirm: the robot was
             carried, or data are missing; indices.
         leaps: scans before which the poses move as neither odometry nor the matches of one scan after the other did:
-            loops hold the ways before and after where they cannot both be; indices.
+            loops hold the ways before and after where they cannot both be. Or odometry refutes the motion, and the
+            scans just before explain the scan badly. Indices.
         alternatives: where the scans are if a visit was of another place that looks alike, or is one after all.
             Covariances and draws hold their spread, too.
         closures: loop closures.

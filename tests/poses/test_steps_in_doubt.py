@@ -1,0 +1,121 @@
+"""Steps that odometry refutes are named unless the scans confirm them, and few points tell nothing."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from simulated import recording
+
+from bayesmap.poses.front_end import AGAIN_BELOW, _Path, follow, grid_half_width
+from bayesmap.poses.key_graph import chain_of, unconfirmed_links
+from bayesmap.poses.matcher import likelihood_grids
+from bayesmap.poses.next_scans import Window, place_anywhere
+from bayesmap.poses.odometry_factors import composed, corrected_factors
+from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.space.planar import between, compose
+
+VARIANCE = np.array([0.02, 0.02, 0.02]) ** 2
+
+
+@cache
+def followed():
+    """Return a third of a round: geometry, track, odometry's motions and the true poses."""
+    scans, truth = recording(0.35)
+    geometry, motions = scan_geometry(scans, threads=1), between(scans.poses[:-1], scans.poses[1:])
+    return geometry, follow(geometry, motions, scans.stamps_s, threads=1), motions, truth
+
+
+def turned_from(poses, key, motion):
+    """Return poses of which those from a key on are moved as a whole, seen from the key before it."""
+    moved = compose(poses[key - 1], motion)
+    return np.concatenate([poses[:key], compose(moved, between(poses[key], poses[key:]))])
+
+
+@pytest.fixture
+def steps():
+    """Odometry's factors between the key scans, right to the noise stated, and the poses of the keys."""
+    geometry, track, _, truth = followed()
+    true = between(truth[:-1], truth[1:])
+    return geometry, track, composed(true, np.tile(VARIANCE, (len(true), 1)), track.keys), track.poses[track.keys]
+
+
+def test_a_step_that_neither_odometry_nor_scans_confirm_is_named(steps):
+    geometry, track, odometry, poses = steps
+    assert not unconfirmed_links(geometry, track, odometry, poses, 1).any()
+    wrong = turned_from(poses, 6, np.array([1.5, 0.5, np.pi / 2]))
+    np.testing.assert_array_equal(np.nonzero(unconfirmed_links(geometry, track, odometry, wrong, 1))[0], [5])
+
+
+def test_a_step_that_the_scans_confirm_is_a_slip_of_the_wheels(steps):
+    geometry, track, odometry, poses = steps
+    relative = odometry.relative.copy()
+    relative[5] = [1.5, 0.5, np.pi / 2]
+    slipped = replace(odometry, relative=relative)
+    assert slipped.squares(poses)[5] > 100.0
+    assert not unconfirmed_links(geometry, track, slipped, poses, 1).any()
+
+
+def test_a_front_end_that_had_the_wrong_step_too_does_not_confirm_it(steps):
+    """The scans were put there by a match that explains them badly, as in a room entered at a right angle."""
+    geometry, track, odometry, _ = steps
+    wrong = turned_from(track.poses, track.keys[6], np.array([1.5, 0.5, np.pi / 2]))
+    misled = replace(track, poses=wrong)
+    np.testing.assert_array_equal(
+        np.nonzero(unconfirmed_links(geometry, misled, odometry, wrong[track.keys], 1))[0], [5]
+    )
+
+
+@pytest.mark.parametrize(("score", "off_m", "kept"), [(0.95, 3.0, True), (0.4, 3.0, False), (0.95, 8.0, False)])
+def test_a_broken_path_keeps_where_the_next_scan_fitted_as_usual(steps, score, off_m, kept):
+    _, track, _, poses = steps
+    broken, scores = track.broken.copy(), track.scores.copy()
+    broken[track.keys[6]], scores[track.keys[6]] = True, score
+    torn = turned_from(poses, 6, np.array([off_m, 0.0, 0.0]))
+    link = chain_of(replace(track, broken=broken, scores=scores), torn).relative[5]
+    expected = poses if kept else torn
+    np.testing.assert_allclose(link, between(expected[5], expected[6]), atol=1e-9)
+
+
+def test_a_scan_that_fits_worse_than_those_before_it_is_matched_from_there():
+    """Of a batch those before it are taken; the next is predicted from the last of them."""
+    geometry, _, motions, _ = followed()
+    path = _Path(geometry, motions, None, None, 1)
+    path.usual = 0.9
+    placed, _ = path._near(np.arange(1, 4))
+    placed.scores[:] = 0.9, 0.9 - 0.5 * AGAIN_BELOW, 0.9 - 1.5 * AGAIN_BELOW
+    path._take(np.arange(1, 4), placed, 3)
+    assert path.at == 2
+
+
+@pytest.mark.parametrize(("points", "found"), [(None, True), (4, False)])
+def test_few_points_do_not_refute_odometry(points, found):
+    """A scan is looked for 0.7 m from where it is: all its points find it, four fit in other places as well."""
+    scans, truth = recording(0.35)
+    ranges = scans.ranges_m.copy()
+    if points is not None:
+        rest = np.setdiff1d(np.arange(ranges.shape[1]), np.arange(60, 60 + points))
+        ranges[12, rest] = np.inf
+    geometry = scan_geometry(replace(scans, ranges_m=ranges), threads=1)
+    keys = np.arange(10)[::-1]
+    grid = likelihood_grids(geometry, [keys], [truth[keys]], truth[9, :2], grid_half_width(geometry), threads=1)
+    window = Window(keys, truth[keys], grid)
+    place = place_anywhere(geometry, window, 12, compose(truth[12], np.array([-0.7, 0.2, 0.0])), 0.5, 1)
+    assert (place is not None) == found
+    if place is not None:
+        assert np.hypot(*between(truth[12], place.pose)[:2]) < 0.1
+
+
+def test_a_motion_that_noise_made_short_is_no_surer_than_its_neighbours():
+    motions = np.tile([0.2, 0.0, 0.0], (20, 1))
+    motions[9] = 0.0
+    stated = [np.zeros(3)]
+    for motion in motions:
+        stated.append(compose(stated[-1], motion))
+    stated, keys, none = np.array(stated), np.arange(21), np.zeros(20, bool)
+
+    def variances(motions):
+        return 0.01 * np.abs(motions[:, :1]) * np.ones(3) + 1e-8
+
+    factors = corrected_factors(stated, None, motions, none, keys, stated, np.zeros((3, 3)), variances)
+    np.testing.assert_allclose(factors.information[9], factors.information[3], rtol=1e-6)
