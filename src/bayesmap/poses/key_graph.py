@@ -12,7 +12,7 @@ from bayesmap.poses.front_end import SLIPPED_BELOW, UNKNOWN, WINDOW, Track, grid
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
 from bayesmap.poses.key_path import KeyPath, key_path
 from bayesmap.poses.look_alikes import Weighed, weigh
-from bayesmap.poses.loops import Search, find_closures
+from bayesmap.poses.loops import Closures, Search, find_closures, no_closures
 from bayesmap.poses.matcher import likelihood_grids, score_at
 from bayesmap.poses.next_scans import POINTS
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
