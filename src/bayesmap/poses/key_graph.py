@@ -170,7 +170,7 @@ def unconfirmed_links(
     doubtful = refused & _leaps(track, poses, BOTH_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
     for k in np.nonzero(refused & ~doubtful)[0]:
-        before = np.arange(max(0, k + 1 - WINDOW), k + 1)
+        before = np.arange(max(0, int(k) + 1 - WINDOW), int(k) + 1)
         seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
         grid = likelihood_grids(
             geometry, [keys[before]], [seen], np.zeros(2), half_width_m, threads=threads, reuse=grid
