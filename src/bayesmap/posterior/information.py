@@ -1,4 +1,4 @@
-"""Where to look next: how much one more scan from a pose is expected to tell about the map, in nats.
+"""Compute how much one more scan from a pose is expected to tell about the map, in nats.
 
 Two estimates. `expected_information` bounds the mutual information of a whole scan with the map from both sides, by
 joint draws: a scan is simulated in a draw and weighed in all of them. `beam_information` is the formula of FSMI for
@@ -32,7 +32,7 @@ say at most."""
 
 @dataclass(frozen=True, eq=False)
 class Information:
-    """What one more scan is expected to tell.
+    """Bounds on the expected information of one more scan.
 
     The information lies between two estimates, on average over draws: with many beams that tell something they are
     apart, and more draws bring them closer.
@@ -68,7 +68,7 @@ def expected_information(
     device: str = "cpu",
     on_progress: Callable[[float], None] = ignored,
 ) -> Information:
-    """Bounds on the mutual information of the map and one more scan from each pose, from joint draws of the map.
+    """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
     In draw d a scan z_d is simulated. With its density p(z_d | e) in each of D draws e, the means over d of
 
@@ -128,7 +128,7 @@ def expected_information(
 
 
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
-    """Lower bound, its error, upper bound, its error.
+    """Return lower bound, its error, upper bound, its error.
 
     Args:
         weighed: log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
@@ -163,7 +163,7 @@ def beam_information(
     p_right: float = 0.9,
     device: str = "cpu",
 ) -> Floats:
-    """FSMI: the sum over a scan's beams of their information about a map of independent cells, in nats, (P,).
+    """Sum FSMI over a scan's beams: their information about a map of independent cells, in nats, (P,).
 
     Args:
         occupied: probability that each cell stops a beam, (nx, ny).
@@ -188,7 +188,7 @@ def beam_information(
 
 
 def best_views(nats: Floats, poses: Floats, count: int, apart_m: float) -> NDArray[np.intp]:
-    """The most telling poses that are not close to each other, the best first: numbers of poses, at most ``count``."""
+    """Select the most informative poses that are not close to each other, best first: indices, at most ``count``."""
     taken: list[int] = []
     for i in np.argsort(-nats, kind="stable"):
         if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= apart_m for j in taken):

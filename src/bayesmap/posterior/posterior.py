@@ -28,7 +28,7 @@ WITHOUT_CHAINS = ("exact", "importance", "propagate")
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    """Cells given scans, as draws and marginals.
+    """The posterior of the cells given scans, as draws and marginals.
 
     Attributes:
         scans: what was conditioned on.
@@ -76,7 +76,7 @@ class Posterior:
 
     @property
     def grid(self) -> Grid:
-        """Where the cells are."""
+        """The cells' grid."""
         return self.draws.grid
 
     @property
@@ -86,7 +86,7 @@ class Posterior:
 
     @property
     def sweep(self) -> int:
-        """Sweeps made by each chain."""
+        """The number of sweeps made by each chain."""
         return self.snapshot.sweep
 
     @property
@@ -101,7 +101,7 @@ class Posterior:
 
 
 def entropy_bits(occupancy: Floats) -> Floats:
-    """Entropy of every cell's marginal in bits: 0 where the posterior is sure, 1 where it knows nothing."""
+    """Compute the entropy of every cell's marginal in bits: 0 where the posterior is sure, 1 where it knows nothing."""
     from scipy import special
 
     return np.asarray((special.entr(occupancy) + special.entr(1.0 - occupancy)) / np.log(2.0))
@@ -110,7 +110,7 @@ def entropy_bits(occupancy: Floats) -> Floats:
 def posterior_of_chains(
     model: Model, chains: Chains, settings: dict[str, Any], seconds: dict[str, float], parameters: Parameters | None
 ) -> Posterior:
-    """The posterior of chains, finished or not.
+    """Return the posterior of chains, finished or not.
 
     Args:
         model: what they sampled.
@@ -142,7 +142,7 @@ def posterior_of_chains(
 def posterior_of_draws(
     model: Model, found: IndependentDraws, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
 ) -> Posterior:
-    """The posterior of independent draws."""
+    """Return the posterior of independent draws."""
     return Posterior(
         scans=model.scans,
         sensor=model.sensor,
@@ -165,7 +165,7 @@ def posterior_of_draws(
 
 
 def chains_of(posterior: Posterior) -> Chains:
-    """The chains of a posterior, to go on with."""
+    """Return the chains of a posterior, to continue them."""
     return Chains(
         draws=posterior.draws,
         log_likelihood=posterior.log_likelihood,

@@ -30,10 +30,10 @@ MapStates = NDArray[np.float32]
 
 
 class Batches(Protocol):
-    """Gives the draws of a map."""
+    """Yields the draws of a map."""
 
     def __call__(self, cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
-        """The states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
+        """Yield the states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
 
         Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`.
         """
@@ -41,7 +41,7 @@ class Batches(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Predictor:
-    """A map, certain or not, and how it predicts readings.
+    """A map, certain or not, and its prediction of readings.
 
     Attributes:
         grid: where the cells are.
@@ -59,7 +59,7 @@ class Predictor:
 
 
 def fixed_maps(stop: NDArray[np.floating]) -> Batches:
-    """Maps that are all in memory, (draws, cells), one draw for a plug-in map."""
+    """Return the batches of maps that are all in memory, (draws, cells); a plug-in map is one draw."""
 
     def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         yield np.ascontiguousarray(stop if cells is None else stop[:, cells], dtype=np.float32)
@@ -68,7 +68,7 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """The posterior's draws, as a prediction under the run's own sensor model unless another is given.
+    """Return the posterior's draws as a prediction under the run's own sensor model unless another is given.
 
     Raises:
         BadInput: the posterior has no draws, or does not know its sensor model, or cannot use the one given.
@@ -125,13 +125,13 @@ class ScanPredictor:
         return cls(predictor.grid, held, predictor.sensor, limits)
 
     def thinned(self, most: int) -> ScanPredictor:
-        """The same by at most so many of the draws, evenly spread."""
+        """Return this predictor with at most ``most`` of the draws, evenly spread."""
         return replace(self, held=self.held.thinned(most))
 
     def quantiles(
         self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80
     ) -> NDArray[np.float64]:
-        """Quantiles of the readings of one scan, metres, shape (A, levels).
+        """Compute quantiles of the readings of one scan, metres, (A, levels).
 
         Levels are those asked for to within `GONE`. No return counts as +inf, too close as -inf, each where it is an
         outcome of the sensor's own. Where draws of a cell's surface differ in where it stops the beam, its stops are

@@ -63,13 +63,13 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
 
 
 def placed(scans: Scans) -> NDArray[np.intp]:
-    """Flat indices of the beams that hit something or had no return."""
+    """Return the flat indices of the beams that hit something or had no return."""
     kinds = scans.readings.ravel()
     return np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN))
 
 
 def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
-    """Readings against given predictions.
+    """Compare readings with given predictions.
 
     Args:
         scans: S scans of A beams, B = S A.
@@ -105,7 +105,7 @@ class SurfaceOffset:
 
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
-    """Split the way from a surface's mean to a point into its parts across and along the surface.
+    """Split the vector from a surface's mean to a point into its parts across and along the surface.
 
     Args:
         mean: of the points where beams stop, (2,), metres.

@@ -68,14 +68,14 @@ class Summary:
     finished: bool
 
     def as_json(self) -> dict[str, Any]:
-        """The same as JSON values: NaN and infinity become null."""
+        """Return the diagnostics as JSON values: NaN and infinity become null."""
         return {
             name: None if isinstance(value, float) and not math.isfinite(value) else value
             for name, value in asdict(self).items()
         }
 
     def __str__(self) -> str:
-        """One line a diagnostic that the method has, then what is wrong, if anything."""
+        """Write one line a diagnostic that the method has, then the problems, if any."""
         lines = []
         for name, value in asdict(self).items():
             if value is None or (isinstance(value, float) and math.isnan(value)):
@@ -85,7 +85,7 @@ class Summary:
         return "\n".join([*lines, *(f"! {problem}" for problem in self.problems())])
 
     def problems(self) -> list[str]:
-        """Reasons not to trust the run, in words; empty where there are none."""
+        """Return reasons not to trust the run, in words; empty where there are none."""
         found = []
         if not self.finished:
             found.append("the run was stopped before it had finished")
@@ -166,7 +166,7 @@ class PoseSummary:
 
     @property
     def rhat_max(self) -> float:
-        """The largest R-hat; infinite where a pose that chains disagree on, or are too short for, has none."""
+        """The largest R-hat; infinite where chains of a pose are too short for one, or disagree."""
         return float(np.where(np.isfinite(self.rhat), self.rhat, np.inf)[self._free].max(initial=1.0))
 
     @property
@@ -176,12 +176,12 @@ class PoseSummary:
 
     @property
     def mixed(self) -> bool:
-        """Whether the draws tell how sure the poses are: R-hats of at most 1.05, effective sample sizes over 100."""
+        """Whether the draws tell the uncertainty of the poses: R-hats up to 1.05, effective sample sizes over 100."""
         return self.rhat_max <= RHAT_LIMIT and self.ess_min >= ESS_LIMIT
 
     @property
     def _free(self) -> NDArray[np.bool_]:
-        """Scans that can have moved: the first may be the frame of the map."""
+        """Return the scans that can have moved: the first may be the frame of the map."""
         free = np.ones(len(self.mean), dtype=np.bool_)
         free[:1] = not np.isnan(self.rhat[:1]).all() or len(free) == 1
         return free

@@ -1,4 +1,4 @@
-"""Whether a map fits into this machine's memory: better one error at once than a process that the system kills."""
+"""Check whether a map fits into this machine's memory: one error at once, before the system kills the process."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
 
 
 def memory_bytes() -> int | None:
-    """How much memory this machine has, or this container may take; None where the system does not say."""
+    """Return the memory of this machine, or the limit of this container, in bytes; None where unknown."""
     try:
         found = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
     except (AttributeError, OSError, ValueError):

@@ -1,4 +1,4 @@
-"""Chains in segments: runs of consecutive sweeps that may be made one after another in different processes.
+"""Run chains in segments: consecutive sweeps that may be made one after another in different processes.
 
 A segment depends on the job, the numbers of its chains and where they stood, and on nothing else. So a segment that is
 lost with the machine that made it can be made again elsewhere, and gives the same draws.
@@ -96,7 +96,7 @@ def chains_of_segments(
     schedule: Schedule,
     resume: Chains | None = None,
 ) -> Chains:
-    """Segments that follow each other, as if the chains had never been interrupted.
+    """Join segments that follow each other, as if the chains had never been interrupted.
 
     Args:
         segments: of the same chains, in order, each beginning where the one before it ended; one at least.
@@ -128,7 +128,7 @@ def chains_of_segments(
 
 
 def some_chains(chains: Chains, which: slice) -> Chains:
-    """Some of the chains, as if the others had never been."""
+    """Return some of the chains, as if there were no others."""
     draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
     snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
     return replace(

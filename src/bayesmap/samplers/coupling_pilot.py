@@ -1,4 +1,4 @@
-"""Fitting the coupling of an Ising prior to scans, by a pilot: stochastic expectation maximisation along a chain.
+"""Fit the coupling of an Ising prior to scans by a pilot chain: stochastic expectation maximisation.
 
 After each sweep the pilot's map, in which what no beam saw is drawn, too, has a coupling of greatest
 pseudo-likelihood (`bayesmap.cells.ising`), and the coupling under which the next sweep is made moves there:
@@ -37,7 +37,7 @@ def fit_coupling_to_scans(
     threads: int | None = None,
     watch: Watch = SILENT,
 ) -> Ising:
-    """A model's prior with the coupling that suits its scans.
+    """Return a model's prior with the coupling that suits its scans.
 
     Args:
         model: its cells an `Ising`, whose wall probability is held.

@@ -66,13 +66,13 @@ class StopResiduals:
     weight: NDArray[np.float64]
 
     def cost(self, dof: float, scale_m: float, per_m: float) -> float:
-        """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
+        """Return the mean negative log density of noise of scale sqrt((scale_m + per_m distance)^2 + variance)."""
         scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
         log_density = noise_with(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
         return float(-(self.weight * log_density).sum() / self.weight.sum())
 
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
-        """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
+        """Return the least cost of a shape, and the logarithms of its scale and growth, searched from the given."""
         first = np.log([scale_m, max(per_m, 1e-5)])
         found = scipy.optimize.minimize(
             lambda logs: self.cost(dof, *np.exp(logs)),
@@ -85,8 +85,8 @@ class StopResiduals:
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
-    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
-    to the next of `SHAPES`.
+    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change to the
+    next of `SHAPES`.
     """
     readings = residuals.weight.sum()
     if readings < LEAST_WEIGHT:
@@ -122,18 +122,18 @@ PSEUDO_BEAMS = 2.0
 
 @dataclass(frozen=True)
 class Parameters:
-    """What is fitted."""
+    """The sensor and the prior that are fitted."""
 
     sensor: BeamMixture
     prior: Reflective
 
     def describe(self) -> dict[str, Any]:
-        """Both as plain JSON values."""
+        """Return both as plain JSON values."""
         return {"sensor": describe(self.sensor), "prior": self.prior.describe()}
 
     @classmethod
     def from_description(cls, values: dict[str, Any]) -> Parameters:
-        """The parameters of a description."""
+        """Return the parameters of a description."""
         sensor = from_description(values["sensor"])
         assert isinstance(sensor, BeamMixture)
         return cls(sensor, Reflective.of(prior_from(values["prior"]), "fitted parameters"))
@@ -141,7 +141,7 @@ class Parameters:
 
 @dataclass(frozen=True, eq=False)
 class DrawnStops:
-    """Where beams stopped, for some beams of all chains: readings, whether and where, and the surface's variance."""
+    """Stops of some beams of all chains: readings, whether and where each beam stopped, and the variance of that."""
 
     range_m: NDArray[np.float64]
     stopped: NDArray[np.bool_]
@@ -150,7 +150,7 @@ class DrawnStops:
 
 
 def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
-    """Where a fit starts: a laser with few outliers."""
+    """Return the sensor with which a fit starts: a laser with few outliers."""
     sigma_m = 0.02 if prior.has_surfaces else math.hypot(0.02, SPREAD_WITHOUT_SURFACE * resolution_m)
     return BeamMixture(Gaussian(sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
 
@@ -173,20 +173,22 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
 
 
 def _first(problem: StopProblem) -> Parameters:
-    """Where a fit begins."""
+    """Return the parameters with which a fit starts."""
     assert isinstance(problem.sensor, BeamMixture)
     return Parameters(problem.sensor, problem.prior)
 
 
 def fits(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
-    """The same, sweep by sweep: what is found after each."""
+    """Fit sweep by sweep: yield the parameters after each sweep of the pilot."""
     return (found for found, _ in pilot_sweeps(problem, seed, sweeps, watch))
 
 
 def pilot_sweeps(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
 ) -> Iterator[tuple[Parameters, Info]]:
-    """The same with what each sweep reports: its draw, too, where ``keep`` wants it."""
+    """Run the pilot: yield the parameters after each sweep, and what the sweep reports, with its draw where ``keep``
+    asks for it.
+    """
     if sweeps == 0:
         return
     sampler, now = StopGibbs(), _first(problem)
@@ -212,7 +214,7 @@ def pilot_sweeps(
 def fit_sensor(
     model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> BeamMixture:
-    """The sensor that explains the model's scans best, whatever its kind of cells: from a pilot over reflectivities.
+    """Fit the sensor to the model's scans, whatever its kind of cells: by a pilot over reflectivities.
 
     Raises:
         BadInput: too many incidences for the grid.
@@ -226,7 +228,7 @@ def fit_sensor(
 
 
 def stops_of(state: StopState, some: slice) -> DrawnStops:
-    """Stops of the last sweep, of some of the beams, all chains together."""
+    """Return the stops of the last sweep, of some of the beams, all chains together."""
     rays, chains = state.problem.rays, range(state.chains.n_chains)
     parts = [state.chains.stops(chain) for chain in chains]
     return DrawnStops(
@@ -238,7 +240,7 @@ def stops_of(state: StopState, some: slice) -> DrawnStops:
 
 
 def gain(sweep: int) -> float:
-    """How far to move after a sweep: all the way until `WHOLE_UNTIL`, and then less and less."""
+    """Return the share of the way that parameters move after a sweep: 1 until `WHOLE_UNTIL`, and then less and less."""
     return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
 
 
@@ -302,7 +304,7 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
 
 
 def _share(part: float, whole: float, present: float) -> float:
-    """A share, drawn a little towards its present value."""
+    """Estimate a share, drawn a little towards its present value."""
     share = (part + PSEUDO_BEAMS * present) / (whole + PSEUDO_BEAMS)
     return float(min(max(share, LEAST_SHARE), 0.5))
 
@@ -332,7 +334,7 @@ def refit_prior(
 def _likeliest_beta(
     a: float, b: float, hits: NDArray[np.int32], met: NDArray[np.int32], step: float
 ) -> tuple[float, float]:
-    """A Beta's counts, moved towards those that make hits and passes likeliest; unmoved where nothing is counted."""
+    """Move a Beta's counts towards those that make hits and passes likeliest; without counts they stay."""
     if not len(hits):
         return a, b
     # Both counts as one number: a hundred times as fast as looking for equal pairs.

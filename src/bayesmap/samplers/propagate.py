@@ -1,4 +1,4 @@
-"""Belief propagation with ray potentials: approximate marginals in a few rounds (messages: see its kernel)."""
+"""Belief propagation with ray potentials: approximate marginals in a few rounds (the messages: see its kernel)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROUNDS = 20
 
 @dataclass(frozen=True, eq=False)
 class Marginals:
-    """What belief propagation found.
+    """The marginals of belief propagation, and how it converged.
 
     Attributes:
         p_wall: approximate posterior wall probability, shape (nx, ny).
@@ -99,7 +99,7 @@ def propagate(
 
 
 def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch = SILENT) -> Marginals:
-    """The same for a start, which asks where beams say nothing: with what coupled neighbours believe without any."""
+    """Propagate beliefs for a start; if neighbours are coupled, also without beams, to know where beams say nothing."""
     found = propagate(problem, rounds=rounds, watch=watch)
     return (
         found if problem.coupling == 0.0 else replace(found, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)

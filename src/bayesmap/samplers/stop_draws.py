@@ -1,4 +1,4 @@
-"""What is kept of chains of reflectivities and surfaces: the draws of some sweeps, as they are made."""
+"""Collect the kept draws of chains of reflectivities and surfaces while the sweeps are made."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ class StopDraws:
 
     @cached_property
     def _among_touched(self) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Where each kept cell stands among those that beams touch, and whether it does."""
+        """The place of each kept cell among the cells that beams touch, and whether it is one of them."""
         return places_among(self._problem.rays.touched, self._cells["cell"])
 
     def begin(self, chain: int, sweep: int) -> None:
-        """Take the cells as they stand before a sweep."""
+        """Record the cells as they stand before a sweep."""
         number = self._number.get(sweep)
         if number is None:
             return
@@ -63,7 +63,7 @@ class StopDraws:
                 self._put(f"surface_{part}", chain, number, values)
 
     def end(self, chain: int, sweep: int) -> None:
-        """Take what the sweep has counted of the cells as they stood before it."""
+        """Record what the sweep has counted of the cells as they stood before it."""
         number = self._number.get(sweep)
         if number is None:
             return
@@ -79,7 +79,7 @@ class StopDraws:
         self._put("expected", chain, number, expected)
 
     def _put_chances(self, chain: int, number: int, found: InSquares) -> None:
-        """Take the chances that squares stop beams; that of a square to which no beam can come is the prior's."""
+        """Record the chances that squares stop beams; a square to which no beam can come has the prior's."""
         prior, kept = self._problem.prior, self._cells["cell"]
         place, known = self._among_touched
         for name, values in (("stop_chance", found.drawn), ("expected_stop_chance", found.expected)):
@@ -101,7 +101,7 @@ def expected_reflectivity(
     drawn: NDArray[np.float16],
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:
-    """Mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
+    """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
     Given where all beams stopped, whom they met, and the surfaces, reflectivities are independent Betas, and the
     density of one more beam is linear in each: under these means it is what it is on average under draws of them

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.calibration import inside
-from bayesmap.posterior.scoring import Score
+from bayesmap.posterior.scores import Score
 from bayesmap.viz import palette
 
 LEVELS = np.linspace(0.02, 0.98, 49)

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from bayesmap.posterior.trajectory_scoring import TrajectoryScore
+from bayesmap.posterior.trajectory_scores import TrajectoryScore
 from bayesmap.viz import palette
 
 

@@ -34,7 +34,8 @@ def beam_log_scores(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
 ) -> NDArray[np.float64]:
-    """Log predictive density of every reading, NaN where it is invalid: log mean over draws of p(reading | draw), (B,).
+    """Compute the log predictive density of every reading, NaN where invalid: log mean over draws of p(reading | draw),
+    (B,).
 
     Densities are per metre for hits, probabilities for typed readings, in nats. They are those of `score_prediction`,
     digit for digit.
@@ -67,7 +68,7 @@ def log_score(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
 ) -> float:
-    """Mean of `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
+    """Average `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
 
     Raises:
         BadInput: as `beam_log_scores` and `predictor_of`.
@@ -86,7 +87,7 @@ all draws together."""
 
 @dataclass(frozen=True)
 class Coverage:
-    """How often readings lie in the central interval of a probability, and how wide such intervals are.
+    """The share of readings in the central interval of a probability, and the width of such intervals.
 
     Attributes:
         level: the probability.
@@ -103,7 +104,7 @@ class Coverage:
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """How well held-out beams were predicted. Errors are standard errors from a bootstrap over scans.
+    """The score of a prediction on held-out beams. Errors are standard errors from a bootstrap over scans.
 
     Attributes:
         scans, beams: that were scored; invalid readings are not.
@@ -140,7 +141,7 @@ class Score:
     hit_depth: float
 
     def as_json(self) -> dict[str, Any]:
-        """Everything but the single beams, as JSON values."""
+        """Return everything but the single beams, as JSON values."""
         return {
             "scans": self.scans,
             "beams": self.beams,

@@ -1,4 +1,4 @@
-"""May a stopped run go on? Only with what it was made with."""
+"""The fingerprint of a run: a stopped run may continue only with the settings and the data that it was made with."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PROBES = 64
 
 
 def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
-    """What a run is determined by: settings, data, prior, sensor, and where cells and poses start."""
+    """Compute the fingerprint of a run: of settings, data, prior, sensor, and of where cells and poses start."""
     scans, grid = model.scans, model.grid
     digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
@@ -41,7 +41,7 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
 
 
 def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
-    """Refuse to go on with a run that was made with other arguments.
+    """Refuse to continue a run that was made with other arguments.
 
     Args:
         saved: the settings of the stopped run, with its fingerprint, which also stands for its scans and its grid.
@@ -64,6 +64,6 @@ def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
 
 
 def difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str | None:
-    """Which settings differ, in words."""
+    """Return in words the settings that differ; None if none does."""
     names = [name for name in wanted if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != wanted[name]]
     return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names) or None
