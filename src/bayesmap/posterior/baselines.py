@@ -93,10 +93,12 @@ class Baseline:
         Raises:
             ValueError: another number of them, which would give cells the values of others.
         """
-        found = np.asarray(self.stop(hits, passes, values))
-        if found.shape != hits.shape:
-            raise ValueError(f"{self.name}: stop gave an array of shape {found.shape} for cells of shape {hits.shape}")
-        return found
+        probabilities = np.asarray(self.stop(hits, passes, values))
+        if probabilities.shape != hits.shape:
+            raise ValueError(
+                f"{self.name}: stop gave an array of shape {probabilities.shape} for cells of shape {hits.shape}"
+            )
+        return probabilities
 
 
 BASELINES = (

@@ -46,7 +46,7 @@ class Drawn(Protocol):
 
     @property
     def prior(self) -> CellPrior:
-        """The prior of the cells: it knows what they do to beams."""
+        """The prior of the cells, which also tells how they stop beams."""
 
     @property
     def draws(self) -> Draws:
@@ -131,9 +131,9 @@ def information_of(
     longest_m = scans.max_range_m if max_range_m is None else max_range_m
     if not 0 < longest_m < np.inf:
         raise BadInput(f"information_gain: max_range_m must be a positive number of metres, got {longest_m!r}")
-    some = posterior.draws.thinned(INFORMATION_DRAWS if draws is None else draws)
+    thinned = posterior.draws.thinned(INFORMATION_DRAWS if draws is None else draws)
     joint = expected_information(
-        np.concatenate(list(posterior.prior.drawn_stops(some))), posterior.grid, law, poses, angles,
+        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, law, poses, angles,
         max_range_m=longest_m, min_range_m=scans.min_range_m, hit_depth=float(posterior.settings["hit_depth"]),
         seed=seed, device=device, on_progress=on_progress,
     )  # fmt: skip
@@ -214,13 +214,17 @@ def next_views(
     nats = nats[np.arange(len(poses)), turn]
     apart_m = 0.05 * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
     few = best_views(nats, poses, 2 * views, apart_m)
-    found = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
-    order = np.argsort(-found.at_most, kind="stable")[:views]
-    assert found.independent is not None
+    expected = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
+    order = np.argsort(-expected.at_most, kind="stable")[:views]
+    assert expected.independent is not None
     information = Information(
-        found.at_least[order], found.at_least_error[order], found.at_most[order], found.at_most_error[order],
-        found.draws, found.independent[order],
-    )  # fmt: skip
+        at_least=expected.at_least[order],
+        at_least_error=expected.at_least_error[order],
+        at_most=expected.at_most[order],
+        at_most_error=expected.at_most_error[order],
+        draws=expected.draws,
+        independent=expected.independent[order],
+    )
     return Views(poses, nats, few[order], information)
 
 
@@ -237,9 +241,9 @@ def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Flo
     centres = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1) + 0.0
     cells = np.argwhere(open_cells)
     nearest = cells[np.hypot(*(centres[tuple(cells.T)] - [x, y]).T).argmin()]
-    there = np.argwhere(labels == labels[tuple(nearest)])
+    reachable = np.argwhere(labels == labels[tuple(nearest)])
     rng = np.random.default_rng([seed, 6])
-    chosen = there[rng.permutation(len(there))[:count]]
+    chosen = reachable[rng.permutation(len(reachable))[:count]]
     return np.column_stack([centres[tuple(chosen.T)], np.zeros(len(chosen))])
 
 

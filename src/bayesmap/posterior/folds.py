@@ -87,9 +87,9 @@ def one_fold(train: Scans, grid: Grid) -> list[Fold]:
     train, valid = train.select(valid > 0), valid[valid > 0]
     if len(train) == 0:
         raise BadInput("score: none of the training scans has a valid reading to fit a sensor on")
-    wanted = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
+    count = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
     nothing = np.zeros(grid.shape).ravel()
-    return [_fold(nothing, nothing, train.select(np.arange(wanted) * len(train) // wanted), grid)]
+    return [_fold(nothing, nothing, train.select(np.arange(count) * len(train) // count), grid)]
 
 
 @dataclass(frozen=True, eq=False)

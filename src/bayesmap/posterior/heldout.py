@@ -72,8 +72,8 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
         where: the log's name, for messages.
 
     Raises:
-        NoneHeldOut: the run has seen all scans, or has moved them, so that nobody knows where those stand that it
-            has not seen.
+        NoneHeldOut: the run has seen all scans, or has moved them, so that the poses of the others are
+            unknown.
         BadInput: the run has seen some of them, so that the score would flatter it; or it is another log.
     """
     seen = seen_by(train, scans)

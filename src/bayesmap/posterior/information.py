@@ -34,14 +34,14 @@ say at most."""
 class Information:
     """Bounds on the expected information of one more scan.
 
-    The information lies between two estimates, on average over draws: with many beams that tell something they are
-    apart, and more draws bring them closer.
+    The information lies between two estimates, on average over draws: with many informative beams they lie apart,
+    and more draws bring them closer.
 
     Attributes:
         at_least: nats from each pose, (P,): a lower bound, no more than the logarithm of the number of draws.
         at_least_error: Monte Carlo error of that, (P,): standard errors.
         at_most: nats from each pose, (P,): an upper bound.
-        at_most_error: likewise.
+        at_most_error: Monte Carlo error of that, (P,): standard errors.
         draws: of the map that were compared.
         independent: nats by the formula for independent cells and beams, (P,); None where it was not asked for.
     """
@@ -88,7 +88,7 @@ def expected_information(
         poses: P poses in the world frame, (P, 3).
         angles_rad: of the beams in the sensor's frame, (A,).
         max_range_m: of the sensor.
-        min_range_m: likewise.
+        min_range_m: of the sensor.
         hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
         seed: of the simulated scans.
         device: where to compute.
@@ -109,7 +109,7 @@ def expected_information(
     limits = RangeLimits(min_range_m, max_range_m)
     maps, every = device_maps([cells], hit_depth, device=device), np.arange(draws)
     scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
-    found = np.empty((4, len(where)))
+    bounds = np.empty((4, len(where)))
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
         key = mix(seed, i, STREAM_VIEW)
@@ -122,9 +122,9 @@ def expected_information(
             Scans(at, angles, readings, max_range_m, min_range_m), grid, sensor, hit_depth, device
         )
         weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, chain)
-        found[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
+        bounds[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
         on_progress((i + 1) / len(where))
-    return Information(found[0], found[1], found[2], found[3], draws)
+    return Information(bounds[0], bounds[1], bounds[2], bounds[3], draws)
 
 
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:

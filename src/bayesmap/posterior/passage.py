@@ -144,17 +144,17 @@ def in_the_way(
         radius_m: of the disc.
     """
     square_m = square_to_path_m(centres_world(cells, grid), grid.resolution, path)
-    found = []
+    blocks = []
     for batch in batches:
         if batch.ndim == 2:
-            found.append((batch >= SOLID) & (square_m < radius_m))
+            blocks.append((batch >= SOLID) & (square_m < radius_m))
             continue
         blocked = np.zeros(batch.shape[:2], dtype=np.bool_)
         draw, cell = np.nonzero(batch[..., 0] >= SOLID)
         surface = batch[draw, cell].astype(np.float64)
         blocked[draw, cell] = _surface_touches(surface, np.array(grid.origin), path, radius_m)
-        found.append(blocked)
-    return np.concatenate(found)
+        blocks.append(blocked)
+    return np.concatenate(blocks)
 
 
 def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: float) -> NDArray[np.bool_]:

@@ -34,13 +34,13 @@ class Posterior:
         scans: what was conditioned on.
         sensor: the model that was used for the draws, fitted, if it was to be; None in a loaded run whose model is not
             one of ours.
-        prior: of the cells, likewise: it also says what kind of cells they are.
+        prior: of the cells, which also tells their kind.
         settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
         draws: the kept maps.
         occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's
             own marginals where it computes them ("exact", "importance", "propagate"). Of binary walls it is the
             probability of a wall.
-        observed: cells of which some beam says something in at least half of the draws, (nx, ny); in the others the
+        observed: cells that at least one beam observes in at least half of the draws, (nx, ny); in the others the
             posterior is the prior, or little more.
         log_likelihood, log_prior: of every draw, (chains, draws).
         warmup_log_joint: (chains, warm-up sweeps).
@@ -140,7 +140,7 @@ def posterior_of_chains(
 
 
 def posterior_of_draws(
-    model: Model, found: IndependentDraws, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
+    model: Model, independent: IndependentDraws, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
 ) -> Posterior:
     """Return the posterior of independent draws."""
     return Posterior(
@@ -148,19 +148,19 @@ def posterior_of_draws(
         sensor=model.sensor,
         prior=model.cells,
         settings=settings,
-        draws=Draws(model.grid, model.cells.arrays, {"walls": found.walls}),
-        occupancy=found.occupancy,
-        observed=found.observed,
-        log_likelihood=found.log_likelihood,
-        log_prior=found.log_prior,
-        warmup_log_joint=np.zeros((len(found.walls), 0)),
+        draws=Draws(model.grid, model.cells.arrays, {"walls": independent.walls}),
+        occupancy=independent.occupancy,
+        observed=independent.observed,
+        log_likelihood=independent.log_likelihood,
+        log_prior=independent.log_prior,
+        warmup_log_joint=np.zeros((len(independent.walls), 0)),
         snapshot=Snapshot(0),
-        finished=found.finished,
-        seconds={"warm_start": 0.0, "sampling": found.seconds, **seconds},
+        finished=independent.finished,
+        seconds={"warm_start": 0.0, "sampling": independent.seconds, **seconds},
         counts=_counts(model, n_incidences),
-        log_weights=found.log_weights,
-        statistics=found.statistics,
-        log_evidence=found.log_evidence,
+        log_weights=independent.log_weights,
+        statistics=independent.statistics,
+        log_evidence=independent.log_evidence,
     )
 
 

@@ -150,8 +150,8 @@ class ScanPredictor:
         from bayesmap.kernels.predict.stop_quantiles import range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
-        wanted = np.asarray(levels, dtype=np.float64)
-        if wanted.size == 0 or (np.diff(wanted) <= 0).any() or not ((wanted > 0) & (wanted < 1)).all():
+        asked = np.asarray(levels, dtype=np.float64)
+        if asked.size == 0 or (np.diff(asked) <= 0).any() or not ((asked > 0) & (asked < 1)).all():
             raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
         angles = np.asarray(angles_rad, dtype=np.float64)
         # A reading is needed to trace a beam and has no part in its prediction.
@@ -160,4 +160,4 @@ class ScanPredictor:
             np.reshape(pose_world, (1, 3)), angles, unread, max_range_m=self.limits.max_m, min_range_m=self.limits.min_m
         )
         rays = trace_rays(scan, self.grid, device=self.held.device)
-        return range_quantiles(mix_device_stops(rays, self.held, GONE), wanted, self.sensor, self.held.device)
+        return range_quantiles(mix_device_stops(rays, self.held, GONE), asked, self.sensor, self.held.device)

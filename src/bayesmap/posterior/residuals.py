@@ -58,8 +58,8 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
     law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
     median_m = range_quantiles(law, np.array([0.5]), sensor, device)[:, 0]
     batches = watched(predictor.batches(rays.touched), draws, forecasting)
-    found = forecast(rays, batches, sensor, depth, device=device)
-    return compare(scans, median_m, found.log_density)
+    prediction = forecast(rays, batches, sensor, depth, device=device)
+    return compare(scans, median_m, prediction.log_density)
 
 
 def placed(scans: Scans) -> NDArray[np.intp]:
@@ -109,7 +109,7 @@ def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floa
 
     Args:
         mean: of the points where beams stop, (2,), metres.
-        covariance: of the same, (2, 2).
+        covariance: of these points, (2, 2).
         point: for instance where a reading ends, (2,).
         sensor: where the beam comes from, (2,).
     """

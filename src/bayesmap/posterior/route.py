@@ -109,7 +109,7 @@ def plan_route(
         blocked: probability that the disc is blocked at each cell's centre, (nx, ny).
         grid: of these.
         start: in the world frame, (2,).
-        goal: likewise.
+        goal: in the world frame, metres, (2,).
         risk: the most that the probability of touching something may be, inside (0, 1).
         judge: gives the probability of a path.
 

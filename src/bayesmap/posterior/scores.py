@@ -204,7 +204,9 @@ def score_prediction(
     rays = trace_rays(scans, predictor.grid, device=device)
     depth, draws = predictor.hit_depth, predictor.draws
     forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
-    found = forecast(rays, watched(predictor.batches(rays.touched), draws, forecasting), sensor, depth, device=device)
+    prediction = forecast(
+        rays, watched(predictor.batches(rays.touched), draws, forecasting), sensor, depth, device=device
+    )
     law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
     quantiles = range_quantiles(law, np.array(ends), sensor, device)[valid]
@@ -214,8 +216,8 @@ def score_prediction(
 
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
     blocks = ScanBlocks.make(scan[valid], seed)
-    nats = blocks.mean(found.log_density[valid])
-    pit = randomised_pit(found.pit_low[valid], found.pit_high[valid], seed)
+    nats = blocks.mean(prediction.log_density[valid])
+    pit = randomised_pit(prediction.pit_low[valid], prediction.pit_high[valid], seed)
     distance, p_value = blocks.uniformity(pit)
     clipped = np.clip(quantiles, limits.min_m, limits.max_m)
 
@@ -244,7 +246,7 @@ def score_prediction(
         brier=of_events.mean(brier) if len(p) else none,
         log_loss=of_events.mean(loss) if len(p) else none,
         reliability=tuple(reliability(p, happened)),
-        p_no_return=(float(found.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
+        p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
         sensor=describe(sensor),
         hit_depth=predictor.hit_depth,
     )

@@ -113,7 +113,7 @@ def maximise(
             on_share(0.9 * calls / usual if calls < usual else 1.0 - 0.1 * usual / calls)  # never all before the end
             return -what(values_at(point))
 
-        found = scipy.optimize.minimize(
+        result = scipy.optimize.minimize(
             descend,
             np.array([p.inner(start[p.name]) for p in parameters]),
             method="L-BFGS-B",
@@ -121,8 +121,8 @@ def maximise(
             options={"eps": STEP, "ftol": tolerance, "maxiter": MOST_STEPS, "maxfun": 3000},
         )
         on_share(1.0)
-        return values_at(found.x), -float(found.fun)
+        return values_at(result.x), -float(result.fun)
 
     *low, last = parts(on_progress, *(1.0 for _ in starts), LAST_CLIMB)
     rough = [climb(rough_score, start, ROUGH, on_share) for start, on_share in zip(starts, low, strict=True)]
-    return climb(score, max(rough, key=lambda found: found[1])[0], FINE, last)
+    return climb(score, max(rough, key=lambda result: result[1])[0], FINE, last)

@@ -86,9 +86,9 @@ class Summary:
 
     def problems(self) -> list[str]:
         """Return reasons not to trust the run, in words; empty where there are none."""
-        found = []
+        problems = []
         if not self.finished:
-            found.append("the run was stopped before it had finished")
+            problems.append("the run was stopped before it had finished")
         allowed = CHANCE_SHARE * self.judged_cells
         cells_agree = self.judged_cells > 0 and self.rhat_high_cells <= allowed and not self.disagreeing_cells
         places = ": in some places chains explain the readings differently; cells agree, so take means over all"
@@ -97,21 +97,21 @@ class Summary:
             ("log likelihood", self.rhat_log_likelihood, places if cells_agree else ""),
         ):
             if value > RHAT_LIMIT:
-                found.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}{remedy}")
+                problems.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}{remedy}")
         if self.rhat_max > RHAT_LIMIT and self.rhat_high_cells > allowed:
             worst = f"the worst is {self.rhat_max:.3f}"
-            found.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
+            problems.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
         if self.disagreeing_cells:
-            found.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
+            problems.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
         if self.ess_low_cells > allowed:
             least = f"the least is {self.ess_min:.0f}"
-            found.append(f"effective sample size of {self.ess_low_cells} cells is under {ESS_LIMIT:.0f}; {least}")
+            problems.append(f"effective sample size of {self.ess_low_cells} cells is under {ESS_LIMIT:.0f}; {least}")
         swept = not math.isnan(self.microseconds_per_sweep)
         if self.finished and swept and math.isnan(self.rhat_log_joint):
-            found.append(f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ")
+            problems.append(f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ")
         if self.effective_sample_size < ESS_LIMIT:
-            found.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
-        return found
+            problems.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
+        return problems
 
 
 def summarise(posterior: Posterior) -> Summary:
@@ -153,7 +153,7 @@ class PoseSummary:
         mean: in the world frame, (S, 3); of headings the circular mean.
         covariance: of x, y and yaw, (S, 3, 3), metres and radians.
         rhat: split R-hat of the three, (S, 3); NaN with fewer than four draws a chain, or of a pose that never moved.
-        ess: effective sample size likewise.
+        ess: effective sample size of each part, (S, 3).
         by_approximation: whether mean and covariance are those of the approximation that chains started from, because
             the draws of chains that have not mixed are far too alike.
     """

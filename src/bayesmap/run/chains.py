@@ -44,11 +44,11 @@ class Chains:
         log_likelihood, log_prior: the two parts of the log joint, of each kept draw, (chains, kept).
         warmup_log_joint: of each warm-up sweep, (chains, done warm-up sweeps).
         snapshot: where the chains stand.
-        observed_counts: in how many maps a beam says something of each cell, and in how many was looked, (2, nx, ny).
-        statistics: what the start has to say, by name.
+        observed_counts: the draws in which at least one beam observes each cell, and the draws inspected, (2, nx, ny).
+        statistics: results of the start, by name.
         n_incidences: how many cells all beams cross together.
         seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
-        finished: whether all draws are there.
+        finished: whether all draws are made.
     """
 
     draws: Draws
@@ -83,7 +83,7 @@ class Chains:
 def join(parts: Sequence[Chains]) -> Chains:
     """Join chains that ran apart, in the order in which they are given, as if they had run together.
 
-    All must have made the same sweeps.
+    All must have made equally many sweeps.
     """
     first = parts[0]
     if len(parts) == 1:

@@ -20,7 +20,7 @@ NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")
 """Entries of a run's settings that are not arguments."""
 
 PROBES = 64
-"""Readings, and distances, at which a sensor model is looked at to tell it from another of the same name."""
+"""Readings and distances at which a sensor model is evaluated, to tell it from another model of its name."""
 
 
 def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
@@ -40,30 +40,30 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
     return digest.hexdigest()[:16]
 
 
-def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
+def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
     """Refuse to continue a run that was made with other arguments.
 
     Args:
         saved: the settings of the stopped run, with its fingerprint, which also stands for its scans and its grid.
-        wanted: those that were asked for now.
+        asked: those that were asked for now.
 
     Raises:
         BadInput: they differ; the message says in what.
     """
-    if saved["fingerprint"] == wanted["fingerprint"]:
+    if saved["fingerprint"] == asked["fingerprint"]:
         return
-    if saved.get("streams") != wanted["streams"]:
+    if saved.get("streams") != asked["streams"]:
         raise BadInput(
             "resume: the saved run was made by a version of bayesmap with other random numbers; it can be looked at "
             "and scored, but not gone on with: start again"
         )
-    different = difference(saved, wanted)
+    different = difference(saved, asked)
     raise BadInput(
         f"resume: the saved run was made with other {different or 'scans or on another grid, or with another sensor'}"
     )
 
 
-def difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str | None:
+def difference(saved: dict[str, Any], asked: dict[str, Any]) -> str | None:
     """Return in words the settings that differ; None if none does."""
-    names = [name for name in wanted if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != wanted[name]]
-    return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names) or None
+    names = [name for name in asked if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != asked[name]]
+    return "; ".join(f"{name} ({saved.get(name)!r}, now {asked[name]!r})" for name in names) or None

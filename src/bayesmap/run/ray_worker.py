@@ -44,7 +44,8 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
     """Prepare the job's problem. Returns it, and the seconds that it took.
 
     Raises:
-        BadInput: bayesmap here is not that of the process which asks, or a model that the sampler cannot sample.
+        BadInput: the versions of bayesmap here and in the calling process differ, or the sampler cannot sample the
+            model.
     """
     if version != __version__:
         raise BadInput(

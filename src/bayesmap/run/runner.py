@@ -2,8 +2,8 @@
 
 All chains of a process advance together, in short steps: between two steps they have made the same number of sweeps, so
 a checkpoint is where each stands, that number, and the draws so far. A step is about a quarter of a second of work.
-Whoever runs chains (`bayesmap.infer`, the page, a worker of a cluster) takes the states of `sweeps` as they come, or
-lets `run_chains` keep the draws. An `Executor` decides where the chains of a job run.
+`bayesmap.infer`, the page and the workers of a cluster either take the states of `sweeps` as they come, or let
+`run_chains` keep the draws. An `Executor` decides where the chains of a job run.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Job:
         sampler: how.
         schedule: how long.
         seed: of all random numbers.
-        chain_ids: numbers of the chains, the same wherever they run.
+        chain_ids: numbers of the chains, wherever they run.
         device: where kernels run.
         threads: of the CPU; all cores if None.
         parameters: sensor and prior that were fitted beforehand, under which the chains run.
@@ -165,8 +165,8 @@ def run_chains(
 
     Args:
         job: what to run.
-        resume: continue these chains of the same job: the result is bit for bit that of chains that never stopped.
-        watch: gets progress after every step, and is asked between two steps whether to stop.
+        resume: chains of this job to continue: the result is bit for bit that of chains that never stopped.
+        watch: gets progress after every step, and may stop the chains between two steps.
         on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
             often where it takes so long that it would hold the chains up.
         checkpoint_every_s: see above.
@@ -222,7 +222,7 @@ def run_chains(
             saved_at = time.monotonic()
             pause_s = pause_after(saved_at - now, checkpoint_every_s)
         began, stopped = time.perf_counter(), watch.should_stop()
-    # Whoever asked in the last step shall not have to wait for what follows the chains.
+    # A stop in the last step must not wait for what follows the chains.
     return replace(so_far(state), finished=False) if stopped else so_far(state)
 
 

@@ -31,7 +31,7 @@ class Segment:
         draws: the maps that were kept in it.
         log_likelihood, log_prior: of each of these, (chains, kept).
         warmup_log_joint: of each warm-up sweep in it, (chains, warm-up sweeps).
-        statistics: what the start has to say, by name; empty unless the segment starts the chains.
+        statistics: results of the start, by name; empty unless the segment starts the chains.
         n_incidences: how many cells all beams cross together.
         seconds: spent at the start ("warm_start") and in sweeps ("sampling").
     """
@@ -99,7 +99,7 @@ def chains_of_segments(
     """Join segments that follow each other, as if the chains had never been interrupted.
 
     Args:
-        segments: of the same chains, in order, each beginning where the one before it ended; one at least.
+        segments: of some chains, in order, each beginning where the one before it ended; at least one.
         snapshot: where the chains stand after the last.
         trace_s: seconds that preparing the problem took.
         schedule: of the job.

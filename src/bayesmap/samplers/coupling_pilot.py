@@ -45,7 +45,7 @@ def fit_coupling_to_scans(
         device: where kernels run.
         seed: of the pilot.
         threads: of the CPU; all cores if None.
-        watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
+        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
 
     Raises:
         BadInput: as `WallSampler.prepare`.
@@ -56,9 +56,9 @@ def fit_coupling_to_scans(
     for sweep in range(SWEEPS):
         state, info = sampler.step(state, 1)
         walls = state.walls().reshape(problem.grid.shape) != 0
-        found = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
+        best = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
         step = 1.0 if sweep < WHOLE_UNTIL else (sweep - WHOLE_UNTIL + 1.0) ** -0.7
-        now = replace(now, coupling=now.pair_coupling + step * (found - now.pair_coupling))
+        now = replace(now, coupling=now.pair_coupling + step * (best - now.pair_coupling))
         state = replace(state, problem=state.problem.under(now))
         watch.report("fit", sweep + 1, SWEEPS, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
         if watch.should_stop():

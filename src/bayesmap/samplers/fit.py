@@ -74,14 +74,14 @@ class StopResiduals:
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
         """Return the least cost of a shape, and the logarithms of its scale and growth, searched from the given."""
         first = np.log([scale_m, max(per_m, 1e-5)])
-        found = scipy.optimize.minimize(
+        result = scipy.optimize.minimize(
             lambda logs: self.cost(dof, *np.exp(logs)),
             first,
             method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra
             bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
             options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
         )
-        return float(found.fun), found.x
+        return float(result.fun), result.x
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
@@ -96,11 +96,11 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
     dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
     place = SHAPES.index(dof)
     tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
-    found = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
+    costs = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
     a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
-    best = min(tried, key=lambda shape: found[shape][0] + (a_number_more if shape < math.inf else 0.0))
+    best = min(tried, key=lambda shape: costs[shape][0] + (a_number_more if shape < math.inf else 0.0))
     present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
-    return noise_with(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())
+    return noise_with(best, *np.exp((1 - step) * present + step * costs[best][1]).tolist())
 
 
 BEAMS_LOOKED_AT = 40_000
@@ -162,11 +162,11 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         problem: rays, and where to begin.
         seed: of the pilot.
         sweeps: of the pilot; without any, nothing moves.
-        watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
+        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
     """
     now = _first(problem)
-    for found in fits(problem, seed, sweeps, watch):
-        now = found
+    for parameters in fits(problem, seed, sweeps, watch):
+        now = parameters
         if watch.should_stop():
             break
     return now
@@ -180,7 +180,7 @@ def _first(problem: StopProblem) -> Parameters:
 
 def fits(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
     """Fit sweep by sweep: yield the parameters after each sweep of the pilot."""
-    return (found for found, _ in pilot_sweeps(problem, seed, sweeps, watch))
+    return (parameters for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch))
 
 
 def pilot_sweeps(
@@ -194,12 +194,12 @@ def pilot_sweeps(
     sampler, now = StopGibbs(), _first(problem)
     state = sampler.init(problem, [PILOT], seed)
     every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
-    some = slice(every // 2, None, every)
+    beams = slice(every // 2, None, every)
     for sweep in range(sweeps):
         state, info = sampler.step(state, 1, keep=keep)
         if sweep >= FIRST_SWEEP:
             step, sensor, prior = gain(sweep), now.sensor, now.prior
-            sensor = refit_sensor(sensor, stops_of(state, some), problem.rays.limits, step)
+            sensor = refit_sensor(sensor, stops_of(state, beams), problem.rays.limits, step)
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
                 hits, met = (count[touched] for count in state.chains.counted(0))
@@ -227,15 +227,15 @@ def fit_sensor(
     return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
 
 
-def stops_of(state: StopState, some: slice) -> DrawnStops:
+def stops_of(state: StopState, beams: slice) -> DrawnStops:
     """Return the stops of the last sweep, of some of the beams, all chains together."""
     rays, chains = state.problem.rays, range(state.chains.n_chains)
     parts = [state.chains.stops(chain) for chain in chains]
     return DrawnStops(
-        range_m=np.tile(rays.range_m[some], len(parts)),
-        stopped=np.concatenate([stopped[some] for stopped, _, _ in parts]),
-        distance_m=np.concatenate([distance[some] for _, distance, _ in parts]).astype(np.float64),
-        variance=np.concatenate([variance[some] for _, _, variance in parts]).astype(np.float64),
+        range_m=np.tile(rays.range_m[beams], len(parts)),
+        stopped=np.concatenate([stopped[beams] for stopped, _, _ in parts]),
+        distance_m=np.concatenate([distance[beams] for _, distance, _ in parts]).astype(np.float64),
+        variance=np.concatenate([variance[beams] for _, _, variance in parts]).astype(np.float64),
     )
 
 
@@ -349,6 +349,6 @@ def _likeliest_beta(
 
     first = np.log([a, b])
     bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]
-    found = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
-    a, b = np.exp((1 - step) * first + step * found.x)
+    result = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
+    a, b = np.exp((1 - step) * first + step * result.x)
     return float(a), float(b)

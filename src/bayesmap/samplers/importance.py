@@ -67,8 +67,8 @@ class Particles:
         mean = np.zeros(self.problem.table.grid.shape)
         batch = max(1, BATCH_CELLS // mean.size)
         for i in range(0, len(matter), batch):
-            some = matter[i : i + batch]
-            mean += np.tensordot(np.exp(self.log_weights[some]), self.maps(some), axes=1)
+            part = matter[i : i + batch]
+            mean += np.tensordot(np.exp(self.log_weights[part]), self.maps(part), axes=1)
         mean /= np.exp(self.log_weights[matter]).sum()
         if self.problem.coupling != 0.0:
             return mean

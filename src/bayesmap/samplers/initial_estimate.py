@@ -48,8 +48,8 @@ class InitialEstimate:
         far: cells in which no reading ends, nor in any of the eight around them, (T,).
         mean_m: of each of the U endpoint cells: mean of the end points, drawn towards the centre, (U, 2), metres from
             the grid's corner.
-        factor_m: likewise: Cholesky factor of their covariance, drawn towards the prior's size and `widened`: l11, l21,
-            l22, (U, 3).
+        factor_m: Cholesky factor of the covariance of these end points, drawn towards the prior's size and `widened`:
+            l11, l21, l22, metres, (U, 3).
     """
 
     touched: NDArray[np.int32]
@@ -78,12 +78,12 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     end_cell = end_cells(rays)
     ended = end_cell >= 0
     hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
-    found = np.flatnonzero(hits)
-    place = np.searchsorted(found, end_cell[ended])
-    points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(found), hits[found]
+    ended_cells = np.flatnonzero(hits)
+    place = np.searchsorted(ended_cells, end_cell[ended])
+    points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(ended_cells), hits[ended_cells]
 
     def total(values: Floats) -> Floats:
-        return np.bincount(place, values, len(found)).astype(np.float64)
+        return np.bincount(place, values, len(ended_cells)).astype(np.float64)
 
     weight = of_cell + CENTRE_WEIGHT
     mean = np.stack([total(points[:, i]) + CENTRE_WEIGHT * centre[:, i] for i in (0, 1)], axis=-1) / weight[:, None]

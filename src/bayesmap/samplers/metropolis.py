@@ -2,8 +2,8 @@
 
 In every sweep each cell is proposed another state (`CellPrior.propose`; by default one from the prior), which is taken
 with probability min(1, ratio), the ratio being that of the likelihoods of the beams that touch the cell times what the
-proposal says of priors and proposals (Metropolis et al., 1953; Hastings, 1970). It knows nothing of the kind of cells
-and nothing of the sensor but its density: a small map's worth of patience buys a first posterior of a new idea.
+proposal says of priors and proposals (Metropolis et al., 1953; Hastings, 1970). It needs nothing from the kind of
+cells, and from the sensor only its density: on a small map that gives a first posterior of a new kind of cells.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ def propagate(
         damping: weight of the old message in the new one, geometrically, in [0, 1).
         tolerance: stop when no probability changed by more.
         beta: inverse temperature of the likelihood.
-        watch: told of each round, and asked whether to stop.
+        watch: gets progress after each round, and may stop the rounds.
 
     Raises:
         BadInput: rounds or damping out of range.
@@ -100,7 +100,7 @@ def propagate(
 
 def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch = SILENT) -> Marginals:
     """Propagate beliefs for a start; if neighbours are coupled, also without beams, to know where beams say nothing."""
-    found = propagate(problem, rounds=rounds, watch=watch)
-    return (
-        found if problem.coupling == 0.0 else replace(found, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)
-    )
+    marginals = propagate(problem, rounds=rounds, watch=watch)
+    if problem.coupling == 0.0:
+        return marginals
+    return replace(marginals, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)

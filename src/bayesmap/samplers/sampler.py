@@ -1,7 +1,7 @@
 """The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
 
 A sampler is a value: it holds options and no state. What all its chains in one process share, such as traced beams, is
-made once by `prepare`. Chains have numbers of their own, the same wherever they run: every draw depends on (seed,
+made once by `prepare`. A chain has a number that does not depend on where it runs: every draw depends on (seed,
 number of the chain, sweep, site) alone, and neither on which other chains run beside it, nor on threads, nor on how
 sweeps are cut into steps, nor on stops and resumptions.
 """
@@ -63,7 +63,7 @@ class Keep:
 NOTHING = Keep()
 
 MAPS_TO_SEE = 8
-"""Draws of each chain that decide which cells count as observed, at most: the same, whatever other chains there are."""
+"""Draws of each chain that decide which cells count as observed, at most; they do not depend on the other chains."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,6 +185,6 @@ def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
 
     Which cells are observed hardly differs from draw to draw, and all draws may be gigabytes, or far away.
     """
-    some = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
+    selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
     whole = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}
-    return {name: array[:, some if name in whole else slice(0)] for name, array in draws.arrays.items()}
+    return {name: array[:, selected if name in whole else slice(0)] for name, array in draws.arrays.items()}

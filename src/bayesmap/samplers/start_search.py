@@ -63,8 +63,8 @@ def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, 
 
     Args:
         problem: of both.
-        chains: as they stand; they go on from what is found.
-        second: likewise, from their second starts.
+        chains: as they stand; they continue from the selected maps.
+        second: the chains from their second starts.
         gain: by how much these explain the readings better that end in each cell, averaged over some sweeps, (C, N).
         beta: inverse temperature.
     """
@@ -102,7 +102,7 @@ MUST_STAY = 1 / 3
 SQUARE_ROUNDS = 3
 """Of squares of one size that are tried together, at most."""
 MARGIN = 2
-"""Cells around a square whose beams are asked, too."""
+"""Cells around a square whose beams are compared as well."""
 
 
 def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: Look) -> None:
@@ -110,7 +110,7 @@ def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: 
 
     Args:
         maps: of the chains, changed in place.
-        second: of the second starts, in the same order.
+        second: of the second starts, chain by chain.
         gain: by how much these explain the readings better that end in each cell, averaged over some sweeps (C, nx,
             ny).
         look: at maps.
@@ -151,7 +151,7 @@ def cells_of(middle: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
 
 
 MOST_READINGS = 12
-"""A surface that explains more of them is seldom better gone."""
+"""Readings of a surface, at most, for it to be merged: one that explains more is seldom better removed."""
 REACH = 2
 """Neighbours are cells up to so far away, in each direction."""
 CLOSE = 3.0
@@ -161,9 +161,9 @@ MOST_OFF = 2.5
 SOLID_FROM = 0.1
 """Reflectivity from which a cell counts as one that stops beams."""
 FREE = 1e-20
-"""That of a cell that became free."""
+"""Reflectivity of a cell that became free."""
 AROUND = 3
-"""Cells around one that becomes free whose beams are asked."""
+"""Cells around a cell that becomes free whose beams are compared."""
 MERGED_NATS = 1.0
 """By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps
 then part again; with two nats, too few."""
@@ -247,14 +247,14 @@ def merge_moves(
     """Propose for each surface that stops few beams its end, and the longer surface of the neighbour that points best
     at its readings; the best pointed moves come first.
     """
-    found, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
-    few, by, off = best_neighbours(cells, found, axes, grid)
+    readings, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
+    few, by, off = best_neighbours(cells, readings, axes, grid)
     order = np.argsort(off, kind="stable")
     few, by = few[order], by[order]
     where = np.stack([few, by], axis=-1)
     new = cells[where]
     new[:, 0, 0] = FREE
-    new[:, 1, 1:] = lengthened(cells, found, axes, few, by, grid)
+    new[:, 1, 1:] = lengthened(cells, readings, axes, few, by, grid)
     return Changes(np.stack(np.divmod(few, grid.shape[1]), axis=-1), where, new, solid[where])
 
 
@@ -293,26 +293,27 @@ def variance_in(moments: Floats, direction: Floats) -> Floats:
 
 
 def best_neighbours(
-    cells: NDArray[np.float32], found: ExplainedReadings, axes: SurfaceAxes, grid: Grid
+    cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Find the cells that stop few beams, for each the neighbour with as many beams or more whose axis lies closest to
     its readings, and the root mean square distance of these from it, (n,) each. Cells without a neighbour within
     `MOST_OFF` are left out.
     """
-    stops = (cells[:, 0] >= SOLID_FROM) & (found.count > 0)
-    few = np.flatnonzero(stops & (found.count <= MOST_READINGS))
+    stops = (cells[:, 0] >= SOLID_FROM) & (readings.count > 0)
+    few = np.flatnonzero(stops & (readings.count <= MOST_READINGS))
     x, y = np.divmod(few, grid.shape[1])
     least, by = np.full(len(few), np.inf), few.copy()
     for step_x in range(-REACH, REACH + 1):
         for step_y in range(-REACH, REACH + 1):
-            there_x, there_y = x + step_x, y + step_y
-            inside = (there_x >= 0) & (there_x < grid.shape[0]) & (there_y >= 0) & (there_y < grid.shape[1])
-            other = np.where(inside, there_x * grid.shape[1] + there_y, few)
+            other_x, other_y = x + step_x, y + step_y
+            inside = (other_x >= 0) & (other_x < grid.shape[0]) & (other_y >= 0) & (other_y < grid.shape[1])
+            other = np.where(inside, other_x * grid.shape[1] + other_y, few)
             # Of two with as many beams one may take in the other, not both.
-            more = (found.count[other] > found.count[few]) | ((found.count[other] == found.count[few]) & (other > few))
+            theirs, own = readings.count[other], readings.count[few]
+            more = (theirs > own) | ((theirs == own) & (other > few))
             normal = np.stack([-axes.direction[other, 1], axes.direction[other, 0]], axis=-1)
-            off = ((found.mean_m[few] - cells[other, 1:3]) * normal).sum(axis=1)
-            square = (off**2 + variance_in(found.moments[few], normal)) / (axes.across[other] + found.noise[few])
+            off = ((readings.mean_m[few] - cells[other, 1:3]) * normal).sum(axis=1)
+            square = (off**2 + variance_in(readings.moments[few], normal)) / (axes.across[other] + readings.noise[few])
             better = inside & stops[other] & more & (square < least)
             least[better], by[better] = square[better], other[better]
     close = least <= MOST_OFF**2
@@ -321,7 +322,7 @@ def best_neighbours(
 
 def lengthened(
     cells: NDArray[np.float32],
-    found: ExplainedReadings,
+    readings: ExplainedReadings,
     axes: SurfaceAxes,
     few: NDArray[np.intp],
     by: NDArray[np.intp],
@@ -332,14 +333,14 @@ def lengthened(
     (n, 5).
     """
     mean, axis = cells[by, 1:3].astype(np.float64), axes.direction[by]
-    places = [((found.mean_m[of] - mean) * axis).sum(axis=1) for of in (few, by)]
-    counts = [found.count[of] for of in (few, by)]
+    places = [((readings.mean_m[of] - mean) * axis).sum(axis=1) for of in (few, by)]
+    counts = [readings.count[of] for of in (few, by)]
     middle = (counts[0] * places[0] + counts[1] * places[1]) / (counts[0] + counts[1])
     # Along the axis the square is left where the first of its four sides is crossed.
     sides = (grid.cell_centres_m(by) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
-    spread = [variance_in(found.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate((few, by))]
+    spread = [variance_in(readings.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate((few, by))]
     scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
     along, across, (x, y) = np.maximum(axes.along[by], ALONG_WALL**2 * scatter), axes.across[by], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)

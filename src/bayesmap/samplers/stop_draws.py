@@ -68,8 +68,8 @@ class StopDraws:
         if number is None:
             return
         if self._centres is not None:
-            found = self._chains.in_squares(chain, sweep, True, self._solid.get(chain))
-            self._put_chances(chain, number, found)
+            squares = self._chains.in_squares(chain, sweep, True, self._solid.get(chain))
+            self._put_chances(chain, number, squares)
         if "expected" not in self.arrays:
             return
         hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))
@@ -78,11 +78,11 @@ class StopDraws:
         expected = expected_reflectivity(hits, met, prior, drawn, solid)
         self._put("expected", chain, number, expected)
 
-    def _put_chances(self, chain: int, number: int, found: InSquares) -> None:
+    def _put_chances(self, chain: int, number: int, squares: InSquares) -> None:
         """Record the chances that squares stop beams; a square to which no beam can come has the prior's."""
         prior, kept = self._problem.prior, self._cells["cell"]
         place, known = self._among_touched
-        for name, values in (("stop_chance", found.drawn), ("expected_stop_chance", found.expected)):
+        for name, values in (("stop_chance", squares.drawn), ("expected_stop_chance", squares.expected)):
             chances = np.full(len(kept), prior.mean, dtype=np.float32)
             if prior.has_labels:
                 chances[:] = prior.mean_given(self._solid[chain][kept])

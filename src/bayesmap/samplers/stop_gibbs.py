@@ -48,8 +48,8 @@ SECOND = "second_"
 class StopState:
     """Chains between two sweeps.
 
-    While they search for where to start, ``second`` are the same chains from their second starts, and ``evidence`` says
-    how well both explain the readings so far, (C, 2, N) (`bayesmap.samplers.start_search`).
+    During start selection, ``second`` are these chains from their second starts, and ``evidence`` tells how well both
+    starts explain the readings so far, (C, 2, N) (`bayesmap.samplers.start_search`).
     """
 
     problem: StopProblem
@@ -176,11 +176,11 @@ class StopGibbs:
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
         """Return this problem with the scans moved to other poses. Draws keep their cells."""
-        there = trace_stops(
+        retraced = trace_stops(
             model.scans, model.grid, problem.prior, problem.sensor, hit_depth=problem.hit_depth, device=problem.device,
             threads=1,
         )  # fmt: skip
-        return replace(there, kept=problem.kept)
+        return replace(retraced, kept=problem.kept)
 
     def moved(self, state: StopState, problem: StopProblem) -> StopState:
         """Return the chains as they are, under another problem. Chains that search for their start have no other."""
@@ -254,19 +254,19 @@ class StopGibbs:
         problem, chains, second = state.problem, state.chains, state.second
         assert second is not None
         assert state.evidence is not None
-        found, end_cell, averaged = state.evidence, end_cells(problem.rays), min(AVERAGED, self.search_until)
+        total, end_cell, averaged = state.evidence, end_cells(problem.rays), min(AVERAGED, self.search_until)
 
         def noted(of: StopChains, number: int) -> Note:
             def note(chain: int, sweep: int) -> None:
                 if sweep >= self.search_until - averaged:
-                    found[chain, number] += evidence(of, chain, end_cell, problem.prior) / averaged
+                    total[chain, number] += evidence(of, chain, end_cell, problem.prior) / averaged
 
             return note
 
         self._sweep(replace(state, chains=second), sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1))
         state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, 0))
         if state.sweep == self.search_until:
-            select_starts(problem, chains, second, found[:, 1] - found[:, 0], beta)
+            select_starts(problem, chains, second, total[:, 1] - total[:, 0], beta)
             state = replace(state, second=None, evidence=None)
         return state, info
 
@@ -278,8 +278,8 @@ class StopGibbs:
         if state.second is not None:
             assert state.evidence is not None
             second = self._stored(state.problem, state.second)
-            found = np.ascontiguousarray(state.evidence[..., state.problem.estimate.endpoint_cells])
-            arrays |= {SECOND + name: array for name, array in {**second, "evidence": found}.items()}
+            ended = np.ascontiguousarray(state.evidence[..., state.problem.estimate.endpoint_cells])
+            arrays |= {SECOND + name: array for name, array in {**second, "evidence": ended}.items()}
         return Snapshot(state.sweep, arrays)
 
     def _stored(self, problem: StopProblem, chains: StopChains) -> dict[str, NDArray[Any]]:
@@ -314,9 +314,9 @@ class StopGibbs:
             return np.stack([(met >= 0) & (hits + met > 0), met >= 0])
         out = np.zeros((2, state.problem.grid.n_cells), dtype=np.bool_)
         if state.chains.swept:
-            found = state.chains.in_squares(chain, state.sweep - 1, kept=False)
+            squares = state.chains.in_squares(chain, state.sweep - 1, kept=False)
             touched = state.problem.rays.touched
-            out[0, touched], out[1, touched] = found.stopped + found.passed > 0, True
+            out[0, touched], out[1, touched] = squares.stopped + squares.passed > 0, True
         return out
 
 

@@ -61,7 +61,7 @@ class Changes:
     """Changes to the map of one chain, in n places.
 
     Attributes:
-        middle: the cells about which the readings are asked, as places in the grid, (n, 2).
+        middle: the cells around which the readings are compared, as places in the grid, (n, 2).
         where: the cells that change, flat, (n, k).
         cells, solid: what they become, (n, k, 6) and (n, k).
     """
@@ -103,8 +103,8 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
         maps.put(chains)
         chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers, beta, steps=0)
         each = range(chains.n_chains)
-        found = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
-        return np.stack(found).reshape(-1, *problem.grid.shape)
+        nats = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
+        return np.stack(nats).reshape(-1, *problem.grid.shape)
 
     return look
 
@@ -119,7 +119,7 @@ def try_changes(
         changes: of each chain, in places that do not touch.
         look: at the maps.
         before: what it saw before, (C, nx, ny); replaced by what it sees where a change stays.
-        half: cells around a place, to each side, whose readings are asked.
+        half: cells around a place, to each side, whose readings are compared.
         least: nats.
 
     Returns:
@@ -136,8 +136,8 @@ def try_changes(
         stay = sums_over_squares(after[chain] - before[chain], half)[x, y] >= least
         back = old.some(~stay)
         maps.cells[chain][back.where], maps.solid[chain][back.where] = back.cells, back.solid
-        there = covered(old.middle[stay], half, (shape[0], shape[1]))
-        before[chain][there] = after[chain][there]
+        changed = covered(old.middle[stay], half, (shape[0], shape[1]))
+        before[chain][changed] = after[chain][changed]
         stays.append(stay)
     return stays
 

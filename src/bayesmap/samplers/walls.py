@@ -46,10 +46,10 @@ def start_maps(
 ) -> NDArray[np.bool_]:
     """Return the maps at which chains start, (C, nx, ny).
 
-    A warm start is the thresholded marginals of belief propagation, the same for all chains wherever it is sure, with
-    prior draws, different in each chain, in cells of which it says no more than the prior. Chains that start alike
-    can agree before they have forgotten where they began: start from "prior" to check that. Where neighbours are
-    coupled "prior" is a map like a draw of it, not quite one (`bayesmap.cells.ising.Ising.start`).
+    A warm start takes the thresholded marginals of belief propagation, and in cells where these equal the prior a prior
+    draw, another one in each chain. Chains that start alike can agree before they have forgotten their start: start
+    from "prior" to check that. Where neighbours are coupled, "prior" is only approximately a draw of the prior
+    (`bayesmap.cells.ising.Ising.start`).
 
     Args:
         problem: table and prior.
@@ -63,13 +63,13 @@ def start_maps(
     """
     grid, shape = problem.grid, (len(chains), *problem.grid.shape)
     if not isinstance(start, str):
-        given = np.asarray(start)
-        each = given.ndim == 3
-        if given.shape[-2:] != grid.shape or given.ndim not in (2, 3) or (each and max(chains) >= len(given)):
+        maps = np.asarray(start)
+        each = maps.ndim == 3
+        if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (each and max(chains) >= len(maps)):
             raise BadInput(
-                f"infer: the start has shape {given.shape}, expected {grid.shape}, or a map for each chain before that"
+                f"infer: the start has shape {maps.shape}, expected {grid.shape}, or a map for each chain before that"
             )
-        return np.asarray(given[list(chains)] != 0 if each else np.broadcast_to(given != 0, shape))
+        return np.asarray(maps[list(chains)] != 0 if each else np.broadcast_to(maps != 0, shape))
     if start in ("zeros", "ones"):
         return np.full(shape, start == "ones")
     if start not in get_args(Start):

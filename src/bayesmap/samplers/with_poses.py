@@ -212,7 +212,7 @@ class PoseProblem:
 
     Attributes:
         model: what is sampled.
-        cells: the same at the poses that the log states, for the sampler of the cells.
+        cells: the problem of the cells' sampler at the poses that the log states.
         device: where kernels run.
         threads: of the CPU; all cores if None.
     """
@@ -411,8 +411,8 @@ class WithPoses:
         def moved(i: int) -> Any:
             if (poses.poses[i] == state.poses.poses[i]).all():
                 return state.cells[i]
-            there = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
-            return self.cells.moved(state.cells[i], there)
+            retraced = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
+            return self.cells.moved(state.cells[i], retraced)
 
         chains = tuple(self._each(problem, moved, len(state.cells)))
         return replace(state, cells=chains, poses=poses, factor=factor)

@@ -161,52 +161,53 @@ class IndependentDraws:
     log_evidence: float | None = None
 
 
-def exact(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
+def exact(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Enumerate the whole posterior, and draw from it."""
     whole = enumerate_maps(problem)
-    return _found(problem, asked, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
+    return _found(problem, request, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
 
 
-def importance(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
+def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Weigh maps, and resample draws from them."""
-    return draws_by_importance(problem, asked, sample_importance(problem, asked.particles, asked.seed, watch=watch))
+    particles = sample_importance(problem, request.particles, request.seed, watch=watch)
+    return draws_by_importance(problem, request, particles)
 
 
-def draws_by_importance(problem: WallProblem, asked: DrawRequest, found: Particles) -> IndependentDraws:
+def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
     """Resample draws from particles that have been weighed."""
     return _found(
         problem,
-        asked,
-        lambda rng, count: found.maps(found.resample(rng, count)),
-        found.occupancy(),
-        log_weights=found.log_weights,
-        log_evidence=found.log_evidence,
-        seconds=found.seconds,
-        finished=found.finished,
+        request,
+        lambda rng, count: particles.maps(particles.resample(rng, count)),
+        particles.occupancy(),
+        log_weights=particles.log_weights,
+        log_evidence=particles.log_evidence,
+        seconds=particles.seconds,
+        finished=particles.finished,
     )
 
 
-def belief_propagation(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
+def belief_propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Propagate beliefs, and draw each cell independently: belief propagation gives marginals alone."""
-    return draws_by_beliefs(problem, asked, propagate(problem, rounds=asked.rounds, watch=watch))
+    return draws_by_beliefs(problem, request, propagate(problem, rounds=request.rounds, watch=watch))
 
 
-def draws_by_beliefs(problem: WallProblem, asked: DrawRequest, found: Marginals) -> IndependentDraws:
+def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
     """Draw each cell independently from beliefs that have been propagated."""
     return _found(
         problem,
-        asked,
-        lambda rng, count: rng.random((count, *found.p_wall.shape)) < found.p_wall,
-        found.p_wall,
-        statistics={"belief_changes": found.changes},
-        seconds=found.seconds,
-        finished=found.finished,
+        request,
+        lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
+        marginals.p_wall,
+        statistics={"belief_changes": marginals.changes},
+        seconds=marginals.seconds,
+        finished=marginals.finished,
     )
 
 
 def _found(
     problem: WallProblem,
-    asked: DrawRequest,
+    request: DrawRequest,
     draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
     occupancy: Floats,
     *,
@@ -219,12 +220,12 @@ def _found(
     from bayesmap.kernels.walls.importance import log_likelihoods
     from bayesmap.kernels.walls.reach import reach_frequency
 
-    rngs = [np.random.default_rng([asked.seed, chain, STREAM_START]) for chain in range(asked.chains)]
-    walls = np.stack([draw(rng, asked.draws) for rng in rngs])
+    rngs = [np.random.default_rng([request.seed, chain, STREAM_START]) for chain in range(request.chains)]
+    walls = np.stack([draw(rng, request.draws) for rng in rngs])
     packed = pack(walls)
     flat = walls.reshape(-1, *problem.grid.shape)
-    some = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
-    maps = occupancy[None] > 0.5 if some is None else flat[some]
+    inspected = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
+    maps = occupancy[None] > 0.5 if inspected is None else flat[inspected]
     return IndependentDraws(
         walls=packed,
         log_likelihood=np.stack([log_likelihoods(problem.table, chain, problem.device) for chain in packed]),
