@@ -77,7 +77,7 @@ STEPS = (
         ("its trace in the draws", "draws[chain, draw, x, y]"),
         ("Sum them up", "mean, intervals, R-hat; the density of beams that were", "held out"),
         ("posterior/", "result.py"),
-        ("scores", "held-out beams, calibration", "posterior/scoring.py"),
+        ("scores", "held-out beams, calibration", "posterior/scores.py"),
         leaves=True,
     ),
     Step(

@@ -22,7 +22,7 @@ from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.relations import relation_errors
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.scoring import beam_log_scores
+from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans

@@ -14,7 +14,7 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.scoring import score_posterior, score_prediction
+from bayesmap.posterior.scores import score_posterior, score_prediction
 from bayesmap.result import load
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.stop_gibbs import StopGibbs

@@ -13,7 +13,7 @@ from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.diagnostics import diagnose_cells
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.scoring import score_posterior, score_prediction
+from bayesmap.posterior.scores import score_posterior, score_prediction
 from bayesmap.sim.building import Building, building
 from bayesmap.sim.patrol import patrol
 from bayesmap.space.grid import Grid

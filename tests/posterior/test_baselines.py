@@ -11,8 +11,8 @@ from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline, hit_ratio, inner_score, log_odds
 from bayesmap.posterior.folds import make_folds, together
-from bayesmap.posterior.scoring import score_prediction
-from bayesmap.posterior.tuning import SENSOR, Parameter, maximise, sensor_of
+from bayesmap.posterior.scores import score_prediction
+from bayesmap.posterior.sensor_fit import SENSOR, Parameter, maximise, sensor_of
 
 BY_NAME = {b.name: b for b in BASELINES}
 HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])

@@ -5,7 +5,7 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.posterior.baselines import Baseline, fit_baseline, fit_external_map, stop_probabilities
-from bayesmap.posterior.scoring import score_prediction
+from bayesmap.posterior.scores import score_prediction
 
 
 @pytest.fixture(scope="module")

@@ -21,7 +21,7 @@ from bayesmap.posterior.calibration import (
     reliability,
 )
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.scoring import score_prediction
+from bayesmap.posterior.scores import score_prediction
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((20, 16), 0.25)

@@ -11,7 +11,7 @@ from tiers import pairs_but
 from bayesmap.io.exports import trajectory_of
 from bayesmap.poses.relations import Relations
 from bayesmap.posterior.summary import summarise_poses
-from bayesmap.posterior.trajectory_scoring import LEVELS, score_trajectory
+from bayesmap.posterior.trajectory_scores import LEVELS, score_trajectory
 from bayesmap.result import Run
 from bayesmap.space.planar import between, compose
 

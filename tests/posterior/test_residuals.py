@@ -7,7 +7,7 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.residuals import compare, residuals_of
-from bayesmap.posterior.scoring import beam_log_scores
+from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import Gaussian

@@ -15,7 +15,7 @@ import bayesmap as bm
 from bayesmap.cells.arrays import Draws, pack
 from bayesmap.posterior.posterior import entropy_bits
 from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.scoring import beam_log_scores
+from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.sensors.model import RangeLimits
 
 

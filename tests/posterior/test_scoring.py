@@ -11,7 +11,7 @@ from posterior.test_scores import without_draws
 
 import bayesmap as bm
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.scoring import score_prediction
+from bayesmap.posterior.scores import score_prediction
 
 GRID = bm.Grid((2, 1))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.1), 0.1, 0.2, 0.0)

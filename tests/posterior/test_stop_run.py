@@ -12,7 +12,7 @@ from samplers.stop_rooms import surfaces_of
 import bayesmap as bm
 from bayesmap.cells.reflectivity import quantiles_of_halves
 from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.scoring import beam_log_scores
+from bayesmap.posterior.scores import beam_log_scores
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)

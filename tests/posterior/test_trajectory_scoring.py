@@ -5,7 +5,7 @@ import pytest
 import scipy
 
 from bayesmap.poses.relations import Relations
-from bayesmap.posterior.trajectory_scoring import LEVELS, score_trajectory
+from bayesmap.posterior.trajectory_scores import LEVELS, score_trajectory
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.trajectory import Trajectory
 

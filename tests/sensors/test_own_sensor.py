@@ -9,7 +9,7 @@ from oracle.stop_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.scoring import beam_log_scores
+from bayesmap.posterior.scores import beam_log_scores
 
 PAGE = Path(__file__).parents[2] / "CONTRIBUTING.md"
 GRID = bm.Grid((6, 5), 0.5, (-1.0, 2.0))

@@ -7,7 +7,7 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.scoring import score_prediction
+from bayesmap.posterior.scores import score_prediction
 from bayesmap.viz.figure import write_figure
 from bayesmap.viz.scores import calibration_figure
 

@@ -18,7 +18,7 @@ from bayesmap.app.stream import CHAINS
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.resuming import RANDOM_STREAMS
+from bayesmap.run.fingerprint import RANDOM_STREAMS
 from bayesmap.samplers.without_chains import DrawRequest, draws_by_beliefs, draws_by_importance
 from bayesmap.sensors.describe import describe
 

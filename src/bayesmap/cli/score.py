@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bayesmap.posterior.baselines import Fitted
-    from bayesmap.posterior.scoring import Score
-    from bayesmap.posterior.trajectory_scoring import TrajectoryScore
+    from bayesmap.posterior.scores import Score
+    from bayesmap.posterior.trajectory_scores import TrajectoryScore
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
@@ -246,7 +246,7 @@ def _name(run: Run) -> str:
 def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, how: dict[str, Any]) -> list[tuple[Fitted, Score]]:
     from bayesmap.posterior.baselines import BASELINES, fit_baseline
     from bayesmap.posterior.folds import make_folds
-    from bayesmap.posterior.scoring import score_prediction
+    from bayesmap.posterior.scores import score_prediction
 
     with progress(call.console, "tracing beams"):
         folds = make_folds(train, grid)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bayesmap.posterior.baselines import Fitted
-    from bayesmap.posterior.scoring import Score
+    from bayesmap.posterior.scores import Score
     from bayesmap.result import Run
     from bayesmap.space.scans import Scans
     from bayesmap.space.trajectory import Trajectory
@@ -94,7 +94,7 @@ def score_map(call: Call, path: str, placed: Placed, how: dict[str, Any]) -> tup
     """
     from bayesmap.io.ros.maps import read_map
     from bayesmap.posterior.baselines import fit_external_map
-    from bayesmap.posterior.scoring import score_prediction
+    from bayesmap.posterior.scores import score_prediction
 
     occupancy, grid = read_map(path)
     name = Path(path).name

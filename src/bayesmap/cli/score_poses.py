@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from bayesmap.posterior.trajectory_scoring import TrajectoryScore
+    from bayesmap.posterior.trajectory_scores import TrajectoryScore
     from bayesmap.space.trajectory import Trajectory
 
 FRAMES = ("base", "laser")
@@ -80,7 +80,7 @@ def score_poses(
 ) -> TrajectoryScore:
     """Hold a laser's trajectory against a file of relations."""
     from bayesmap.io.text.relations import read_relations
-    from bayesmap.posterior.trajectory_scoring import score_trajectory
+    from bayesmap.posterior.trajectory_scores import score_trajectory
 
     return score_trajectory(trajectory, read_relations(path), base_in_laser, exact=exact)
 

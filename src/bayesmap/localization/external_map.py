@@ -24,7 +24,7 @@ from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.baselines import stop_probabilities
 from bayesmap.posterior.progress_shares import OnShare, ignored
-from bayesmap.posterior.tuning import Parameter, Values, maximise, sensor_of
+from bayesmap.posterior.sensor_fit import Parameter, Values, maximise, sensor_of
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between

@@ -29,7 +29,7 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.folds import THIN, Fold, HeldOut, make_folds, one_fold, together
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.progress_shares import OnShare, ignored, parts
-from bayesmap.posterior.tuning import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
+from bayesmap.posterior.sensor_fit import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -44,25 +44,27 @@ NOISES: tuple[float | None, ...] = (None, 4.0)
 
 
 def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """(hits + a) / (hits + passes + a + b): the mean of a Beta posterior, were it known which beams got there."""
+    """Compute (hits + a) / (hits + passes + a + b): the mean of a Beta posterior, if the counts were of beams that
+    reach the cell.
+    """
     a, b = values["a"], values["b"]
     return (hits + a) / (hits + passes + a + b)
 
 
 def log_odds(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """Every hit adds logit p_hit, every pass logit p_miss; starts at ``p_start``."""
+    """Add logit p_hit for every hit and logit p_miss for every pass to logit p_start. Returns probabilities."""
     logit = {name: np.log(values[name]) - np.log1p(-values[name]) for name in ("p_hit", "p_miss", "p_start")}
     total = logit["p_start"] + hits * logit["p_hit"] + passes * logit["p_miss"]
     return np.asarray(1.0 / (1.0 + np.exp(-np.clip(total, -500.0, 500.0))))
 
 
 def log_odds_as_usual(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """Log-odds with OctoMap's hit and miss, from 1/2, without clamping."""
+    """Compute `log_odds` with OctoMap's hit and miss, from 1/2, without clamping."""
     return log_odds(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": 0.5})
 
 
 def log_odds_clamped(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """The same, clamped to OctoMap's interval.
+    """Compute `log_odds_as_usual`, clamped to OctoMap's interval.
 
     OctoMap clamps after every update, so that the order of hits and misses matters; its tree is clamped at once here.
     """
@@ -86,15 +88,17 @@ class Baseline:
     starts: tuple[Mapping[str, float], ...] = ({},)
 
     def stops(self, hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-        """What ``stop`` says, which must be one probability for every cell.
+        """Return the probabilities of ``stop``, checked: one for every cell.
 
         Raises:
             ValueError: another number of them, which would give cells the values of others.
         """
-        found = np.asarray(self.stop(hits, passes, values))
-        if found.shape != hits.shape:
-            raise ValueError(f"{self.name}: stop gave an array of shape {found.shape} for cells of shape {hits.shape}")
-        return found
+        probabilities = np.asarray(self.stop(hits, passes, values))
+        if probabilities.shape != hits.shape:
+            raise ValueError(
+                f"{self.name}: stop gave an array of shape {probabilities.shape} for cells of shape {hits.shape}"
+            )
+        return probabilities
 
 
 BASELINES = (
@@ -138,7 +142,7 @@ class Fitted:
 
 
 def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values: Values) -> float:
-    """Mean log predictive density of the folds' beams, each under the counts of the other scans."""
+    """Compute the mean log predictive density of the folds' beams, each under the counts of the other scans."""
     from bayesmap.kernels.predict.density import log_densities
 
     stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in held_out.folds]
@@ -207,7 +211,7 @@ EXTERNAL_STARTS = (
 
 
 def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats:
-    """Chance that a beam stops in each cell, from its probability of being occupied, NaN where unknown; same shape."""
+    """Return the chance that a beam stops in each cell, from its occupancy, NaN where unknown; same shape."""
 
     def logit(p: float) -> float:
         return float(np.log(p) - np.log1p(-p))
@@ -218,7 +222,7 @@ def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats
 
 
 def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
-    """Fit a sensor, and what occupied, free and unknown mean, to somebody's map.
+    """Fit a sensor to an external map, and what occupied, free and unknown mean in it.
 
     Args:
         name: in tables.

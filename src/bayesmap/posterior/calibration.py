@@ -1,4 +1,4 @@
-"""Are predicted probabilities honest? Statistics of predictions and of what came, with errors that respect scans.
+"""Calibration of predicted probabilities: statistics of predictions and outcomes, with errors that respect scans.
 
 After Gneiting, Balabdaoui and Raftery, *Probabilistic forecasts, calibration and sharpness* (JRSS B, 2007). If readings
 follow the predictive law, then the probability integral transform
@@ -30,7 +30,7 @@ POINTS = 100
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
-    """The probability integral transform of each reading, (B,); NaN where ``low`` is.
+    """Compute the probability integral transform of each reading, (B,); NaN where ``low`` is.
 
     Args:
         low: P(reading < the one that came), (B,).
@@ -41,18 +41,20 @@ def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
 
 
 def pit_histogram(pit: Floats, bins: int) -> Floats:
-    """Share of the transforms in each of some equal bins: 1 / bins each, were the predictions right."""
+    """Return the share of the transforms in each of some equal bins: 1 / bins each, if the predictions are right."""
     counts = np.histogram(pit, bins=bins, range=(0.0, 1.0))[0]
     return np.asarray(counts / max(len(pit), 1))
 
 
 def inside(pit: Floats, level: float) -> NDArray[np.bool_]:
-    """Whether each reading lies in its central interval of a probability."""
+    """Return whether each reading lies in its central interval of a probability."""
     return np.abs(pit - 0.5) <= 0.5 * level
 
 
 def binary_scores(chance: Floats, happened: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-    """Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)`` of each event; less is better."""
+    """Compute the Brier score ``(p - y)^2`` and the log loss ``-log p`` or ``-log(1 - p)`` of each event; less is
+    better.
+    """
     brier = (chance - happened) ** 2
     with np.errstate(divide="ignore"):
         loss = -np.where(happened, np.log(chance), np.log1p(-chance))
@@ -67,7 +69,7 @@ class Estimate:
     error: float
 
     def as_json(self) -> dict[str, float | None]:
-        """Both, None where they are not finite."""
+        """Return both, None where they are not finite."""
         return {name: x if np.isfinite(x) else None for name, x in (("value", self.value), ("error", self.error))}
 
 
@@ -85,7 +87,7 @@ class ScanBlocks:
 
     @classmethod
     def make(cls, block: NDArray[np.intp], seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:
-        """Draw the replicates: of S blocks with items, S with replacement."""
+        """Draw the replicates: for S blocks with items, S with replacement."""
         _, compact = np.unique(block, return_inverse=True)
         size = int(compact.max()) + 1 if len(compact) else 1
         rng = np.random.default_rng([seed, 0xB00])
@@ -97,7 +99,7 @@ class ScanBlocks:
         return np.bincount(self.block, values, minlength=self.weights.shape[1]).astype(np.float64)
 
     def mean(self, values: Floats) -> Estimate:
-        """Mean over all items; its error is the standard deviation over replicates, NaN with a single block."""
+        """Average all items; the error is the standard deviation over replicates, NaN with a single block."""
         total, count = self.sums(values), self.sums(np.ones(len(values)))
         if self.weights.shape[1] < 2:
             return Estimate(float(values.mean()), float("nan"))
@@ -105,7 +107,7 @@ class ScanBlocks:
         return Estimate(float(values.mean()), float(means.std()))
 
     def uniformity(self, pit: Floats) -> tuple[float, float]:
-        """Largest distance of the distribution of u from the uniform one, and how often chance alone would exceed it.
+        """Return the largest distance of the distribution of u from the uniform one, and the chance of a larger one.
 
         The distance is that of Kolmogorov and Smirnov, at `POINTS` points. Its p-value is the share of replicates whose
         distribution is further from that of all items than that is from the uniform one: the textbook's table would
@@ -127,7 +129,7 @@ class ScanBlocks:
 
 
 def reliability(chance: Floats, happened: NDArray[np.bool_], bins: int = 10) -> list[tuple[float, float, int]]:
-    """Events by what was predicted of them: (mean chance, share that happened, how many), of bins that are not empty.
+    """Group events by their predicted chance: (mean chance, share that happened, count), for bins that are not empty.
 
     Chances of first hits are mostly small, so bins hold equal widths on the scale of ``log10 chance`` from -3 up.
     """

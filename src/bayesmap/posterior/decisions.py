@@ -1,4 +1,4 @@
-"""What to do, given a posterior: is a path free, which way to go, where to look next.
+"""Decisions from a posterior: whether a path is free, which route to take, where to look next.
 
 The parts are in `passage`, `route` and `information`; here they are given the draws of a run.
 """
@@ -46,7 +46,7 @@ class Drawn(Protocol):
 
     @property
     def prior(self) -> CellPrior:
-        """Of the cells: it knows what they do to beams."""
+        """The prior of the cells, which also tells how they stop beams."""
 
     @property
     def draws(self) -> Draws:
@@ -54,7 +54,7 @@ class Drawn(Protocol):
 
 
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProbability:
-    """The probability that a disc can go along a path (`bayesmap.posterior.passage`).
+    """Compute the probability that a disc can move along a path (`bayesmap.posterior.passage`).
 
     Raises:
         BadInput: no draws, a path that is none, or leaves the map, or a radius that is not positive.
@@ -79,7 +79,7 @@ def shortest_safe_path(
     risk: float,
     on_progress: OnShare = ignored,
 ) -> Route:
-    """The shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
+    """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
 
     Raises:
         BadInput: no draws; start or goal outside the map, or blocked; no path between them; a radius that is not
@@ -98,7 +98,9 @@ def shortest_safe_path(
 
 
 def blocked_anywhere(posterior: Drawn, radius_m: float, on_progress: OnShare = ignored) -> Floats:
-    """Probability that a disc about each cell's centre touches something, by `SEARCH_DRAWS` draws, (nx, ny)."""
+    """Compute the probability that a disc about each cell's centre touches something, by `SEARCH_DRAWS` draws, (nx,
+    ny).
+    """
     draws = posterior.draws.thinned(SEARCH_DRAWS)
     batches = watched(posterior.prior.drawn_stops(draws), draws.size, on_progress)
     return blocked_probability(batches, draws.grid, radius_m)
@@ -116,7 +118,7 @@ def information_of(
     device: str = "cpu",
     on_progress: OnShare = ignored,
 ) -> Information:
-    """What one more scan from each pose is expected to tell (`bayesmap.posterior.information`); see
+    """Compute the expected information of one more scan from each pose (`bayesmap.posterior.information`); see
     `bayesmap.Run.information_gain`.
     """
     _need_draws(posterior, "information_gain")
@@ -129,9 +131,9 @@ def information_of(
     longest_m = scans.max_range_m if max_range_m is None else max_range_m
     if not 0 < longest_m < np.inf:
         raise BadInput(f"information_gain: max_range_m must be a positive number of metres, got {longest_m!r}")
-    some = posterior.draws.thinned(INFORMATION_DRAWS if draws is None else draws)
+    thinned = posterior.draws.thinned(INFORMATION_DRAWS if draws is None else draws)
     joint = expected_information(
-        np.concatenate(list(posterior.prior.drawn_stops(some))), posterior.grid, law, poses, angles,
+        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, law, poses, angles,
         max_range_m=longest_m, min_range_m=scans.min_range_m, hit_depth=float(posterior.settings["hit_depth"]),
         seed=seed, device=device, on_progress=on_progress,
     )  # fmt: skip
@@ -143,8 +145,8 @@ def information_of(
 
 
 def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
-    """The spread of readings about a wall at a quarter of the largest range, in metres: half the width of the middle
-    68 % of 4000 drawn hits.
+    """Return the spread of readings about a wall at a quarter of the largest range, in metres: half the width of the
+    middle 68 % of 4000 drawn hits.
     """
     from bayesmap.sensors.model import RangeLimits
 
@@ -156,7 +158,7 @@ def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """Where to look next.
+    """The poses from which to look next.
 
     Attributes:
         candidates: poses that were considered, (P, 3).
@@ -181,7 +183,7 @@ def next_views(
     seed: int = 0,
     on_progress: OnShare = ignored,
 ) -> Views:
-    """The most telling poses among candidates that a robot can get to.
+    """Find the most informative poses among candidates that a robot can reach.
 
     Candidates are spread over the places at which a disc is free with probability `REACHABLE` and which such places
     connect with where the robot was last. The fast formula goes over all; twice as many as are wanted, apart from each
@@ -212,18 +214,22 @@ def next_views(
     nats = nats[np.arange(len(poses)), turn]
     apart_m = 0.05 * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
     few = best_views(nats, poses, 2 * views, apart_m)
-    found = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
-    order = np.argsort(-found.at_most, kind="stable")[:views]
-    assert found.independent is not None
+    expected = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
+    order = np.argsort(-expected.at_most, kind="stable")[:views]
+    assert expected.independent is not None
     information = Information(
-        found.at_least[order], found.at_least_error[order], found.at_most[order], found.at_most_error[order],
-        found.draws, found.independent[order],
-    )  # fmt: skip
+        at_least=expected.at_least[order],
+        at_least_error=expected.at_least_error[order],
+        at_most=expected.at_most[order],
+        at_most_error=expected.at_most_error[order],
+        draws=expected.draws,
+        independent=expected.independent[order],
+    )
     return Views(poses, nats, few[order], information)
 
 
 def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:
-    """Poses at random places that the robot can get to, (P, 3); at most ``count``, fewer if there are fewer cells."""
+    """Draw poses at random places that the robot can reach, (P, 3); ``count``, or fewer if there are fewer cells."""
     from scipy import ndimage
 
     grid = posterior.grid
@@ -235,14 +241,14 @@ def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Flo
     centres = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1) + 0.0
     cells = np.argwhere(open_cells)
     nearest = cells[np.hypot(*(centres[tuple(cells.T)] - [x, y]).T).argmin()]
-    there = np.argwhere(labels == labels[tuple(nearest)])
+    reachable = np.argwhere(labels == labels[tuple(nearest)])
     rng = np.random.default_rng([seed, 6])
-    chosen = there[rng.permutation(len(there))[:count]]
+    chosen = reachable[rng.permutation(len(reachable))[:count]]
     return np.column_stack([centres[tuple(chosen.T)], np.zeros(len(chosen))])
 
 
 def _headings(angles_rad: Floats) -> Floats:
-    """Yaws to try: one for a full circle."""
+    """Return the yaws to try: one for a full circle."""
     count = 1 if np.ptp(angles_rad) * (1 + 1 / max(len(angles_rad), 1)) >= FULL_CIRCLE_RAD else HEADINGS
     return np.arange(count) / count * 2 * np.pi
 

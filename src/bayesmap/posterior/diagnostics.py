@@ -1,4 +1,4 @@
-"""Have the chains converged? Split R-hat and effective sample size, for many cells at once.
+"""Convergence of chains: split R-hat and effective sample size, for many cells at once.
 
 After Vehtari, Gelman, Simpson, Carpenter and Buerkner, *Rank-normalization, folding, and localization: an improved
 R-hat* (Bayesian Analysis, 2021). The numbers are those of arviz-stats, against which the tests hold them; arviz
@@ -26,20 +26,20 @@ ESS_LIMIT = 100.0
 
 
 def split_chains(values: Floats) -> Floats:
-    """Each chain's first and last half as chains of their own: (C, D, ...) to (2 C, D // 2, ...)."""
+    """Split each chain into its first and last half: (C, D, ...) to (2 C, D // 2, ...)."""
     half = values.shape[1] // 2
     return np.concatenate([values[:, :half], values[:, values.shape[1] - half :]])
 
 
 def rank_normalise(values: Floats) -> Floats:
-    """Normal scores of the ranks over all chains, (C, D)."""
+    """Return the normal scores of the ranks over all chains, (C, D)."""
     _, place, count = np.unique(values, return_inverse=True, return_counts=True)
     ranks = (np.cumsum(count) - (count - 1) / 2)[place].reshape(values.shape)  # ties share their mean rank
     return np.asarray(special.ndtri((ranks - 0.375) / (values.size + 0.25)))
 
 
 def plain_rhat(chains: Floats) -> Floats:
-    """R-hat of (chains, draws, ...), chains not split: NaN where all is constant, inf where only the chains differ."""
+    """Compute R-hat of (chains, draws, ...), chains not split: NaN where all is constant, inf where chains are."""
     n = chains.shape[1]
     within = chains.var(axis=1, ddof=1).mean(axis=0)
     between = chains.mean(axis=1).var(axis=0, ddof=1)
@@ -48,9 +48,9 @@ def plain_rhat(chains: Floats) -> Floats:
 
 
 def rhat(values: Floats) -> float:
-    """Rank-normalised split R-hat of one quantity, (chains, draws): the larger of the bulk's and the folded one's.
+    """Compute the rank-normalised split R-hat of one quantity, (chains, draws): the larger of bulk and folded R-hat.
 
-    NaN with fewer than four draws a chain.
+    NaN below four draws a chain.
     """
     if values.shape[1] < 4:
         return float("nan")
@@ -60,7 +60,9 @@ def rhat(values: Floats) -> float:
 
 
 def plain_ess(chains: Floats) -> Floats:
-    """Effective sample size of (chains, draws, ...), chains not split, by Geyer's initial monotone sequence."""
+    """Compute the effective sample size of (chains, draws, ...), chains not split, by Geyer's initial monotone
+    sequence.
+    """
     m, n = chains.shape[:2]
     flat = chains.reshape(m, n, -1)
     centred = flat - flat.mean(axis=1, keepdims=True)
@@ -90,7 +92,7 @@ def plain_ess(chains: Floats) -> Floats:
 
 
 def bulk_ess(values: Floats) -> float:
-    """Bulk effective sample size of one quantity, (chains, draws). NaN with fewer than four draws a chain."""
+    """Compute the bulk effective sample size of one quantity, (chains, draws). NaN below four draws a chain."""
     if values.shape[1] < 4:
         return float("nan")
     halves = split_chains(values)
@@ -98,7 +100,7 @@ def bulk_ess(values: Floats) -> float:
 
 
 def tail_ess(values: Floats) -> float:
-    """Tail effective sample size: the lesser of the 5 % and 95 % quantile indicators'."""
+    """Compute the tail effective sample size: the lesser of those of the 5 % and 95 % quantile indicators."""
     if values.shape[1] < 4:
         return float("nan")
     low, high = np.quantile(values, [0.05, 0.95])
@@ -132,7 +134,7 @@ class CellDiagnostics:
 
 
 def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> CellDiagnostics:
-    """Diagnose the cells of a run: R-hat and effective sample size of what their maps show, not rank-normalised.
+    """Compute R-hat and effective sample size of the cells of a run, as their maps show them, not rank-normalised.
 
     Everything but ``unchanged`` is the worst ``among`` some cells, (nx, ny): pass the observed ones. The others are
     independent prior draws, and the worst of a hundred thousand of those is bad by chance.

@@ -1,4 +1,4 @@
-"""Ways to leave training scans out of a map and predict them: what baselines and others' maps are fitted on."""
+"""Leave training scans out of a map and predict them, to fit baselines and external maps."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Fold:
     rays: Rays
 
     def thinned(self) -> Fold:
-        """The same counts, and every `THIN`-th of the scans to predict: for a first rough search."""
+        """Return the counts with every `THIN`-th of the scans to predict, for a first rough search."""
         return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
 
 
@@ -50,7 +50,7 @@ def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Inner hold-outs, interleaved, until they have `BEAMS_WANTED` beams.
+    """Make inner hold-outs, interleaved, until they have `BEAMS_WANTED` beams.
 
     Raises:
         BadInput: fewer than two training scans with valid readings.
@@ -78,7 +78,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 
 
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """What a map is fitted on that no scan changes, and none need be held out of: `BEAMS_WANTED` beams, if there are.
+    """Make the fold for a map that scans do not change: `BEAMS_WANTED` beams, if there are, and none held out.
 
     Raises:
         BadInput: no training scan with a valid reading.
@@ -87,14 +87,14 @@ def one_fold(train: Scans, grid: Grid) -> list[Fold]:
     train, valid = train.select(valid > 0), valid[valid > 0]
     if len(train) == 0:
         raise BadInput("score: none of the training scans has a valid reading to fit a sensor on")
-    wanted = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
+    count = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
     nothing = np.zeros(grid.shape).ravel()
-    return [_fold(nothing, nothing, train.select(np.arange(wanted) * len(train) // wanted), grid)]
+    return [_fold(nothing, nothing, train.select(np.arange(count) * len(train) // count), grid)]
 
 
 @dataclass(frozen=True, eq=False)
 class HeldOut:
-    """Folds whose beams are predicted in one go, each under its own fold's map.
+    """Folds whose beams are predicted together, each under its own fold's map.
 
     Attributes:
         folds: the F ways to leave scans out.
@@ -109,7 +109,7 @@ class HeldOut:
 
 
 def together(folds: Sequence[Fold]) -> HeldOut:
-    """Put folds side by side, for many small predictions take longer than a large one."""
+    """Put folds side by side: many small predictions take longer than one large prediction."""
     rays = [fold.rays for fold in folds]
     entries = np.cumsum([0, *(len(one.cells) for one in rays)])[:-1]
     places = np.cumsum([0, *(len(one.touched) for one in rays)])[:-1]

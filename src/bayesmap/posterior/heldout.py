@@ -1,4 +1,4 @@
-"""Which scans of a log may judge a run: those that it has not seen."""
+"""Select the scans of a log that may score a run: those that it has not seen."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class NoneHeldOut(BadInput):
 
 
 def seen_by(train: Scans, scans: Scans) -> NDArray[np.bool_]:
-    """Which scans are among those of a run: same stamps and readings; shape (S,).
+    """Return which scans are among those of a run, by stamps and readings, (S,).
 
     Poses do not count, since a run may have inferred them, except where scans have no stamps, or no hit, to tell them
     apart by.
@@ -25,14 +25,14 @@ def seen_by(train: Scans, scans: Scans) -> NDArray[np.bool_]:
 
 
 def moved_by(train: Scans, scans: Scans) -> bool:
-    """Whether scans that are among those of a run stand elsewhere there."""
+    """Return whether scans that are among those of a run have other poses there."""
     match = _matched(train, scans)
     seen = match >= 0
     return not np.allclose(train.poses[match[seen]], scans.poses[seen], rtol=0.0, atol=1e-6)
 
 
 def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
-    """The run's scan that each scan is, -1 if none; shape (S,)."""
+    """Return the run's scan that equals each scan, -1 if none, (S,)."""
     shared = train.own_angles_rad is None and scans.own_angles_rad is None
     if shared and not _alike(train.angles_rad, scans.angles_rad):
         return np.full(len(scans), -1)
@@ -47,12 +47,12 @@ def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
 
 
 def _alike(some: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
-    """Whether the beams of two scans point the same way."""
+    """Return whether the beams of two scans point the same way."""
     return some.shape == others.shape and np.allclose(some, others)
 
 
 def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
-    """Readings with their stamp; with their pose where there is none, or where no beam met anything."""
+    """Return the readings with their stamp; with their pose where there is no stamp, or where no beam met anything."""
     names = []
     for i in range(len(scans)):
         ranges = scans.beams_of(i)[1]
@@ -63,7 +63,7 @@ def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
 
 
 def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
-    """Every ``every``-th scan of a log, as `Scans.holdout` takes them, if the run has seen none of them.
+    """Return every ``every``-th scan of a log, as `Scans.holdout` takes them, if the run has seen none of them.
 
     Args:
         train: what the run was made from.
@@ -72,8 +72,8 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
         where: the log's name, for messages.
 
     Raises:
-        NoneHeldOut: the run has seen all scans, or has moved them, so that nobody knows where those stand that it
-            has not seen.
+        NoneHeldOut: the run has seen all scans, or has moved them, so that the poses of the others are
+            unknown.
         BadInput: the run has seen some of them, so that the score would flatter it; or it is another log.
     """
     seen = seen_by(train, scans)

@@ -1,4 +1,4 @@
-"""Where to look next: how much one more scan from a pose is expected to tell about the map, in nats.
+"""Compute how much one more scan from a pose is expected to tell about the map, in nats.
 
 Two estimates. `expected_information` bounds the mutual information of a whole scan with the map from both sides, by
 joint draws: a scan is simulated in a draw and weighed in all of them. `beam_information` is the formula of FSMI for
@@ -32,16 +32,16 @@ say at most."""
 
 @dataclass(frozen=True, eq=False)
 class Information:
-    """What one more scan is expected to tell.
+    """Bounds on the expected information of one more scan.
 
-    The information lies between two estimates, on average over draws: with many beams that tell something they are
-    apart, and more draws bring them closer.
+    The information lies between two estimates, on average over draws: with many informative beams they lie apart,
+    and more draws bring them closer.
 
     Attributes:
         at_least: nats from each pose, (P,): a lower bound, no more than the logarithm of the number of draws.
         at_least_error: Monte Carlo error of that, (P,): standard errors.
         at_most: nats from each pose, (P,): an upper bound.
-        at_most_error: likewise.
+        at_most_error: Monte Carlo error of that, (P,): standard errors.
         draws: of the map that were compared.
         independent: nats by the formula for independent cells and beams, (P,); None where it was not asked for.
     """
@@ -68,7 +68,7 @@ def expected_information(
     device: str = "cpu",
     on_progress: Callable[[float], None] = ignored,
 ) -> Information:
-    """Bounds on the mutual information of the map and one more scan from each pose, from joint draws of the map.
+    """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
     In draw d a scan z_d is simulated. With its density p(z_d | e) in each of D draws e, the means over d of
 
@@ -88,7 +88,7 @@ def expected_information(
         poses: P poses in the world frame, (P, 3).
         angles_rad: of the beams in the sensor's frame, (A,).
         max_range_m: of the sensor.
-        min_range_m: likewise.
+        min_range_m: of the sensor.
         hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
         seed: of the simulated scans.
         device: where to compute.
@@ -109,7 +109,7 @@ def expected_information(
     limits = RangeLimits(min_range_m, max_range_m)
     maps, every = device_maps([cells], hit_depth, device=device), np.arange(draws)
     scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
-    found = np.empty((4, len(where)))
+    bounds = np.empty((4, len(where)))
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
         key = mix(seed, i, STREAM_VIEW)
@@ -122,13 +122,13 @@ def expected_information(
             Scans(at, angles, readings, max_range_m, min_range_m), grid, sensor, hit_depth, device
         )
         weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, chain)
-        found[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
+        bounds[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
         on_progress((i + 1) / len(where))
-    return Information(found[0], found[1], found[2], found[3], draws)
+    return Information(bounds[0], bounds[1], bounds[2], bounds[3], draws)
 
 
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
-    """Lower bound, its error, upper bound, its error.
+    """Return lower bound, its error, upper bound, its error.
 
     Args:
         weighed: log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
@@ -163,7 +163,7 @@ def beam_information(
     p_right: float = 0.9,
     device: str = "cpu",
 ) -> Floats:
-    """FSMI: the sum over a scan's beams of their information about a map of independent cells, in nats, (P,).
+    """Sum FSMI over a scan's beams: their information about a map of independent cells, in nats, (P,).
 
     Args:
         occupied: probability that each cell stops a beam, (nx, ny).
@@ -188,7 +188,7 @@ def beam_information(
 
 
 def best_views(nats: Floats, poses: Floats, count: int, apart_m: float) -> NDArray[np.intp]:
-    """The most telling poses that are not close to each other, the best first: numbers of poses, at most ``count``."""
+    """Select the most informative poses that are not close to each other, best first: indices, at most ``count``."""
     taken: list[int] = []
     for i in np.argsort(-nats, kind="stable"):
         if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= apart_m for j in taken):

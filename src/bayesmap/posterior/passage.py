@@ -1,4 +1,4 @@
-"""Can a robot go there? The probability that a disc moves along a path without touching anything, from joint draws.
+"""Compute the probability that a disc moves along a path without touching anything, from joint draws.
 
 In each draw of the map the disc either touches something or it does not: the probability is the share of draws in which
 it does not. Cells that are uncertain together, such as a door that is open or shut, count once; the product over cells
@@ -36,7 +36,7 @@ ALONG = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
 
 @dataclass(frozen=True)
 class FreeProbability:
-    """What draws of the map say of a path.
+    """The probability that a path is free, from draws of the map.
 
     Attributes:
         probability: that the disc touches nothing: the share of draws.
@@ -52,7 +52,7 @@ class FreeProbability:
 
 
 def checked_path(path: ArrayLike) -> Floats:
-    """A path as an array of points in the world frame, (P, 2).
+    """Return a path as an array of points in the world frame, (P, 2).
 
     Raises:
         BadInput: another shape, no point, or a coordinate that is not finite.
@@ -70,7 +70,7 @@ def checked_path(path: ArrayLike) -> Floats:
 
 
 def distance_to_path_m(points: Floats, path: Floats) -> Floats:
-    """Distance of each point, (..., 2), from the nearest point of a polyline, (P, 2), in metres, (...)."""
+    """Compute the distance of each point, (..., 2), from a polyline, (P, 2), in metres, (...)."""
     starts, ends = (path[:-1], path[1:]) if len(path) > 1 else (path, path)
     nearest = np.full(points.shape[:-1], np.inf)
     for start, end in zip(starts, ends, strict=True):
@@ -83,7 +83,9 @@ def distance_to_path_m(points: Floats, path: Floats) -> Floats:
 
 
 def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
-    """Distance between axis-parallel squares, by their centres (n, 2), and a polyline, in metres; 0 where they meet."""
+    """Compute the distance between axis-parallel squares, by their centres (n, 2), and a polyline, metres; 0 if they
+    meet.
+    """
     half = 0.5 * edge_m
     corners = np.array([[-half, -half], [-half, half], [half, -half], [half, half]])
     nearest = distance_to_path_m(centres[:, None] + corners, path).min(axis=1)
@@ -95,7 +97,7 @@ def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
 
 
 def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> NDArray[np.bool_]:
-    """Whether a segment meets each square: by the interval of the segment between each pair of sides (slabs)."""
+    """Return whether a segment meets each square, by the interval of the segment between each pair of sides (slabs)."""
     way, enter, leave = end - start, np.zeros(len(centres)), np.ones(len(centres))
     for axis in (0, 1):
         low, high = centres[:, axis] - half - start[axis], centres[:, axis] + half - start[axis]
@@ -108,7 +110,7 @@ def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> NDArra
 
 
 def cells_about(path: Floats, radius_m: float, grid: Grid) -> NDArray[np.int32]:
-    """Flat indices of the cells of which anything can touch the disc, ascending."""
+    """Return the flat indices of the cells whose content can touch the disc, ascending."""
     nx, ny = grid.shape
     reach = radius_m + REACH_CELLS * grid.resolution
     low = np.floor(grid.to_cells(path.min(axis=0) - reach)).astype(int)
@@ -122,7 +124,7 @@ def cells_about(path: Floats, radius_m: float, grid: Grid) -> NDArray[np.int32]:
 
 
 def centres_world(flat: NDArray[np.integer], grid: Grid) -> Floats:
-    """Centres of cells by flat index, metres in the world frame, (n, 2)."""
+    """Return the centres of cells by flat index, metres in the world frame, (n, 2)."""
     ny = grid.shape[1]
     cells = np.stack([flat // ny, flat % ny], axis=-1) + 0.5
     return np.asarray(cells * grid.resolution + np.array(grid.origin))
@@ -131,7 +133,7 @@ def centres_world(flat: NDArray[np.integer], grid: Grid) -> Floats:
 def in_the_way(
     batches: Iterable[NDArray[np.float32]], cells: NDArray[np.int32], grid: Grid, path: Floats, radius_m: float
 ) -> NDArray[np.bool_]:
-    """Which cells are in the way of the disc in each draw, (draws, n).
+    """Return which cells are in the way of the disc in each draw, (draws, n).
 
     Args:
         batches: stops of the cells, some draws at a time: (draws, n), or (draws, n, 6) for surfaces in metres from the
@@ -142,21 +144,21 @@ def in_the_way(
         radius_m: of the disc.
     """
     square_m = square_to_path_m(centres_world(cells, grid), grid.resolution, path)
-    found = []
+    blocks = []
     for batch in batches:
         if batch.ndim == 2:
-            found.append((batch >= SOLID) & (square_m < radius_m))
+            blocks.append((batch >= SOLID) & (square_m < radius_m))
             continue
         blocked = np.zeros(batch.shape[:2], dtype=np.bool_)
         draw, cell = np.nonzero(batch[..., 0] >= SOLID)
         surface = batch[draw, cell].astype(np.float64)
         blocked[draw, cell] = _surface_touches(surface, np.array(grid.origin), path, radius_m)
-        found.append(blocked)
-    return np.concatenate(found)
+        blocks.append(blocked)
+    return np.concatenate(blocks)
 
 
 def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: float) -> NDArray[np.bool_]:
-    """Whether the ellipse of two standard deviations of each surface, (n, 6), comes within a radius of a path."""
+    """Return whether the two-sigma ellipse of each surface, (n, 6), comes within a radius of a path."""
     mean = surface[:, 1:3] + origin
     l11, l21, l22 = surface[:, 3:].T
     var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
@@ -171,7 +173,7 @@ def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: fl
 
 
 def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbability:
-    """The probability that nothing is in the way, with its Monte Carlo error.
+    """Compute the probability that nothing is in the way, with its Monte Carlo error.
 
     The error is that of a share of as many independent draws as the chains' draws are worth (their effective sample
     size); where all draws agree, that of one draw more which does not.

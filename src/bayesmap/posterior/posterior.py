@@ -28,19 +28,19 @@ WITHOUT_CHAINS = ("exact", "importance", "propagate")
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    """Cells given scans, as draws and marginals.
+    """The posterior of the cells given scans, as draws and marginals.
 
     Attributes:
         scans: what was conditioned on.
         sensor: the model that was used for the draws, fitted, if it was to be; None in a loaded run whose model is not
             one of ours.
-        prior: of the cells, likewise: it also says what kind of cells they are.
+        prior: of the cells, which also tells their kind.
         settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
         draws: the kept maps.
         occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's
             own marginals where it computes them ("exact", "importance", "propagate"). Of binary walls it is the
             probability of a wall.
-        observed: cells of which some beam says something in at least half of the draws, (nx, ny); in the others the
+        observed: cells that at least one beam observes in at least half of the draws, (nx, ny); in the others the
             posterior is the prior, or little more.
         log_likelihood, log_prior: of every draw, (chains, draws).
         warmup_log_joint: (chains, warm-up sweeps).
@@ -76,7 +76,7 @@ class Posterior:
 
     @property
     def grid(self) -> Grid:
-        """Where the cells are."""
+        """The cells' grid."""
         return self.draws.grid
 
     @property
@@ -86,7 +86,7 @@ class Posterior:
 
     @property
     def sweep(self) -> int:
-        """Sweeps made by each chain."""
+        """The number of sweeps made by each chain."""
         return self.snapshot.sweep
 
     @property
@@ -101,7 +101,7 @@ class Posterior:
 
 
 def entropy_bits(occupancy: Floats) -> Floats:
-    """Entropy of every cell's marginal in bits: 0 where the posterior is sure, 1 where it knows nothing."""
+    """Compute the entropy of every cell's marginal in bits: 0 where the posterior is sure, 1 where it knows nothing."""
     from scipy import special
 
     return np.asarray((special.entr(occupancy) + special.entr(1.0 - occupancy)) / np.log(2.0))
@@ -110,7 +110,7 @@ def entropy_bits(occupancy: Floats) -> Floats:
 def posterior_of_chains(
     model: Model, chains: Chains, settings: dict[str, Any], seconds: dict[str, float], parameters: Parameters | None
 ) -> Posterior:
-    """The posterior of chains, finished or not.
+    """Return the posterior of chains, finished or not.
 
     Args:
         model: what they sampled.
@@ -140,32 +140,32 @@ def posterior_of_chains(
 
 
 def posterior_of_draws(
-    model: Model, found: IndependentDraws, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
+    model: Model, independent: IndependentDraws, n_incidences: int, settings: dict[str, Any], seconds: dict[str, float]
 ) -> Posterior:
-    """The posterior of independent draws."""
+    """Return the posterior of independent draws."""
     return Posterior(
         scans=model.scans,
         sensor=model.sensor,
         prior=model.cells,
         settings=settings,
-        draws=Draws(model.grid, model.cells.arrays, {"walls": found.walls}),
-        occupancy=found.occupancy,
-        observed=found.observed,
-        log_likelihood=found.log_likelihood,
-        log_prior=found.log_prior,
-        warmup_log_joint=np.zeros((len(found.walls), 0)),
+        draws=Draws(model.grid, model.cells.arrays, {"walls": independent.walls}),
+        occupancy=independent.occupancy,
+        observed=independent.observed,
+        log_likelihood=independent.log_likelihood,
+        log_prior=independent.log_prior,
+        warmup_log_joint=np.zeros((len(independent.walls), 0)),
         snapshot=Snapshot(0),
-        finished=found.finished,
-        seconds={"warm_start": 0.0, "sampling": found.seconds, **seconds},
+        finished=independent.finished,
+        seconds={"warm_start": 0.0, "sampling": independent.seconds, **seconds},
         counts=_counts(model, n_incidences),
-        log_weights=found.log_weights,
-        statistics=found.statistics,
-        log_evidence=found.log_evidence,
+        log_weights=independent.log_weights,
+        statistics=independent.statistics,
+        log_evidence=independent.log_evidence,
     )
 
 
 def chains_of(posterior: Posterior) -> Chains:
-    """The chains of a posterior, to go on with."""
+    """Return the chains of a posterior, to continue them."""
     return Chains(
         draws=posterior.draws,
         log_likelihood=posterior.log_likelihood,

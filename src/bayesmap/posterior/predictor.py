@@ -30,10 +30,10 @@ MapStates = NDArray[np.float32]
 
 
 class Batches(Protocol):
-    """Gives the draws of a map."""
+    """Yields the draws of a map."""
 
     def __call__(self, cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
-        """The states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
+        """Yield the states of cells, by flat index (all if None), in each draw: some draws at a time, each call anew.
 
         Stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`.
         """
@@ -41,7 +41,7 @@ class Batches(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Predictor:
-    """A map, certain or not, and how it predicts readings.
+    """A map, certain or not, and its prediction of readings.
 
     Attributes:
         grid: where the cells are.
@@ -59,7 +59,7 @@ class Predictor:
 
 
 def fixed_maps(stop: NDArray[np.floating]) -> Batches:
-    """Maps that are all in memory, (draws, cells), one draw for a plug-in map."""
+    """Return the batches of maps that are all in memory, (draws, cells); a plug-in map is one draw."""
 
     def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         yield np.ascontiguousarray(stop if cells is None else stop[:, cells], dtype=np.float32)
@@ -68,7 +68,7 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """The posterior's draws, as a prediction under the run's own sensor model unless another is given.
+    """Return the posterior's draws as a prediction under the run's own sensor model unless another is given.
 
     Raises:
         BadInput: the posterior has no draws, or does not know its sensor model, or cannot use the one given.
@@ -125,13 +125,13 @@ class ScanPredictor:
         return cls(predictor.grid, held, predictor.sensor, limits)
 
     def thinned(self, most: int) -> ScanPredictor:
-        """The same by at most so many of the draws, evenly spread."""
+        """Return this predictor with at most ``most`` of the draws, evenly spread."""
         return replace(self, held=self.held.thinned(most))
 
     def quantiles(
         self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80
     ) -> NDArray[np.float64]:
-        """Quantiles of the readings of one scan, metres, shape (A, levels).
+        """Compute quantiles of the readings of one scan, metres, (A, levels).
 
         Levels are those asked for to within `GONE`. No return counts as +inf, too close as -inf, each where it is an
         outcome of the sensor's own. Where draws of a cell's surface differ in where it stops the beam, its stops are
@@ -150,8 +150,8 @@ class ScanPredictor:
         from bayesmap.kernels.predict.stop_quantiles import range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
-        wanted = np.asarray(levels, dtype=np.float64)
-        if wanted.size == 0 or (np.diff(wanted) <= 0).any() or not ((wanted > 0) & (wanted < 1)).all():
+        asked = np.asarray(levels, dtype=np.float64)
+        if asked.size == 0 or (np.diff(asked) <= 0).any() or not ((asked > 0) & (asked < 1)).all():
             raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
         angles = np.asarray(angles_rad, dtype=np.float64)
         # A reading is needed to trace a beam and has no part in its prediction.
@@ -160,4 +160,4 @@ class ScanPredictor:
             np.reshape(pose_world, (1, 3)), angles, unread, max_range_m=self.limits.max_m, min_range_m=self.limits.min_m
         )
         rays = trace_rays(scan, self.grid, device=self.held.device)
-        return range_quantiles(mix_device_stops(rays, self.held, GONE), wanted, self.sensor, self.held.device)
+        return range_quantiles(mix_device_stops(rays, self.held, GONE), asked, self.sensor, self.held.device)

@@ -1,4 +1,4 @@
-"""Progress of a long piece of work as the share of it that is done, where the work is made of parts."""
+"""Report the progress of a long piece of work as the share of it that is done."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ OnShare = Callable[[float], None]
 
 
 def ignored(share: float) -> None:
-    """For a caller that does not follow the progress."""
+    """Do nothing: the callback of a caller that does not follow the progress."""
 
 
 def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
-    """A function for each part, called with the part's own share, where the parts are done in order.
+    """Return a callback for each part of some work, called with the part's own share, where parts are done in order.
 
     Args:
         on_progress: called with the share of the whole.
@@ -33,7 +33,7 @@ def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
 
 
 def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -> Iterator[NDArray[Any]]:
-    """The same batches of draws, of which there are ``total``; progress is reported whenever one has been used."""
+    """Yield the batches of draws, ``total`` in all, and report progress whenever one has been used."""
     used = 0
     for batch in batches:
         yield batch

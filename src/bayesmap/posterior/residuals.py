@@ -58,18 +58,18 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
     law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
     median_m = range_quantiles(law, np.array([0.5]), sensor, device)[:, 0]
     batches = watched(predictor.batches(rays.touched), draws, forecasting)
-    found = forecast(rays, batches, sensor, depth, device=device)
-    return compare(scans, median_m, found.log_density)
+    prediction = forecast(rays, batches, sensor, depth, device=device)
+    return compare(scans, median_m, prediction.log_density)
 
 
 def placed(scans: Scans) -> NDArray[np.intp]:
-    """Flat indices of the beams that hit something or had no return."""
+    """Return the flat indices of the beams that hit something or had no return."""
     kinds = scans.readings.ravel()
     return np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN))
 
 
 def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
-    """Readings against given predictions.
+    """Compare readings with given predictions.
 
     Args:
         scans: S scans of A beams, B = S A.
@@ -105,11 +105,11 @@ class SurfaceOffset:
 
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
-    """Split the way from a surface's mean to a point into its parts across and along the surface.
+    """Split the vector from a surface's mean to a point into its parts across and along the surface.
 
     Args:
         mean: of the points where beams stop, (2,), metres.
-        covariance: of the same, (2, 2).
+        covariance: of these points, (2, 2).
         point: for instance where a reading ends, (2,).
         sensor: where the beam comes from, (2,).
     """

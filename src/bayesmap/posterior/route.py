@@ -1,4 +1,4 @@
-"""The shortest path whose risk stays under a bound.
+"""Find the shortest path whose risk stays under a bound.
 
 The risk of a path is the probability that a disc which moves along it touches something, over joint draws of the map
 (`bayesmap.posterior.passage`). It is no sum over cells, so it cannot be minimised by a search on a graph; but a search
@@ -57,7 +57,7 @@ class Route:
 
 
 def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
-    """Probability that a disc about each cell's centre touches something, (nx, ny).
+    """Compute the probability that a disc about each cell's centre touches something, (nx, ny).
 
     Args:
         batches: stops of all cells of the grid, some draws at a time, as `bayesmap.posterior.passage.in_the_way`.
@@ -79,7 +79,7 @@ def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radi
 
 
 def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
-    """The grid's squares in which something solid lies in one draw, (nx, ny)."""
+    """Return the grid's squares in which something solid lies in one draw, (nx, ny)."""
     if stops.ndim == 1:
         return np.asarray(stops.reshape(grid.shape) >= SOLID)
     out = np.zeros(grid.shape, dtype=np.bool_)
@@ -103,13 +103,13 @@ def plan_route(
     risk: float,
     judge: Callable[[Floats], FreeProbability],
 ) -> Route:
-    """The shortest path from start to goal whose risk stays under a bound.
+    """Find the shortest path from start to goal whose risk stays under a bound.
 
     Args:
         blocked: probability that the disc is blocked at each cell's centre, (nx, ny).
         grid: of these.
         start: in the world frame, (2,).
-        goal: likewise.
+        goal: in the world frame, metres, (2,).
         risk: the most that the probability of touching something may be, inside (0, 1).
         judge: gives the probability of a path.
 
@@ -155,7 +155,7 @@ def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
 
 
 def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, goal: int) -> NDArray[np.intp] | None:
-    """Flat indices of the cells of the cheapest path; None if there is none."""
+    """Return the flat indices of the cells of the cheapest path; None if there is none."""
     from scipy import sparse
     from scipy.sparse import csgraph
 
@@ -184,7 +184,7 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
 
 
 def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Floats:
-    """The path without the corners that a straight line is no dearer for."""
+    """Return the path without the corners that a straight line avoids at no higher cost."""
     kept, i = [0], 0
     while i < len(path) - 1:
         j = len(path) - 1
@@ -198,9 +198,7 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
 
 
 def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
-    """Length plus price along a polyline, sampled every quarter cell; infinite through cells that are no part of the
-    graph.
-    """
+    """Sum length and price along a polyline, sampled every quarter cell; infinite through cells outside the graph."""
     total = 0.0
     for start, end in itertools.pairwise(path):
         length = float(np.hypot(*(end - start)))

@@ -68,14 +68,14 @@ class Summary:
     finished: bool
 
     def as_json(self) -> dict[str, Any]:
-        """The same as JSON values: NaN and infinity become null."""
+        """Return the diagnostics as JSON values: NaN and infinity become null."""
         return {
             name: None if isinstance(value, float) and not math.isfinite(value) else value
             for name, value in asdict(self).items()
         }
 
     def __str__(self) -> str:
-        """One line a diagnostic that the method has, then what is wrong, if anything."""
+        """Write one line a diagnostic that the method has, then the problems, if any."""
         lines = []
         for name, value in asdict(self).items():
             if value is None or (isinstance(value, float) and math.isnan(value)):
@@ -85,10 +85,10 @@ class Summary:
         return "\n".join([*lines, *(f"! {problem}" for problem in self.problems())])
 
     def problems(self) -> list[str]:
-        """Reasons not to trust the run, in words; empty where there are none."""
-        found = []
+        """Return reasons not to trust the run, in words; empty where there are none."""
+        problems = []
         if not self.finished:
-            found.append("the run was stopped before it had finished")
+            problems.append("the run was stopped before it had finished")
         allowed = CHANCE_SHARE * self.judged_cells
         cells_agree = self.judged_cells > 0 and self.rhat_high_cells <= allowed and not self.disagreeing_cells
         places = ": in some places chains explain the readings differently; cells agree, so take means over all"
@@ -97,21 +97,21 @@ class Summary:
             ("log likelihood", self.rhat_log_likelihood, places if cells_agree else ""),
         ):
             if value > RHAT_LIMIT:
-                found.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}{remedy}")
+                problems.append(f"R-hat of the {name} is {value:.3f}, over {RHAT_LIMIT}{remedy}")
         if self.rhat_max > RHAT_LIMIT and self.rhat_high_cells > allowed:
             worst = f"the worst is {self.rhat_max:.3f}"
-            found.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
+            problems.append(f"R-hat of {self.rhat_high_cells} cells is over {RHAT_LIMIT}; {worst}")
         if self.disagreeing_cells:
-            found.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
+            problems.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
         if self.ess_low_cells > allowed:
             least = f"the least is {self.ess_min:.0f}"
-            found.append(f"effective sample size of {self.ess_low_cells} cells is under {ESS_LIMIT:.0f}; {least}")
+            problems.append(f"effective sample size of {self.ess_low_cells} cells is under {ESS_LIMIT:.0f}; {least}")
         swept = not math.isnan(self.microseconds_per_sweep)
         if self.finished and swept and math.isnan(self.rhat_log_joint):
-            found.append(f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ")
+            problems.append(f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ")
         if self.effective_sample_size < ESS_LIMIT:
-            found.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
-        return found
+            problems.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
+        return problems
 
 
 def summarise(posterior: Posterior) -> Summary:
@@ -153,7 +153,7 @@ class PoseSummary:
         mean: in the world frame, (S, 3); of headings the circular mean.
         covariance: of x, y and yaw, (S, 3, 3), metres and radians.
         rhat: split R-hat of the three, (S, 3); NaN with fewer than four draws a chain, or of a pose that never moved.
-        ess: effective sample size likewise.
+        ess: effective sample size of each part, (S, 3).
         by_approximation: whether mean and covariance are those of the approximation that chains started from, because
             the draws of chains that have not mixed are far too alike.
     """
@@ -166,7 +166,7 @@ class PoseSummary:
 
     @property
     def rhat_max(self) -> float:
-        """The largest R-hat; infinite where a pose that chains disagree on, or are too short for, has none."""
+        """The largest R-hat; infinite where chains of a pose are too short for one, or disagree."""
         return float(np.where(np.isfinite(self.rhat), self.rhat, np.inf)[self._free].max(initial=1.0))
 
     @property
@@ -176,12 +176,12 @@ class PoseSummary:
 
     @property
     def mixed(self) -> bool:
-        """Whether the draws tell how sure the poses are: R-hats of at most 1.05, effective sample sizes over 100."""
+        """Whether the draws tell the uncertainty of the poses: R-hats up to 1.05, effective sample sizes over 100."""
         return self.rhat_max <= RHAT_LIMIT and self.ess_min >= ESS_LIMIT
 
     @property
     def _free(self) -> NDArray[np.bool_]:
-        """Scans that can have moved: the first may be the frame of the map."""
+        """Return the scans that can have moved: the first may be the frame of the map."""
         free = np.ones(len(self.mean), dtype=np.bool_)
         free[:1] = not np.isnan(self.rhat[:1]).all() or len(free) == 1
         return free

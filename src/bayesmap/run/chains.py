@@ -15,7 +15,7 @@ from bayesmap.samplers.sampler import Info, Keep, Snapshot
 
 @dataclass(frozen=True)
 class Schedule:
-    """How long to run: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
+    """The length of chains: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
 
     warmup: int
     draws: int
@@ -23,12 +23,12 @@ class Schedule:
 
     @property
     def sweeps(self) -> int:
-        """All sweeps of one chain."""
+        """The number of sweeps of one chain."""
         return self.warmup + self.draws * self.thin
 
     @property
     def keep(self) -> Keep:
-        """Which draws are kept."""
+        """The draws to keep."""
         return Keep(self.warmup, self.thin if self.draws else 0)
 
 
@@ -37,18 +37,18 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """What the chains have done so far.
+    """The draws and the states of chains so far.
 
     Attributes:
         draws: the kept maps.
         log_likelihood, log_prior: the two parts of the log joint, of each kept draw, (chains, kept).
         warmup_log_joint: of each warm-up sweep, (chains, done warm-up sweeps).
         snapshot: where the chains stand.
-        observed_counts: in how many maps a beam says something of each cell, and in how many was looked, (2, nx, ny).
-        statistics: what the start has to say, by name.
+        observed_counts: the draws in which at least one beam observes each cell, and the draws inspected, (2, nx, ny).
+        statistics: results of the start, by name.
         n_incidences: how many cells all beams cross together.
         seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
-        finished: whether all draws are there.
+        finished: whether all draws are made.
     """
 
     draws: Draws
@@ -73,17 +73,17 @@ class Chains:
         return self.snapshot.sweep
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells of which some beam says something in at least half of the maps, (nx, ny): elsewhere the prior
-        speaks.
+        """Return the cells that at least one beam observes in at least half of the maps, (nx, ny); the others have the
+        prior.
         """
         some, looked = self.observed_counts
         return np.asarray(2 * some >= np.maximum(looked, 1))
 
 
 def join(parts: Sequence[Chains]) -> Chains:
-    """Chains that ran apart, as if they had run together: in the order in which they are given.
+    """Join chains that ran apart, in the order in which they are given, as if they had run together.
 
-    All must have made the same sweeps.
+    All must have made equally many sweeps.
     """
     first = parts[0]
     if len(parts) == 1:
@@ -107,10 +107,10 @@ def join(parts: Sequence[Chains]) -> Chains:
 
 
 class Record:
-    """Draws and traces of some chains, growing as they go."""
+    """Draws and traces of some chains, growing as they advance."""
 
     def __init__(self, empty: Draws, schedule: Schedule, keep: Keep, resume: Chains | None = None) -> None:
-        """Room for the schedule's draws.
+        """Allocate room for the schedule's draws.
 
         Args:
             empty: no draws of all chains, with the arrays' specs and coordinates.
@@ -137,7 +137,7 @@ class Record:
             self._warmup[:, : self.warmed] = resume.warmup_log_joint
 
     def add(self, info: Info, begin: int) -> None:
-        """Note some sweeps, the first of which came after ``begin`` others."""
+        """Record some sweeps, the first of which came after ``begin`` others."""
         sweeps = info.log_likelihood.shape[1]
         warm = max(0, min(self._warmup.shape[1] - begin, sweeps))
         self._warmup[:, self.warmed : self.warmed + warm] = (info.log_likelihood + info.log_prior)[:, :warm]
@@ -152,7 +152,7 @@ class Record:
 
     @property
     def draws(self) -> Draws:
-        """Those so far."""
+        """The draws so far."""
         return replace(self._draws, arrays={name: a[:, : self.kept] for name, a in self._draws.arrays.items()})
 
     @property

@@ -1,4 +1,4 @@
-"""Whether a map fits into this machine's memory: better one error at once than a process that the system kills."""
+"""Check whether a map fits into this machine's memory: one error at once, before the system kills the process."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
             message names the worst of them.
     """
     once, each = OF_A_CELL[surfaces]
-    needed, there = grid.n_cells * (once + chains * each), memory_bytes()
-    if there is None or needed <= there:
+    needed, available = grid.n_cells * (once + chains * each), memory_bytes()
+    if available is None or needed <= available:
         return
     nx, ny = grid.shape
     wrong = outlying(scans)
@@ -44,19 +44,19 @@ def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
     )
     raise BadInput(
         f"grid: {chains} chains of {nx} x {ny} cells take at least {needed / 1e9:.0f} GB of memory, and there are "
-        f"{there / 1e9:.0f}: {remedy}"
+        f"{available / 1e9:.0f}: {remedy}"
     )
 
 
 def memory_bytes() -> int | None:
-    """How much memory this machine has, or this container may take; None where the system does not say."""
+    """Return the memory of this machine, or the limit of this container, in bytes; None where unknown."""
     try:
-        found = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+        sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
     except (AttributeError, OSError, ValueError):
-        found = []
+        sizes = []
     for path in GROUP_LIMITS:
         try:
-            found.append(int(Path(path).read_text()))
+            sizes.append(int(Path(path).read_text()))
         except (OSError, ValueError):
             continue
-    return min(found, default=None)
+    return min(sizes, default=None)

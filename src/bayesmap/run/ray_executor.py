@@ -30,7 +30,7 @@ from bayesmap.version import __version__
 
 
 def connect(address: str | None) -> Any:
-    """The `ray` module, connected; a connection that there is already is used, and none is closed.
+    """Return the `ray` module, connected; an existing connection is used, and none is closed.
 
     Args:
         address: see `bayesmap.run.ray_executor.RayExecutor`.
@@ -56,7 +56,7 @@ def connect(address: str | None) -> Any:
 
 
 def outcome(ray: Any, ref: Any) -> Any:
-    """What a task returned, or the exception that it raised, as if it had run here."""
+    """Return what a task returned, or raise what it raised, as if it had run here."""
     try:
         return ray.get(ref)
     except ray.exceptions.RayTaskError as error:
@@ -64,7 +64,7 @@ def outcome(ray: Any, ref: Any) -> Any:
 
 
 def failed(error: Exception) -> ConnectionError:
-    """The error of a task whose worker died more often than it may."""
+    """Return the error of a task whose worker died too often."""
     reason = str(error).strip().splitlines()
     return ConnectionError(
         "RayExecutor: a task was given up after its workers had died again and again (out of memory? a node that "
@@ -80,7 +80,7 @@ GROWTH = 16
 
 @dataclass(frozen=True)
 class RayExecutor:
-    """Runs the chains of one posterior on a Ray cluster, with the same draws as on threads, bit for bit.
+    """Run the chains of one posterior on a Ray cluster, with the same draws as on threads, bit for bit.
 
     Needs Ray (``pip install 'bayesmap[ray]'``), and the same version of bayesmap on every node. On a GPU each task
     has one of its own.
@@ -120,7 +120,7 @@ class RayExecutor:
         on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
     ) -> Chains:
-        """All chains of the job; stopped early, as many sweeps of each as all have made.
+        """Run all chains of the job; stopped early, they have the sweeps that all chains have made.
 
         Raises:
             BadInput: what the sampler refuses, or a cluster that cannot be had.
@@ -136,7 +136,7 @@ class RayExecutor:
             run.cancel()
 
     def groups(self, chains: int, tasks_at_once: int) -> list[slice]:
-        """Which chains go together: runs of neighbours, of sizes that differ by one at most."""
+        """Divide chains into groups of neighbours, of sizes that differ by one at most."""
         if self.chains_per_task is not None:
             number = -(-chains // self.chains_per_task)
         else:
@@ -147,7 +147,7 @@ class RayExecutor:
 
 @dataclass
 class Marks:
-    """Numbers of sweeps at which segments end, the same for all groups.
+    """Numbers of sweeps at which segments end, common to all groups.
 
     Attributes:
         schedule: the end of warm-up and the end of all are marks.
@@ -162,7 +162,7 @@ class Marks:
     per_sweep_s: float = 0.0
 
     def after(self, sweep: int) -> int:
-        """The first mark after a number of sweeps."""
+        """Return the first mark after a number of sweeps."""
         if sweep >= self.at[-1]:
             before = self.at[-1] - self.at[-2] if len(self.at) > 1 else 0
             most = max(1, GROWTH * before)
@@ -175,7 +175,7 @@ class Marks:
 
 @dataclass
 class Group:
-    """Chains that run abreast, and what they have done.
+    """Chains that advance together, and what they have done.
 
     Attributes:
         which: of the job's chains.
@@ -193,11 +193,11 @@ class Group:
 
     @property
     def sweep(self) -> int:
-        """Sweeps that each has made; -1 before they are started."""
+        """The number of sweeps that each has made; -1 before they are started."""
         return max(self.snapshots, default=-1)
 
     def up_to(self, sweep: int) -> list[Segment]:
-        """The segments up to a mark."""
+        """Return the segments up to a mark."""
         return list(takewhile(lambda segment: segment.end <= sweep, self.segments))
 
 
@@ -278,11 +278,11 @@ class _RayRun:
 
     @property
     def sweep(self) -> int:
-        """Sweeps that all chains have made; -1 while some are not started."""
+        """The number of sweeps that all chains have made; -1 while some are not started."""
         return min(group.sweep for group in self.groups)
 
     def so_far(self) -> Chains:
-        """All chains at the sweep of the slowest."""
+        """Return all chains at the sweep of the slowest."""
         sweep, schedule = self.sweep, self.job.schedule
         parts = [
             chains_of_segments(segments, group.snapshots[sweep], self.trace_s, schedule, group.resume)
@@ -321,7 +321,7 @@ class _RayRun:
         self.shared = (model, [problem])
 
     def _note(self, group: Group, segment: Segment, snapshot: Snapshot) -> None:
-        """Keep what a task has returned, and tell how far all chains are."""
+        """Keep the result of a task, and report the progress of all chains."""
         group.segments.append(segment)
         group.snapshots[segment.end] = snapshot
         if segment.end > segment.begin:

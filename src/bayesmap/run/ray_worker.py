@@ -1,4 +1,5 @@
-"""What a worker of a Ray cluster does for `bayesmap.run.ray_executor`: prepare a problem, and run segments of chains.
+"""The tasks of a worker of a Ray cluster, for `bayesmap.run.ray_executor`: prepare a problem, and run segments of
+chains.
 
 A worker process keeps the problem, and the chains of its last segment, for the segments to come. They are a
 convenience: whatever a process has lost, the arguments of the next segment hold.
@@ -23,7 +24,7 @@ from bayesmap.version import __version__
 
 @dataclass
 class Held:
-    """What this process has at hand.
+    """What this process keeps from task to task.
 
     Attributes:
         run: name of the run whose problem it is.
@@ -40,10 +41,11 @@ _held: Held | None = None
 
 
 def prepare(job: Job, version: str) -> tuple[Any, float]:
-    """The job's problem, and the seconds that it took.
+    """Prepare the job's problem. Returns it, and the seconds that it took.
 
     Raises:
-        BadInput: bayesmap here is not that of the process which asks, or a model that the sampler cannot sample.
+        BadInput: the versions of bayesmap here and in the calling process differ, or the sampler cannot sample the
+            model.
     """
     if version != __version__:
         raise BadInput(
@@ -54,7 +56,7 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
 
 
 def held(run: str, job: Job, problem: list[Any]) -> Held:
-    """This process's own problem of a run, under the job's parameters; taken from the object store on first use.
+    """Return this process's own problem of a run, under the job's parameters; taken from the object store on first use.
 
     Args:
         run: name of the run.
@@ -96,7 +98,9 @@ def observed_counts(
     snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
 ) -> NDArray[np.int32]:
-    """`bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot; the draws are `to_see`'s."""
+    """Compute `bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot; the draws are those of
+    `to_see`.
+    """
     here = held(run, job, problem)
     state = job.sampler.init(here.problem, chain_ids, job.seed, snapshot)
     return job.sampler.observed_counts(state, draws)

@@ -2,8 +2,8 @@
 
 All chains of a process advance together, in short steps: between two steps they have made the same number of sweeps, so
 a checkpoint is where each stands, that number, and the draws so far. A step is about a quarter of a second of work.
-Whoever runs chains (`bayesmap.infer`, the page, a worker of a cluster) takes the states of `sweeps` as they come, or
-lets `run_chains` keep the draws. An `Executor` decides where the chains of a job run.
+`bayesmap.infer`, the page and the workers of a cluster either take the states of `sweeps` as they come, or let
+`run_chains` keep the draws. An `Executor` decides where the chains of a job run.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler, 
 
 @contextlib.contextmanager
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
-    """While inside, the first Ctrl-C makes the yielded function return True; a second one interrupts at once.
+    """Make the yielded function return True after the first Ctrl-C; a second one interrupts at once.
 
     Outside the main thread, where Python takes no signals, the function always returns False; so it does in a process
     that was started to ignore Ctrl-C, as shells start jobs in the background of a script.
@@ -71,7 +71,7 @@ class Job:
         sampler: how.
         schedule: how long.
         seed: of all random numbers.
-        chain_ids: numbers of the chains, the same wherever they run.
+        chain_ids: numbers of the chains, wherever they run.
         device: where kernels run.
         threads: of the CPU; all cores if None.
         parameters: sensor and prior that were fitted beforehand, under which the chains run.
@@ -90,7 +90,7 @@ class Job:
 
     @property
     def model_to_trace(self) -> Model:
-        """The model under the sensor that was fitted: beams are followed as far as its noise reaches."""
+        """The model under the fitted sensor: beams are followed as far as its noise reaches."""
         return self.model if self.parameters is None else replace(self.model, sensor=self.parameters.sensor)
 
 
@@ -105,7 +105,7 @@ def sweeps(
     most_kept: int | None = None,
     stops: tuple[int, ...] = (),
 ) -> Iterator[tuple[Any, Info]]:
-    """Advance chains step by step: (state, info) after each.
+    """Advance chains step by step: yield (state, info) after each step.
 
     How long a step is depends on how fast they go; what they draw does not.
 
@@ -134,7 +134,7 @@ def sweeps(
 
 
 def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) -> tuple[ChainState, dict[str, float]]:
-    """The chains of a job at their start, or where they stood, and the seconds that tracing and starting took."""
+    """Start the chains of a job, or continue them. Returns their state, and the seconds of tracing and starting."""
     began = time.perf_counter()
     problem = job.problem
     if problem is None:
@@ -148,7 +148,7 @@ def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) 
 
 
 def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
-    """Draws of a model before there is any."""
+    """Return the draws of a model before there is any."""
     empty = Draws(model.grid, model.arrays, {}, state.problem.coordinates)
     return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
 
@@ -165,8 +165,8 @@ def run_chains(
 
     Args:
         job: what to run.
-        resume: continue these chains of the same job: the result is bit for bit that of chains that never stopped.
-        watch: gets progress after every step, and is asked between two steps whether to stop.
+        resume: chains of this job to continue: the result is bit for bit that of chains that never stopped.
+        watch: gets progress after every step, and may stop the chains between two steps.
         on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
             often where it takes so long that it would hold the chains up.
         checkpoint_every_s: see above.
@@ -222,12 +222,13 @@ def run_chains(
             saved_at = time.monotonic()
             pause_s = pause_after(saved_at - now, checkpoint_every_s)
         began, stopped = time.perf_counter(), watch.should_stop()
-    # Whoever asked in the last step shall not have to wait for what follows the chains.
+    # A stop in the last step must not wait for what follows the chains.
     return replace(so_far(state), finished=False) if stopped else so_far(state)
 
 
 def pause_after(checkpoint_s: float, every_s: float) -> float:
-    """Seconds to the next checkpoint, where the last one took so long: as asked, if one is asked for at every step.
+    """Return the seconds to the next checkpoint, given the time that the last one took; as asked, where one is asked
+    for at every step.
 
     It allows for twice the time, because the next one has more draws to write.
     """
@@ -235,7 +236,7 @@ def pause_after(checkpoint_s: float, every_s: float) -> float:
 
 
 class Executor(Protocol):
-    """Runs the chains of a job, wherever."""
+    """Runs the chains of a job on some machine."""
 
     def run(
         self,
@@ -245,7 +246,9 @@ class Executor(Protocol):
         on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
     ) -> Chains:
-        """All chains of the job, in the order of their numbers; see `bayesmap.run.runner.run_chains`."""
+        """Run all chains of the job and return them in the order of their numbers; see
+        `bayesmap.run.runner.run_chains`.
+        """
 
 
 @dataclass(frozen=True)
@@ -266,7 +269,7 @@ class ThreadExecutor:
         on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
     ) -> Chains:
-        """Run the chains here."""
+        """Run all chains in this process."""
         both = replace(watch, should_stop=lambda: watch.should_stop() or self.should_stop())
         return run_chains(
             job, resume=resume, watch=both, on_checkpoint=on_checkpoint, checkpoint_every_s=checkpoint_every_s

@@ -1,4 +1,4 @@
-"""Chains in segments: runs of consecutive sweeps that may be made one after another in different processes.
+"""Run chains in segments: consecutive sweeps that may be made one after another in different processes.
 
 A segment depends on the job, the numbers of its chains and where they stood, and on nothing else. So a segment that is
 lost with the machine that made it can be made again elsewhere, and gives the same draws.
@@ -31,7 +31,7 @@ class Segment:
         draws: the maps that were kept in it.
         log_likelihood, log_prior: of each of these, (chains, kept).
         warmup_log_joint: of each warm-up sweep in it, (chains, warm-up sweeps).
-        statistics: what the start has to say, by name; empty unless the segment starts the chains.
+        statistics: results of the start, by name; empty unless the segment starts the chains.
         n_incidences: how many cells all beams cross together.
         seconds: spent at the start ("warm_start") and in sweeps ("sampling").
     """
@@ -96,10 +96,10 @@ def chains_of_segments(
     schedule: Schedule,
     resume: Chains | None = None,
 ) -> Chains:
-    """Segments that follow each other, as if the chains had never been interrupted.
+    """Join segments that follow each other, as if the chains had never been interrupted.
 
     Args:
-        segments: of the same chains, in order, each beginning where the one before it ended; one at least.
+        segments: of some chains, in order, each beginning where the one before it ended; at least one.
         snapshot: where the chains stand after the last.
         trace_s: seconds that preparing the problem took.
         schedule: of the job.
@@ -128,7 +128,7 @@ def chains_of_segments(
 
 
 def some_chains(chains: Chains, which: slice) -> Chains:
-    """Some of the chains, as if the others had never been."""
+    """Return some of the chains, as if there were no others."""
     draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
     snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
     return replace(

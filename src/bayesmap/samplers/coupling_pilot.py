@@ -1,4 +1,4 @@
-"""Fitting the coupling of an Ising prior to scans, by a pilot: stochastic expectation maximisation along a chain.
+"""Fit the coupling of an Ising prior to scans by a pilot chain: stochastic expectation maximisation.
 
 After each sweep the pilot's map, in which what no beam saw is drawn, too, has a coupling of greatest
 pseudo-likelihood (`bayesmap.cells.ising`), and the coupling under which the next sweep is made moves there:
@@ -37,7 +37,7 @@ def fit_coupling_to_scans(
     threads: int | None = None,
     watch: Watch = SILENT,
 ) -> Ising:
-    """A model's prior with the coupling that suits its scans.
+    """Return a model's prior with the coupling that suits its scans.
 
     Args:
         model: its cells an `Ising`, whose wall probability is held.
@@ -45,7 +45,7 @@ def fit_coupling_to_scans(
         device: where kernels run.
         seed: of the pilot.
         threads: of the CPU; all cores if None.
-        watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
+        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
 
     Raises:
         BadInput: as `WallSampler.prepare`.
@@ -56,9 +56,9 @@ def fit_coupling_to_scans(
     for sweep in range(SWEEPS):
         state, info = sampler.step(state, 1)
         walls = state.walls().reshape(problem.grid.shape) != 0
-        found = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
+        best = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
         step = 1.0 if sweep < WHOLE_UNTIL else (sweep - WHOLE_UNTIL + 1.0) ** -0.7
-        now = replace(now, coupling=now.pair_coupling + step * (found - now.pair_coupling))
+        now = replace(now, coupling=now.pair_coupling + step * (best - now.pair_coupling))
         state = replace(state, problem=state.problem.under(now))
         watch.report("fit", sweep + 1, SWEEPS, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
         if watch.should_stop():

@@ -66,27 +66,27 @@ class StopResiduals:
     weight: NDArray[np.float64]
 
     def cost(self, dof: float, scale_m: float, per_m: float) -> float:
-        """Mean negative log density of a noise whose scale is sqrt((scale_m + per_m distance)^2 + variance)."""
+        """Return the mean negative log density of noise of scale sqrt((scale_m + per_m distance)^2 + variance)."""
         scale = np.sqrt((scale_m + per_m * self.distance_m) ** 2 + self.variance)
         log_density = noise_with(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
         return float(-(self.weight * log_density).sum() / self.weight.sum())
 
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
-        """The least cost of a shape, and the logarithms of its scale and growth, from those given on."""
+        """Return the least cost of a shape, and the logarithms of its scale and growth, searched from the given."""
         first = np.log([scale_m, max(per_m, 1e-5)])
-        found = scipy.optimize.minimize(
+        result = scipy.optimize.minimize(
             lambda logs: self.cost(dof, *np.exp(logs)),
             first,
             method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra
             bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
             options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
         )
-        return float(found.fun), found.x
+        return float(result.fun), result.x
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
-    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change, too,
-    to the next of `SHAPES`.
+    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change to the
+    next of `SHAPES`.
     """
     readings = residuals.weight.sum()
     if readings < LEAST_WEIGHT:
@@ -96,11 +96,11 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
     dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
     place = SHAPES.index(dof)
     tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
-    found = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
+    costs = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
     a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
-    best = min(tried, key=lambda shape: found[shape][0] + (a_number_more if shape < math.inf else 0.0))
+    best = min(tried, key=lambda shape: costs[shape][0] + (a_number_more if shape < math.inf else 0.0))
     present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
-    return noise_with(best, *np.exp((1 - step) * present + step * found[best][1]).tolist())
+    return noise_with(best, *np.exp((1 - step) * present + step * costs[best][1]).tolist())
 
 
 BEAMS_LOOKED_AT = 40_000
@@ -122,18 +122,18 @@ PSEUDO_BEAMS = 2.0
 
 @dataclass(frozen=True)
 class Parameters:
-    """What is fitted."""
+    """The sensor and the prior that are fitted."""
 
     sensor: BeamMixture
     prior: Reflective
 
     def describe(self) -> dict[str, Any]:
-        """Both as plain JSON values."""
+        """Return both as plain JSON values."""
         return {"sensor": describe(self.sensor), "prior": self.prior.describe()}
 
     @classmethod
     def from_description(cls, values: dict[str, Any]) -> Parameters:
-        """The parameters of a description."""
+        """Return the parameters of a description."""
         sensor = from_description(values["sensor"])
         assert isinstance(sensor, BeamMixture)
         return cls(sensor, Reflective.of(prior_from(values["prior"]), "fitted parameters"))
@@ -141,7 +141,7 @@ class Parameters:
 
 @dataclass(frozen=True, eq=False)
 class DrawnStops:
-    """Where beams stopped, for some beams of all chains: readings, whether and where, and the surface's variance."""
+    """Stops of some beams of all chains: readings, whether and where each beam stopped, and the variance of that."""
 
     range_m: NDArray[np.float64]
     stopped: NDArray[np.bool_]
@@ -150,7 +150,7 @@ class DrawnStops:
 
 
 def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
-    """Where a fit starts: a laser with few outliers."""
+    """Return the sensor with which a fit starts: a laser with few outliers."""
     sigma_m = 0.02 if prior.has_surfaces else math.hypot(0.02, SPREAD_WITHOUT_SURFACE * resolution_m)
     return BeamMixture(Gaussian(sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
 
@@ -162,42 +162,44 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         problem: rays, and where to begin.
         seed: of the pilot.
         sweeps: of the pilot; without any, nothing moves.
-        watch: told of each sweep; asked to stop, the pilot is given up, and so is all that would follow.
+        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
     """
     now = _first(problem)
-    for found in fits(problem, seed, sweeps, watch):
-        now = found
+    for parameters in fits(problem, seed, sweeps, watch):
+        now = parameters
         if watch.should_stop():
             break
     return now
 
 
 def _first(problem: StopProblem) -> Parameters:
-    """Where a fit begins."""
+    """Return the parameters with which a fit starts."""
     assert isinstance(problem.sensor, BeamMixture)
     return Parameters(problem.sensor, problem.prior)
 
 
 def fits(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
-    """The same, sweep by sweep: what is found after each."""
-    return (found for found, _ in pilot_sweeps(problem, seed, sweeps, watch))
+    """Fit sweep by sweep: yield the parameters after each sweep of the pilot."""
+    return (parameters for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch))
 
 
 def pilot_sweeps(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
 ) -> Iterator[tuple[Parameters, Info]]:
-    """The same with what each sweep reports: its draw, too, where ``keep`` wants it."""
+    """Run the pilot: yield the parameters after each sweep, and what the sweep reports, with its draw where ``keep``
+    asks for it.
+    """
     if sweeps == 0:
         return
     sampler, now = StopGibbs(), _first(problem)
     state = sampler.init(problem, [PILOT], seed)
     every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
-    some = slice(every // 2, None, every)
+    beams = slice(every // 2, None, every)
     for sweep in range(sweeps):
         state, info = sampler.step(state, 1, keep=keep)
         if sweep >= FIRST_SWEEP:
             step, sensor, prior = gain(sweep), now.sensor, now.prior
-            sensor = refit_sensor(sensor, stops_of(state, some), problem.rays.limits, step)
+            sensor = refit_sensor(sensor, stops_of(state, beams), problem.rays.limits, step)
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
                 hits, met = (count[touched] for count in state.chains.counted(0))
@@ -212,7 +214,7 @@ def pilot_sweeps(
 def fit_sensor(
     model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> BeamMixture:
-    """The sensor that explains the model's scans best, whatever its kind of cells: from a pilot over reflectivities.
+    """Fit the sensor to the model's scans, whatever its kind of cells: by a pilot over reflectivities.
 
     Raises:
         BadInput: too many incidences for the grid.
@@ -225,20 +227,20 @@ def fit_sensor(
     return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
 
 
-def stops_of(state: StopState, some: slice) -> DrawnStops:
-    """Stops of the last sweep, of some of the beams, all chains together."""
+def stops_of(state: StopState, beams: slice) -> DrawnStops:
+    """Return the stops of the last sweep, of some of the beams, all chains together."""
     rays, chains = state.problem.rays, range(state.chains.n_chains)
     parts = [state.chains.stops(chain) for chain in chains]
     return DrawnStops(
-        range_m=np.tile(rays.range_m[some], len(parts)),
-        stopped=np.concatenate([stopped[some] for stopped, _, _ in parts]),
-        distance_m=np.concatenate([distance[some] for _, distance, _ in parts]).astype(np.float64),
-        variance=np.concatenate([variance[some] for _, _, variance in parts]).astype(np.float64),
+        range_m=np.tile(rays.range_m[beams], len(parts)),
+        stopped=np.concatenate([stopped[beams] for stopped, _, _ in parts]),
+        distance_m=np.concatenate([distance[beams] for _, distance, _ in parts]).astype(np.float64),
+        variance=np.concatenate([variance[beams] for _, _, variance in parts]).astype(np.float64),
     )
 
 
 def gain(sweep: int) -> float:
-    """How far to move after a sweep: all the way until `WHOLE_UNTIL`, and then less and less."""
+    """Return the share of the way that parameters move after a sweep: 1 until `WHOLE_UNTIL`, and then less and less."""
     return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
 
 
@@ -302,7 +304,7 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
 
 
 def _share(part: float, whole: float, present: float) -> float:
-    """A share, drawn a little towards its present value."""
+    """Estimate a share, drawn a little towards its present value."""
     share = (part + PSEUDO_BEAMS * present) / (whole + PSEUDO_BEAMS)
     return float(min(max(share, LEAST_SHARE), 0.5))
 
@@ -332,7 +334,7 @@ def refit_prior(
 def _likeliest_beta(
     a: float, b: float, hits: NDArray[np.int32], met: NDArray[np.int32], step: float
 ) -> tuple[float, float]:
-    """A Beta's counts, moved towards those that make hits and passes likeliest; unmoved where nothing is counted."""
+    """Move a Beta's counts towards those that make hits and passes likeliest; without counts they stay."""
     if not len(hits):
         return a, b
     # Both counts as one number: a hundred times as fast as looking for equal pairs.
@@ -347,6 +349,6 @@ def _likeliest_beta(
 
     first = np.log([a, b])
     bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]
-    found = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
-    a, b = np.exp((1 - step) * first + step * found.x)
+    result = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
+    a, b = np.exp((1 - step) * first + step * result.x)
     return float(a), float(b)

@@ -47,11 +47,11 @@ class Particles:
 
     @property
     def effective_sample_size(self) -> float:
-        """1 / sum of squared weights: 1 when a single particle carries everything."""
+        """1 / sum of squared weights; 1 means that a single particle carries all weight."""
         return float(np.exp(-special.logsumexp(2 * self.log_weights)))
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """The maps of the given particles, (n, nx, ny)."""
+        """Return the maps of the given particles, (n, nx, ny)."""
         from bayesmap.kernels.walls.importance import particle_maps
 
         if self.problem.coupling != 0.0:
@@ -60,20 +60,22 @@ class Particles:
         return np.asarray(walls.reshape(len(particles), *self.problem.table.grid.shape) != 0)
 
     def occupancy(self) -> NDArray[np.float64]:
-        """Weighted mean of the maps, (nx, ny), in batches; independent cells that no beam touches have the prior's."""
+        """Return the weighted mean of the maps, (nx, ny), in batches; independent cells that no beam touches have the
+        prior's.
+        """
         matter = np.nonzero(self.log_weights > self.log_weights.max() - NEGLIGIBLE_NATS)[0]
         mean = np.zeros(self.problem.table.grid.shape)
         batch = max(1, BATCH_CELLS // mean.size)
         for i in range(0, len(matter), batch):
-            some = matter[i : i + batch]
-            mean += np.tensordot(np.exp(self.log_weights[some]), self.maps(some), axes=1)
+            part = matter[i : i + batch]
+            mean += np.tensordot(np.exp(self.log_weights[part]), self.maps(part), axes=1)
         mean /= np.exp(self.log_weights[matter]).sum()
         if self.problem.coupling != 0.0:
             return mean
         return np.where(self.problem.table.observed(), mean, self.problem.p_wall.reshape(mean.shape))
 
     def resample(self, rng: np.random.Generator, count: int) -> NDArray[np.intp]:
-        """Numbers of ``count`` particles drawn with replacement, each with its weight's probability."""
+        """Draw the numbers of ``count`` particles with replacement, each with its weight's probability."""
         cumulative = np.cumsum(np.exp(self.log_weights))
         return np.searchsorted(cumulative / cumulative[-1], rng.random(count), side="right")
 
@@ -119,7 +121,7 @@ def sample_importance(
 
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np.float64]:
-    """Log p(readings | map) of particles first .. first + count - 1."""
+    """Compute log p(readings | map) of particles first .. first + count - 1."""
     from bayesmap.kernels.walls.importance import log_likelihoods, weigh
 
     if problem.coupling == 0.0:
@@ -129,7 +131,7 @@ def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np
 
 
 def _coupled_maps(problem: WallProblem, key: int, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """The maps of some particles, (n, nx, ny): each is one of the maps that are drawn with the number of its batch."""
+    """Return the maps of some particles, (n, nx, ny): each is one of the maps drawn with the number of its batch."""
     out = np.empty((len(particles), *problem.grid.shape), dtype=np.bool_)
     together = max(1, COUPLED_CELLS // problem.grid.n_cells)
     batch_of = particles // together

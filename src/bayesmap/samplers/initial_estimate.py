@@ -1,4 +1,4 @@
-"""An initial estimate of cells and surfaces, from where readings end: where chains start, and how far they step.
+"""An initial estimate of cells and surfaces from where readings end: the starts of chains, and the sizes of steps.
 
 Hits and their scatter per cell are what normal-distributions-transform maps keep (Stoyanov, Saarinen et al., 2013).
 """
@@ -38,7 +38,7 @@ THICKNESS = 1.2
 
 @dataclass(frozen=True, eq=False)
 class InitialEstimate:
-    """What the readings say of each of the T cells that beams touch.
+    """Counts and moments of the readings in each of the T cells that beams touch.
 
     Endpoint cells are those in which a reading ends.
 
@@ -48,8 +48,8 @@ class InitialEstimate:
         far: cells in which no reading ends, nor in any of the eight around them, (T,).
         mean_m: of each of the U endpoint cells: mean of the end points, drawn towards the centre, (U, 2), metres from
             the grid's corner.
-        factor_m: likewise: Cholesky factor of their covariance, drawn towards the prior's size and `widened`: l11, l21,
-            l22, (U, 3).
+        factor_m: Cholesky factor of the covariance of these end points, drawn towards the prior's size and `widened`:
+            l11, l21, l22, metres, (U, 3).
     """
 
     touched: NDArray[np.int32]
@@ -78,12 +78,12 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     end_cell = end_cells(rays)
     ended = end_cell >= 0
     hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
-    found = np.flatnonzero(hits)
-    place = np.searchsorted(found, end_cell[ended])
-    points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(found), hits[found]
+    ended_cells = np.flatnonzero(hits)
+    place = np.searchsorted(ended_cells, end_cell[ended])
+    points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(ended_cells), hits[ended_cells]
 
     def total(values: Floats) -> Floats:
-        return np.bincount(place, values, len(found)).astype(np.float64)
+        return np.bincount(place, values, len(ended_cells)).astype(np.float64)
 
     weight = of_cell + CENTRE_WEIGHT
     mean = np.stack([total(points[:, i]) + CENTRE_WEIGHT * centre[:, i] for i in (0, 1)], axis=-1) / weight[:, None]
@@ -110,7 +110,7 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
 
 
 def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
-    """Covariances with `ALONG_WALL` times the standard deviation along their longer axis, in the same parts.
+    """Return the covariances with `ALONG_WALL` times the standard deviation along their longer axis, as xx, xy and yy.
 
     Readings that lie evenly along a wall up to w to either side have a standard deviation of w / sqrt(3), and beams
     meet a surface up to 2.2 of its own: one that is met by all of them is wider than they are scattered.
@@ -122,13 +122,13 @@ def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats,
 
 
 def longer_axis(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats]:
-    """Of covariances, in parts: the angle of the longer axis, in radians from the first, and the variance along it."""
+    """Return the angle of the longer axis of covariances, in radians from the first axis, and the variance along it."""
     angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
     return angle, 0.5 * (var_x + var_y) + np.hypot(0.5 * (var_x - var_y), both)
 
 
 def end_cells(rays: Rays) -> NDArray[np.int32]:
-    """Flat index of the touched cell in which each reading ends; -1 for none, shape (B,)."""
+    """Return the flat index of the touched cell in which each reading ends; -1 for none, (B,)."""
     nx, ny = rays.grid.shape
     points = rays.end_points_m()
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(points).all(axis=1))
@@ -139,7 +139,7 @@ def end_cells(rays: Rays) -> NDArray[np.int32]:
 
 
 def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Beams that each cell of the grid seems to have stopped, and that it seems to have met and let pass, (N,) each."""
+    """Estimate the beams that each cell of the grid stopped, and those that it met and let pass, (N,) each."""
     stopped, passed = np.zeros(cells, np.float32), np.zeros(cells, np.float32)
     stopped[estimate.touched] = estimate.hits
     # Half of the passes: those of a cell that a wall fills in part mostly go by beside the wall.
@@ -150,7 +150,7 @@ def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.f
 def first_labels(
     estimate: InitialEstimate, prior: Reflective, grid: Grid, rng: np.random.Generator
 ) -> NDArray[np.bool_]:
-    """A chain's first labels of all cells of the grid, (N,): of its cells' counts as they seem, after some sweeps.
+    """Draw a chain's first labels of all cells of the grid, (N,), from the estimated counts, after some sweeps.
 
     Regions that no beam sees come to agree slowly, and sweeps of labels alone cost next to nothing.
     """
@@ -168,7 +168,8 @@ def start(
     rng: np.random.Generator,
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:
-    """A chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the posterior.
+    """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the
+    posterior.
 
     ``solid`` are their labels, (N,), if they have any. Cells in which no reading ends have surfaces from the prior, and
     those that no beam touches all of their state.
@@ -209,7 +210,8 @@ def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
 
 
 def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
-    """Frame and size of the endpoint cells' steps, (U, 8), as `bayesmap.kernels.surfaces.endpoint_cells` reads them.
+    """Return frames and step sizes of the endpoint cells, (U, 8), as `bayesmap.kernels.surfaces.endpoint_cells` reads
+    them.
 
     Along the wall steps are a part of the cell; across it they shrink with the readings.
     """

@@ -1,4 +1,4 @@
-"""What a kind of cells means by a method's name: `CellPrior.methods` names the entries of these tables."""
+"""The samplers by name: `CellPrior.methods` names the entries of these tables."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], Indepen
 
 
 def sampler_on_walls(name: str) -> WallSampler:
-    """The sampler of walls that a method has, with its defaults; of a method without chains that of single cells."""
+    """Return the sampler of walls of a method, with its defaults; for a method without chains that of single cells."""
     return ON_WALLS.get(name, Gibbs)()
 
 
 def sampler_of(
     name: str, grid: Grid, order: Order, start: Start | NDArray[np.bool_] | None, rounds: int, warmup: int = 0
 ) -> tuple[Sampler[Any, Any], dict[str, Any]]:
-    """A Markov chain sampler with its options, and these as a run's settings say them.
+    """Return a Markov chain sampler with its options, and these options as a run's settings hold them.
 
     Surfaces search for where to start in the first part of ``warmup`` sweeps; without any they do not.
 

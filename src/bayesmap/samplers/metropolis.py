@@ -1,9 +1,9 @@
-"""Metropolis sampling of any kind of cells, one at a time, in plain NumPy: for kinds without a sampler of their own.
+"""Metropolis sampling of any kind of cells, cell by cell, in plain NumPy: for kinds without a sampler of their own.
 
 In every sweep each cell is proposed another state (`CellPrior.propose`; by default one from the prior), which is taken
 with probability min(1, ratio), the ratio being that of the likelihoods of the beams that touch the cell times what the
-proposal says of priors and proposals (Metropolis et al., 1953; Hastings, 1970). It knows nothing of the kind of cells
-and nothing of the sensor but its density: a small map's worth of patience buys a first posterior of a new idea.
+proposal says of priors and proposals (Metropolis et al., 1953; Hastings, 1970). It needs nothing from the kind of
+cells, and from the sensor only its density: on a small map that gives a first posterior of a new kind of cells.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class MetropolisProblem:
-    """A model, its rays, and which beams touch each cell."""
+    """A model, its rays, and the beams that touch each cell."""
 
     model: Model
     rays: Rays
@@ -39,7 +39,7 @@ class MetropolisProblem:
 
     @property
     def n_incidences(self) -> int:
-        """How many cells all beams cross together."""
+        """The number of cells that all beams cross together."""
         return self.rays.n_incidences
 
     @property
@@ -48,7 +48,7 @@ class MetropolisProblem:
         return {}
 
     def touched(self) -> NDArray[np.bool_]:
-        """Cells that some beam touches, (nx, ny)."""
+        """Return cells that some beam touches, (nx, ny)."""
         return self.rays.touched_map()
 
     @cached_property
@@ -61,11 +61,11 @@ class MetropolisProblem:
 
     @cached_property
     def rays_of(self) -> list[Rays]:
-        """The same beams as rays."""
+        """Return the beams that touch a cell as rays."""
         return [self.rays.select(beams) for beams in self.beams_of]
 
     def log_likelihoods(self, cells: Mapping[str, NDArray[Any]], beta: float, rays: Rays) -> Floats:
-        """Log p(reading | cells) of some beams at an inverse temperature."""
+        """Compute log p(reading | cells) of some beams at an inverse temperature."""
         stops = self.model.cells.stops(cells, self.grid)
         return log_likelihoods(rays, stops, self.model.sensor, self.model.hit_depth, beta)
 
@@ -89,7 +89,7 @@ class Metropolis:
     def prepare(
         self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT
     ) -> MetropolisProblem:
-        """Trace the beams; the sweeps themselves are NumPy's, on the CPU."""
+        """Trace the beams; the sweeps run in NumPy, on the CPU."""
         from bayesmap.kernels.device import resolve
         from bayesmap.kernels.rays import trace_rays
 
@@ -104,7 +104,7 @@ class Metropolis:
         resume: Snapshot | None = None,
         watch: Watch = SILENT,
     ) -> MetropolisState:
-        """Chains at draws from the prior, or at the maps of a snapshot."""
+        """Start chains at draws from the prior, or at the maps of a snapshot."""
         prior, grid = problem.model.cells, problem.grid
         if resume is None:
             starts = [
@@ -118,7 +118,7 @@ class Metropolis:
     def step(
         self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
     ) -> tuple[MetropolisState, Info]:
-        """Some sweeps of all chains; a kept draw is the map after its sweep."""
+        """Make some sweeps of all chains; a kept draw is the map after its sweep."""
         problem, chains = state.problem, len(state.maps)
         prior, sizes = problem.model.cells, {"x": problem.grid.shape[0], "y": problem.grid.shape[1]}
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
@@ -139,12 +139,12 @@ class Metropolis:
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws)
 
     def snapshot(self, state: MetropolisState) -> Snapshot:
-        """The maps."""
+        """Return the maps."""
         names = state.maps[0]
         return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in names})
 
     def observed_counts(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """The cells that beams touch, (2, nx, ny)."""
+        """Return the cells that beams touch, (2, nx, ny)."""
         touched = state.problem.touched().astype(np.int32)
         return np.stack([touched, np.ones_like(touched)])
 
@@ -156,7 +156,7 @@ def _sweep(
     beta: float,
     rng: np.random.Generator,
 ) -> Floats:
-    """Propose each cell another state, in place; the log-likelihoods of all beams afterwards."""
+    """Propose each cell another state, in place, and return the log-likelihoods of all beams afterwards."""
     ny = problem.grid.shape[1]
     for c, beams in enumerate(problem.beams_of):
         site = (c // ny, c % ny)

@@ -1,4 +1,4 @@
-"""How far a run is, in one shape for all its stages, and the wish that it stop."""
+"""The progress of a run, in one form for all its stages, and the request to stop it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Stage = Literal[
 
 @dataclass(frozen=True)
 class Event:
-    """Progress of a run: ``done`` of ``total`` of whatever the stage counts, and the mean log joint where known."""
+    """Progress of a run: ``done`` of ``total`` units of a stage, and the mean log joint where known."""
 
     stage: Stage
     done: int
@@ -24,7 +24,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Watch:
-    """Who is told of progress, and who may stop a run.
+    """The receiver of progress, and the callback that may stop a run.
 
     Attributes:
         on_progress: the progress callback.
@@ -35,12 +35,12 @@ class Watch:
     should_stop: Callable[[], bool] = lambda: False
 
     def report(self, stage: Stage, done: int, total: int, log_joint: float | None = None) -> None:
-        """Tell how far a stage is."""
+        """Report the progress of a stage."""
         if self.on_progress is not None:
             self.on_progress(Event(stage, done, total, log_joint))
 
     def of(self, stage: Stage) -> Callable[[int, int], None]:
-        """A callback for one stage."""
+        """Return a callback for one stage."""
         return lambda done, total: self.report(stage, done, total)
 
 

@@ -1,4 +1,4 @@
-"""Belief propagation with ray potentials: approximate marginals in a few rounds (messages: see its kernel)."""
+"""Belief propagation with ray potentials: approximate marginals in a few rounds (the messages: see its kernel)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROUNDS = 20
 
 @dataclass(frozen=True, eq=False)
 class Marginals:
-    """What belief propagation found.
+    """The marginals of belief propagation, and how it converged.
 
     Attributes:
         p_wall: approximate posterior wall probability, shape (nx, ny).
@@ -62,7 +62,7 @@ def propagate(
         damping: weight of the old message in the new one, geometrically, in [0, 1).
         tolerance: stop when no probability changed by more.
         beta: inverse temperature of the likelihood.
-        watch: told of each round, and asked whether to stop.
+        watch: gets progress after each round, and may stop the rounds.
 
     Raises:
         BadInput: rounds or damping out of range.
@@ -99,8 +99,8 @@ def propagate(
 
 
 def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch = SILENT) -> Marginals:
-    """The same for a start, which asks where beams say nothing: with what coupled neighbours believe without any."""
-    found = propagate(problem, rounds=rounds, watch=watch)
-    return (
-        found if problem.coupling == 0.0 else replace(found, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)
-    )
+    """Propagate beliefs for a start; if neighbours are coupled, also without beams, to know where beams say nothing."""
+    marginals = propagate(problem, rounds=rounds, watch=watch)
+    if problem.coupling == 0.0:
+        return marginals
+    return replace(marginals, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)

@@ -1,7 +1,7 @@
 """The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
 
 A sampler is a value: it holds options and no state. What all its chains in one process share, such as traced beams, is
-made once by `prepare`. Chains have numbers of their own, the same wherever they run: every draw depends on (seed,
+made once by `prepare`. A chain has a number that does not depend on where it runs: every draw depends on (seed,
 number of the chain, sweep, site) alone, and neither on which other chains run beside it, nor on threads, nor on how
 sweeps are cut into steps, nor on stops and resumptions.
 """
@@ -35,7 +35,7 @@ PILOT = 1 << 32
 
 @dataclass(frozen=True)
 class Keep:
-    """Which draws are kept: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1.
+    """The draws to keep: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1.
 
     Attributes:
         after: sweeps of which none is kept.
@@ -48,7 +48,7 @@ class Keep:
     arrays: tuple[str, ...] | None = None
 
     def sweeps(self, begin: int, end: int) -> range:
-        """The sweeps that are kept among those after ``begin`` and up to ``end``."""
+        """Return the sweeps that are kept among those after ``begin`` and up to ``end``."""
         if self.every == 0:
             return range(0)
         past = max(0, begin - self.after)
@@ -56,19 +56,19 @@ class Keep:
         return range(first, end + 1, self.every)
 
     def wants(self, array: str) -> bool:
-        """Whether an array is kept."""
+        """Return whether an array is kept."""
         return self.arrays is None or array in self.arrays
 
 
 NOTHING = Keep()
 
 MAPS_TO_SEE = 8
-"""Draws of each chain that decide which cells count as observed, at most: the same, whatever other chains there are."""
+"""Draws of each chain that decide which cells count as observed, at most; they do not depend on the other chains."""
 
 
 @dataclass(frozen=True, eq=False)
 class Info:
-    """What some sweeps report.
+    """The report of some sweeps.
 
     Attributes:
         log_likelihood, log_prior: of each sweep, (chains, sweeps): of the map that its draw shows. At an inverse
@@ -84,7 +84,7 @@ class Info:
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """Where chains stand: all that is needed to go on with them.
+    """The states of chains: all that is needed to continue them.
 
     Attributes:
         sweep: sweeps that each has made.
@@ -96,7 +96,7 @@ class Snapshot:
 
 
 class Problem(Protocol):
-    """What `Sampler.prepare` makes: a model where a sampler's kernels can read it."""
+    """The result of `Sampler.prepare`: a model where a sampler's kernels can read it."""
 
     @property
     def grid(self) -> Grid:
@@ -104,22 +104,22 @@ class Problem(Protocol):
 
     @property
     def n_incidences(self) -> int:
-        """How many cells all beams cross together: the work of a sweep."""
+        """The number of cells that all beams cross together: the work of a sweep."""
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """Of the dimensions of draws that count some cells only: which (see `bayesmap.cells.arrays.Draws`)."""
+        """For the dimensions of draws that count some cells only: these cells (see `bayesmap.cells.arrays.Draws`)."""
 
     def touched(self) -> NDArray[np.bool_]:
-        """Cells that some beam touches, (nx, ny): the others have the prior."""
+        """Return cells that some beam touches, (nx, ny): the others have the prior."""
 
 
 class ChainState(Protocol):
-    """Several chains between two sweeps. What is on the device is advanced in place: do not use a state twice."""
+    """Several chains between two sweeps. Arrays on the device are advanced in place: do not use a state twice."""
 
     @property
     def sweep(self) -> int:
-        """Sweeps that each chain has made."""
+        """The number of sweeps that each chain has made."""
 
     @property
     def problem(self) -> Problem:
@@ -127,7 +127,7 @@ class ChainState(Protocol):
 
     @property
     def statistics(self) -> Mapping[str, NDArray[np.float64]]:
-        """What the start has to say beside the chains, by name: such as the changes of belief propagation."""
+        """Results of the start beside the chains, by name, such as the changes of belief propagation."""
 
 
 P = TypeVar("P", bound=Problem)
@@ -138,7 +138,7 @@ class Sampler(Protocol[P, S]):
     """A Markov chain sampler."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
-        """Trace the model's beams, and make all else that chains share.
+        """Trace the model's beams, and prepare all else that chains share.
 
         Args:
             model: what is sampled.
@@ -153,10 +153,10 @@ class Sampler(Protocol[P, S]):
     def init(
         self, problem: P, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None, watch: Watch = SILENT
     ) -> S:
-        """Chains with these numbers at their start, or where a snapshot of the same chains left them."""
+        """Start chains with these numbers, or continue from a snapshot of them."""
 
     def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[S, Info]:
-        """Some sweeps of all chains.
+        """Make some sweeps of all chains.
 
         Args:
             state: not to be used afterwards.
@@ -167,11 +167,11 @@ class Sampler(Protocol[P, S]):
         """
 
     def snapshot(self, state: S) -> Snapshot:
-        """Copies of what is needed to go on."""
+        """Copy what is needed to continue."""
 
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """In how many maps some beam says something of each cell, and in how many was looked, of all chains, (2, nx,
-        ny): of the draws; without any, of the maps at which the chains stand.
+        """Count the draws in which at least one beam observes each cell, and the draws inspected, of all chains.
+        Returns (2, nx, ny). Without draws, the maps at which the chains stand count.
 
         Args:
             state: of the chains.
@@ -180,10 +180,11 @@ class Sampler(Protocol[P, S]):
 
 
 def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
-    """The draws that `Sampler.observed_counts` is given: some maps, evenly spread; of arrays of some cells none.
+    """Select the draws for `Sampler.observed_counts`: some maps, evenly spread, and none of arrays that cover some
+    cells only.
 
     Which cells are observed hardly differs from draw to draw, and all draws may be gigabytes, or far away.
     """
-    some = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
+    selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
     whole = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}
-    return {name: array[:, some if name in whole else slice(0)] for name, array in draws.arrays.items()}
+    return {name: array[:, selected if name in whole else slice(0)] for name, array in draws.arrays.items()}

@@ -54,17 +54,17 @@ has moved by then, and may take in others. With the share above all of it lies i
 
 
 def merge_sweeps(search_until: int) -> list[int]:
-    """The sweeps after which surfaces are joined, of chains that have two starts for so many sweeps."""
+    """Return the sweeps after which surfaces are merged, for chains that have two starts for so many sweeps."""
     return sorted({search_until + i * (search_until // 10) for i in range(1 + MERGED_AGAIN)} - {0})
 
 
 def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
-    """Let chains take what is better of their second starts.
+    """Let chains take over what is better in their second starts.
 
     Args:
         problem: of both.
-        chains: as they stand; they go on from what is found.
-        second: likewise, from their second starts.
+        chains: as they stand; they continue from the selected maps.
+        second: the chains from their second starts.
         gain: by how much these explain the readings better that end in each cell, averaged over some sweeps, (C, N).
         beta: inverse temperature.
     """
@@ -76,7 +76,7 @@ def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, 
 
 
 def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
-    """Let surfaces of chains that stop few beams give way to neighbours' where that is better."""
+    """Merge surfaces of chains that stop few beams with those of neighbours, where that is better."""
     grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
     look = look_with(problem, chains, beta)
     seen = look(maps)
@@ -102,15 +102,15 @@ MUST_STAY = 1 / 3
 SQUARE_ROUNDS = 3
 """Of squares of one size that are tried together, at most."""
 MARGIN = 2
-"""Cells around a square whose beams are asked, too."""
+"""Cells around a square whose beams are compared as well."""
 
 
 def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: Look) -> None:
-    """Let chains take from their second starts the squares in which these do better.
+    """Let chains take over the squares of their second starts that explain the readings better.
 
     Args:
         maps: of the chains, changed in place.
-        second: of the second starts, in the same order.
+        second: of the second starts, chain by chain.
         gain: by how much these explain the readings better that end in each cell, averaged over some sweeps (C, nx,
             ny).
         look: at maps.
@@ -131,8 +131,8 @@ def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: 
 
 
 def squares(chain: int, second: ChainMaps, gain: Floats, half: int, tried: NDArray[np.bool_]) -> Changes:
-    """The squares of a chain that gain more than `BETTER_NATS`, the best first, so far apart that no two ask the same
-    cell's beams; none about a cell that is in ``tried``, (nx, ny).
+    """Select the squares of a chain that gain more than `BETTER_NATS`, best first, so far apart that no two use the
+    same beams; none about a cell that is in ``tried``, (nx, ny).
     """
     total, shape = sums_over_squares(gain, half), (gain.shape[0], gain.shape[1])
     middle = np.argwhere((total > BETTER_NATS) & ~tried)
@@ -143,7 +143,7 @@ def squares(chain: int, second: ChainMaps, gain: Floats, half: int, tried: NDArr
 
 
 def cells_of(middle: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDArray[np.intp]:
-    """The cells of squares, flat, (n, k): at the edge of the grid some more than once."""
+    """Return the cells of squares, flat, (n, k); at the edge of the grid some occur more than once."""
     away = np.arange(-half, half + 1)
     x = np.clip(middle[:, 0, None] + away, 0, shape[0] - 1)
     y = np.clip(middle[:, 1, None] + away, 0, shape[1] - 1)
@@ -151,7 +151,7 @@ def cells_of(middle: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
 
 
 MOST_READINGS = 12
-"""A surface that explains more of them is seldom better gone."""
+"""Readings of a surface, at most, for it to be merged: one that explains more is seldom better removed."""
 REACH = 2
 """Neighbours are cells up to so far away, in each direction."""
 CLOSE = 3.0
@@ -161,9 +161,9 @@ MOST_OFF = 2.5
 SOLID_FROM = 0.1
 """Reflectivity from which a cell counts as one that stops beams."""
 FREE = 1e-20
-"""That of a cell that became free."""
+"""Reflectivity of a cell that became free."""
 AROUND = 3
-"""Cells around one that becomes free whose beams are asked."""
+"""Cells around a cell that becomes free whose beams are compared."""
 MERGED_NATS = 1.0
 """By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps
 then part again; with two nats, too few."""
@@ -174,8 +174,8 @@ MERGE_ROUNDS = 8
 
 @dataclass(frozen=True, eq=False)
 class ExplainedReadings:
-    """Of the readings that each cell's surface stopped: how many, mean (N, 2), second central moments xx, xy and yy
-    (N, 3), and mean variance of the noise, metres, (N,).
+    """The readings that each cell's surface stopped: count, mean (N, 2), second central moments xx, xy and yy (N, 3),
+    and mean variance of the noise, square metres, (N,).
     """
 
     count: NDArray[np.intp]
@@ -186,7 +186,7 @@ class ExplainedReadings:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceAxes:
-    """Of surfaces: direction of the longer axis (N, 2), and variances along and across it, (N,)."""
+    """Direction of the longer axis of surfaces (N, 2), and variances along and across it, (N,)."""
 
     direction: Floats
     along: Floats
@@ -202,7 +202,7 @@ def merge_surfaces(
     look: Look,
     before: Floats,
 ) -> list[int]:
-    """Try for every surface that stops few beams whether a neighbour's does better without it.
+    """Try for every surface that stops few beams whether a neighbour does better without it.
 
     Args:
         maps: of all chains, changed in place.
@@ -244,24 +244,24 @@ def merge_moves(
     noise: Floats,
     grid: Grid,
 ) -> Changes:
-    """Of each surface that stops few beams its end, and what becomes of the neighbour that points best at its readings;
-    those that this one points at best come first.
+    """Propose for each surface that stops few beams its end, and the longer surface of the neighbour that points best
+    at its readings; the best pointed moves come first.
     """
-    found, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
-    few, by, off = best_neighbours(cells, found, axes, grid)
+    readings, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
+    few, by, off = best_neighbours(cells, readings, axes, grid)
     order = np.argsort(off, kind="stable")
     few, by = few[order], by[order]
     where = np.stack([few, by], axis=-1)
     new = cells[where]
     new[:, 0, 0] = FREE
-    new[:, 1, 1:] = lengthened(cells, found, axes, few, by, grid)
+    new[:, 1, 1:] = lengthened(cells, readings, axes, few, by, grid)
     return Changes(np.stack(np.divmod(few, grid.shape[1]), axis=-1), where, new, solid[where])
 
 
 def readings_of(
     cells: NDArray[np.float32], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats, grid: Grid
 ) -> ExplainedReadings:
-    """Moments of the readings that each surface explains."""
+    """Compute the moments of the readings that each surface explains."""
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
     away = end_points_m[stopped] - cells[owner[stopped], 1:3]
     stopped = stopped[np.hypot(*away.T) < CLOSE * grid.resolution]
@@ -279,7 +279,7 @@ def readings_of(
 
 
 def axes_of(cells: NDArray[np.float32]) -> SurfaceAxes:
-    """Axes of the surfaces of cells, (N, 6)."""
+    """Return the axes of the surfaces of cells, (N, 6)."""
     l11, l21, l22 = cells[:, 3:6].T.astype(np.float64)
     angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
     across = (l11 * l22) ** 2 / along  # |Sigma| over the larger one: no difference of large numbers
@@ -287,31 +287,33 @@ def axes_of(cells: NDArray[np.float32]) -> SurfaceAxes:
 
 
 def variance_in(moments: Floats, direction: Floats) -> Floats:
-    """Of points with second moments xx, xy and yy, (n, 3), in directions, (n, 2)."""
+    """Return the variance, in directions (n, 2), of points with second moments xx, xy and yy, (n, 3)."""
     x, y = direction.T
     return np.asarray(x * x * moments[:, 0] + 2 * x * y * moments[:, 1] + y * y * moments[:, 2])
 
 
 def best_neighbours(
-    cells: NDArray[np.float32], found: ExplainedReadings, axes: SurfaceAxes, grid: Grid
+    cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Cells that stop few beams, for each the neighbour with as many or more whose axis its readings lie closest to,
-    and their root mean square distance from it, (n,) each; without cells that have none within `MOST_OFF`.
+    """Find the cells that stop few beams, for each the neighbour with as many beams or more whose axis lies closest to
+    its readings, and the root mean square distance of these from it, (n,) each. Cells without a neighbour within
+    `MOST_OFF` are left out.
     """
-    stops = (cells[:, 0] >= SOLID_FROM) & (found.count > 0)
-    few = np.flatnonzero(stops & (found.count <= MOST_READINGS))
+    stops = (cells[:, 0] >= SOLID_FROM) & (readings.count > 0)
+    few = np.flatnonzero(stops & (readings.count <= MOST_READINGS))
     x, y = np.divmod(few, grid.shape[1])
     least, by = np.full(len(few), np.inf), few.copy()
     for step_x in range(-REACH, REACH + 1):
         for step_y in range(-REACH, REACH + 1):
-            there_x, there_y = x + step_x, y + step_y
-            inside = (there_x >= 0) & (there_x < grid.shape[0]) & (there_y >= 0) & (there_y < grid.shape[1])
-            other = np.where(inside, there_x * grid.shape[1] + there_y, few)
+            other_x, other_y = x + step_x, y + step_y
+            inside = (other_x >= 0) & (other_x < grid.shape[0]) & (other_y >= 0) & (other_y < grid.shape[1])
+            other = np.where(inside, other_x * grid.shape[1] + other_y, few)
             # Of two with as many beams one may take in the other, not both.
-            more = (found.count[other] > found.count[few]) | ((found.count[other] == found.count[few]) & (other > few))
+            theirs, own = readings.count[other], readings.count[few]
+            more = (theirs > own) | ((theirs == own) & (other > few))
             normal = np.stack([-axes.direction[other, 1], axes.direction[other, 0]], axis=-1)
-            off = ((found.mean_m[few] - cells[other, 1:3]) * normal).sum(axis=1)
-            square = (off**2 + variance_in(found.moments[few], normal)) / (axes.across[other] + found.noise[few])
+            off = ((readings.mean_m[few] - cells[other, 1:3]) * normal).sum(axis=1)
+            square = (off**2 + variance_in(readings.moments[few], normal)) / (axes.across[other] + readings.noise[few])
             better = inside & stops[other] & more & (square < least)
             least[better], by[better] = square[better], other[better]
     close = least <= MOST_OFF**2
@@ -320,24 +322,25 @@ def best_neighbours(
 
 def lengthened(
     cells: NDArray[np.float32],
-    found: ExplainedReadings,
+    readings: ExplainedReadings,
     axes: SurfaceAxes,
     few: NDArray[np.intp],
     by: NDArray[np.intp],
     grid: Grid,
 ) -> Floats:
-    """Surfaces of the cells ``by``, moved along their axes towards the middle of their own readings and those of
-    ``few``, as far as their squares allow, and as long as both lie scattered about that: mean, l11, l21, l22, (n, 5).
+    """Return the surfaces of the cells ``by``, moved along their axes towards the middle of their own readings and
+    those of ``few``, as far as their squares allow, and as long as both are scattered about it: mean, l11, l21, l22,
+    (n, 5).
     """
     mean, axis = cells[by, 1:3].astype(np.float64), axes.direction[by]
-    places = [((found.mean_m[of] - mean) * axis).sum(axis=1) for of in (few, by)]
-    counts = [found.count[of] for of in (few, by)]
+    places = [((readings.mean_m[of] - mean) * axis).sum(axis=1) for of in (few, by)]
+    counts = [readings.count[of] for of in (few, by)]
     middle = (counts[0] * places[0] + counts[1] * places[1]) / (counts[0] + counts[1])
     # Along the axis the square is left where the first of its four sides is crossed.
     sides = (grid.cell_centres_m(by) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
-    spread = [variance_in(found.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate((few, by))]
+    spread = [variance_in(readings.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate((few, by))]
     scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
     along, across, (x, y) = np.maximum(axes.along[by], ALONG_WALL**2 * scatter), axes.across[by], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)

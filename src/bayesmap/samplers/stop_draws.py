@@ -1,4 +1,4 @@
-"""What is kept of chains of reflectivities and surfaces: the draws of some sweeps, as they are made."""
+"""Collect the kept draws of chains of reflectivities and surfaces while the sweeps are made."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ class StopDraws:
 
     @cached_property
     def _among_touched(self) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Where each kept cell stands among those that beams touch, and whether it does."""
+        """The place of each kept cell among the cells that beams touch, and whether it is one of them."""
         return places_among(self._problem.rays.touched, self._cells["cell"])
 
     def begin(self, chain: int, sweep: int) -> None:
-        """Take the cells as they stand before a sweep."""
+        """Record the cells as they stand before a sweep."""
         number = self._number.get(sweep)
         if number is None:
             return
@@ -63,13 +63,13 @@ class StopDraws:
                 self._put(f"surface_{part}", chain, number, values)
 
     def end(self, chain: int, sweep: int) -> None:
-        """Take what the sweep has counted of the cells as they stood before it."""
+        """Record what the sweep has counted of the cells as they stood before it."""
         number = self._number.get(sweep)
         if number is None:
             return
         if self._centres is not None:
-            found = self._chains.in_squares(chain, sweep, True, self._solid.get(chain))
-            self._put_chances(chain, number, found)
+            squares = self._chains.in_squares(chain, sweep, True, self._solid.get(chain))
+            self._put_chances(chain, number, squares)
         if "expected" not in self.arrays:
             return
         hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))
@@ -78,11 +78,11 @@ class StopDraws:
         expected = expected_reflectivity(hits, met, prior, drawn, solid)
         self._put("expected", chain, number, expected)
 
-    def _put_chances(self, chain: int, number: int, found: InSquares) -> None:
-        """Take the chances that squares stop beams; that of a square to which no beam can come is the prior's."""
+    def _put_chances(self, chain: int, number: int, squares: InSquares) -> None:
+        """Record the chances that squares stop beams; a square to which no beam can come has the prior's."""
         prior, kept = self._problem.prior, self._cells["cell"]
         place, known = self._among_touched
-        for name, values in (("stop_chance", found.drawn), ("expected_stop_chance", found.expected)):
+        for name, values in (("stop_chance", squares.drawn), ("expected_stop_chance", squares.expected)):
             chances = np.full(len(kept), prior.mean, dtype=np.float32)
             if prior.has_labels:
                 chances[:] = prior.mean_given(self._solid[chain][kept])
@@ -101,7 +101,7 @@ def expected_reflectivity(
     drawn: NDArray[np.float16],
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:
-    """Mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
+    """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
     Given where all beams stopped, whom they met, and the surfaces, reflectivities are independent Betas, and the
     density of one more beam is linear in each: under these means it is what it is on average under draws of them

@@ -1,4 +1,4 @@
-"""Gibbs sampling of reflectivities and surfaces, and of where each beam stops (docs/surfaces.md).
+"""Gibbs sampling of reflectivities, surfaces and the stops of beams (docs/surfaces.md).
 
 Given the cells, where each beam stops is drawn from its exact conditional in one walk along the beam; given the stops,
 each cell's reflectivity is a Beta, and its surface takes a Metropolis step. The reflectivity half goes back to
@@ -48,8 +48,8 @@ SECOND = "second_"
 class StopState:
     """Chains between two sweeps.
 
-    While they search for where to start, ``second`` are the same chains from their second starts, and ``evidence`` says
-    how well both explain the readings so far, (C, 2, N) (`bayesmap.samplers.start_search`).
+    During start selection, ``second`` are these chains from their second starts, and ``evidence`` tells how well both
+    starts explain the readings so far, (C, 2, N) (`bayesmap.samplers.start_search`).
     """
 
     problem: StopProblem
@@ -63,8 +63,7 @@ class StopState:
 
 @dataclass(frozen=True)
 class StopGibbs:
-    """Sweeps of stops, labels, reflectivities and surfaces. A kept draw is the map that the sweep began with: its
-    density, and the counts behind its expected reflectivities, are the sweep's own.
+    """Sweeps of stops, labels, reflectivities and surfaces.
 
     Attributes:
         search_until: sweeps that surfaces make from two starts, with many steps in each, before they go on from the
@@ -75,7 +74,7 @@ class StopGibbs:
     search_until: int = 0
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
-        """Compile, trace, and estimate where to start."""
+        """Compile the kernels, trace the beams, and estimate where chains start."""
         from bayesmap.kernels.surfaces.stop_chains import KERNELS, load_stop_kernels
 
         cells = Reflective.of(model.cells, "stop-gibbs")
@@ -99,7 +98,7 @@ class StopGibbs:
         resume: Snapshot | None = None,
         watch: Watch = SILENT,
     ) -> StopState:
-        """Chains scattered about the initial estimate, or where they stood."""
+        """Start chains scattered about the initial estimate, or continue from a snapshot."""
         from bayesmap.kernels.random import mix
 
         searches = problem.prior.has_surfaces and (0 if resume is None else resume.sweep) < self.search_until
@@ -127,7 +126,7 @@ class StopGibbs:
         stored: Mapping[str, NDArray[Any]],
         stream: int = STREAM_START,
     ) -> StopChains:
-        """Chains scattered about the initial estimate, or where they stood."""
+        """Make chains scattered about the initial estimate, or where they stood."""
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         estimate, kept = problem.estimate, problem.coordinates["cell"]
@@ -142,7 +141,7 @@ class StopGibbs:
             return state
 
         def on_grid(name: str) -> NDArray[np.int32] | None:
-            """Two numbers for each kept cell, (C, 2, T), spread over the grid."""
+            """Spread two numbers for each kept cell, (C, 2, T), over the grid."""
             if name not in stored:
                 return None
             out = np.zeros((len(chain_ids), 2, problem.grid.n_cells), dtype=np.int32)
@@ -165,7 +164,7 @@ class StopGibbs:
         stored: Mapping[str, NDArray[Any]],
         stream: int,
     ) -> NDArray[np.bool_] | None:
-        """Labels of all cells at which chains start, or where they stood, (C, N), if cells have any."""
+        """Return the labels of all cells at which chains start, or where they stood, (C, N); None without labels."""
         if not problem.prior.has_labels:
             return None
         cells = problem.grid.n_cells
@@ -176,15 +175,15 @@ class StopGibbs:
         return np.stack([first_labels(problem.estimate, problem.prior, problem.grid, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
-        """The same problem for a model whose scans were taken elsewhere; draws keep the same cells."""
-        there = trace_stops(
+        """Return this problem with the scans moved to other poses. Draws keep their cells."""
+        retraced = trace_stops(
             model.scans, model.grid, problem.prior, problem.sensor, hit_depth=problem.hit_depth, device=problem.device,
             threads=1,
         )  # fmt: skip
-        return replace(there, kept=problem.kept)
+        return replace(retraced, kept=problem.kept)
 
     def moved(self, state: StopState, problem: StopProblem) -> StopState:
-        """The chains as they are, under another problem. Chains that search for where to start have no other."""
+        """Return the chains as they are, under another problem. Chains that search for their start have no other."""
         assert state.second is None, "beams move while chains have a second start"
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
@@ -198,7 +197,7 @@ class StopGibbs:
         return replace(state, problem=problem, chains=new)
 
     def stops(self, state: StopState) -> NDArray[np.float32]:
-        """Where the chains stand: reflectivities (C, N), or surfaces (C, N, 6).
+        """Return the cells at which the chains stand: reflectivities (C, N), or surfaces (C, N, 6).
 
         Where cells have labels, those that no beam touches get a reflectivity now, and no sweep sees it.
         """
@@ -208,7 +207,7 @@ class StopGibbs:
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
-        """Some sweeps of all chains."""
+        """Make some sweeps of all chains."""
         end, joining = state.sweep + sweeps, merge_sweeps(self.search_until)
         if not state.problem.prior.has_surfaces or state.sweep >= max(joining, default=0):
             return self._sweep(state, sweeps, beta, keep)
@@ -227,7 +226,7 @@ class StopGibbs:
     def _sweep(
         self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
     ) -> tuple[StopState, Info]:
-        """The same of chains that have one start; ``note`` is told of each chain and sweep."""
+        """Make some sweeps of chains that have one start; ``note`` is called with each chain and sweep."""
         from bayesmap.kernels.surfaces.endpoint_cells import STEPS
 
         problem, chains = state.problem, state.chains
@@ -247,42 +246,44 @@ class StopGibbs:
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
     def _search(self, state: StopState, sweeps: int, beta: float, keep: Keep) -> tuple[StopState, Info]:
-        """The same from both starts; after the last sweep of the search the chains go on from the better of the two."""
+        """Make some sweeps from both starts; after the last sweep of the search the chains continue from the better
+        starts.
+        """
         from bayesmap.kernels.surfaces.endpoint_cells import MOST_STEPS
 
         problem, chains, second = state.problem, state.chains, state.second
         assert second is not None
         assert state.evidence is not None
-        found, end_cell, averaged = state.evidence, end_cells(problem.rays), min(AVERAGED, self.search_until)
+        total, end_cell, averaged = state.evidence, end_cells(problem.rays), min(AVERAGED, self.search_until)
 
         def noted(of: StopChains, number: int) -> Note:
             def note(chain: int, sweep: int) -> None:
                 if sweep >= self.search_until - averaged:
-                    found[chain, number] += evidence(of, chain, end_cell, problem.prior) / averaged
+                    total[chain, number] += evidence(of, chain, end_cell, problem.prior) / averaged
 
             return note
 
         self._sweep(replace(state, chains=second), sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1))
         state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, 0))
         if state.sweep == self.search_until:
-            select_starts(problem, chains, second, found[:, 1] - found[:, 0], beta)
+            select_starts(problem, chains, second, total[:, 1] - total[:, 0], beta)
             state = replace(state, second=None, evidence=None)
         return state, info
 
     def snapshot(self, state: StopState) -> Snapshot:
-        """The kept cells' states and counts: (C, T, 6) and (C, 2, T), and labels of all cells, packed. States of the
-        others can be drawn anew: no beam says anything of them.
+        """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed. States of
+        the other cells can be drawn anew: no beam observes them.
         """
         arrays = self._stored(state.problem, state.chains)
         if state.second is not None:
             assert state.evidence is not None
             second = self._stored(state.problem, state.second)
-            found = np.ascontiguousarray(state.evidence[..., state.problem.estimate.endpoint_cells])
-            arrays |= {SECOND + name: array for name, array in {**second, "evidence": found}.items()}
+            ended = np.ascontiguousarray(state.evidence[..., state.problem.estimate.endpoint_cells])
+            arrays |= {SECOND + name: array for name, array in {**second, "evidence": ended}.items()}
         return Snapshot(state.sweep, arrays)
 
     def _stored(self, problem: StopProblem, chains: StopChains) -> dict[str, NDArray[Any]]:
-        """What a snapshot holds of chains."""
+        """Return what a snapshot holds of chains."""
         kept, each, labels = problem.coordinates["cell"], range(chains.n_chains), {}
         if problem.prior.has_labels:
             labels[SOLID.name] = np.packbits([chains.solid(chain) for chain in each], axis=-1)
@@ -294,7 +295,8 @@ class StopGibbs:
         }
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Kept-phase sweeps in which some beam said something of a cell, and those that counted, (2, nx, ny).
+        """Count the kept-phase sweeps in which at least one beam observes a cell, and those inspected. Returns (2, nx,
+        ny).
 
         Without any, of the last sweep.
         """
@@ -306,20 +308,20 @@ class StopGibbs:
         return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)
 
     def _observed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
-        """Whether some beam says something of each cell where a chain stands, and whether that is known, (2, N)."""
+        """Return whether some beam observes each cell where a chain stands, and whether that is known, (2, N)."""
         if not state.problem.prior.has_surfaces:
             hits, met = state.chains.counted(chain)
             return np.stack([(met >= 0) & (hits + met > 0), met >= 0])
         out = np.zeros((2, state.problem.grid.n_cells), dtype=np.bool_)
         if state.chains.swept:
-            found = state.chains.in_squares(chain, state.sweep - 1, kept=False)
+            squares = state.chains.in_squares(chain, state.sweep - 1, kept=False)
             touched = state.problem.rays.touched
-            out[0, touched], out[1, touched] = found.stopped + found.passed > 0, True
+            out[0, touched], out[1, touched] = squares.stopped + squares.passed > 0, True
         return out
 
 
 def _plan(problem: StopProblem) -> Plan:
-    """What the sweeps of all chains share."""
+    """Return what the sweeps of all chains have in common."""
     from bayesmap.kernels.surfaces.stop_chains import Plan
 
     estimate = problem.estimate

@@ -1,4 +1,4 @@
-"""Beams among cells that stop some of them: what a sampler of stops is given."""
+"""Beams among cells that stop some of them: the input of a sampler of stops."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class StopProblem:
 
     @property
     def n_incidences(self) -> int:
-        """How many cells all beams cross together."""
+        """The number of cells that all beams cross together."""
         return self.rays.n_incidences
 
     @cached_property
@@ -81,7 +81,9 @@ class StopProblem:
         return {"cell": self.estimate.touched} | surfaces
 
     def for_any_poses(self) -> StopProblem:
-        """The same for poses that may move: draws keep all cells, and surfaces about where readings end now."""
+        """Return this problem for poses that may move: draws keep all cells, and surfaces around where readings end
+        now.
+        """
         ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
         ends[self.estimate.endpoint_cells] = True
         near = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
@@ -89,7 +91,7 @@ class StopProblem:
         return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 
     def touched(self) -> NDArray[np.bool_]:
-        """Cells that some beam touches, (nx, ny)."""
+        """Return cells that some beam touches, (nx, ny)."""
         return self.rays.touched_map()
 
     @cached_property
@@ -100,7 +102,7 @@ class StopProblem:
         return stop_distances(self.rays, self.hit_depth, self.device)
 
     def under(self, sensor: SensorModel, prior: Reflective) -> StopProblem:
-        """The same rays under another sensor and another prior."""
+        """Return the rays under another sensor and another prior."""
         other = replace(self, sensor=sensor, prior=prior)
         shared: dict[str, Any] = {
             name: value for name, value in vars(self).items() if name in ("estimate", "distance_m")
@@ -143,7 +145,7 @@ def trace_stops(
 def _spans(
     scans: Scans, sensor: SensorModel, resolution_m: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """How far beams are followed, and from where on a stop can explain their readings (from the start if None)."""
+    """Return how far beams are followed, and from where on a stop can explain their readings (None: from the start)."""
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
         ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()
@@ -154,8 +156,8 @@ def _spans(
 
 
 def _tail_m(noise: Gaussian | StudentT, range_m: NDArray[np.float64], floor: float) -> NDArray[np.float64]:
-    """How far from a stop at a distance its readings are worth looking at: up to `SIGMAS_AROUND` of normal noise, and
-    of Student's t as far as its density, c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), is over ``floor``.
+    """Return the distance from a stop within which readings are worth evaluating: `SIGMAS_AROUND` of normal noise; for
+    Student's t as far as its density, c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), is over ``floor``.
     """
     scale = noise.scale_at(range_m)
     if isinstance(noise, Gaussian):

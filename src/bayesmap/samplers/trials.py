@@ -1,4 +1,4 @@
-r"""Trials of changes to maps of surfaces, in many places at once: the means of `bayesmap.samplers.start_search`.
+r"""Try changes to maps of surfaces in many places at once, for `bayesmap.samplers.start_search`.
 
 Changes in places that are far enough apart are tried together. One sweep over the beams tells of each place whether the
 map explains its readings better than before, and what does not pay is taken back.
@@ -39,29 +39,29 @@ UPDATES_FEW = (1 << 24) + 1
 
 @dataclass(frozen=True, eq=False)
 class ChainMaps:
-    """Where chains stand, to be changed in place: states (C, N, 6) and labels (C, N)."""
+    """The maps at which chains stand, to be changed in place: states (C, N, 6) and labels (C, N)."""
 
     cells: NDArray[np.float32]
     solid: NDArray[np.bool_]
 
     @classmethod
     def of(cls, chains: StopChains) -> ChainMaps:
-        """Copies of where chains stand."""
+        """Copy the maps at which chains stand."""
         each = range(chains.n_chains)
         return cls(np.stack([chains.cells(i) for i in each]), np.stack([chains.solid(i) for i in each]))
 
     def put(self, chains: StopChains) -> None:
-        """Let chains go on from here."""
+        """Let chains continue from these maps."""
         for chain, (cells, solid) in enumerate(zip(self.cells, self.solid, strict=True)):
             chains.put_cells(chain, cells, solid)
 
 
 @dataclass(frozen=True, eq=False)
 class Changes:
-    """Of one chain, in n places.
+    """Changes to the map of one chain, in n places.
 
     Attributes:
-        middle: the cells about which the readings are asked, as places in the grid, (n, 2).
+        middle: the cells around which the readings are compared, as places in the grid, (n, 2).
         where: the cells that change, flat, (n, k).
         cells, solid: what they become, (n, k, 6) and (n, k).
     """
@@ -72,12 +72,12 @@ class Changes:
     solid: NDArray[np.bool_]
 
     def some(self, which: NDArray[np.bool_]) -> Changes:
-        """Those of some places."""
+        """Return the changes of some places."""
         return Changes(self.middle[which], self.where[which], self.cells[which], self.solid[which])
 
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Reflective) -> Floats:
-    """The sum above over the beams whose readings end in each cell, (N,), of a chain's last sweep.
+    """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
 
     ``end_cell`` is that of `bayesmap.samplers.initial_estimate.end_cells`, (B,).
     """
@@ -93,7 +93,9 @@ def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior:
 
 
 def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
-    """A function that puts chains on maps, draws where their beams stop, and gives their `evidence`, (C, nx, ny)."""
+    """Return a function that puts chains on maps, draws where their beams stop, and returns their `evidence`, (C, nx,
+    ny).
+    """
     end_cell = end_cells(problem.rays)
     numbers = problem.prior.kernel_numbers(problem.grid.resolution)
 
@@ -101,8 +103,8 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
         maps.put(chains)
         chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers, beta, steps=0)
         each = range(chains.n_chains)
-        found = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
-        return np.stack(found).reshape(-1, *problem.grid.shape)
+        nats = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
+        return np.stack(nats).reshape(-1, *problem.grid.shape)
 
     return look
 
@@ -110,14 +112,14 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
 def try_changes(
     maps: ChainMaps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
 ) -> list[NDArray[np.bool_]]:
-    """Change maps in some places, and take back what does not gain ``least`` around its place.
+    """Change maps in some places, and take back the changes that do not gain ``least`` around their place.
 
     Args:
         maps: of all chains.
         changes: of each chain, in places that do not touch.
         look: at the maps.
         before: what it saw before, (C, nx, ny); replaced by what it sees where a change stays.
-        half: cells around a place, to each side, whose readings are asked.
+        half: cells around a place, to each side, whose readings are compared.
         least: nats.
 
     Returns:
@@ -134,19 +136,21 @@ def try_changes(
         stay = sums_over_squares(after[chain] - before[chain], half)[x, y] >= least
         back = old.some(~stay)
         maps.cells[chain][back.where], maps.solid[chain][back.where] = back.cells, back.solid
-        there = covered(old.middle[stay], half, (shape[0], shape[1]))
-        before[chain][there] = after[chain][there]
+        changed = covered(old.middle[stay], half, (shape[0], shape[1]))
+        before[chain][changed] = after[chain][changed]
         stays.append(stay)
     return stays
 
 
 def sums_over_squares(values: Floats, half: int) -> Floats:
-    """Sums over the squares of cells around each cell, ``half`` to each side, (nx, ny)."""
+    """Sum over the square of cells around each cell, ``half`` to each side, (nx, ny)."""
     return np.asarray(ndimage.uniform_filter(values, 2 * half + 1, mode="constant") * (2 * half + 1) ** 2)
 
 
 def apart(places: NDArray[np.intp], cells: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Which of some places to try together: each in turn that is more than so many cells from those before it, (n,)."""
+    """Select sites that can be proposed jointly: greedily, each more than ``cells`` cells from those already selected.
+    Returns a mask, (n,).
+    """
     near, chosen = np.zeros(shape, dtype=np.bool_), np.zeros(len(places), dtype=np.bool_)
     for i, (x, y) in enumerate(places):
         if not near[x, y]:
@@ -156,7 +160,7 @@ def apart(places: NDArray[np.intp], cells: int, shape: tuple[int, int]) -> NDArr
 
 
 def covered(middles: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """The cells of squares, (nx, ny)."""
+    """Mark the cells of squares, (nx, ny)."""
     out = np.zeros(shape, dtype=np.bool_)
     for x, y in middles:
         out[max(0, x - half) : x + half + 1, max(0, y - half) : y + half + 1] = True

@@ -1,4 +1,4 @@
-"""What every method on binary walls is given: the beam table of some scans, and the prior."""
+"""The input of every method on binary walls: the beam table of some scans, and the prior."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class WallProblem:
 
     @property
     def n_incidences(self) -> int:
-        """How many cells all beams cross together."""
+        """The number of cells that all beams cross together."""
         return self.table.n_incidences
 
     @property
@@ -53,15 +53,15 @@ class WallProblem:
         return {}
 
     def for_any_poses(self) -> WallProblem:
-        """The same: draws of walls cover the grid already."""
+        """Return this problem: draws of walls cover the grid already."""
         return self
 
     def touched(self) -> NDArray[np.bool_]:
-        """Cells that some beam touches, (nx, ny)."""
+        """Return cells that some beam touches, (nx, ny)."""
         return self.table.observed()
 
     def under(self, prior: BinaryWalls) -> WallProblem:
-        """The same table, and its index if there is one, under another prior."""
+        """Return the table, and its index if there is one, under another prior."""
         other = replace(self, prior=prior)
         shared: dict[str, Any] = {
             name: value for name, value in vars(self).items() if name in ("index", "device_table")
@@ -71,7 +71,7 @@ class WallProblem:
 
     @cached_property
     def index(self) -> CellIndex:
-        """The table by cells; built on first use."""
+        """The index of the table by cells; built on first use."""
         from bayesmap.kernels.walls.table import index_by_cell
 
         return index_by_cell(self.table)
@@ -85,7 +85,7 @@ class WallProblem:
 
     @cached_property
     def p_wall(self) -> NDArray[np.float64]:
-        """Prior wall probability of every cell, flat, shape (N,), as far as its neighbours do not say otherwise."""
+        """Prior wall probability of every cell, flat, (N,), without the coupling to its neighbours."""
         return np.ascontiguousarray(self.prior.probabilities(self.table.grid)).ravel()
 
     @property
@@ -106,11 +106,11 @@ class WallProblem:
         return wall_prior_to_device(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
     def log_joint(self, walls: NDArray[np.bool_]) -> float:
-        """Log p(walls, readings): the plain reference for what the samplers report."""
+        """Compute log p(walls, readings): the plain reference for what the samplers report."""
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
     def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """One map or several, (..., nx, ny), with cells that the prior fixes set as it says.
+        """Return one map or several, (..., nx, ny), with the cells that the prior fixes set accordingly.
 
         Raises:
             BadInput: walls of another shape than the grid's.
@@ -123,7 +123,7 @@ class WallProblem:
 
 
 def log_odds(p_wall: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Log-odds of probabilities, (N,); large but finite where they are 0 or 1."""
+    """Return the log-odds of probabilities, (N,); large but finite where they are 0 or 1."""
     with np.errstate(divide="ignore"):
         return np.asarray(np.clip(np.log(p_wall) - np.log1p(-p_wall), -LOG_ODDS_OF_FIXED, LOG_ODDS_OF_FIXED))
 

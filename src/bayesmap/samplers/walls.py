@@ -33,7 +33,7 @@ WARM_START_CELLS = 10_000
 
 
 def default_start(grid: Grid) -> Start:
-    """Belief propagation on large maps, prior draws on small ones."""
+    """Return the default start: belief propagation on large maps, prior draws on small ones."""
     return "propagate" if grid.n_cells > WARM_START_CELLS else "prior"
 
 
@@ -44,12 +44,12 @@ def start_maps(
     seed: int,
     marginals: Marginals | None = None,
 ) -> NDArray[np.bool_]:
-    """Where chains start, (C, nx, ny).
+    """Return the maps at which chains start, (C, nx, ny).
 
-    A warm start is the thresholded marginals of belief propagation, the same for all chains wherever it is sure, with
-    prior draws, different in each chain, in cells of which it says no more than the prior. Chains that start alike
-    can agree before they have forgotten where they began: start from "prior" to check that. Where neighbours are
-    coupled "prior" is a map like a draw of it, not quite one (`bayesmap.cells.ising.Ising.start`).
+    A warm start takes the thresholded marginals of belief propagation, and in cells where these equal the prior a prior
+    draw, another one in each chain. Chains that start alike can agree before they have forgotten their start: start
+    from "prior" to check that. Where neighbours are coupled, "prior" is only approximately a draw of the prior
+    (`bayesmap.cells.ising.Ising.start`).
 
     Args:
         problem: table and prior.
@@ -63,13 +63,13 @@ def start_maps(
     """
     grid, shape = problem.grid, (len(chains), *problem.grid.shape)
     if not isinstance(start, str):
-        given = np.asarray(start)
-        each = given.ndim == 3
-        if given.shape[-2:] != grid.shape or given.ndim not in (2, 3) or (each and max(chains) >= len(given)):
+        maps = np.asarray(start)
+        each = maps.ndim == 3
+        if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (each and max(chains) >= len(maps)):
             raise BadInput(
-                f"infer: the start has shape {given.shape}, expected {grid.shape}, or a map for each chain before that"
+                f"infer: the start has shape {maps.shape}, expected {grid.shape}, or a map for each chain before that"
             )
-        return np.asarray(given[list(chains)] != 0 if each else np.broadcast_to(given != 0, shape))
+        return np.asarray(maps[list(chains)] != 0 if each else np.broadcast_to(maps != 0, shape))
     if start in ("zeros", "ones"):
         return np.full(shape, start == "ones")
     if start not in get_args(Start):
@@ -100,7 +100,7 @@ class WallState:
     statistics: Mapping[str, NDArray[np.float64]]
 
     def walls(self) -> NDArray[np.uint8]:
-        """The chains' maps, shape (chains, N): all that is needed to make this state again."""
+        """Return the chains' maps, (chains, N): all that is needed to make this state again."""
         return self.chains.host_walls()
 
 
@@ -124,11 +124,11 @@ class WallSampler(ABC):
 
     @abstractmethod
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """What a sweep visits, in order (an order of "random" shuffles it afresh every sweep)."""
+        """Return the sites of a sweep in their order (an order of "random" shuffles them afresh every sweep)."""
 
     @abstractmethod
     def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
-        """The sweep kernel, and the tables that it takes first."""
+        """Return the sweep kernel, and the tables that it takes first."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
         """Trace the beam table."""
@@ -142,7 +142,7 @@ class WallSampler(ABC):
         resume: Snapshot | None = None,
         watch: Watch = SILENT,
     ) -> WallState:
-        """Chains at their start, or at the maps of a snapshot."""
+        """Start chains, or continue from the maps of a snapshot."""
         from bayesmap.kernels.random import mix
         from bayesmap.kernels.walls.chains import WallChains
 
@@ -163,7 +163,7 @@ class WallSampler(ABC):
         return WallState(problem, chains, kernel, self.sites(problem), keys, sweep, statistics)
 
     def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[WallState, Info]:
-        """Some sweeps of all chains; a kept draw is the map after its sweep."""
+        """Make some sweeps of all chains; a kept draw is the map after its sweep."""
         from bayesmap.kernels.walls.chains import run_sweeps
 
         problem = state.problem
@@ -182,26 +182,28 @@ class WallSampler(ABC):
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, {"walls": draws})
 
     def retrace(self, problem: WallProblem, model: Model) -> WallProblem:
-        """The same problem for a model whose scans were taken elsewhere."""
+        """Return this problem with the scans moved to other poses."""
         return trace_walls(model, problem.device, 1)
 
     def moved(self, state: WallState, problem: WallProblem) -> WallState:
-        """The chains as they are, under another problem."""
+        """Return the chains as they are, under another problem."""
         from bayesmap.kernels.walls.chains import WallChains
 
         chains = WallChains(problem.device_table, state.walls(), state.keys, problem.device)
         return replace(state, problem=problem, chains=chains, kernel=self.kernel(problem), sites=self.sites(problem))
 
     def stops(self, state: WallState) -> NDArray[np.float32]:
-        """Stop probabilities 0 and 1 where the chains stand, (C, N)."""
+        """Return the stop probabilities, 0 and 1, at which the chains stand, (C, N)."""
         return state.walls().astype(np.float32)
 
     def snapshot(self, state: WallState) -> Snapshot:
-        """The maps: everything else follows from them."""
+        """Return the maps: everything else follows from them."""
         return Snapshot(state.sweep, {"walls": state.walls()})
 
     def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """In how many of some draws a beam reaches each cell, else of where the chains stand, (2, nx, ny)."""
+        """Count the draws in which a beam reaches each cell, and the draws inspected. Returns (2, nx, ny). Without
+        draws, the maps at which the chains stand count.
+        """
         from bayesmap.kernels.walls.reach import reach_frequency
 
         packed, shape = draws.get("walls"), state.problem.grid.shape
@@ -214,7 +216,7 @@ class WallSampler(ABC):
 
 
 def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
-    """L1 distance in cells of every cell from the nearest sensor, shape (nx, ny): the tutorial's diamonds."""
+    """Return the L1 distance in cells of every cell from the nearest sensor, (nx, ny): the tutorial's diamonds."""
     from scipy import ndimage
 
     nx, ny = problem.grid.shape
@@ -233,13 +235,13 @@ class Gibbs(WallSampler):
     """
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Flat indices of all cells."""
+        """Return the flat indices of all cells."""
         if self.order == "radial":
             return np.argsort(radial_distance(problem).ravel(), kind="stable").astype(np.int32)
         return np.arange(problem.grid.n_cells, dtype=np.int32)
 
     def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
-        """The single-site kernel reads the table alone."""
+        """Return the single-site kernel and the table, which is all that it reads."""
         from bayesmap.kernels.device import load_kernels
         from bayesmap.kernels.walls.gibbs import gibbs_sweeps
 
@@ -257,7 +259,7 @@ class BlockGibbs(WallSampler):
     """
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Block numbers ``x * rows + y`` of all positions of the lower-left cell."""
+        """Return the block numbers ``x * rows + y`` of all positions of the lower-left cell."""
         nx, ny = problem.grid.shape
         columns, rows = max(1, nx - 1), max(1, ny - 1)
         if self.order == "radial":
@@ -266,7 +268,7 @@ class BlockGibbs(WallSampler):
         return np.arange(columns * rows, dtype=np.int32)
 
     def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
-        """The block kernel reads the table, and its own list of beams by block."""
+        """Return the block kernel with the table and its own list of beams by block."""
         from bayesmap.kernels.device import load_kernels
         from bayesmap.kernels.walls.block import block_sweeps, list_blocks
 

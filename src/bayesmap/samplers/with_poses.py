@@ -50,7 +50,7 @@ past an edge its density jumps, and the slope says nothing of how far the pose m
 
 @dataclass(frozen=True, eq=False)
 class PoseState:
-    """Where the poses of some chains stand.
+    """The poses at which some chains stand.
 
     Attributes:
         poses: in the world frame, (C, S, 3).
@@ -69,7 +69,7 @@ class PoseState:
 
 @dataclass(frozen=True, eq=False)
 class PoseInfo:
-    """What a step reports.
+    """The report of a step.
 
     Attributes:
         log_likelihood: of all readings at the new poses, (C,).
@@ -82,7 +82,7 @@ class PoseInfo:
 
 @dataclass(frozen=True, eq=False)
 class PoseMetropolis:
-    """Steps of all poses of some chains.
+    """Metropolis steps of all poses of some chains.
 
     Attributes:
         likelihood: of scans at poses.
@@ -96,13 +96,13 @@ class PoseMetropolis:
     factor: Floats
 
     def init(self, poses: Floats, chain_ids: NDArray[np.intp], seed: int) -> PoseState:
-        """Chains at the given poses, (C, S, 3)."""
+        """Start chains at the given poses, (C, S, 3)."""
         return PoseState(np.array(poses, dtype=np.float64), np.zeros(np.shape(poses)[:2]), np.asarray(chain_ids), seed)
 
     def step(
         self, state: PoseState, cells: NDArray[np.float32], n: int = 1, *, beta: float = 1.0, gain: float = 0.0
     ) -> tuple[PoseState, PoseInfo]:
-        """Propose a new pose for every scan ``n`` times.
+        """Return propose a new pose for every scan ``n`` times.
 
         Args:
             state: the chains.
@@ -139,7 +139,9 @@ class PoseMetropolis:
         return self.likelihood(cells, poses[:, scans].reshape(-1, 3), scan, chain).reshape(len(poses), -1)
 
     def _random(self, state: PoseState, step: int) -> tuple[Floats, Floats]:
-        """Standard normal steps (C, S, 3), and logarithms of uniform numbers (C, S): of seed, chain and step alone."""
+        """Draw standard normal steps (C, S, 3), and logarithms of uniform numbers (C, S), from seed, chain and step
+        alone.
+        """
         scans = state.poses.shape[1]
         noise, level = np.empty(state.poses.shape), np.empty(state.poses.shape[:2])
         for i, chain in enumerate(state.chain_ids):
@@ -151,7 +153,7 @@ class PoseMetropolis:
 def proposal_factors(
     likelihood: ScanLikelihood, cells: NDArray[np.float32], poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
-    """Cholesky factors of steps that fit each scan's posterior given the map, (S, 3, 3).
+    """Compute Cholesky factors of steps that fit each scan's posterior given the map, (S, 3, 3).
 
     The likelihood's information is estimated by the sum over beams of the outer products of their log densities'
     gradients, found by central differences: never negative, and without second derivatives.
@@ -195,13 +197,13 @@ class MovableSampler(Sampler[Any, Any], Protocol):
     """A sampler of cells whose rays can be traced anew under its chains."""
 
     def retrace(self, problem: Any, model: Model) -> Any:
-        """The same problem for a model whose scans were taken elsewhere; draws keep the same cells."""
+        """Return this problem with the scans moved to other poses. Draws keep their cells."""
 
     def moved(self, state: Any, problem: Any) -> Any:
-        """The chains as they are, under another problem of `retrace`."""
+        """Return the chains as they are, under another problem of `retrace`."""
 
     def stops(self, state: Any) -> NDArray[np.float32]:
-        """Where the chains stand, as `bayesmap.cells.kind.CellPrior.stops`: (C, N) or (C, N, 6)."""
+        """Return the cells at which the chains stand, as `bayesmap.cells.kind.CellPrior.stops`: (C, N) or (C, N, 6)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +212,7 @@ class PoseProblem:
 
     Attributes:
         model: what is sampled.
-        cells: the same at the poses that the log states, for the sampler of the cells.
+        cells: the problem of the cells' sampler at the poses that the log states.
         device: where kernels run.
         threads: of the CPU; all cores if None.
     """
@@ -227,16 +229,16 @@ class PoseProblem:
 
     @property
     def n_incidences(self) -> int:
-        """How many cells all beams cross together."""
+        """The number of cells that all beams cross together."""
         return int(self.cells.n_incidences)
 
     def touched(self) -> NDArray[np.bool_]:
-        """Cells that some beam touches at the poses that the log states, (nx, ny)."""
+        """Return cells that some beam touches at the poses that the log states, (nx, ny)."""
         return np.asarray(self.cells.touched())
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """Those of the cells, and the numbers of scans and of the parts of a pose."""
+        """The coordinates of the cells, and the numbers of scans and of the parts of a pose."""
         scans = np.arange(len(self.model.scans), dtype=np.int32)
         return {**self.cells.coordinates, "scan": scans, "pose": np.arange(3, dtype=np.int32)}
 
@@ -254,11 +256,11 @@ class PoseProblem:
         return self.model.poses.law(self.model.scans.poses)
 
     def at(self, poses: Floats) -> Model:
-        """The model as if its scans had been taken at these poses, (S, 3)."""
+        """Return the model with its scans moved to these poses, (S, 3)."""
         return replace(self.model, scans=self.model.scans.at(poses))
 
     def under(self, sensor: SensorModel, prior: CellPrior) -> PoseProblem:
-        """The same under another sensor and another prior of the cells."""
+        """Return this problem under another sensor and another prior of the cells."""
         model = replace(self.model, sensor=sensor, cells=prior)
         return replace(self, model=model, cells=self.cells.under(sensor, prior))
 
@@ -286,7 +288,7 @@ class JointState:
 
 @dataclass(frozen=True, eq=False)
 class WithPoses:
-    """A sampler of cells made one of cells and poses.
+    """A sampler of cells turned into one of cells and poses.
 
     Attributes:
         cells: the sampler of the cells.
@@ -319,7 +321,7 @@ class WithPoses:
         resume: Snapshot | None = None,
         watch: Watch = SILENT,
     ) -> JointState:
-        """Chains at their start, or where a snapshot left them."""
+        """Start chains, or continue from a snapshot."""
         scans = len(problem.model.scans)
         if resume is None:
             poses = np.stack([self._start(problem, chain, seed) for chain in chain_ids])
@@ -342,7 +344,9 @@ class WithPoses:
         return JointState(problem, cells, state, factor, sweep, {})
 
     def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[JointState, Info]:
-        """Some sweeps of all chains; after every few a round of pose steps. A draw has the poses of its sweep."""
+        """Make some sweeps of all chains, with a round of pose steps after every few. A draw has the poses of its
+        sweep.
+        """
         end, infos, poses = state.sweep + sweeps, [], []
         while state.sweep < end:
             count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep
@@ -360,14 +364,14 @@ class WithPoses:
         return state, Info(parts[0], parts[1], draws)
 
     def snapshot(self, state: JointState) -> Snapshot:
-        """Cells and poses, and the sizes of the steps."""
+        """Return cells and poses, and the sizes of the steps."""
         own = [self.cells.snapshot(chain).arrays for chain in state.cells]
         arrays = {name: np.concatenate([one[name] for one in own]) for name in own[0]}
         steps = {"pose_log_scale": state.poses.log_scale, "pose_factor": state.factor}
         return Snapshot(state.sweep, {**arrays, "poses": state.poses.poses, **steps})
 
     def observed_counts(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """In how many maps some beam says something of each cell, and in how many was looked, (2, nx, ny)."""
+        """Count the draws in which some beam observes each cell, and the draws inspected. Returns (2, nx, ny)."""
         own = [
             self.cells.observed_counts(chain, {name: a[i : i + 1] for name, a in draws.items() if name != POSES.name})
             for i, chain in enumerate(state.cells)
@@ -393,7 +397,7 @@ class WithPoses:
         return replace(state, cells=tuple(chain for chain, _ in done), sweep=state.sweep + count), joined
 
     def _move(self, state: JointState, beta: float) -> JointState:
-        """A round of pose steps, and the chains' rays traced where the poses are then."""
+        """Make a round of pose steps, and trace the chains' rays at the new poses."""
         problem = state.problem
         cells = np.concatenate([self.cells.stops(chain) for chain in state.cells])
         factor = state.factor
@@ -407,8 +411,8 @@ class WithPoses:
         def moved(i: int) -> Any:
             if (poses.poses[i] == state.poses.poses[i]).all():
                 return state.cells[i]
-            there = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
-            return self.cells.moved(state.cells[i], there)
+            retraced = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
+            return self.cells.moved(state.cells[i], retraced)
 
         chains = tuple(self._each(problem, moved, len(state.cells)))
         return replace(state, cells=chains, poses=poses, factor=factor)
@@ -417,7 +421,7 @@ class WithPoses:
         return proposal_factors(problem.likelihood, cells, poses, problem.law, DIFFERENCE_M)
 
     def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
-        """Something for every chain: on the CPU as many at once as there are threads."""
+        """Do some work for every chain: on the CPU as many at once as there are threads."""
         from bayesmap.kernels.device import available_cores
 
         threads = min(problem.threads or available_cores(), count) if problem.device == "cpu" else 1

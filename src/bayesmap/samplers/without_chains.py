@@ -25,7 +25,7 @@ MAX_UNKNOWN = 16
 
 @dataclass(frozen=True, eq=False)
 class Enumeration:
-    """The whole posterior.
+    """The whole posterior, enumerated.
 
     Attributes:
         unknown: flat indices of the cells that were enumerated, (n,): not fixed by the prior, and touched by a beam or
@@ -42,23 +42,23 @@ class Enumeration:
     problem: WallProblem
 
     def states(self) -> NDArray[np.bool_]:
-        """The enumerated cells in each state, shape (2^n, n)."""
+        """Return the enumerated cells in each state, (2^n, n)."""
         state = np.arange(len(self.log_posterior))[:, None]
         return np.asarray(state >> np.arange(len(self.unknown)) & 1 == 1)
 
     def marginals(self) -> NDArray[np.float64]:
-        """Posterior wall probability of every cell, shape (nx, ny); the prior's where no beam says anything."""
+        """Return the posterior wall probability of every cell, (nx, ny); the prior's where no beam observes it."""
         p = self.problem.p_wall.copy()
         p[self.unknown] = np.exp(self.log_posterior) @ self.states()
         return p.reshape(self.problem.table.grid.shape)
 
     def pairs(self) -> NDArray[np.float64]:
-        """Posterior probability that both of two enumerated cells are walls, shape (n, n)."""
+        """Return the posterior probability that both of two enumerated cells are walls, (n, n)."""
         states = self.states().astype(np.float64)
         return np.asarray((states * np.exp(self.log_posterior)[:, None]).T @ states)
 
     def sample(self, rng: np.random.Generator, count: int) -> NDArray[np.bool_]:
-        """Independent draws of the map, shape (count, nx, ny)."""
+        """Draw maps independently, (count, nx, ny)."""
         shape = self.problem.table.grid.shape
         walls = rng.random((count, shape[0] * shape[1])) < self.problem.p_wall
         state = rng.choice(len(self.log_posterior), size=count, p=np.exp(self.log_posterior))
@@ -105,7 +105,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
 
 
 def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray[np.int64]) -> NDArray[np.int64]:
-    """In how many pairs of neighbours both are walls, or both free, in each state."""
+    """Count the pairs of neighbours that are both walls or both free, in each state."""
     cells, pairs = np.arange(problem.grid.n_cells).reshape(problem.grid.shape), np.zeros(len(state), dtype=np.int64)
 
     def walls(cell: int) -> NDArray[np.bool_]:
@@ -124,7 +124,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class DrawRequest:
-    """How much of what: ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
+    """What to draw: ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
 
     chains: int
     draws: int
@@ -135,7 +135,7 @@ class DrawRequest:
 
 @dataclass(frozen=True, eq=False)
 class IndependentDraws:
-    """Independent draws, and what the method computes itself.
+    """Independent draws, and the results of the method beside them.
 
     Attributes:
         walls: packed maps, (chains, draws, ceil(N / 8)).
@@ -161,52 +161,53 @@ class IndependentDraws:
     log_evidence: float | None = None
 
 
-def exact(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
-    """The whole posterior, with draws from it."""
+def exact(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+    """Enumerate the whole posterior, and draw from it."""
     whole = enumerate_maps(problem)
-    return _found(problem, asked, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
+    return _found(problem, request, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
 
 
-def importance(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
-    """Weighted maps, with draws resampled from them."""
-    return draws_by_importance(problem, asked, sample_importance(problem, asked.particles, asked.seed, watch=watch))
+def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+    """Weigh maps, and resample draws from them."""
+    particles = sample_importance(problem, request.particles, request.seed, watch=watch)
+    return draws_by_importance(problem, request, particles)
 
 
-def draws_by_importance(problem: WallProblem, asked: DrawRequest, found: Particles) -> IndependentDraws:
-    """The same of particles that have been weighed."""
+def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
+    """Resample draws from particles that have been weighed."""
     return _found(
         problem,
-        asked,
-        lambda rng, count: found.maps(found.resample(rng, count)),
-        found.occupancy(),
-        log_weights=found.log_weights,
-        log_evidence=found.log_evidence,
-        seconds=found.seconds,
-        finished=found.finished,
+        request,
+        lambda rng, count: particles.maps(particles.resample(rng, count)),
+        particles.occupancy(),
+        log_weights=particles.log_weights,
+        log_evidence=particles.log_evidence,
+        seconds=particles.seconds,
+        finished=particles.finished,
     )
 
 
-def belief_propagation(problem: WallProblem, asked: DrawRequest, watch: Watch) -> IndependentDraws:
-    """Beliefs, with draws that are independent from cell to cell: marginals are all that there is."""
-    return draws_by_beliefs(problem, asked, propagate(problem, rounds=asked.rounds, watch=watch))
+def belief_propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+    """Propagate beliefs, and draw each cell independently: belief propagation gives marginals alone."""
+    return draws_by_beliefs(problem, request, propagate(problem, rounds=request.rounds, watch=watch))
 
 
-def draws_by_beliefs(problem: WallProblem, asked: DrawRequest, found: Marginals) -> IndependentDraws:
-    """The same of beliefs that have been propagated."""
+def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
+    """Draw each cell independently from beliefs that have been propagated."""
     return _found(
         problem,
-        asked,
-        lambda rng, count: rng.random((count, *found.p_wall.shape)) < found.p_wall,
-        found.p_wall,
-        statistics={"belief_changes": found.changes},
-        seconds=found.seconds,
-        finished=found.finished,
+        request,
+        lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
+        marginals.p_wall,
+        statistics={"belief_changes": marginals.changes},
+        seconds=marginals.seconds,
+        finished=marginals.finished,
     )
 
 
 def _found(
     problem: WallProblem,
-    asked: DrawRequest,
+    request: DrawRequest,
     draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
     occupancy: Floats,
     *,
@@ -219,12 +220,12 @@ def _found(
     from bayesmap.kernels.walls.importance import log_likelihoods
     from bayesmap.kernels.walls.reach import reach_frequency
 
-    rngs = [np.random.default_rng([asked.seed, chain, STREAM_START]) for chain in range(asked.chains)]
-    walls = np.stack([draw(rng, asked.draws) for rng in rngs])
+    rngs = [np.random.default_rng([request.seed, chain, STREAM_START]) for chain in range(request.chains)]
+    walls = np.stack([draw(rng, request.draws) for rng in rngs])
     packed = pack(walls)
     flat = walls.reshape(-1, *problem.grid.shape)
-    some = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
-    maps = occupancy[None] > 0.5 if some is None else flat[some]
+    inspected = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
+    maps = occupancy[None] > 0.5 if inspected is None else flat[inspected]
     return IndependentDraws(
         walls=packed,
         log_likelihood=np.stack([log_likelihoods(problem.table, chain, problem.device) for chain in packed]),

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.calibration import inside
-from bayesmap.posterior.scoring import Score
-from bayesmap.posterior.trajectory_scoring import TrajectoryScore
+from bayesmap.posterior.scores import Score
+from bayesmap.posterior.trajectory_scores import TrajectoryScore
 from bayesmap.viz import palette
 
 LEVELS = np.linspace(0.02, 0.98, 49)

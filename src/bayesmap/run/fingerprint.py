@@ -1,4 +1,4 @@
-"""May a stopped run go on? Only with what it was made with."""
+"""The fingerprint of a run: a stopped run may continue only with the settings and the data that it was made with."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")
 """Entries of a run's settings that are not arguments."""
 
 PROBES = 64
-"""Readings, and distances, at which a sensor model is looked at to tell it from another of the same name."""
+"""Readings and distances at which a sensor model is evaluated, to tell it from another model of its name."""
 
 
 def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
-    """What a run is determined by: settings, data, prior, sensor, and where cells and poses start."""
+    """Compute the fingerprint of a run: of settings, data, prior, sensor, and of where cells and poses start."""
     scans, grid = model.scans, model.grid
     digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
@@ -40,30 +40,30 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
     return digest.hexdigest()[:16]
 
 
-def check_same(saved: dict[str, Any], wanted: dict[str, Any]) -> None:
-    """Refuse to go on with a run that was made with other arguments.
+def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
+    """Refuse to continue a run that was made with other arguments.
 
     Args:
         saved: the settings of the stopped run, with its fingerprint, which also stands for its scans and its grid.
-        wanted: those that were asked for now.
+        asked: those that were asked for now.
 
     Raises:
         BadInput: they differ; the message says in what.
     """
-    if saved["fingerprint"] == wanted["fingerprint"]:
+    if saved["fingerprint"] == asked["fingerprint"]:
         return
-    if saved.get("streams") != wanted["streams"]:
+    if saved.get("streams") != asked["streams"]:
         raise BadInput(
             "resume: the saved run was made by a version of bayesmap with other random numbers; it can be looked at "
             "and scored, but not gone on with: start again"
         )
-    different = difference(saved, wanted)
+    different = difference(saved, asked)
     raise BadInput(
         f"resume: the saved run was made with other {different or 'scans or on another grid, or with another sensor'}"
     )
 
 
-def difference(saved: dict[str, Any], wanted: dict[str, Any]) -> str | None:
-    """Which settings differ, in words."""
-    names = [name for name in wanted if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != wanted[name]]
-    return "; ".join(f"{name} ({saved.get(name)!r}, now {wanted[name]!r})" for name in names) or None
+def difference(saved: dict[str, Any], asked: dict[str, Any]) -> str | None:
+    """Return in words the settings that differ; None if none does."""
+    names = [name for name in asked if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != asked[name]]
+    return "; ".join(f"{name} ({saved.get(name)!r}, now {asked[name]!r})" for name in names) or None

@@ -1,4 +1,4 @@
-"""The score of a trajectory against true relative poses: how far off it is, and whether its regions hold the truth.
+"""Score a trajectory against true relative poses: its errors, and whether its regions hold the truth.
 
 Errors are those of Kuemmerle et al. (2009), see `bayesmap.poses.relations`. If the trajectory says how sure it is, each
 error e has a covariance C, and
@@ -36,7 +36,7 @@ DIMENSIONS = 3
 
 @dataclass(frozen=True, eq=False)
 class TrajectoryScore:
-    """How good a trajectory is, and how honest.
+    """The accuracy of a trajectory, and the calibration of its regions.
 
     Attributes:
         errors: of each relation, in the true frame of its second pose.
@@ -54,11 +54,11 @@ class TrajectoryScore:
     known_by: str = ""
 
     def coverage(self, level: float) -> float:
-        """The share of relations whose truth lies in the region of a probability; NaN where regions are unknown."""
+        """Return the share of relations whose truth lies in the region of a probability; NaN without regions."""
         return float("nan") if self.region is None else float((self.region <= level).mean())
 
     def as_json(self) -> dict[str, Any]:
-        """The figures as JSON values."""
+        """Return the figures as JSON values."""
         figures: dict[str, Any] = dict(self.errors.summary())
         if self.nees is None:
             return {**figures, "nees": None, "coverage": None}
@@ -74,7 +74,7 @@ class TrajectoryScore:
 def score_trajectory(
     trajectory: Trajectory, relations: Relations, mount: Floats | None = None, *, exact: bool = False
 ) -> TrajectoryScore:
-    """Hold a trajectory against true relative poses.
+    """Score a trajectory against true relative poses.
 
     Args:
         trajectory: with stamps, of the clock of the relations.
@@ -106,7 +106,7 @@ def score_trajectory(
 def _by_law(
     trajectory: Trajectory, law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats
 ) -> tuple[Floats, Floats]:
-    """NEES and least region of each relation, by the law of the relative poses of the scans nearest in time."""
+    """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time."""
     first, second = (_nearest(stamps_s, at) for at in (relations.first_s, relations.second_s))
     # Two times about one scan: the step to a scan beside it, which is no surer.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
@@ -117,13 +117,13 @@ def _by_law(
 
 
 def _nearest(stamps_s: Floats, at_s: Floats) -> NDArray[np.intp]:
-    """The numbers of the stamps that are nearest to some times."""
+    """Return the indices of the stamps that are nearest to some times."""
     before, after = around(stamps_s, at_s)
     return np.where(at_s - stamps_s[before] < stamps_s[after] - at_s, before, after)
 
 
 def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
-    """NEES and least region of each relation, by the relative poses of the draws."""
+    """Compute NEES and least region of each relation, by the relative poses of the draws."""
     count = len(draws)
     off = np.empty((count, len(relations), DIMENSIONS))
     undo = inverse(relations.relative)
@@ -143,7 +143,9 @@ def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Fl
 
 
 def _independent(trajectory: Trajectory, stamps_s: Floats, relations: Relations) -> Floats:
-    """Covariance of each relation's error, the two poses independent: those of the poses nearest in time."""
+    """Return the covariance of each relation's error if the two poses are independent: those of the poses nearest in
+    time.
+    """
     assert trajectory.covariances is not None
     ends = []
     for at_s in (relations.first_s, relations.second_s):

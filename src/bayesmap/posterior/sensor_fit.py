@@ -1,4 +1,4 @@
-"""Fitting a sensor, and whatever else a prediction has to be given, by the score of held-out scans.
+"""Fit a sensor, and the other parameters of a prediction, by the score of held-out scans.
 
 Parameters live in boxes; the search is L-BFGS-B on their logarithms or logits, from several starts.
 """
@@ -52,12 +52,12 @@ class Parameter:
     share: bool = False
 
     def inner(self, value: float) -> float:
-        """The number that the search moves."""
+        """Return the number that the search moves."""
         value = min(max(value, self.low), self.high)
         return math.log(value) - (math.log1p(-value) if self.share else 0.0)
 
     def outer(self, moved: float) -> float:
-        """And back."""
+        """Return the parameter from the number that the search moves."""
         return 1.0 / (1.0 + math.exp(-moved)) if self.share else math.exp(moved)
 
 
@@ -74,7 +74,7 @@ SENSOR = (
 
 
 def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
-    """The beam model of some values: Student-t noise with ``dof`` degrees of freedom, or Gaussian noise if None."""
+    """Return the beam model of some values: Student-t noise of ``dof`` degrees of freedom, or Gaussian if None."""
     scale, growth = values["scale_m"], values["scale_per_m"]
     noise = noise_with(math.inf if dof is None else dof, scale, growth)
     names = ("p_random", "p_no_return", "p_short", "rate_short_per_m")
@@ -88,7 +88,7 @@ def maximise(
     starts: Sequence[Mapping[str, float]],
     on_progress: OnShare = ignored,
 ) -> tuple[Values, float]:
-    """The values of the highest score found, and that score.
+    """Find the values of the highest score, and that score.
 
     Args:
         score: to be maximised.
@@ -113,7 +113,7 @@ def maximise(
             on_share(0.9 * calls / usual if calls < usual else 1.0 - 0.1 * usual / calls)  # never all before the end
             return -what(values_at(point))
 
-        found = scipy.optimize.minimize(
+        result = scipy.optimize.minimize(
             descend,
             np.array([p.inner(start[p.name]) for p in parameters]),
             method="L-BFGS-B",
@@ -121,8 +121,8 @@ def maximise(
             options={"eps": STEP, "ftol": tolerance, "maxiter": MOST_STEPS, "maxfun": 3000},
         )
         on_share(1.0)
-        return values_at(found.x), -float(found.fun)
+        return values_at(result.x), -float(result.fun)
 
     *low, last = parts(on_progress, *(1.0 for _ in starts), LAST_CLIMB)
     rough = [climb(rough_score, start, ROUGH, on_share) for start, on_share in zip(starts, low, strict=True)]
-    return climb(score, max(rough, key=lambda found: found[1])[0], FINE, last)
+    return climb(score, max(rough, key=lambda result: result[1])[0], FINE, last)

@@ -34,7 +34,8 @@ def beam_log_scores(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
 ) -> NDArray[np.float64]:
-    """Log predictive density of every reading, NaN where it is invalid: log mean over draws of p(reading | draw), (B,).
+    """Compute the log predictive density of every reading, NaN where invalid: log mean over draws of p(reading | draw),
+    (B,).
 
     Densities are per metre for hits, probabilities for typed readings, in nats. They are those of `score_prediction`,
     digit for digit.
@@ -67,7 +68,7 @@ def log_score(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
 ) -> float:
-    """Mean of `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
+    """Average `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
 
     Raises:
         BadInput: as `beam_log_scores` and `predictor_of`.
@@ -86,7 +87,7 @@ all draws together."""
 
 @dataclass(frozen=True)
 class Coverage:
-    """How often readings lie in the central interval of a probability, and how wide such intervals are.
+    """The share of readings in the central interval of a probability, and the width of such intervals.
 
     Attributes:
         level: the probability.
@@ -103,7 +104,7 @@ class Coverage:
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """How well held-out beams were predicted. Errors are standard errors from a bootstrap over scans.
+    """The score of a prediction on held-out beams. Errors are standard errors from a bootstrap over scans.
 
     Attributes:
         scans, beams: that were scored; invalid readings are not.
@@ -140,7 +141,7 @@ class Score:
     hit_depth: float
 
     def as_json(self) -> dict[str, Any]:
-        """Everything but the single beams, as JSON values."""
+        """Return everything but the single beams, as JSON values."""
         return {
             "scans": self.scans,
             "beams": self.beams,
@@ -203,7 +204,9 @@ def score_prediction(
     rays = trace_rays(scans, predictor.grid, device=device)
     depth, draws = predictor.hit_depth, predictor.draws
     forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
-    found = forecast(rays, watched(predictor.batches(rays.touched), draws, forecasting), sensor, depth, device=device)
+    prediction = forecast(
+        rays, watched(predictor.batches(rays.touched), draws, forecasting), sensor, depth, device=device
+    )
     law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
     quantiles = range_quantiles(law, np.array(ends), sensor, device)[valid]
@@ -213,8 +216,8 @@ def score_prediction(
 
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
     blocks = ScanBlocks.make(scan[valid], seed)
-    nats = blocks.mean(found.log_density[valid])
-    pit = randomised_pit(found.pit_low[valid], found.pit_high[valid], seed)
+    nats = blocks.mean(prediction.log_density[valid])
+    pit = randomised_pit(prediction.pit_low[valid], prediction.pit_high[valid], seed)
     distance, p_value = blocks.uniformity(pit)
     clipped = np.clip(quantiles, limits.min_m, limits.max_m)
 
@@ -243,7 +246,7 @@ def score_prediction(
         brier=of_events.mean(brier) if len(p) else none,
         log_loss=of_events.mean(loss) if len(p) else none,
         reliability=tuple(reliability(p, happened)),
-        p_no_return=(float(found.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
+        p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
         sensor=describe(sensor),
         hit_depth=predictor.hit_depth,
     )
