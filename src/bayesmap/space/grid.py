@@ -1,4 +1,4 @@
-"""The grid: which square of the world frame each cell is."""
+"""The grid of a map: square cells in the world frame."""
 
 from __future__ import annotations
 

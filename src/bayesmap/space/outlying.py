@@ -1,4 +1,4 @@
-"""The scans that lie so far from all others that they are wrong, and make a map of the rest impossible."""
+"""Scans so far from all others that they are wrong, and make a map of the rest impossible."""
 
 from __future__ import annotations
 

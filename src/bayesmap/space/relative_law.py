@@ -1,4 +1,4 @@
-"""How sure relative poses of a trajectory are."""
+"""The uncertainty of relative poses of a trajectory."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class RelativeLaw:
     """Student's t about the relative poses of a trajectory.
 
     Attributes:
-        scales: given numbers of poses, the first and the second of N pairs, the scale matrices of x, y and yaw of the
-            second in the first's frame, (N, 3, 3).
+        scales: a function of the numbers of the first and the second pose of N pairs. Returns the scale matrices of x,
+            y and yaw of the second pose in the frame of the first, (N, 3, 3).
         dof: degrees of freedom; covariances are dof / (dof - 2) times the scale matrices.
     """
 

@@ -11,24 +11,24 @@ STEP_S = 1.0
 """Stamps that go back by less are of scans that were written down late."""
 
 MANY = 10
-"""A clock that was set back stays so for this many scans, and stamps of as many before lie among theirs."""
+"""Scans after a step back of the clock, and scans before it, whose stamps overlap."""
 
 SAME_S = 1e-3
 """Stamps that are closer are one: no laser sweeps so fast."""
 
 TURNS = 0.7
-"""So often, at least, a scan of the fewer is followed by one of the others, or the other way round."""
+"""Changes from one group of scans to the other, per scan of the smaller group, if both take turns."""
 
 
 @dataclass(frozen=True, eq=False)
 class TimeOrder:
-    """In which order to take scans.
+    """The order of time of scans.
 
     Attributes:
-        order: their indices in the order of time, (S,).
-        stamps_s: in that order, never falling: after a clock was set back they go on from where they were, (S,).
+        order: indices of the scans, (S,).
+        stamps_s: in that order, never falling: after a clock was set back they go on from the last stamp, (S,).
         steps: scans before which the clock was set back, as indices of the log, ascending.
-        back_s: by how much, each.
+        back_s: by how many seconds, each.
     """
 
     order: NDArray[np.intp]
@@ -38,7 +38,7 @@ class TimeOrder:
 
     @property
     def reordered(self) -> int:
-        """How many scans the log holds after a later one."""
+        """Number of scans that the log holds after a later scan."""
         rank = np.argsort(self.order, kind="stable")
         return int((rank < np.maximum.accumulate(rank)).sum())
 
@@ -54,9 +54,9 @@ class TimeOrder:
 def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
     """Sort by stamps, but keep the order of the log where the clock was set back.
 
-    Scans that were written down late, one by one or in bursts, fill a gap between earlier ones: they are sorted. Where
-    stamps go back by more than a second, and of many scans lie among those of many before, two times of the robot
-    would be mixed by sorting.
+    Scans that were written down late, one by one or in bursts, fill a gap between earlier scans: they are sorted. If
+    stamps go back by more than a second, and the stamps of many scans lie among those of many earlier scans, sorting
+    would mix two times of the robot: the order of the log is kept there.
 
     Args:
         stamps_s: in the order of the log, (S,).

@@ -1,4 +1,4 @@
-"""A trajectory: where something was, when, and how sure that is. Plain data."""
+"""A trajectory: poses over time with their uncertainty. Plain data."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class Trajectory:
 
     Attributes:
         poses: x, y in metres and yaw in radians in the world frame, shape (S, 3).
-        stamps_s: when, seconds, shape (S,), ascending; None where nobody knows.
-        covariances: of x, y and yaw, in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None where nobody knows.
+        stamps_s: time of each pose, seconds, shape (S,), ascending; None if unknown.
+        covariances: of x, y and yaw, in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None if unknown.
         draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None where there are none.
-        relative: how sure relative poses are; None where that follows from the draws, or nobody knows.
-        known_by: what says how sure the poses are, in words; empty where nothing does, or nobody asked.
+        relative: the uncertainty of relative poses; None if it follows from the draws, or is unknown.
+        known_by: the source of the uncertainty, in words; empty if there is none.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or stamps that descend.
@@ -94,7 +94,7 @@ class Trajectory:
             BadInput: a trajectory without stamps, or without a pose.
         """
         if self.stamps_s is None or len(self) == 0:
-            raise BadInput("trajectory: it has no stamps, so nobody can say where it was at a time")
+            raise BadInput("trajectory: it has no stamps, so that its pose at a time is not known")
         at = np.asarray(at_s, dtype=np.float64)
         inside = (at >= self.stamps_s[0] - SLACK_S) & (at <= self.stamps_s[-1] + SLACK_S)
         return interpolate(self.stamps_s, self.poses, at), inside

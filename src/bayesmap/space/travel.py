@@ -1,4 +1,4 @@
-"""What a robot's path tells: which scans to keep by distance travelled, and where a pose jumps."""
+"""The path of a robot: scans selected by distance travelled, and poses that jump."""
 
 from __future__ import annotations
 

@@ -45,15 +45,7 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
     """Draw the mean of the log joint over all draws so far, a line per chain; chains that agree run together.
 
     The band is the mean over all chains plus and minus one standard deviation of the draws: lines that end
-    outside of each other's reach on this scale have not mixed.
-
-    Args:
-        ax: where to draw.
-        log_joint: in nats, shape (chain, draw), or (draw,) for one chain.
-        first_sweep: number of the sweep that gave the first draw.
-
-    Raises:
-        BadInput: another shape, no draw at all, or a number that is not finite.
+    outside of each other's reach on this scale have not mixed. Arguments and errors are those of `draw_log_joint`.
     """
     traces = _as_traces(log_joint)
     means = np.cumsum(traces, axis=1) / np.arange(1, traces.shape[1] + 1)
@@ -68,12 +60,7 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
     """Draw the trace, running mean and distribution of the log joint by chain, in one figure.
 
-    Args:
-        log_joint: in nats, shape (chain, draw), or (draw,) for one chain.
-        first_sweep: number of the sweep that gave the first draw.
-
-    Raises:
-        BadInput: another shape, no draw at all, or a number that is not finite.
+    Arguments and errors are those of `draw_log_joint`.
     """
     traces = _as_traces(log_joint)
     figure = palette.blank_figure(7.6, 4.6)

@@ -48,17 +48,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
 def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Draw the entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
 
-    Args:
-        ax: where to draw.
-        grid: where the cells are.
-        occupancy: probability of wall per cell, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
-
-    Returns:
-        The image, from 0 to 1 bit, for a colour bar.
-
-    Raises:
-        BadInput: shapes that differ from the grid's, or probabilities outside [0, 1].
+    Arguments and errors are those of `draw_probability`. The image is from 0 to 1 bit.
     """
     bits = entropy_bits(as_probabilities(grid, occupancy, "occupancy"))
     return _show(ax, grid, bits, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
@@ -67,49 +57,30 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Draw the posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest possible.
 
-    Args:
-        ax: where to draw.
-        grid: where the cells are.
-        deviation: standard deviation per cell, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
-
-    Returns:
-        The image, from 0 to 0.5, for a colour bar.
-
-    Raises:
-        BadInput: shapes that differ from the grid's, or a number outside [0, 0.5].
+    Arguments and errors are those of `draw_probability`, with a deviation in [0, 0.5] per cell. The image is from 0 to
+    0.5.
     """
-    spread = as_numbers(grid, deviation, "deviation")
-    if spread.min() < -ROUNDING or spread.max() > 0.5 + ROUNDING:
-        raise BadInput(
-            f"picture: deviation runs from {spread.min():g} to {spread.max():g}, and the standard deviation "
-            "of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
-        )
-    return _show(ax, grid, spread, as_observed(grid, observed), palette.uncertainty_colormap(), 0.5)
+    reason = "the standard deviation of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
+    return _show_uncertainty(ax, grid, deviation, observed, "deviation", 0.5, reason)
 
 
 def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Draw the width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans everything.
 
-    Args:
-        ax: where to draw.
-        grid: where the cells are.
-        width: upper bound minus lower bound per cell, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
-
-    Returns:
-        The image, from 0 to 1, for a colour bar.
-
-    Raises:
-        BadInput: shapes that differ from the grid's, or a number outside [0, 1].
+    Arguments and errors are those of `draw_probability`, with the upper bound minus the lower bound, in [0, 1], per
+    cell. The image is from 0 to 1.
     """
-    widths = as_numbers(grid, width, "width")
-    if widths.min() < -ROUNDING or widths.max() > 1.0 + ROUNDING:
-        raise BadInput(
-            f"picture: width runs from {widths.min():g} to {widths.max():g}, and the bounds of a number in [0, 1] are "
-            "0 to 1 apart; give upper minus lower"
-        )
-    return _show(ax, grid, widths, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
+    reason = "the bounds of a number in [0, 1] are 0 to 1 apart; give upper minus lower"
+    return _show_uncertainty(ax, grid, width, observed, "width", 1.0, reason)
+
+
+def _show_uncertainty(
+    ax: Axes, grid: Grid, values: ArrayLike, observed: ArrayLike | None, name: str, top: float, reason: str
+) -> AxesImage:
+    numbers = as_numbers(grid, values, name)
+    if numbers.min() < -ROUNDING or numbers.max() > top + ROUNDING:
+        raise BadInput(f"picture: {name} runs from {numbers.min():g} to {numbers.max():g}, and {reason}")
+    return _show(ax, grid, numbers, as_observed(grid, observed), palette.uncertainty_colormap(), top)
 
 
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:

@@ -20,10 +20,10 @@ STEP_NS = 10**9
 """Stamps that go back by less are of messages that came late."""
 
 SLACK_NS = 10**9
-"""Topics meet a clock that is set back within this time of each other."""
+"""All topics show a step of the clock within this time of each other."""
 
 FEWEST, SETTLED = 3, 5
-"""Before and after it there are so many messages, and so many of them are in order."""
+"""Messages before and after a step, and how many of them must be in order."""
 
 
 @dataclass(frozen=True, eq=False)

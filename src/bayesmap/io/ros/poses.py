@@ -129,8 +129,8 @@ def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
 def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None) -> list[FrameTree]:
     """Return frames by the topics of transforms that come first, and by all topics, where there are others.
 
-    First come the topic that the user chose, those of its namespace and of the scans' namespace, and those of the
-    namespaces around these: in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has frames of its own.
+    First come the topic that the user chose, the topics of its namespace and of the scans' namespace, and the topics of
+    the namespaces around these: in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has frames of its own.
     """
     topics = list(dict.fromkeys(topic for topic, _, _ in messages.transforms))
     spaces = [*(_spaces(pose_topic) if pose_topic else ()), *_spaces(scan_topic)]

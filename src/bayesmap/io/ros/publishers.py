@@ -1,4 +1,4 @@
-"""Whether the publishers of one transform agree: on one topic, and between topics.
+"""Contradictions between publishers of one transform: on one topic, and between topics.
 
 A static transform that is stated twice, two sources of odometry, a robot's frames on two topics: whoever came last
 would win, or poses would go to and fro between both.
@@ -27,7 +27,7 @@ MUCH_SMOOTHER = 0.15
 """Samples are of two publishers if each one's own motion is smoother than the joint one by this factor."""
 
 FEWEST, FEWEST_BETWEEN = 5, 3
-"""So many samples must lie beside the motion of the others; fewer where they are those of different topics."""
+"""Samples that must lie beside the motion of the others: of one topic, and of different topics."""
 
 STEADY = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
 """Share of such samples among all, and by which share of them their offsets may usually change. In logs of one noisy
