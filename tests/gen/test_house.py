@@ -22,10 +22,6 @@ def imports(text):
             yield from (alias.name for alias in node.names)
 
 
-def test_no_file_is_longer_than_350_lines():
-    assert {name: text.count("\n") for name, text in FILES.items() if text.count("\n") > 350} == {}
-
-
 def test_imports_point_one_way():
     """Every file can be put after all that it imports."""
     needs = {
