@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.look_alikes import _doubtful, visits, weigh
+from bayesmap.poses.look_alikes import _doubtful, twist_squares, visits, weigh
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.space.planar import between, compose
 
@@ -124,3 +124,19 @@ def test_covariances_and_draws_hold_the_alternative():
     draws = other.draw(1500, seed=1)
     # The scale matrix's share is stretched by Student's t: a variance of 0.8, known to 8 % or so.
     assert abs(draws[:, 4, 1].var() / 0.8 - 1.0) < 0.3
+
+
+def test_a_turn_half_way_is_as_long_as_the_turn():
+    """A way of 20 m with a heading of standard deviation 0.6 lost at its middle: the end lies on an arc."""
+    rng = np.random.default_rng(4)
+    half = np.array([10.0, 0.0, 0.3])
+    middle = np.array([[0.0, 0.0, turn] for turn in 0.6 * rng.normal(size=400)])
+    ends = compose(compose(half[None], middle), half[None])
+    expected = np.tile(compose(half, half), (400, 1))
+    lever = np.array([-np.sin(0.3) * 10.0, np.cos(0.3) * 10.0, 1.0])
+    covariance = np.tile(0.36 * np.outer(lever, lever) + 1e-6 * np.eye(3), (400, 1, 1))
+    lengths = twist_squares(expected, ends, covariance)
+    np.testing.assert_allclose(lengths, (middle[:, 2] / 0.6) ** 2, rtol=1e-3, atol=1e-3)
+    off = ends - expected
+    straight = np.einsum("mi,mij,mj->m", off, np.linalg.inv(covariance), off)
+    assert np.median(straight) > 100.0 * np.median(lengths), "an ellipsoid in x and y holds little of it"

@@ -124,18 +124,6 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, thr
     return Pairs(source, target, np.searchsorted(source, np.arange(count + 1)).astype(np.int32))
 
 
-def tied_pairs(pairs: Pairs, stretches: NDArray[np.intp] | None) -> Pairs:
-    """Return the pairs within one stretch of the path, (S,), or near in time: others overlap by chance."""
-    if stretches is None:
-        return pairs
-    near = np.abs(pairs.source.astype(np.intp) - pairs.target) <= AT_ONCE
-    kept = near | (stretches[pairs.source] == stretches[pairs.target])
-    if kept.all():
-        return pairs
-    counts = np.bincount(pairs.source[kept], minlength=len(pairs.offsets) - 1)
-    return Pairs(pairs.source[kept], pairs.target[kept], np.concatenate([[0], np.cumsum(counts)]).astype(np.int32))
-
-
 def align(
     geometry: ScanGeometry,
     poses: Floats,

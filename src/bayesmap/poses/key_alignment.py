@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs, tied_pairs
+from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
 from bayesmap.poses.front_end import Track
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import contradicted_links
@@ -47,8 +47,6 @@ class KeyAlignment:
         geometry: of the key scans.
         track: what the front end found.
         half_width_m: of the front end's grids.
-        stretches: number of the stretch of the way that each key scan lies on, (K,), as `separate_stretches` says; None
-            if the way is one.
         report: returns what is called after each round, for a track, a stage and its number of rounds.
         threads: to compute with; None: all cores.
     """
@@ -56,7 +54,6 @@ class KeyAlignment:
     geometry: ScanGeometry
     track: Track
     half_width_m: float
-    stretches: NDArray[np.intp] | None
     report: Callable[[Track, str, int], OnRound]
     threads: int | None
 
@@ -83,7 +80,7 @@ class KeyAlignment:
         reach_m = MATCH_REACH * self.half_width_m
 
         def pairs(at: Floats) -> Pairs:
-            return tied_pairs(overlapping_pairs(self.geometry, at, reach_m, self.threads), self.stretches)
+            return overlapping_pairs(self.geometry, at, reach_m, self.threads)
 
         return align(
             self.geometry, poses, factors, pairs(poses), rounds=rounds, firm=firm, reselect=pairs, threads=self.threads,

@@ -33,9 +33,6 @@ BENT_M = 5.0
 SETTLED_M = 0.3
 """Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
-LOOSE_M, LOOSE_RAD = 0.15, np.radians(6.0)
-"""Standard deviations of a step over which scans are held against each other only if loops reach over it."""
-
 LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
 """A step that differs so much from the front end's, and by so many of its standard deviations, is a leap."""
 
@@ -105,25 +102,6 @@ def chain_of(track: Track, poses: Floats) -> Factors:
     covariance = turn @ covariance @ np.swapaxes(turn, 1, 2) + np.diag(LINK_FLOOR**2)
     order = np.arange(len(keys) - 1)
     return Factors(order, order + 1, relative, np.linalg.inv(covariance))
-
-
-def separate_stretches(track: Track, first: NDArray[np.intp], second: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Number the stretches of the path that nothing ties to each other, of each key, (K,), ascending.
-
-    They are parted by steps that neither laser nor odometry know well, and over which no loop reaches.
-
-    Args:
-        track: what the front end found.
-        first: keys at which the loops begin, (M,).
-        second: and those where they end, (M,).
-    """
-    covariance = np.linalg.inv(chain_of(track, track.poses[track.keys]).information)
-    sigma = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
-    loose = (sigma[:, :2].max(axis=1) > LOOSE_M) | (sigma[:, 2] > LOOSE_RAD)
-    spans = np.zeros(len(loose) + 1)
-    np.add.at(spans, first, 1)
-    np.add.at(spans, second, -1)
-    return np.concatenate([[0], np.cumsum(loose & (np.cumsum(spans)[:-1] == 0))]).astype(np.intp)
 
 
 def _fitted_after_break(track: Track) -> NDArray[np.bool_]:

@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 UNUSUAL = 0.04
 """A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
 
-BACKWARDS_BETTER = 0.1
+BACKWARDS_BETTER = 0.05
 """Going backwards must explain it so much better: along a wall that looks alike everywhere both do nearly as well."""
 
 WIDE_M = 1.0

@@ -19,7 +19,6 @@ from bayesmap.poses.key_graph import (
     close_loops,
     contradicted_links,
     poses_between_keys,
-    separate_stretches,
     unconfirmed_links,
 )
 from bayesmap.poses.log_checks import check_scans
@@ -108,9 +107,7 @@ def infer_trajectory(
 
     # Key scans are aligned with all others that see the same walls.
     half_width_m = grid_half_width(geometry)
-    believed = closed.closures.select(closed.weights > 0.5)
-    stretches = separate_stretches(track, believed.first, believed.second)
-    alignment = KeyAlignment(geometry.select(keys), track, half_width_m, stretches, report.of_keys, threads)
+    alignment = KeyAlignment(geometry.select(keys), track, half_width_m, report.of_keys, threads)
     first = alignment.align("aligned", closed.poses, odometry.first_factors(track, closed.poses), wide=True)
 
     # Laser and odometry are calibrated, and key scans aligned once more.
