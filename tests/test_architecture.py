@@ -305,6 +305,28 @@ def test_long_and_idly_named_files_are_noticed():
     assert "does not say" in "".join(faults(Path("utils.py"), line))
 
 
+def defined_twice(tree):
+    """Names that a module defines a second time at its top: where two modules were joined, one took the other's."""
+    seen = set()
+    for node in tree.body:
+        names = [node.name] if isinstance(node, ast.FunctionDef | ast.ClassDef) else []
+        if isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            leaves = [leaf for target in targets for leaf in ast.walk(target)]
+            names = [leaf.id for leaf in leaves if isinstance(leaf, ast.Name) and isinstance(leaf.ctx, ast.Store)]
+        yield from (name for name in names if name in seen)
+        seen.update(names)
+
+
+def test_no_module_defines_a_name_twice():
+    assert [f"{path}: {name}" for path in FILES for name in defined_twice(parsed(path))] == []
+
+
+def test_a_name_that_is_defined_twice_is_noticed():
+    source = "FLOOR, TOP = 1, 2\ndef f():\n    FLOOR = 3\nTOP: int = 4\nclass f:\n    TOP = 5\n"
+    assert list(defined_twice(ast.parse(source))) == ["TOP", "f"]
+
+
 def loaded_after(code):
     """The top-level modules that a fresh interpreter has loaded after running some code."""
     script = f"{code}\nimport sys, json; print(json.dumps(sorted({{name.split('.')[0] for name in sys.modules}})))"

@@ -5,7 +5,7 @@ import pytest
 import scipy
 from rooms import ANGLES, known, scan_from, walls_of
 
-from bayesmap.localization.field import FLOOR, TOP, endpoint_field, likelihood_field, worth_of_unknown
+from bayesmap.localization.field import SURFACE_FLOOR, TOP, endpoint_field, likelihood_field, worth_of_unknown
 from bayesmap.localization.filter import Prior, approached
 from bayesmap.localization.localize import Near
 from bayesmap.localization.particles import (
@@ -30,10 +30,12 @@ def test_the_field_of_a_surface_is_its_widened_density():
     cells = np.array([[82, 42], [83, 44], [80, 41], [100, 42]])
     off = (cells + 0.5) * 0.025 - [2.05, 1.07]
     peak = np.exp(-0.5 * np.einsum("ni,ij,nj->n", off, np.linalg.inv(covariance), off))
-    expected = np.log(FLOOR + (1 - FLOOR) * peak)
-    scores = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)])) + np.log(FLOOR)
+    expected = np.log(SURFACE_FLOOR + (1 - SURFACE_FLOOR) * peak)
+    scores = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)])) + np.log(
+        SURFACE_FLOOR
+    )
     np.testing.assert_allclose(scores, expected, atol=0.02)
-    assert scores[3] == pytest.approx(np.log(FLOOR), abs=1e-9)
+    assert scores[3] == pytest.approx(np.log(SURFACE_FLOOR), abs=1e-9)
 
 
 def test_of_two_draws_the_nearer_surface_counts():

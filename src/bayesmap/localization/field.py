@@ -128,13 +128,11 @@ FINE_M = 0.025
 MOST_CELLS = 16_000_000
 """Of fine cells."""
 
-FLOOR = 0.02
+SURFACE_FLOOR = 0.02
 """What a point is worth that falls nowhere near a surface, as a part of one that falls on it."""
 
 FAINT = 0.1
 """Cells that stop fewer beams than this have no surface here."""
-
-TOP = 255
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +156,7 @@ class EndpointField:
         """
         from bayesmap.kernels.match.fields import field_sums
 
-        return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(FLOOR) / TOP))
+        return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(SURFACE_FLOOR) / TOP))
 
 
 def endpoint_field(
@@ -186,7 +184,7 @@ def endpoint_field(
     # About a third of a cell is how far a surface spreads, or is off its middle.
     worth = worth_of_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
     np.maximum(peaks, np.where(unknown, worth, 0.0).repeat(parts, axis=0).repeat(parts, axis=1), out=peaks)
-    logs = np.log(FLOOR + (1.0 - FLOOR) * np.minimum(peaks, 1.0)) / -math.log(FLOOR) + 1.0
+    logs = np.log(SURFACE_FLOOR + (1.0 - SURFACE_FLOOR) * np.minimum(peaks, 1.0)) / -math.log(SURFACE_FLOOR) + 1.0
     return EndpointField(fine, np.round(TOP * logs).astype(np.uint8))
 
 

@@ -92,7 +92,7 @@ def approached(
 CANDIDATES = 24
 """Of the search, few: that end points fall on walls tells, too. Among more, wrong places came before the right one."""
 
-ROUNDS, NEARLY = 5, 0.6
+ROUNDS = 5
 """Places are adapted so often at most, or until weights hardly have to be tempered."""
 
 FEW, EACH, LAST = 8, 24, 32
